@@ -1,0 +1,176 @@
+//! What can be asked of the engine, and what it has to say: one value for each.
+//!
+//! Commands are plain values; what they need prepared (buffers, tables, ports) is prepared by
+//! [`Engine::send`](super::Engine::send) before they reach the thread.
+
+use std::fmt;
+use std::io::BufRead;
+use std::sync::Arc;
+
+use super::PreparedScene;
+use crate::bridge::{BridgeEvent, Target};
+use crate::scene::{ExplorationPath, Stroke};
+use crate::tactile::Tuning;
+
+/// Something asked of the engine. Every one takes effect at a tick, except the stops.
+pub enum Command {
+    /// Feel this scene from the next tick on. Ends a recording; disconnects the device if the
+    /// number of contactors changed.
+    SetScene(Box<PreparedScene>),
+    /// Gains and compression from the next tick on. One that makes no sense is ignored with a
+    /// notice.
+    SetTuning(Tuning),
+    /// Scene gain of one placed textile (its place in the scene's list), dB.
+    SetTextileGain {
+        /// The textile's place in the scene's list.
+        textile: usize,
+        /// Its gain on top of the manifest's, dB.
+        gain_db: f64,
+    },
+    /// Where positions come from. A replay or stroke begins paused at its first tick.
+    SetSource(InputSource),
+    /// How velocity is estimated from samples.
+    SetVelocityMethod(VelocityMethod),
+    /// Turns the display to this angle, degrees counter-clockwise, added to the scene's.
+    SetAngle(f64),
+    /// Turns the display by this much, degrees counter-clockwise.
+    TurnBy(f64),
+    /// Lets a replay or stroke run.
+    Play,
+    /// Holds a replay or stroke: silent, the screen keeps what it showed.
+    Pause,
+    /// Plays one tick of a replay or stroke, then holds.
+    Step,
+    /// Back to the first tick of a replay or stroke.
+    Rewind,
+    /// Whether a replay or stroke begins again when it ends.
+    SetLoop(bool),
+    /// Opens a device; its shape is that of the scene's first display.
+    Connect(Target),
+    /// Stops the device and lets go of it.
+    Disconnect,
+    /// Arms the device, and ends the silence that `StopAll` began.
+    Arm,
+    /// Ramps the device to silence; the screen goes on.
+    Disarm,
+    /// Everything off: the device stops at once, the display is silent until armed again, a replay
+    /// is held and a recording ended.
+    StopAll,
+    /// Begins to record the exploration.
+    StartRecording,
+    /// Ends the recording; [`Engine::take_recording`](super::Engine::take_recording) has it.
+    StopRecording,
+    /// Ends the thread.
+    Shutdown,
+}
+
+/// Where positions come from.
+pub enum InputSource {
+    /// Live samples through a [`PointerSender`](super::PointerSender): the mouse.
+    Pointer,
+    /// A recorded exploration, tick for tick as an offline rendering takes it.
+    Replay(Arc<ExplorationPath>),
+    /// A generated stroke.
+    Stroke(Stroke),
+    /// Lines of text, `x_mm,y_mm` (stamped on arrival) or `t_s,x_mm,y_mm`, read on a thread of
+    /// their own.
+    Lines(Box<dyn BufRead + Send>),
+}
+
+/// How velocity is estimated from samples.
+///
+/// The lag is that of the estimate under constant acceleration: the true velocity was the estimate
+/// that long before the newest sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum VelocityMethod {
+    /// Difference of the last two samples. Lag: half their distance in time.
+    FiniteDifference,
+    /// Slope of the least-squares line through the samples of the last `window_s` seconds. Lag: the
+    /// newest time less the mean time of those samples, about half the window.
+    LineFit {
+        /// The window, s.
+        window_s: f64,
+    },
+    /// An alpha–beta filter. Lag at a constant sample distance T: (α/β − ½)·T.
+    AlphaBeta {
+        /// Share of the position error that corrects the position, 0…1.
+        alpha: f64,
+        /// Share of the position error that corrects the velocity, 0…1.
+        beta: f64,
+    },
+}
+
+impl Default for VelocityMethod {
+    /// A line through the last 40 ms.
+    fn default() -> Self {
+        Self::LineFit { window_s: 0.040 }
+    }
+}
+
+impl VelocityMethod {
+    /// Its name for people.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::FiniteDifference => "finite difference",
+            Self::LineFit { .. } => "line fit",
+            Self::AlphaBeta { .. } => "alpha–beta",
+        }
+    }
+}
+
+/// What the engine has to say, in the order in which it happened.
+#[derive(Debug)]
+pub enum Notice {
+    /// News of the device.
+    Bridge(BridgeEvent),
+    /// Something asked for was refused; the sentence says what and why.
+    Refused(&'static str),
+    /// A tuning that makes no sense was ignored.
+    TuningIgnored(crate::tactile::TuningError),
+    /// Everything was switched off.
+    Stopped,
+    /// The scene's first display has another number of contactors: the device was let go.
+    DisplayChanged,
+    /// A replay, stroke or line stream came to its end.
+    SourceEnded,
+    /// The recording reached its limit, or nobody collected its blocks: it ended.
+    RecordingEnded(&'static str),
+}
+
+impl fmt::Debug for Command {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::SetScene(_) => "SetScene",
+            Self::SetTuning(_) => "SetTuning",
+            Self::SetTextileGain { .. } => "SetTextileGain",
+            Self::SetSource(_) => "SetSource",
+            Self::SetVelocityMethod(_) => "SetVelocityMethod",
+            Self::SetAngle(_) => "SetAngle",
+            Self::TurnBy(_) => "TurnBy",
+            Self::Play => "Play",
+            Self::Pause => "Pause",
+            Self::Step => "Step",
+            Self::Rewind => "Rewind",
+            Self::SetLoop(_) => "SetLoop",
+            Self::Connect(_) => "Connect",
+            Self::Disconnect => "Disconnect",
+            Self::Arm => "Arm",
+            Self::Disarm => "Disarm",
+            Self::StopAll => "StopAll",
+            Self::StartRecording => "StartRecording",
+            Self::StopRecording => "StopRecording",
+            Self::Shutdown => "Shutdown",
+        })
+    }
+}
+
+impl fmt::Debug for InputSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Pointer => "Pointer",
+            Self::Replay(_) => "Replay",
+            Self::Stroke(_) => "Stroke",
+            Self::Lines(_) => "Lines",
+        })
+    }
+}

@@ -1,0 +1,37 @@
+//! The real-time thread: pointer in, amplitudes out, forty times a second.
+//!
+//! At every tick of 25 ms the engine takes what the pointer did, estimates its velocity (or takes
+//! it from a path), renders, hands the amplitudes to the bridge and publishes a [`Snapshot`].
+//! [`EngineCore`] is that work without thread, clock or device; [`Engine`] is the handle on a named
+//! thread that adds all three.
+//!
+//! ```text
+//! Command ─▶ Engine::send ─ring─▶ thread ─▶ EngineCore::tick ─▶ amplitudes ─▶ bridge
+//! PointerSender ─ring─▶ PointerInput ┘             └─▶ Snapshot ─triple buffer─▶ Engine::snapshot
+//! ```
+//!
+//! # Invariants
+//! - a tick neither allocates, locks, logs nor fails; what a command needs is made before it is
+//!   sent, and what it replaces rides back to be dropped by whoever owns the [`Engine`]
+//! - nothing here waits for the window; a full ring loses something that is counted
+//! - STOP overtakes every queue ([`StopSwitch`]) and a thread that panics stops the device
+//! - no GUI, no files: recordings are handed over as data
+
+mod command;
+mod sample;
+mod snapshot;
+
+pub use command::{Command, InputSource, Notice, VelocityMethod};
+pub use sample::{PointerSample, SampleCounters};
+pub use snapshot::{
+    ClockView, ContactorView, DisplayView, EngineCounters, LinkView, Playback, PointerView,
+    RecordingView, Snapshot, SourceKind,
+};
+
+use std::time::Duration;
+
+/// The time between two ticks: 25 ms.
+pub const TICK: Duration = Duration::from_millis(25);
+
+/// Ticks per second.
+pub const TICKS_PER_S: f64 = 40.0;

@@ -1,0 +1,171 @@
+//! What the engine shows of itself: plain data, copied whole at every tick.
+//!
+//! A snapshot has room for every contactor of its scene from the start, so that filling it
+//! allocates nothing. It holds no text: words are the window's.
+
+use std::time::Duration;
+
+use super::{SampleCounters, VelocityMethod};
+use crate::bridge::{Bite, BridgeCounters, BridgeState, Caps, SentFrame, Spread, Status, Timings};
+use crate::geometry::Point;
+use crate::render::{Method, RenderCounters};
+use crate::scene::Pose;
+
+/// The engine after a tick.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// Serial number of the scene that this shows, given by [`PreparedScene`](super::PreparedScene).
+    pub scene_serial: u64,
+    /// Ticks since the engine started.
+    pub tick: u64,
+    /// `tick / 40`, s.
+    pub t_s: f64,
+    /// Where the display is, how it is turned and how it moves. Its time is that of the source.
+    pub pose: Pose,
+    /// Every display of the scene in order.
+    pub displays: Vec<DisplayView>,
+    /// Whether everything was switched off and nothing has been armed since.
+    pub is_stopped: bool,
+    /// The rendering method chosen.
+    pub method: Method,
+    /// A-priori bound of the method's level error against the reference, dB.
+    pub bound_db: f64,
+    /// What the renderer evaluated and what it left out, since the scene was set.
+    pub render: RenderCounters,
+    /// The pointer and its velocity.
+    pub pointer: PointerView,
+    /// The replay, stroke or live source.
+    pub source: SourceKind,
+    /// How far a replay or stroke is.
+    pub playback: Playback,
+    /// The recording.
+    pub recording: RecordingView,
+    /// Ticks and what they cost.
+    pub clock: ClockView,
+    /// What was lost or refused.
+    pub counters: EngineCounters,
+    /// The device; `None` without one.
+    pub link: Option<LinkView>,
+}
+
+/// One display in a snapshot.
+#[derive(Debug, Clone, Default)]
+pub struct DisplayView {
+    /// Its contactors in index order.
+    pub contactors: Vec<ContactorView>,
+}
+
+/// One contactor in a snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactorView {
+    /// Where it is in the workspace.
+    pub position: Point,
+    /// The textile under it: its place in the scene's list.
+    pub textile: Option<u16>,
+    /// Peak amplitudes [A40, A320] after gains, before output limits, µm.
+    pub amplitude_um: [f32; 2],
+    /// The output limits that this amplitude meets at full soft-start gain.
+    pub bite: Bite,
+}
+
+/// What moves the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SourceKind {
+    /// Live samples.
+    Pointer,
+    /// A recorded exploration.
+    Replay,
+    /// A generated stroke.
+    Stroke,
+    /// A stream of lines.
+    Lines,
+}
+
+/// How far a replay or stroke is. A live source is at 0 of 0, playing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Playback {
+    /// Whether it moves on at the next tick.
+    pub is_playing: bool,
+    /// Whether it came to its end.
+    pub has_ended: bool,
+    /// Whether it begins again at its end.
+    pub does_loop: bool,
+    /// The tick of the path that is shown.
+    pub tick: u64,
+    /// Ticks in the path.
+    pub n_ticks: u64,
+}
+
+/// The pointer in a snapshot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointerView {
+    /// Whether a sample was ever seen from this source.
+    pub is_known: bool,
+    /// From the stamp of the sample in use to this tick; `None` when at rest or without a stamp.
+    pub age: Option<Duration>,
+    /// Age of the felt amplitude: from the sample's stamp to the middle of the tick in which the
+    /// device plays it. `None` when at rest or without a stamp.
+    pub felt_age: Option<Duration>,
+    /// How velocity is estimated.
+    pub method: VelocityMethod,
+    /// The lag of that estimate at this tick, s; 0 when a path carries its own velocity.
+    pub velocity_lag_s: f64,
+    /// What became of the samples.
+    pub samples: SampleCounters,
+}
+
+/// The recording in a snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RecordingView {
+    /// Whether it records.
+    pub is_recording: bool,
+    /// Ticks recorded.
+    pub n_ticks: u64,
+}
+
+/// Ticks and what they cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ClockView {
+    /// Whether the device paces (otherwise the engine's own clock does).
+    pub is_device_paced: bool,
+    /// Ticks that began more than 1 ms after they were due.
+    pub late: u64,
+    /// Ticks that never were because the engine came a whole tick too late.
+    pub missed: u64,
+    /// Times that the device fell silent and the own clock took over.
+    pub fallbacks: u64,
+    /// From when a tick was due to when its frame was handed over.
+    pub lateness: Spread,
+    /// Median cost of the recent ticks, ns; 0 where nobody measures.
+    pub cost_ns: u64,
+}
+
+/// What was lost or refused since the engine started.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct EngineCounters {
+    /// Notices that the full ring had no room for.
+    pub notices_lost: u64,
+    /// Tunings, gains and angles that made no sense and were ignored.
+    pub ignored: u64,
+    /// Frames not made because no armed device listened.
+    pub frames_unheard: u64,
+}
+
+/// The device in a snapshot.
+#[derive(Debug, Clone, Copy)]
+pub struct LinkView {
+    /// Where the connection stands.
+    pub state: BridgeState,
+    /// What the device says it is.
+    pub caps: Option<Caps>,
+    /// Its last STATUS.
+    pub status: Option<Status>,
+    /// Ticks from a frame to its effect, 1…3.
+    pub depth: u8,
+    /// Counters of device and host.
+    pub counters: BridgeCounters,
+    /// STATUS to FRAME, pointer to FRAME; refreshed once a second.
+    pub timings: Timings,
+    /// The last frame sent.
+    pub sent: Option<SentFrame>,
+}
