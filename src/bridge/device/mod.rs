@@ -1,0 +1,438 @@
+//! A device of HBP v1 as a pure state machine: bytes and device time in, bytes and output codes out.
+//!
+//! This is the reference for firmware and the heart of both emulators. It has no clock, no port and no thread: callers say
+//! what time it is. All of its rules that keep a finger safe (lease, hold and ramp, arming, STOP, faults) run on a 1 ms
+//! clock, so silence comes at a fixed age of the last frame whatever the phase of the tick. Contactor physics is not here.
+
+mod model;
+mod output;
+mod queue;
+mod requests;
+mod sink;
+
+use super::framing::{Decoder, Packet};
+use super::message::{Config, DeviceState, Fault, Message, Status, TICK_US, fault_bit};
+pub use model::DeviceModel;
+use output::OutputStage;
+use queue::FrameQueue;
+pub use sink::{AppliedFrame, DeviceSink, Moment};
+
+const MS_US: u64 = 1000;
+const TICK: u64 = TICK_US as u64;
+const FAULT_PERIOD_US: u64 = 100_000;
+
+/// Event counts since boot; on the wire they wrap at 65536.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CoreCounters {
+    /// Ticks without a frame while armed, after the first accepted one.
+    pub underrun: u16,
+    /// Frames for a tick that had begun.
+    pub late: u16,
+    /// Frames with the seq of the one before.
+    pub dup: u16,
+    /// Texts that were no valid packet.
+    pub bad: u16,
+    /// Values above their limit plus channels over full drive.
+    pub clipped: u16,
+}
+
+/// A host's visit.
+#[derive(Clone, Debug)]
+struct Session {
+    id: u32,
+    wants_status: bool,
+    lease_us: u64,
+    last_valid_us: u64,
+    last_seq: Option<u16>,
+    configured: bool,
+}
+
+/// The emulated device.
+#[derive(Clone, Debug)]
+pub struct DeviceCore {
+    model: DeviceModel,
+    decoder: Decoder,
+    now_us: u64,
+    state: DeviceState,
+    reported: DeviceState,
+    session: Option<Session>,
+    config: Config,
+    output: OutputStage,
+    queue: FrameQueue,
+    scratch: Vec<[u16; 2]>,
+    counters: CoreCounters,
+    /// When the last FRAME was accepted since ARM.
+    last_frame_us: Option<u64>,
+    /// A ramp that nothing can turn back, and the state at its end: STOP or an expired lease.
+    descent: Option<DeviceState>,
+    faults: u16,
+    fault_causes: u16,
+    fault: Fault,
+    next_fault_us: u64,
+    next_seq: u16,
+}
+
+impl DeviceCore {
+    /// A device that has just booted: IDLE, no high voltage, all counters 0.
+    pub fn new(model: DeviceModel) -> Self {
+        let n_channels = model.n_channels();
+        let nothing = Config {
+            mode: 0,
+            flags: 0,
+            hold_ms: 0,
+            ramp_ms: 0,
+            slew: 0,
+            hv_dv: 0,
+            comp_limit: [0; 2],
+            mask: super::message::ChannelMask::default(),
+        };
+        Self {
+            decoder: Decoder::new(usize::from(model.max_body)),
+            now_us: 0,
+            state: DeviceState::Idle,
+            reported: DeviceState::Idle,
+            session: None,
+            config: nothing,
+            output: OutputStage::new(n_channels),
+            queue: FrameQueue::new(model.queue, n_channels),
+            scratch: vec![[0; 2]; n_channels],
+            counters: CoreCounters::default(),
+            last_frame_us: None,
+            descent: None,
+            faults: 0,
+            fault_causes: 0,
+            fault: Fault {
+                faults: 0,
+                channel: u16::MAX,
+                value: 0,
+                tick: 0,
+            },
+            next_fault_us: 0,
+            next_seq: 0,
+            model,
+        }
+    }
+
+    /// Lets device time pass up to `now_us` (µs since boot; going back is ignored).
+    pub fn advance(&mut self, now_us: u64, sink: &mut impl DeviceSink) {
+        let end_us = now_us.max(self.now_us);
+        let mut step_us = (self.now_us / MS_US + 1) * MS_US;
+        while step_us <= end_us && self.is_awake() {
+            self.now_us = step_us;
+            self.step_ms(sink);
+            if step_us.is_multiple_of(TICK) {
+                self.step_tick(sink);
+            }
+            step_us += MS_US;
+        }
+        self.now_us = end_us;
+    }
+
+    /// Takes bytes that arrive at `now_us`.
+    pub fn receive(&mut self, now_us: u64, bytes: &[u8], sink: &mut impl DeviceSink) {
+        self.advance(now_us, sink);
+        // The decoder moves out while a packet borrows from it.
+        let mut decoder = std::mem::replace(&mut self.decoder, Decoder::new(0));
+        for &byte in bytes {
+            if let Some(packet) = decoder.push(byte)
+                && !self.handle(packet, sink)
+            {
+                decoder.count_bad();
+            }
+            self.counters.bad = wrapped(decoder.bad());
+            self.report_change(sink);
+        }
+        self.decoder = decoder;
+    }
+
+    /// When [`advance`](Self::advance) should be called next, in µs since boot; `None` while only bytes can change anything.
+    pub fn next_deadline_us(&self) -> Option<u64> {
+        if !self.is_awake() {
+            return None;
+        }
+        let next_ms = (self.now_us / MS_US + 1) * MS_US;
+        let next_tick = (self.now_us / TICK + 1) * TICK;
+        let moving = self.descent.is_some()
+            || self.output.ident.is_some()
+            || (self.state.is_live() && !self.output.is_gain_full());
+        if moving {
+            return Some(next_ms);
+        }
+        let ramp_us = self
+            .last_frame_us
+            .filter(|_| self.state.is_live())
+            .map(|last_us| {
+                ((last_us + u64::from(self.config.hold_ms) * MS_US) / MS_US + 1) * MS_US
+            });
+        Some(ramp_us.map_or(next_tick, |ramp_us| next_tick.min(ramp_us.max(next_ms))))
+    }
+
+    /// Output codes at this moment, `[40 Hz, 320 Hz]` per channel, everything applied.
+    pub fn output(&self) -> Vec<[u16; 2]> {
+        let mut codes = vec![[0; 2]; self.model.n_channels()];
+        if self.state.is_live() {
+            self.output.write_to(&mut codes);
+        }
+        codes
+    }
+
+    /// Where the device is.
+    pub fn state(&self) -> DeviceState {
+        self.state
+    }
+
+    /// Event counts since boot.
+    pub fn counters(&self) -> CoreCounters {
+        self.counters
+    }
+
+    /// Ticks since boot.
+    pub fn tick(&self) -> u32 {
+        wrapped_u32(self.now_us / TICK)
+    }
+
+    /// The device now, as a log sees it.
+    pub fn moment(&self) -> Moment {
+        Moment {
+            dev_us: self.now_us,
+            tick: self.tick(),
+            state: self.state,
+            age_ms: self.age_ms(),
+            gain: self.output.gain(),
+            amp_sum: self.amp_sum(),
+        }
+    }
+
+    /// Something in the device broke: output zero and high voltage off at once, latched until cleared.
+    pub fn raise_fault(&mut self, bits: u16, channel: u16, value: i32, sink: &mut impl DeviceSink) {
+        self.faults |= bits;
+        self.fault_causes |= bits;
+        self.fault = Fault {
+            faults: self.faults,
+            channel,
+            value,
+            tick: self.tick(),
+        };
+        self.silence(DeviceState::Fault);
+        self.send_fault(sink);
+        self.report_change(sink);
+    }
+
+    /// The cause of these fault bits is gone; the faults stay latched until CLEAR.
+    pub fn end_fault_cause(&mut self, bits: u16) {
+        self.fault_causes &= !bits;
+    }
+
+    /// Whether time alone can change anything.
+    fn is_awake(&self) -> bool {
+        self.session.is_some() || self.state.is_live()
+    }
+
+    fn age_us(&self) -> Option<u64> {
+        self.last_frame_us.map(|last_us| self.now_us - last_us)
+    }
+
+    fn age_ms(&self) -> u16 {
+        self.age_us().map_or(u16::MAX, |age_us| {
+            u16::try_from(age_us / MS_US).unwrap_or(u16::MAX)
+        })
+    }
+
+    fn amp_sum(&self) -> u32 {
+        if self.state.is_live() {
+            self.output.amp_sum()
+        } else {
+            0
+        }
+    }
+
+    /// One step of the safety clock.
+    fn step_ms(&mut self, sink: &mut impl DeviceSink) {
+        self.check_lease();
+        if self
+            .output
+            .ident
+            .is_some_and(|ident| self.now_us >= ident.until_us)
+        {
+            self.output.ident = None;
+        }
+        if self.state.is_live() {
+            self.step_gain();
+        }
+        if self.state == DeviceState::Fault && self.now_us >= self.next_fault_us {
+            self.send_fault(sink);
+        }
+        self.report_change(sink);
+    }
+
+    fn step_gain(&mut self) {
+        let hold_us = u64::from(self.config.hold_ms) * MS_US;
+        let silent = self.age_us().is_some_and(|age_us| age_us > hold_us);
+        if silent || self.descent.is_some() {
+            self.state = DeviceState::Ramp;
+            if self.output.fall(self.config.ramp_ms == 0) {
+                self.silence(self.descent.unwrap_or(DeviceState::Ready));
+            }
+        } else if !self.output.is_gain_full() {
+            self.output.rise();
+        }
+    }
+
+    /// No valid packet for the lease: running output ramps down first, then the session ends.
+    fn check_lease(&mut self) {
+        let Some(session) = &self.session else { return };
+        if self.now_us - session.last_valid_us <= session.lease_us {
+            return;
+        }
+        match self.state {
+            DeviceState::Run | DeviceState::Hold | DeviceState::Ramp => {
+                self.descent = Some(DeviceState::Idle);
+                self.queue.clear();
+            }
+            DeviceState::Fault => self.session = None,
+            _ => self.silence(DeviceState::Idle),
+        }
+    }
+
+    /// Zero output, empty queue, disarmed, high voltage off, and on to `state`.
+    fn silence(&mut self, state: DeviceState) {
+        self.output.reset(self.config.ramp_ms);
+        self.queue.clear();
+        self.descent = None;
+        self.last_frame_us = None;
+        self.state = state;
+        if state == DeviceState::Idle {
+            self.session = None;
+        }
+    }
+
+    /// The start of a tick: its frame takes effect, then STATUS tells.
+    fn step_tick(&mut self, sink: &mut impl DeviceSink) {
+        if self.state.is_live() && self.descent.is_none() {
+            self.apply_frame(sink);
+        }
+        self.report_change(sink);
+        if self
+            .session
+            .as_ref()
+            .is_some_and(|session| session.wants_status)
+        {
+            self.send(&self.status(), sink);
+        }
+    }
+
+    fn apply_frame(&mut self, sink: &mut impl DeviceSink) {
+        let tick = self.tick();
+        let applied = if let Some(frame) = self.queue.take(tick) {
+            self.output.set_target(&frame.allowed);
+            self.scratch.copy_from_slice(&frame.received);
+            Some(frame.seq)
+        } else {
+            None
+        };
+        match (applied, self.state) {
+            (Some(_), DeviceState::Hold) => self.state = DeviceState::Run,
+            (None, _) if self.last_frame_us.is_some() => {
+                self.counters.underrun = self.counters.underrun.wrapping_add(1);
+                if self.state == DeviceState::Run {
+                    self.state = DeviceState::Hold;
+                }
+            }
+            _ => {}
+        }
+        // A ramp without a new frame only falls: slewing upwards meanwhile would fight it.
+        if applied.is_some() || self.state != DeviceState::Ramp {
+            self.output.slew(self.config.slew);
+        }
+        if let Some(seq) = applied {
+            let moment = self.moment();
+            sink.applied(&AppliedFrame {
+                moment,
+                seq,
+                codes: &self.scratch,
+            });
+        }
+    }
+
+    fn status(&self) -> Status {
+        let leaving = self.descent == Some(DeviceState::Idle);
+        let informative = if leaving { fault_bit::LEASE_LOST } else { 0 };
+        Status {
+            tick: self.tick(),
+            dev_us: wrapped_u32(self.now_us),
+            last_seq: self
+                .session
+                .as_ref()
+                .and_then(|session| session.last_seq)
+                .unwrap_or(0),
+            state: self.state.code(),
+            queued: self.queue.len(),
+            underrun: self.counters.underrun,
+            late: self.counters.late,
+            dup: self.counters.dup,
+            bad: self.counters.bad,
+            clipped: self.counters.clipped,
+            hv_dv: if self.state.is_live() {
+                self.config.hv_dv
+            } else {
+                0
+            },
+            i_ma: 0,
+            temp_cdeg: 2500,
+            faults: self.faults | informative,
+            age_ms: self.age_ms(),
+            amp_sum: self.amp_sum(),
+        }
+    }
+
+    fn send_fault(&mut self, sink: &mut impl DeviceSink) {
+        self.next_fault_us = self.now_us + FAULT_PERIOD_US;
+        if self.session.is_some() {
+            let fault = Fault {
+                faults: self.faults,
+                ..self.fault
+            };
+            self.send(&fault, sink);
+        }
+    }
+
+    fn send(&mut self, message: &impl Message, sink: &mut impl DeviceSink) {
+        let packet = message.packet(self.next_seq);
+        self.send_packet(packet, sink);
+    }
+
+    fn send_packet(&mut self, packet: Option<Packet>, sink: &mut impl DeviceSink) {
+        if let Some(packet) = packet {
+            self.next_seq = self.next_seq.wrapping_add(1);
+            sink.packet(packet.as_bytes());
+        }
+    }
+
+    fn report_change(&mut self, sink: &mut impl DeviceSink) {
+        if self.state != self.reported {
+            self.reported = self.state;
+            sink.changed(&self.moment());
+        }
+    }
+}
+
+/// The low 16 bits, as counters travel.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "counters wrap at 65536 on the wire"
+)]
+fn wrapped(count: u64) -> u16 {
+    count as u16
+}
+
+/// The low 32 bits, as ticks and clocks travel.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "ticks and µs wrap at 2³² on the wire"
+)]
+fn wrapped_u32(count: u64) -> u32 {
+    count as u32
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,245 @@
+//! What a device does with each packet. Every refusal has its ACK code; nothing here panics on any bytes.
+
+use super::output::{IdentDrive, allow};
+use super::{DeviceCore, DeviceSink, MS_US, Session, wrapped_u32};
+use crate::bridge::framing::Received;
+use crate::bridge::message::{
+    ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC, Message,
+    NEXT_TICK, Ping, Pong, Stop, StopHow, VERSION, frame, kind,
+};
+
+const DEFAULT_LEASE_MS: u16 = 1000;
+const LONGEST_IDENT_MS: u16 = 1000;
+const SAMPLES_HEAD_LEN: usize = 8;
+
+impl DeviceCore {
+    /// Acts on one packet. False: it is not a valid packet, so it counts as `bad` and does not renew the lease.
+    pub(super) fn handle(&mut self, packet: Received<'_>, sink: &mut impl DeviceSink) -> bool {
+        let payload = packet.payload;
+        let understood = match packet.kind {
+            kind::FIRST_DEVICE.. => return false,
+            kind::HELLO => return self.hello(payload, sink),
+            kind::FRAME => self.frame(packet.seq, payload),
+            kind::CONFIG => {
+                let Some(wish) = Config::decode(payload, self.model.n_channels()) else {
+                    return false;
+                };
+                self.configure(&wish, sink)
+            }
+            kind::PING => Ping::decode(payload).map(|ping| {
+                self.pong(ping, sink);
+                None
+            }),
+            kind::ARM => Arm::decode(payload).map(|arm| Some(self.arm(arm))),
+            kind::STOP => Stop::decode(payload).map(|stop| Some(self.stop(stop))),
+            kind::CLEAR => Clear::decode(payload).map(|clear| Some(self.clear(clear))),
+            kind::IDENT => Ident::decode(payload).map(|ident| Some(self.ident(ident))),
+            kind::SAMPLES if payload.len() < SAMPLES_HEAD_LEN => None,
+            _ => Some(Some(AckCode::UnknownType)),
+        };
+        let Some(answer) = understood else {
+            return false;
+        };
+        if let Some(session) = &mut self.session {
+            session.last_valid_us = self.now_us;
+        }
+        if let Some(code) = answer {
+            self.send(
+                &Ack {
+                    kind: packet.kind,
+                    code,
+                    seq: packet.seq,
+                },
+                sink,
+            );
+        }
+        true
+    }
+
+    /// A new session from any state; a HELLO that is not one of ours changes nothing.
+    fn hello(&mut self, payload: &[u8], sink: &mut impl DeviceSink) -> bool {
+        let Some(hello) = Hello::decode(payload) else {
+            return false;
+        };
+        if hello.magic != MAGIC || hello.session == 0 {
+            return false;
+        }
+        let common = (hello.ver_min..=hello.ver_max).contains(&VERSION);
+        let faulted = self.state == DeviceState::Fault;
+        self.session = None;
+        self.silence(match (faulted, common) {
+            (true, _) => DeviceState::Fault,
+            (false, true) => DeviceState::Ready,
+            (false, false) => DeviceState::Idle,
+        });
+        if common {
+            let lease_ms = if hello.lease_ms == 0 {
+                DEFAULT_LEASE_MS
+            } else {
+                hello.lease_ms
+            };
+            self.session = Some(Session {
+                id: hello.session,
+                wants_status: hello.host_flags & Hello::WANT_STATUS != 0,
+                lease_us: u64::from(lease_ms) * MS_US,
+                last_valid_us: self.now_us,
+                last_seq: None,
+                configured: false,
+            });
+        }
+        let caps = self
+            .model
+            .caps(hello.session, if common { VERSION } else { 0 });
+        self.send(&caps, sink);
+        true
+    }
+
+    fn configure(&mut self, wish: &Config, sink: &mut impl DeviceSink) -> Option<Option<AckCode>> {
+        match self.state {
+            DeviceState::Ready => {}
+            DeviceState::Fault => return Some(Some(AckCode::Faulted)),
+            _ => return Some(Some(AckCode::WrongState)),
+        }
+        self.config = self.model.clamp(wish);
+        if let Some(session) = &mut self.session {
+            session.configured = true;
+        }
+        let reply = self.config.reply(self.next_seq, self.model.n_channels());
+        self.send_packet(reply, sink);
+        Some(None)
+    }
+
+    fn arm(&mut self, arm: Arm) -> AckCode {
+        match self.state {
+            DeviceState::Fault => return AckCode::Faulted,
+            DeviceState::Ready | DeviceState::Armed => {}
+            _ => return AckCode::WrongState,
+        }
+        let Some(session) = self.session.as_ref().filter(|session| session.configured) else {
+            return AckCode::WrongState;
+        };
+        if arm.session != session.id || arm.key != session.id ^ ARM_KEY {
+            return AckCode::BadSession;
+        }
+        if self.state == DeviceState::Ready {
+            self.silence(DeviceState::Armed);
+        }
+        AckCode::Ok
+    }
+
+    /// `None`: too short to be a FRAME. An accepted FRAME has no ACK.
+    fn frame(&mut self, seq: u16, payload: &[u8]) -> Option<Option<AckCode>> {
+        if payload.len() < frame::payload_len(self.model.n_channels()) {
+            return None;
+        }
+        let Some(apply_tick) = frame::decode_into(payload, &mut self.scratch) else {
+            return Some(Some(AckCode::OutOfRange));
+        };
+        if self.state == DeviceState::Fault {
+            return Some(Some(AckCode::Faulted));
+        }
+        let live = self.state.is_live() && self.descent.is_none();
+        let Some(session) = self.session.as_mut().filter(|_| live) else {
+            return Some(Some(AckCode::WrongState));
+        };
+        if session.last_seq == Some(seq) {
+            self.counters.dup = self.counters.dup.wrapping_add(1);
+            return Some(None);
+        }
+        let next = wrapped_u32(self.now_us / super::TICK).wrapping_add(1);
+        let ahead = apply_tick.wrapping_sub(next).cast_signed();
+        let late = apply_tick != NEXT_TICK && ahead < 0;
+        let tick = if late || apply_tick == NEXT_TICK {
+            next
+        } else {
+            apply_tick
+        };
+        if tick.wrapping_sub(next) >= u32::from(self.model.queue) {
+            return Some(Some(AckCode::QueueFull));
+        }
+        session.last_seq = Some(seq);
+        self.accept_frame(seq, tick, late);
+        Some(None)
+    }
+
+    fn accept_frame(&mut self, seq: u16, tick: u32, late: bool) {
+        self.counters.late = self.counters.late.wrapping_add(u16::from(late));
+        if let Some(slot) = self.queue.slot(tick, seq) {
+            slot.received.copy_from_slice(&self.scratch);
+            let clipped = allow(&slot.received, &self.config, &mut slot.allowed);
+            self.counters.clipped = self.counters.clipped.wrapping_add(clipped);
+        }
+        self.output.ident = None;
+        self.last_frame_us = Some(self.now_us);
+        if matches!(self.state, DeviceState::Armed | DeviceState::Ramp) {
+            self.state = DeviceState::Run;
+        }
+    }
+
+    /// Disarms at once; a ramp only where there is output to ramp.
+    fn stop(&mut self, stop: Stop) -> AckCode {
+        self.queue.clear();
+        let after = self.descent.unwrap_or(DeviceState::Ready);
+        match self.state {
+            DeviceState::Idle | DeviceState::Fault => {}
+            DeviceState::Run | DeviceState::Hold | DeviceState::Ramp
+                if stop.how == StopHow::Ramp =>
+            {
+                self.descent = Some(after);
+                self.state = DeviceState::Ramp;
+            }
+            _ => self.silence(after),
+        }
+        AckCode::Ok
+    }
+
+    fn clear(&mut self, clear: Clear) -> AckCode {
+        if self.fault_causes & self.faults & clear.bits != 0 {
+            return AckCode::Faulted;
+        }
+        self.faults &= !clear.bits;
+        if self.state == DeviceState::Fault && self.faults == 0 {
+            let session = self.session.is_some();
+            self.silence(if session {
+                DeviceState::Ready
+            } else {
+                DeviceState::Idle
+            });
+        }
+        AckCode::Ok
+    }
+
+    fn ident(&mut self, ident: Ident) -> AckCode {
+        if self.model.modes & Caps::MODE_IDENT == 0 {
+            return AckCode::UnknownType;
+        }
+        if self.state != DeviceState::Armed {
+            return AckCode::WrongState;
+        }
+        let channel = usize::from(ident.channel);
+        if channel >= self.model.n_channels() || ident.ms > LONGEST_IDENT_MS {
+            return AckCode::OutOfRange;
+        }
+        let sounds = self.config.mask.contains(channel);
+        self.output.ident = Some(IdentDrive {
+            channel,
+            amp: if sounds {
+                ident.amp.min(self.config.comp_limit[1])
+            } else {
+                0
+            },
+            until_us: self.now_us + u64::from(ident.ms) * MS_US,
+        });
+        AckCode::Ok
+    }
+
+    fn pong(&mut self, ping: Ping, sink: &mut impl DeviceSink) {
+        let pong = Pong {
+            token: ping.token,
+            dev_us: wrapped_u32(self.now_us),
+            tick: self.tick(),
+            phase_us: u16::try_from(self.now_us % super::TICK).unwrap_or(0),
+        };
+        self.send(&pong, sink);
+    }
+}

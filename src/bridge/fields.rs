@@ -1,0 +1,118 @@
+//! Little-endian fields at running offsets, for the message tables.
+//!
+//! A reader that runs out of bytes answers zeros and remembers it, so a decoder reads all its fields and asks once.
+//! It knows no message.
+
+use super::framing::LARGEST_BODY;
+
+/// Appends fields to a payload of at most [`LARGEST_BODY`] bytes; what does not fit is dropped and remembered.
+#[derive(Debug)]
+pub(super) struct FieldWriter {
+    bytes: [u8; LARGEST_BODY],
+    len: usize,
+    overflowed: bool,
+}
+
+impl FieldWriter {
+    pub(super) fn new() -> Self {
+        Self {
+            bytes: [0; LARGEST_BODY],
+            len: 0,
+            overflowed: false,
+        }
+    }
+
+    pub(super) fn bytes(&mut self, bytes: &[u8]) -> &mut Self {
+        let end = self.len + bytes.len();
+        match self.bytes.get_mut(self.len..end) {
+            Some(room) => {
+                room.copy_from_slice(bytes);
+                self.len = end;
+            }
+            None => self.overflowed = true,
+        }
+        self
+    }
+
+    pub(super) fn u8(&mut self, value: u8) -> &mut Self {
+        self.bytes(&[value])
+    }
+
+    pub(super) fn u16(&mut self, value: u16) -> &mut Self {
+        self.bytes(&value.to_le_bytes())
+    }
+
+    pub(super) fn i16(&mut self, value: i16) -> &mut Self {
+        self.bytes(&value.to_le_bytes())
+    }
+
+    pub(super) fn u32(&mut self, value: u32) -> &mut Self {
+        self.bytes(&value.to_le_bytes())
+    }
+
+    pub(super) fn i32(&mut self, value: i32) -> &mut Self {
+        self.bytes(&value.to_le_bytes())
+    }
+
+    /// The payload, or `None` when it did not fit.
+    pub(super) fn finish(&self) -> Option<&[u8]> {
+        (!self.overflowed).then(|| &self.bytes[..self.len])
+    }
+}
+
+/// Reads fields from a payload.
+#[derive(Debug)]
+pub(super) struct FieldReader<'a> {
+    rest: &'a [u8],
+    short: bool,
+}
+
+impl<'a> FieldReader<'a> {
+    pub(super) fn new(payload: &'a [u8]) -> Self {
+        Self {
+            rest: payload,
+            short: false,
+        }
+    }
+
+    pub(super) fn bytes<const N: usize>(&mut self) -> [u8; N] {
+        if let Some((head, rest)) = self.rest.split_first_chunk::<N>() {
+            self.rest = rest;
+            *head
+        } else {
+            self.short = true;
+            self.rest = &[];
+            [0; N]
+        }
+    }
+
+    pub(super) fn u8(&mut self) -> u8 {
+        self.bytes::<1>()[0]
+    }
+
+    pub(super) fn u16(&mut self) -> u16 {
+        u16::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn i16(&mut self) -> i16 {
+        i16::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn u32(&mut self) -> u32 {
+        u32::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn i32(&mut self) -> i32 {
+        i32::from_le_bytes(self.bytes())
+    }
+
+    /// Everything after the fixed fields.
+    pub(super) fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+
+    /// `value` if the payload was long enough for everything read.
+    pub(super) fn finish<T>(&self, value: T) -> Option<T> {
+        (!self.short).then_some(value)
+    }
+}

@@ -1,0 +1,42 @@
+//! The serial bridge to a tactile array: protocol, safety, device emulators, and the WAV sink.
+//!
+//! Amplitudes in µm come in; a device that synthesizes its own carriers hears of them once per 25 ms tick. The device paces:
+//! it emits STATUS at every tick, the host answers with one FRAME for a coming tick. Every FRAME is the full state, so a
+//! loss needs no repair: the device holds, then ramps to silence within 100 ms by its own clock.
+//!
+//! ```text
+//! amplitudes ─ codes ─ host ─ message ─ framing ─ port ══ port ─ framing ─ message ─ device ─ output codes
+//!              (µm → u16)  (session)                       (serial, pty or in process)   (hold, ramp, STOP)
+//! ```
+//!
+//! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in virtual time. `Bridge` puts
+//! a reader and a writer thread around the former, the emulators put a clock around the latter.
+//!
+//! # Invariants
+//! - No textile, no scene, no rendering: this floor knows amplitudes per contactor and nothing of where they come from.
+//! - Drive codes are made in `codes` and nowhere else; no NaN reaches a device.
+//! - Nothing here arms without a command, and nothing re-arms.
+//! - Memory is bounded whatever arrives; no bytes make anything panic.
+//! - Callers never wait for a port: opening, reading and writing happen on named threads.
+
+mod codes;
+mod device;
+mod error;
+mod fields;
+pub mod framing;
+mod host;
+pub mod message;
+
+pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
+pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
+pub use error::BridgeError;
+pub use framing::{Decoder, Packet, Received};
+pub use host::{
+    BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
+    SOFT_START_TICKS, SentFrame, Sequence,
+};
+pub use message::{
+    Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
+    Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
+    frame, kind,
+};
