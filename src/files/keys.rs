@@ -1,0 +1,108 @@
+//! TOML: keyed values in a file, with errors that name the line.
+
+use std::path::Path;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use toml::de::{DeTable, DeValue};
+
+use super::{FileError, line_at};
+
+/// Reads a TOML text into a value. `path` only names the file in errors.
+pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, FileError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    toml::from_str(text).map_err(|error| {
+        let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
+        let what = error.message().replace('\n', ", ");
+        let mend = if what.contains("unknown field") {
+            "remove the key or correct its name"
+        } else if what.contains("missing field") {
+            "add the key"
+        } else {
+            "correct this line"
+        };
+        FileError::content(path, line, what, mend)
+    })
+}
+
+/// The line, from 1, where a text states `key` in its `nth` (from 0) table called `table`, so that
+/// a value that is well spelt but wrong can be pointed at. An empty `table` is the file itself.
+///
+/// A key that is not stated has the line of its table, and a table that is not there line 1.
+pub fn line_of_key(text: &str, table: &str, nth: usize, key: &str) -> usize {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let offset = DeTable::parse(text)
+        .ok()
+        .and_then(|root| offset_of_key(root.get_ref(), table, nth, key))
+        .unwrap_or(0);
+    line_at(text.as_bytes(), offset)
+}
+
+fn offset_of_key(root: &DeTable<'_>, table: &str, nth: usize, key: &str) -> Option<usize> {
+    let stated = |within: &DeTable<'_>| {
+        let found = within.iter().find(|(name, _)| name.get_ref() == key);
+        found.map(|(name, _)| name.span().start)
+    };
+    if table.is_empty() {
+        return stated(root);
+    }
+    let (name, value) = root.iter().find(|(name, _)| name.get_ref() == table)?;
+    let entry = match value.get_ref() {
+        DeValue::Array(entries) => entries.get(nth)?,
+        _ => value,
+    };
+    let DeValue::Table(within) = entry.get_ref() else {
+        return Some(name.span().start);
+    };
+    Some(stated(within).unwrap_or_else(|| entry.span().start))
+}
+
+/// A value as TOML text.
+pub fn keys_to_string<T: Serialize>(value: &T, path: &Path) -> Result<String, FileError> {
+    toml::to_string(value)
+        .map_err(|e| FileError::content(path, 1, e.to_string(), "this cannot be saved as TOML"))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    use super::*;
+
+    #[derive(Debug, Deserialize, Serialize, PartialEq)]
+    #[serde(deny_unknown_fields)]
+    struct Thing {
+        size_mm: f64,
+    }
+
+    #[test]
+    fn an_unknown_key_is_named_with_its_line() {
+        let error = keys_from_str::<Thing>("size_mm = 1.0\nsise = 2\n", Path::new("a.toml"));
+        let error = error.unwrap_err().to_string();
+        assert!(error.starts_with("a.toml:2: "), "{error}");
+        assert!(error.contains("sise") && !error.contains('\n'), "{error}");
+    }
+
+    #[test]
+    fn a_key_is_found_in_the_table_that_holds_it() {
+        let text =
+            "a = 1\n\n[[thing]]\nsize = 2\n\n[[thing]]\nid = \"b\"\nsize = 3\n[tuning]\nk = 4\n";
+        assert_eq!(line_of_key(text, "", 0, "a"), 1);
+        assert_eq!(line_of_key(text, "thing", 0, "size"), 4);
+        assert_eq!(line_of_key(text, "thing", 1, "size"), 8);
+        assert_eq!(line_of_key(text, "thing", 1, "colour"), 6);
+        assert_eq!(line_of_key(text, "tuning", 0, "k"), 10);
+        assert_eq!(line_of_key(text, "nothing", 0, "k"), 1);
+        assert_eq!(line_of_key("= not TOML", "", 0, "k"), 1);
+    }
+
+    #[test]
+    fn values_survive_writing_and_reading() {
+        let thing = Thing { size_mm: 0.1 };
+        let text = keys_to_string(&thing, Path::new("a.toml")).unwrap();
+        assert_eq!(
+            keys_from_str::<Thing>(&text, Path::new("a.toml")).unwrap(),
+            thing
+        );
+    }
+}

@@ -1,0 +1,82 @@
+//! Files in the formats everybody shares: CSV, TOML, PNG, hashes, and writing that never leaves
+//! half a file behind.
+//!
+//! Knows how a table or a key is spelt, not what it means. Every error is one line that says what
+//! is wrong, where (path and line), and how to mend it.
+//!
+//! # Invariants
+//! - the one home of `csv`, `toml`, `image` and `sha2`
+//! - the path is given only to name it in errors: content comes in as bytes or text
+//! - numbers are written with the shortest digits that read back the same
+
+mod atomic;
+mod digits;
+mod hash;
+mod keys;
+mod picture;
+mod table;
+
+pub use atomic::{create, read, read_text, write_atomic};
+pub use digits::push_number;
+pub use hash::sha256_hex;
+pub use keys::{keys_from_str, keys_to_string, line_of_key};
+pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba};
+pub use table::{Table, TableWriter};
+
+use std::path::{Path, PathBuf};
+
+/// What can be wrong with a file.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// It cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// It cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Its content is wrong.
+    #[error("{}:{line}: {what}; {mend}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+        /// What to do about it.
+        mend: String,
+    },
+}
+
+impl FileError {
+    /// Wrong content at a line (from 1) of a file.
+    pub fn content(
+        path: &Path,
+        line: usize,
+        what: impl Into<String>,
+        mend: impl Into<String>,
+    ) -> Self {
+        Self::Content {
+            path: path.to_owned(),
+            line,
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+}
+
+/// The line, from 1, that holds the byte at `offset`.
+fn line_at(bytes: &[u8], offset: usize) -> usize {
+    let before = &bytes[..offset.min(bytes.len())];
+    before.iter().filter(|&&byte| byte == b'\n').count() + 1
+}

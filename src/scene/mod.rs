@@ -1,0 +1,29 @@
+//! Scenes: which textiles lie where in the workspace, which displays feel them, and how a display
+//! moves over them.
+//!
+//! Scene files, path files and generated strokes become plain data; [`LoadedScene`] joins a scene
+//! with the textiles that it places, each loaded once.
+//!
+//! # Invariants
+//! - no clocks, no threads: time is a number that comes in
+//! - every scene and path that was read holds only values that make sense; writing one and reading
+//!   it gives the same again
+//! - only the textiles that a scene places are loaded
+
+mod check;
+mod error;
+mod file;
+mod geometry;
+mod path;
+mod pose;
+mod stroke;
+
+pub use error::SceneError;
+pub use file::{Display, PlacedTextile, Scene};
+pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};
+pub use path::{ExplorationPath, PathCursor, PathRow, Ticks};
+pub use pose::{Pose, TICKS_PER_S};
+pub use stroke::Stroke;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+//! Paths against the formulas of the design, and against bad files.
+
+use super::*;
+
+const PATH: &str = "stroke.csv";
+
+fn read(text: &str) -> Result<ExplorationPath, SceneError> {
+    ExplorationPath::from_csv(text, Path::new(PATH))
+}
+
+fn ticks(text: &str) -> Vec<Pose> {
+    read(text).unwrap().ticks().map(|(_, pose)| pose).collect()
+}
+
+#[test]
+fn ticks_lie_on_the_line_between_rows() {
+    let poses = ticks("t_s,x_mm,y_mm\n1,0,10\n1.1,4,10\n");
+    assert_eq!(poses.len(), 5);
+    for (n, pose) in poses.iter().enumerate() {
+        assert!((pose.position.x_mm - n as f64).abs() < 1e-12, "{pose:?}");
+        assert!(
+            (pose.t_s - (1.0 + n as f64 / 40.0)).abs() < 1e-15,
+            "{pose:?}"
+        );
+        let expected = if n == 0 { 0.0 } else { 40.0 };
+        assert!(
+            (pose.velocity.x_mm_per_s - expected).abs() < 1e-9,
+            "{pose:?}"
+        );
+    }
+}
+
+#[test]
+fn a_tick_within_a_nanosecond_of_a_row_is_the_row() {
+    let text = "t_s,x_mm,y_mm\n0,0,0\n0.0250000005,7,1\n0.0499999996,9,2\n";
+    let poses = ticks(text);
+    assert_eq!(poses[1].position, Point::new(7.0, 1.0));
+    assert_eq!(poses[2].position, Point::new(9.0, 2.0));
+    assert_eq!(
+        poses.len(),
+        3,
+        "the last tick lies past the end only by rounding"
+    );
+}
+
+#[test]
+fn given_velocities_are_interpolated_and_angles_not_wrapped() {
+    let text =
+        "t_s,x_mm,y_mm,angle_deg,vx_mm_per_s,vy_mm_per_s\n0,0,0,350,10,0\n0.1,0,0,370,30,8\n";
+    let poses = ticks(text);
+    assert_eq!(poses[0].velocity, Velocity::new(10.0, 0.0));
+    assert_eq!(poses[0].angular_rad_per_s, 0.0);
+    assert!(
+        (poses[2].velocity.x_mm_per_s - 20.0).abs() < 1e-12,
+        "{:?}",
+        poses[2]
+    );
+    assert!((poses[2].angle_deg - 360.0).abs() < 1e-12, "{:?}", poses[2]);
+    let expected = 5.0_f64.to_radians() * 40.0;
+    assert!(
+        (poses[3].angular_rad_per_s - expected).abs() < 1e-12,
+        "{:?}",
+        poses[3]
+    );
+}
+
+#[test]
+fn one_row_is_one_tick_at_rest() {
+    let poses = ticks("t_s,x_mm,y_mm\n5,1,2\n");
+    assert_eq!(poses.len(), 1);
+    assert_eq!(poses[0].velocity, Velocity::ZERO);
+}
+
+#[test]
+fn a_path_survives_writing_and_reading() {
+    for text in [
+        "t_s,x_mm,y_mm\n0,0.1,0.2\n0.033333333333333,1e-9,-4\n",
+        "t_s,x_mm,y_mm,angle_deg\n0,0.1,0.2,361\n",
+        "t_s,x_mm,y_mm,vx_mm_per_s,vy_mm_per_s\n0,0,0,1,2\n1,0,0,3,4\n",
+    ] {
+        let path = read(text).unwrap();
+        assert_eq!(read(&path.to_csv().unwrap()).unwrap(), path, "{text}");
+    }
+}
+
+#[test]
+fn wrong_paths_name_the_line_and_the_mend() {
+    for (text, expected) in [
+        ("", "stroke.csv:1: no column t_s"),
+        ("t_s,x_mm,y_mm\n", "stroke.csv:1: the path has no rows"),
+        (
+            "t_s,x_mm,y_mm\n0,0,0\n# aside\n0,1,1\n",
+            "stroke.csv:4: t_s is 0 after 0",
+        ),
+        (
+            "t_s,x_mm,y_mm\n0,0,0\n1,nan,1\n",
+            "stroke.csv:3: x_mm is \"nan\"",
+        ),
+        (
+            "t_s,x_m,y_m\n0,0,0\n",
+            "stroke.csv:1: unknown column \"x_m\"",
+        ),
+        (
+            "t_s,x_mm,y_mm,vx_mm_per_s\n0,0,0,1\n",
+            "stroke.csv:1: one velocity column",
+        ),
+        (
+            "t_s,x_mm,y_mm\n0,0,0\n1e300,1,1\n",
+            "stroke.csv:3: t_s is 1",
+        ),
+    ] {
+        let error = read(text).unwrap_err().to_string();
+        assert!(
+            error.starts_with(expected) && error.contains("; "),
+            "{error}"
+        );
+        assert!(!error.contains('\n'), "{error}");
+    }
+}
+
+#[test]
+fn rows_that_are_made_are_checked_like_rows_that_are_read() {
+    let row = |t_s| PathRow {
+        t_s,
+        ..PathRow::default()
+    };
+    assert!(ExplorationPath::new(vec![]).is_err());
+    assert!(ExplorationPath::new(vec![row(f64::NAN)]).is_err());
+    let error = ExplorationPath::new(vec![row(1.0), row(1.0)])
+        .unwrap_err()
+        .to_string();
+    assert!(error.starts_with("row 2: t_s is 1 after 1; "), "{error}");
+}
