@@ -165,7 +165,10 @@ impl Scene {
     /// The library's folder as seen from where the program runs, for a scene file at `path`.
     pub fn library_folder(&self, path: &Path) -> Option<PathBuf> {
         let folder = self.library.as_ref()?;
-        Some(path.parent().unwrap_or(Path::new("")).join(folder))
+        Some(
+            path.parent()
+                .map_or_else(|| folder.clone(), |beside| beside.join(folder)),
+        )
     }
 
     fn from_keys(keys: SceneKeys) -> Result<Self, Flaw> {
@@ -251,7 +254,7 @@ impl Display {
     }
 }
 
-fn filters_from_keys(keys: FilterKeys) -> Result<Filters, Flaw> {
+fn filters_from_keys(keys: &FilterKeys) -> Result<Filters, Flaw> {
     match (keys.kind.as_str(), keys.octaves) {
         ("log-gaussian", octaves) => {
             Ok(octaves.map_or_else(Filters::default, |octaves| Filters::LogGaussian { octaves }))

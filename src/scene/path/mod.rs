@@ -161,7 +161,9 @@ impl ExplorationPath {
     fn of_good_rows(mut rows: Vec<PathRow>) -> Self {
         let has_velocity = rows.iter().all(|row| row.velocity.is_some());
         if !has_velocity {
-            rows.iter_mut().for_each(|row| row.velocity = None);
+            for row in &mut rows {
+                row.velocity = None;
+            }
         }
         Self { rows, has_velocity }
     }
