@@ -185,8 +185,7 @@ impl Scene {
             size_mm: keys.size_mm,
             textiles: keys.textiles,
             displays,
-            filters: keys
-                .filters
+            filters: (keys.filters.as_ref())
                 .map_or_else(|| Ok(Filters::default()), filters_from_keys)?,
             tuning: keys.tuning,
         })
