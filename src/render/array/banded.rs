@@ -1,0 +1,258 @@
+//! Banded: the formula of the reference, but only the bins that a filter can hear at this speed,
+//! and nothing twice in a tick.
+//!
+//! A filter falls off on both sides of its peak. Bins outside the frequencies where it lets at
+//! least the share `floor` of an amplitude through are left out, which takes less than
+//! `floor²·2ΣP` off a squared amplitude. The filter's gains are computed once per speed.
+
+use std::sync::Arc;
+
+use super::reference::{amplitudes_of, bin_frequency_hz};
+use crate::render::plan::{Axis, Component, Contacts, Counters, ScenePlan};
+use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
+use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
+
+/// Sums the bins that matter, once for each point and speed.
+#[derive(Debug, Clone)]
+pub(super) struct BandedEvaluator {
+    filters: Filters,
+    pool: Vec<SpectraMemo>,
+    rows: [GainRow; 2],
+    tick: u64,
+}
+
+/// Spectra, and what was already evaluated of them.
+#[derive(Debug, Clone)]
+struct SpectraMemo {
+    spectra: Arc<LocalSpectra>,
+    points: Vec<Memo>,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Memo {
+    tick: u64,
+    speed_mm_per_s: f64,
+    sums: [f64; 2],
+}
+
+/// A filter pair's power gains at one speed.
+#[derive(Debug, Clone)]
+struct GainRow {
+    speed_mm_per_s: f64,
+    n_audible: usize,
+    /// Slots of the bins that each band hears.
+    heard: [std::ops::Range<usize>; 2],
+    gains: [Vec<f64>; 2],
+    /// The frequencies that each band hears, Hz.
+    heard_hz: [[f64; 2]; 2],
+}
+
+impl BandedEvaluator {
+    pub(super) fn prepare(plan: &ScenePlan, filters: &Filters, floor: f64) -> Self {
+        let memo = |spectra: &Arc<LocalSpectra>| SpectraMemo {
+            spectra: Arc::clone(spectra),
+            points: vec![Memo::default(); spectra.n_points()],
+        };
+        let heard_hz = Band::ALL.map(|band| heard_frequencies_hz(filters, band, floor));
+        let row = || GainRow {
+            speed_mm_per_s: 0.0,
+            n_audible: 0,
+            heard: [0..0, 0..0],
+            gains: [vec![0.0; N_BINS], vec![0.0; N_BINS]],
+            heard_hz,
+        };
+        Self {
+            filters: *filters,
+            pool: plan.pool.iter().map(memo).collect(),
+            rows: [row(), row()],
+            tick: 0,
+        }
+    }
+
+    pub(super) fn begin_tick(&mut self) {
+        self.tick += 1;
+    }
+
+    /// Amplitudes of the contactors on one textile, µm.
+    pub(super) fn evaluate(
+        &mut self,
+        plan: &ScenePlan,
+        contacts: &Contacts<'_>,
+        factors: [f64; 2],
+        amplitudes_um: &mut [[f64; 2]],
+        counters: &mut Counters,
+    ) {
+        let textile = &plan.textiles[contacts.textile];
+        for (contactor, amplitudes) in amplitudes_um.iter_mut().enumerate() {
+            if !contacts.owns(contactor) {
+                continue;
+            }
+            let mut sums = [0.0; 2];
+            for axis in Axis::BOTH {
+                let component = contacts.component(axis, contactor);
+                let Component::Felt {
+                    speed_mm_per_s,
+                    is_reverse,
+                } = component
+                else {
+                    counters.left_out(component, 1);
+                    continue;
+                };
+                let d = axis.direction(is_reverse).index();
+                let place_mm = contacts.places_mm[axis as usize][contactor];
+                let point = textile.points[d].nearest(place_mm);
+                let row = &mut self.rows[axis as usize];
+                row.move_to(speed_mm_per_s, &self.filters);
+                let memo = &mut self.pool[textile.spectra[d]];
+                let own = memo.sums(point, (self.tick, row), counters);
+                (0..2).for_each(|b| sums[b] += own[b]);
+            }
+            *amplitudes = amplitudes_of(sums, factors);
+        }
+    }
+}
+
+impl SpectraMemo {
+    fn sums(
+        &mut self,
+        point: usize,
+        (tick, row): (u64, &GainRow),
+        counters: &mut Counters,
+    ) -> [f64; 2] {
+        let memo = &mut self.points[point];
+        if memo.tick == tick && memo.speed_mm_per_s.to_bits() == row.speed_mm_per_s.to_bits() {
+            counters.directions_repeated += 1;
+            return memo.sums;
+        }
+        let sums = row.sums(self.spectra.powers_um2(point));
+        *memo = Memo {
+            tick,
+            speed_mm_per_s: row.speed_mm_per_s,
+            sums,
+        };
+        let n_heard = row.heard[0].len() + row.heard[1].len();
+        counters.directions_evaluated += 1;
+        counters.bins_evaluated += n_heard as u64;
+        counters.bins_below_floor += (2 * row.n_audible - n_heard) as u64;
+        counters.bins_above_1_khz += 2 * (N_BINS - row.n_audible) as u64;
+        sums
+    }
+}
+
+impl GainRow {
+    /// Computes the gains at a speed, unless they are those at hand.
+    fn move_to(&mut self, speed_mm_per_s: f64, filters: &Filters) {
+        if self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits() {
+            return;
+        }
+        self.speed_mm_per_s = speed_mm_per_s;
+        self.n_audible = n_audible_bins(speed_mm_per_s);
+        let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
+        for band in Band::ALL {
+            let b = band.index();
+            let [low_hz, high_hz] = self.heard_hz[b];
+            let first = n_bins_below(low_hz / spacing_hz).min(self.n_audible);
+            let end = n_bins_below(high_hz / spacing_hz + 1.0).clamp(first, self.n_audible);
+            self.heard[b] = first..end;
+            for slot in first..end {
+                let frequency_hz = bin_frequency_hz(speed_mm_per_s, slot + 1);
+                self.gains[b][slot] = filters.power_gain(band, frequency_hz);
+            }
+        }
+    }
+
+    fn sums(&self, powers_um2: &[f64]) -> [f64; 2] {
+        [0, 1].map(|b| {
+            let heard = self.heard[b].clone();
+            let gains = &self.gains[b][heard.clone()];
+            powers_um2[heard]
+                .iter()
+                .zip(gains)
+                .map(|(power, gain)| power * gain)
+                .sum()
+        })
+    }
+}
+
+/// How many bins k ≥ 1 lie below a (real) bin number, at most 500.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "0 … 500 after clamping"
+)]
+fn n_bins_below(bin: f64) -> usize {
+    (bin.ceil() - 1.0).clamp(0.0, N_BINS as f64) as usize
+}
+
+/// The frequencies between which a filter lets at least the share `floor` of an amplitude through,
+/// widened by a hair; by bisection on either side of the carrier, whose gain is 1.
+fn heard_frequencies_hz(filters: &Filters, band: Band, floor: f64) -> [f64; 2] {
+    let is_heard = |f_hz: f64| filters.power_gain(band, f_hz) >= floor * floor;
+    let edge = |mut silent_hz: f64, mut heard_hz: f64| {
+        if is_heard(silent_hz) {
+            return silent_hz;
+        }
+        for _ in 0..60 {
+            let middle_hz = (silent_hz * heard_hz).sqrt();
+            let side = if is_heard(middle_hz) {
+                &mut heard_hz
+            } else {
+                &mut silent_hz
+            };
+            *side = middle_hz;
+        }
+        silent_hz
+    };
+    let lowest_hz = 1e-3;
+    let [low_hz, high_hz] = [lowest_hz, MAX_FREQUENCY_HZ].map(|end| edge(end, band.carrier_hz()));
+    [
+        if low_hz > lowest_hz {
+            low_hz * (1.0 - 1e-12)
+        } else {
+            0.0
+        },
+        high_hz * (1.0 + 1e-12),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bin_left_out_is_below_the_floor() {
+        for filters in [
+            Filters::default(),
+            Filters::LogGaussian { octaves: 0.5 },
+            Filters::Receptor,
+        ] {
+            for floor in [0.0, 1e-6, 1e-3, 0.1, 0.99] {
+                for band in Band::ALL {
+                    let [low_hz, high_hz] = heard_frequencies_hz(&filters, band, floor);
+                    for step in 0..20_000 {
+                        let f_hz = 0.002_3 * 1.000_65_f64.powi(step);
+                        let is_in = (low_hz..=high_hz).contains(&f_hz);
+                        let gain = filters.gain(band, f_hz);
+                        // At the peak of a receptor's curve the gain exceeds 1 and its fall is
+                        // not always steep, so only what is left out is bounded.
+                        assert!(is_in || gain < floor * (1.0 + 1e-9) || f_hz >= 1000.0);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bins_below_a_real_bin_number_are_counted() {
+        for (bin, n) in [
+            (-3.0, 0),
+            (0.0, 0),
+            (1.0, 0),
+            (1.5, 1),
+            (2.0, 1),
+            (1e300, 500),
+        ] {
+            assert_eq!(n_bins_below(bin), n, "{bin}");
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! Amplitudes of a contactor array that moves over textiles.
+//!
+//! After Philpott and Summers (2012), section 2.2. A contactor at u, w that moves at (v_u, v_w) in
+//! its textile's frame feels the local spectra P of the nearest points along warp and weft; bin k
+//! of a direction d sounds at `f = |v_d|·0.23·k` Hz, below 1 kHz, and
+//! `A_b = √(2 Σ_d Σ_k P_{d,k} H_b(f_{d,k})²)` for the bands b at 40 and 320 Hz.
+//!
+//! Lifecycle: [`ArrayRenderer::prepare`] allocates, [`ArrayRenderer::reset`] clears counters and
+//! frames, [`ArrayRenderer::tick`] renders 25 ms and never allocates, locks, logs or fails.
+
+mod auto;
+mod banded;
+mod drive;
+mod frame;
+mod method;
+mod reference;
+mod table;
+mod trace;
+
+pub use drive::DriveSynth;
+pub use frame::DisplayFrame;
+pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
+pub use trace::{BinTrace, ContactTrace, DirectionTrace, Touch};
+
+use banded::BandedEvaluator;
+use reference::ReferenceEvaluator;
+use table::TableEvaluator;
+
+use super::gains::Gains;
+use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan};
+use super::{PlacedLevel, RenderError, RenderScene};
+use crate::geometry::Velocity;
+use crate::scene::Pose;
+use crate::tactile::Tuning;
+
+/// How powers are found.
+#[derive(Debug, Clone)]
+enum Evaluator {
+    Reference(ReferenceEvaluator),
+    Banded(BandedEvaluator),
+    Table(TableEvaluator),
+}
+
+/// Renders the amplitudes of every display of a scene, tick by tick.
+#[derive(Debug, Clone)]
+pub struct ArrayRenderer {
+    plan: ScenePlan,
+    gains: Gains,
+    evaluator: Evaluator,
+    method: Method,
+    bound: ErrorBound,
+    displays: Vec<DisplayPlan>,
+    frames: Vec<DisplayFrame>,
+    counters: Counters,
+}
+
+impl ArrayRenderer {
+    /// A renderer of a scene by a method; `auto` is resolved here, from error bounds known before
+    /// the first tick and from counts of operations. Allocates; tables of four textiles with 16
+    /// points take well below 0.25 s.
+    ///
+    /// # Errors
+    /// What [`RenderScene::check`] refuses; an accuracy that is no number; tables that would not
+    /// fit into memory (never with `auto`).
+    pub fn prepare(
+        scene: &RenderScene,
+        method: Method,
+        accuracy: &Accuracy,
+    ) -> Result<Self, RenderError> {
+        scene.check()?;
+        accuracy.check()?;
+        let plan = ScenePlan::of(scene);
+        let method = auto::resolve(scene, &plan, method, accuracy);
+        let (evaluator, bound) = match method {
+            Method::Banded => {
+                let banded = BandedEvaluator::prepare(&plan, &scene.filters, accuracy.banded_floor);
+                (
+                    Evaluator::Banded(banded),
+                    ErrorBound::of_floor(accuracy.banded_floor),
+                )
+            }
+            Method::Table => {
+                let (table, bound) = TableEvaluator::prepare(scene, &plan, accuracy)?;
+                (Evaluator::Table(table), bound)
+            }
+            Method::Reference | Method::Auto => {
+                let reference = ReferenceEvaluator::prepare(&plan, &scene.filters);
+                (Evaluator::Reference(reference), ErrorBound::EXACT)
+            }
+        };
+        let is_exact = !matches!(evaluator, Evaluator::Table(_));
+        let frame = |array| DisplayFrame::new(array, is_exact);
+        Ok(Self {
+            plan,
+            gains: Gains::of(scene),
+            evaluator,
+            method,
+            bound,
+            displays: scene.displays.iter().map(DisplayPlan::new).collect(),
+            frames: scene.displays.iter().map(frame).collect(),
+            counters: Counters::default(),
+        })
+    }
+
+    /// Clears counters and frames; tuning and levels stay.
+    pub fn reset(&mut self) {
+        self.counters = Counters::default();
+        self.frames.iter_mut().for_each(DisplayFrame::silence);
+    }
+
+    /// Renders one tick: display i follows pose i; a display without a pose is silent. Returns
+    /// one frame per display.
+    ///
+    /// A pose that holds NaN or infinity is silent and counted.
+    pub fn tick(&mut self, poses: &[Pose]) -> &[DisplayFrame] {
+        self.counters.ticks += 1;
+        self.evaluator.begin_tick();
+        for index in 0..self.frames.len() {
+            match poses.get(index) {
+                Some(pose) => self.tick_display(index, pose),
+                None => {
+                    self.counters.poses_missing += 1;
+                    self.frames[index].silence();
+                }
+            }
+        }
+        &self.frames
+    }
+
+    fn tick_display(&mut self, index: usize, pose: &Pose) {
+        let (display, frame) = (&mut self.displays[index], &mut self.frames[index]);
+        frame.amplitudes_um.fill([0.0; 2]);
+        frame.exact_um.fill([0.0; 2]);
+        let Some(pose) = finite_pose(pose, &mut self.counters) else {
+            frame.silence();
+            return;
+        };
+        frame.position = pose.position;
+        frame.rotation = display.begin(pose.angle_deg);
+        let n_contactors = display.n_contactors();
+        for (number, textile) in self.plan.textiles.iter().enumerate().rev() {
+            let Some(placing) = textile.placing(display, pose.position) else {
+                continue;
+            };
+            let claimed = display.claim((textile, number), &placing, &pose);
+            if let Some(contacts) = claimed {
+                let factors = self.gains.factors(number);
+                self.evaluator
+                    .evaluate(&self.plan, &contacts, factors, frame, &mut self.counters);
+            }
+            if display.n_owned == n_contactors {
+                break;
+            }
+        }
+        frame.owners.copy_from_slice(&display.owners);
+        frame.round();
+        self.counters.contactors_inside += display.n_owned as u64;
+        self.counters.contactors_outside += (n_contactors - display.n_owned) as u64;
+    }
+
+    /// The frames of the last tick.
+    pub fn frames(&self) -> &[DisplayFrame] {
+        &self.frames
+    }
+
+    /// Takes a new tuning from the next tick on. Recomputes and allocates nothing.
+    ///
+    /// # Errors
+    /// A tuning that makes no sense (NaN, +∞, compression outside 0…1): the last one stays.
+    pub fn set_tuning(&mut self, tuning: &Tuning) -> Result<(), RenderError> {
+        self.gains.set_tuning(tuning)
+    }
+
+    /// Takes levels that were pending, one for every placed textile.
+    ///
+    /// # Errors
+    /// Another number of levels than of textiles: nothing changes.
+    pub fn set_levels(&mut self, levels: &[PlacedLevel]) -> Result<(), RenderError> {
+        self.gains.set_levels(levels)
+    }
+
+    /// The tuning that sounds.
+    pub fn tuning(&self) -> &Tuning {
+        self.gains.tuning()
+    }
+
+    /// Whether compression waits for levels; until they come its gain is 0 dB.
+    pub fn compression_is_pending(&self) -> bool {
+        self.gains.compression_is_pending()
+    }
+
+    /// The level that compression leaves alone, dB re 1 µm, once it is known.
+    pub fn compression_reference_db(&self) -> Option<f64> {
+        self.gains.reference_db()
+    }
+
+    /// The method in use: never `auto`, but what it chose.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// How far amplitudes may be from `reference`, known before the first tick.
+    pub fn bound(&self) -> ErrorBound {
+        self.bound
+    }
+
+    /// What was evaluated and left out since the last reset.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+}
+
+impl Evaluator {
+    fn begin_tick(&mut self) {
+        match self {
+            Self::Reference(_) => {}
+            Self::Banded(banded) => banded.begin_tick(),
+            Self::Table(table) => table.begin_tick(),
+        }
+    }
+
+    fn evaluate(
+        &mut self,
+        plan: &ScenePlan,
+        contacts: &Contacts<'_>,
+        factors: [f64; 2],
+        frame: &mut DisplayFrame,
+        counters: &mut Counters,
+    ) {
+        match self {
+            Self::Reference(reference) => {
+                reference.evaluate(plan, contacts, factors, &mut frame.exact_um, counters);
+            }
+            Self::Banded(banded) => {
+                banded.evaluate(plan, contacts, factors, &mut frame.exact_um, counters);
+            }
+            Self::Table(table) => {
+                table.evaluate(plan, contacts, factors, &mut frame.amplitudes_um, counters);
+            }
+        }
+    }
+}
+
+/// The pose, at rest if its motion is not finite, which is counted; `None` if its place is not.
+fn finite_pose(pose: &Pose, counters: &mut Counters) -> Option<Pose> {
+    let is_placed = pose.position.is_finite() && pose.angle_deg.is_finite();
+    let is_moving = pose.velocity.is_finite() && pose.angular_rad_per_s.is_finite();
+    counters.poses_not_finite += u64::from(!(is_placed && is_moving));
+    let at_rest = Pose {
+        velocity: Velocity::ZERO,
+        angular_rad_per_s: 0.0,
+        ..*pose
+    };
+    is_placed.then(|| if is_moving { *pose } else { at_rest })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+//! The reference: f64, every bin, no shortcut. Every other method is measured against it.
+
+use std::sync::Arc;
+
+use crate::render::plan::{Axis, Component, Contacts, Counters, ScenePlan};
+use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
+use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
+
+/// Sums every bin of every contactor anew.
+#[derive(Debug, Clone)]
+pub(super) struct ReferenceEvaluator {
+    filters: Filters,
+    pool: Vec<Arc<LocalSpectra>>,
+}
+
+impl ReferenceEvaluator {
+    pub(super) fn prepare(plan: &ScenePlan, filters: &Filters) -> Self {
+        Self {
+            filters: *filters,
+            pool: plan.pool.clone(),
+        }
+    }
+
+    /// Amplitudes of the contactors on one textile, µm.
+    pub(super) fn evaluate(
+        &self,
+        plan: &ScenePlan,
+        contacts: &Contacts<'_>,
+        factors: [f64; 2],
+        amplitudes_um: &mut [[f64; 2]],
+        counters: &mut Counters,
+    ) {
+        let textile = &plan.textiles[contacts.textile];
+        for (contactor, amplitudes) in amplitudes_um.iter_mut().enumerate() {
+            if !contacts.owns(contactor) {
+                continue;
+            }
+            let mut sums = [0.0; 2];
+            for axis in Axis::BOTH {
+                let component = contacts.component(axis, contactor);
+                let Component::Felt {
+                    speed_mm_per_s,
+                    is_reverse,
+                } = component
+                else {
+                    counters.left_out(component, 1);
+                    continue;
+                };
+                let d = axis.direction(is_reverse).index();
+                let place_mm = contacts.places_mm[axis as usize][contactor];
+                let point = textile.points[d].nearest(place_mm);
+                let powers_um2 = self.pool[textile.spectra[d]].powers_um2(point);
+                let (own, n_audible) = band_sums(powers_um2, speed_mm_per_s, &self.filters);
+                (0..2).for_each(|b| sums[b] += own[b]);
+                counters.directions_evaluated += 1;
+                counters.bins_evaluated += 2 * n_audible as u64;
+                counters.bins_above_1_khz += 2 * (N_BINS - n_audible) as u64;
+            }
+            *amplitudes = amplitudes_of(sums, factors);
+        }
+    }
+}
+
+/// `A_b = √(2 Σ)·g_b`.
+#[inline]
+pub(super) fn amplitudes_of(sums: [f64; 2], factors: [f64; 2]) -> [f64; 2] {
+    [
+        (2.0 * sums[0]).sqrt() * factors[0],
+        (2.0 * sums[1]).sqrt() * factors[1],
+    ]
+}
+
+/// Where bin k sounds at a speed, Hz.
+#[inline]
+pub(super) fn bin_frequency_hz(speed_mm_per_s: f64, k: usize) -> f64 {
+    speed_mm_per_s * BIN_SPACING_PER_MM * k as f64
+}
+
+/// `Σ_k P_k H_b(f_k)²` over the bins that sound below 1 kHz, and how many do.
+fn band_sums(powers_um2: &[f64], speed_mm_per_s: f64, filters: &Filters) -> ([f64; 2], usize) {
+    let mut sums = [0.0; 2];
+    let mut n_audible = 0;
+    for (k, power) in (1..).zip(powers_um2) {
+        let frequency_hz = bin_frequency_hz(speed_mm_per_s, k);
+        if frequency_hz < MAX_FREQUENCY_HZ {
+            n_audible += 1;
+            for band in Band::ALL {
+                sums[band.index()] += power * filters.power_gain(band, frequency_hz);
+            }
+        }
+    }
+    (sums, n_audible)
+}

@@ -1,0 +1,272 @@
+//! Table: powers tabulated over log speed when a scene is prepared, interpolated in every tick.
+//!
+//! A power of a point, a direction and a band is smooth between the speeds at which a bin crosses
+//! 1 kHz and jumps there; tables are cut at those speeds and keep both values. Inside, linear
+//! interpolation over log speed keeps within an error known from the filter alone.
+
+mod bound;
+mod build;
+mod segments;
+
+pub(super) use bound::Density;
+
+use super::{Accuracy, ErrorBound};
+use crate::render::plan::{
+    Axis, Component, Contacts, Counters, Motion, PointIndex, ScenePlan, TextilePlan,
+};
+use crate::render::{RenderError, RenderScene, single};
+use crate::surface::{Direction, LocalSpectra};
+use segments::{Segments, Spot};
+
+/// Most bytes that the tables of a scene may take.
+pub(super) const MAX_TABLE_BYTES: usize = 512_000_000;
+/// Points of a direction up to this many times the contactors are interpolated all at once.
+const BLEND_ALL: usize = 2;
+
+/// Looks powers up.
+#[derive(Debug, Clone)]
+pub(super) struct TableEvaluator {
+    segments: Segments,
+    tables: Vec<Table>,
+    /// What each textile's powers are stored as a share of, as an amplitude, µm.
+    unit_um: Vec<f64>,
+    /// Both directions' powers of every point at the speed at hand.
+    blended: [Vec<[f32; 2]>; 2],
+}
+
+/// One set of spectra over all nodes.
+#[derive(Debug, Clone)]
+struct Table {
+    n_points: usize,
+    /// Node by node a row of points; a power is `[40 Hz, 320 Hz]` in units of the textile's.
+    powers: Vec<[f32; 2]>,
+}
+
+/// A direction at one speed: the rows before and after, and the share of the way between.
+#[derive(Clone, Copy)]
+struct Rows<'a> {
+    before: &'a [[f32; 2]],
+    after: &'a [[f32; 2]],
+    share: f32,
+}
+
+/// Roughly how many bytes the tables of a scene take.
+pub(super) fn table_bytes(plan: &ScenePlan, per_octave: u32) -> usize {
+    let n_nodes = Segments::new(per_octave).nodes().len();
+    let n_points: usize = plan.pool.iter().map(|spectra| spectra.n_points()).sum();
+    n_points
+        .saturating_mul(n_nodes)
+        .saturating_mul(size_of::<[f32; 2]>())
+}
+
+impl TableEvaluator {
+    pub(super) fn prepare(
+        scene: &RenderScene,
+        plan: &ScenePlan,
+        accuracy: &Accuracy,
+    ) -> Result<(Self, ErrorBound), RenderError> {
+        let density = Density::within(&scene.filters, accuracy.budget_db);
+        let n_bytes = table_bytes(plan, density.per_octave);
+        if n_bytes > MAX_TABLE_BYTES {
+            let megabytes = n_bytes / 1_000_000;
+            return Err(RenderError::TableTooLarge { megabytes });
+        }
+        let segments = Segments::new(density.per_octave);
+        let units_um2 = units_um2(scene, plan);
+        let spectra: Vec<(&LocalSpectra, f64)> = plan
+            .pool
+            .iter()
+            .map(AsRef::as_ref)
+            .zip(units_um2.iter().copied())
+            .collect();
+        let powers = build::tables_of(segments.nodes(), &spectra, &scene.filters);
+        let table = |(spectra, powers): (&(&LocalSpectra, f64), _)| Table {
+            n_points: spectra.0.n_points(),
+            powers,
+        };
+        let tables: Vec<Table> = spectra.iter().zip(powers).map(table).collect();
+        let longest = tables.iter().map(|table| table.n_points).max().unwrap_or(0);
+        let unit_um = |textile: &TextilePlan| units_um2[textile.spectra[0]].sqrt();
+        let evaluator = Self {
+            segments,
+            unit_um: plan.textiles.iter().map(unit_um).collect(),
+            blended: [vec![[0.0; 2]; longest], vec![[0.0; 2]; longest]],
+            tables,
+        };
+        let floor = bound::LEAST_POWER_GAIN.sqrt();
+        Ok((
+            evaluator,
+            ErrorBound {
+                level_db: density.level_db,
+                floor,
+            },
+        ))
+    }
+
+    pub(super) fn begin_tick(&mut self) {}
+
+    /// Amplitudes of the contactors on one textile, µm.
+    pub(super) fn evaluate(
+        &mut self,
+        plan: &ScenePlan,
+        contacts: &Contacts<'_>,
+        factors: [f64; 2],
+        amplitudes_um: &mut [[f32; 2]],
+        counters: &mut Counters,
+    ) {
+        let textile = &plan.textiles[contacts.textile];
+        let unit_um = self.unit_um[contacts.textile];
+        let factors = factors.map(|factor| single(factor * unit_um));
+        match contacts.motion {
+            Motion::Together(_) => self.together(textile, contacts, amplitudes_um, counters),
+            Motion::Turning(..) => self.turning(textile, contacts, amplitudes_um, counters),
+        }
+        let owned = amplitudes_um.iter_mut().zip(contacts.owners);
+        for ([low, high], &owner) in owned {
+            if usize::from(owner) == contacts.textile {
+                *low = low.sqrt() * factors[0];
+                *high = high.sqrt() * factors[1];
+            }
+        }
+    }
+
+    /// Powers of contactors that share a velocity: each direction is interpolated once, at all of
+    /// its points if there are few.
+    fn together(
+        &mut self,
+        textile: &TextilePlan,
+        contacts: &Contacts<'_>,
+        powers: &mut [[f32; 2]],
+        counters: &mut Counters,
+    ) {
+        let n = contacts.n_contactors as u64;
+        for axis in Axis::BOTH {
+            let component = contacts.component(axis, 0);
+            let Component::Felt {
+                speed_mm_per_s,
+                is_reverse,
+            } = component
+            else {
+                counters.left_out(component, n);
+                continue;
+            };
+            let d = axis.direction(is_reverse);
+            let (table, index) = (
+                &self.tables[textile.spectra[d.index()]],
+                textile.points[d.index()],
+            );
+            let rows = table.rows(self.segments.find(speed_mm_per_s));
+            if table.n_points <= BLEND_ALL * contacts.n_contactors {
+                let blended = &mut self.blended[0][..table.n_points];
+                rows.blend(blended);
+                counters.directions_evaluated += table.n_points as u64;
+                counters.directions_repeated += n.saturating_sub(table.n_points as u64);
+                add(powers, contacts, (axis, index), |point| blended[point]);
+            } else {
+                counters.directions_evaluated += n;
+                add(powers, contacts, (axis, index), |point| rows.at(point));
+            }
+        }
+    }
+
+    /// Powers of contactors that each move their own way.
+    fn turning(
+        &self,
+        textile: &TextilePlan,
+        contacts: &Contacts<'_>,
+        powers: &mut [[f32; 2]],
+        counters: &mut Counters,
+    ) {
+        for (contactor, power) in powers.iter_mut().enumerate() {
+            if !contacts.owns(contactor) {
+                continue;
+            }
+            for axis in Axis::BOTH {
+                let component = contacts.component(axis, contactor);
+                let Component::Felt {
+                    speed_mm_per_s,
+                    is_reverse,
+                } = component
+                else {
+                    counters.left_out(component, 1);
+                    continue;
+                };
+                let d = axis.direction(is_reverse).index();
+                let point = textile.points[d].nearest(contacts.places_mm[axis as usize][contactor]);
+                let rows = self.tables[textile.spectra[d]].rows(self.segments.find(speed_mm_per_s));
+                let [low, high] = rows.at(point);
+                power[0] += low;
+                power[1] += high;
+                counters.directions_evaluated += 1;
+            }
+        }
+    }
+}
+
+impl Table {
+    fn rows(&self, spot: Spot) -> Rows<'_> {
+        let rows = &self.powers[spot.node * self.n_points..][..2 * self.n_points];
+        let (before, after) = rows.split_at(self.n_points);
+        Rows {
+            before,
+            after,
+            share: spot.share,
+        }
+    }
+}
+
+impl Rows<'_> {
+    #[inline]
+    fn at(self, point: usize) -> [f32; 2] {
+        let ([a, b], [c, d]) = (self.before[point], self.after[point]);
+        [a + (c - a) * self.share, b + (d - b) * self.share]
+    }
+
+    fn blend(self, out: &mut [[f32; 2]]) {
+        for (out, (before, after)) in out.iter_mut().zip(self.before.iter().zip(self.after)) {
+            out[0] = before[0] + (after[0] - before[0]) * self.share;
+            out[1] = before[1] + (after[1] - before[1]) * self.share;
+        }
+    }
+}
+
+/// Adds a direction's powers to every contactor on the textile.
+#[inline]
+fn add(
+    powers: &mut [[f32; 2]],
+    contacts: &Contacts<'_>,
+    (axis, index): (Axis, PointIndex),
+    power_at: impl Fn(usize) -> [f32; 2],
+) {
+    let places = contacts.places_mm[axis as usize];
+    for ((power, &place_mm), &owner) in powers.iter_mut().zip(places).zip(contacts.owners) {
+        if usize::from(owner) == contacts.textile {
+            let [low, high] = power_at(index.nearest(place_mm));
+            power[0] += low;
+            power[1] += high;
+        }
+    }
+}
+
+/// What the powers of each set of spectra are stored as a share of, µm²: the largest power of any
+/// point of the surfaces that use it, so that very low and very high surfaces keep all digits.
+/// 0 for flat ones.
+fn units_um2(scene: &RenderScene, plan: &ScenePlan) -> Vec<f64> {
+    let total = |powers: &[f64]| powers.iter().sum::<f64>();
+    let largest = |spectra: &LocalSpectra| {
+        (0..spectra.n_points())
+            .map(|p| total(spectra.powers_um2(p)))
+            .fold(0.0, f64::max)
+    };
+    let own: Vec<f64> = plan.pool.iter().map(|spectra| largest(spectra)).collect();
+    let mut units = own.clone();
+    debug_assert_eq!(scene.textiles.len(), plan.textiles.len());
+    // A surface's four directions share a unit, because their powers are added.
+    for textile in &plan.textiles {
+        let unit = textile.spectra.iter().map(|&s| own[s]).fold(0.0, f64::max);
+        for d in Direction::ALL {
+            units[textile.spectra[d.index()]] = unit;
+        }
+    }
+    units
+}

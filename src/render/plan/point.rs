@@ -1,0 +1,85 @@
+//! The point of a profile nearest to a place: whole millimetres, repeated for ever.
+
+/// Added to places before rounding, so that a place that a decimal number means to lie on the
+/// border between two points does, mm.
+const BORDER_MM: f64 = 1e-6;
+
+/// `i = ⌊place + ½ + 1e-6⌋ mod n` for a fixed number of points n.
+///
+/// The remainder is taken by two multiplications with a precomputed reciprocal (Lemire, Kaser,
+/// Kurz 2019), exact for 32-bit numbers: a division costs more than the rest of a contactor.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::render) struct PointIndex {
+    n_points: u64,
+    reciprocal: u64,
+}
+
+impl PointIndex {
+    pub(in crate::render) fn new(n_points: usize) -> Self {
+        let n_points = n_points.max(1) as u64;
+        Self {
+            n_points,
+            reciprocal: (u64::MAX / n_points).wrapping_add(1),
+        }
+    }
+
+    /// The point nearest to a place in mm at or right of −½; places beyond 4·10⁹ mm saturate.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "inside a textile places are at least -1e-6 mm; the rest is below n_points"
+    )]
+    #[inline]
+    pub(in crate::render) fn nearest(self, place_mm: f64) -> usize {
+        // Truncation is the floor of a number that is not negative, without a library call.
+        let whole = (place_mm + 0.5 + BORDER_MM) as u32;
+        let fraction = self.reciprocal.wrapping_mul(u64::from(whole));
+        ((u128::from(fraction) * u128::from(self.n_points)) >> 64) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_round_to_the_nearest_millimetre_and_repeat() {
+        let of_16 = PointIndex::new(16);
+        let cases = [
+            (-1e-6, 0),
+            (0.0, 0),
+            (0.499, 0),
+            (0.499_999_5, 1),
+            (0.5, 1),
+            (15.5, 0),
+            (37.4, 5),
+        ];
+        for (place_mm, point) in cases {
+            assert_eq!(of_16.nearest(place_mm), point, "{place_mm} mm");
+        }
+        assert_eq!(PointIndex::new(1).nearest(1234.5), 0);
+    }
+
+    #[test]
+    fn the_reciprocal_gives_the_remainder() {
+        for n in [1_u32, 2, 3, 7, 16, 17, 977, 65_537, 3_000_000_019] {
+            let index = PointIndex::new(usize::try_from(n).unwrap());
+            for whole in [
+                0,
+                1,
+                n - 1,
+                n,
+                n.wrapping_add(1),
+                4_000_000_000,
+                u32::MAX - 1,
+            ] {
+                let found = index.nearest(f64::from(whole));
+                assert_eq!(
+                    found,
+                    usize::try_from(whole % n).unwrap(),
+                    "{whole} mod {n}"
+                );
+            }
+        }
+    }
+}

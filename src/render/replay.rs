@@ -1,0 +1,119 @@
+//! A whole path through a renderer, off the real-time path: frames for files, figures for reports.
+//!
+//! Rendering has no clock: whoever wants times hands one in. Errors are taken against `reference`
+//! on the very same poses.
+
+use std::ops::ControlFlow;
+
+use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
+use super::stats::{ErrorMeter, Histogram, RunStats};
+use super::{RenderError, RenderScene};
+use crate::scene::Pose;
+
+/// What to replay, and how.
+#[derive(Debug, Clone, Copy)]
+pub struct Replay<'a> {
+    /// The scene. Every display follows the path.
+    pub scene: &'a RenderScene,
+    /// The method.
+    pub method: Method,
+    /// The accuracy it has to keep.
+    pub accuracy: Accuracy,
+    /// Whether to measure the error against `reference`: two more runs by it.
+    pub measures_error: bool,
+}
+
+/// Replays ticks (number, pose). `clock_ns` tells a monotonic time in ns; `sink` takes every tick's
+/// number, pose and frames, and may stop the run.
+///
+/// # Errors
+/// What [`ArrayRenderer::prepare`] refuses.
+pub fn replay(
+    what: &Replay<'_>,
+    ticks: impl Iterator<Item = (u64, Pose)> + Clone,
+    clock_ns: &mut dyn FnMut() -> u64,
+    sink: &mut dyn FnMut(u64, &Pose, &[DisplayFrame]) -> ControlFlow<()>,
+) -> Result<RunStats, RenderError> {
+    let started_ns = clock_ns();
+    let mut renderer = ArrayRenderer::prepare(what.scene, what.method, &what.accuracy)?;
+    let prepare_ns = clock_ns().saturating_sub(started_ns);
+    let mut comparison = if what.measures_error {
+        Some(Comparison::prepare(what.scene, ticks.clone())?)
+    } else {
+        None
+    };
+    let mut times_ns = Histogram::default();
+    let mut poses = vec![Pose::default(); what.scene.displays.len()];
+    for (tick, pose) in ticks {
+        poses.fill(pose);
+        let before_ns = clock_ns();
+        renderer.tick(&poses);
+        let spent_ns = clock_ns().saturating_sub(before_ns);
+        times_ns.add(spent_ns as f64);
+        if let Some(comparison) = &mut comparison {
+            comparison.add(&poses, renderer.frames());
+        }
+        if sink(tick, &pose, renderer.frames()).is_break() {
+            break;
+        }
+    }
+    Ok(RunStats {
+        method: what.method,
+        method_used: renderer.method(),
+        bound: renderer.bound(),
+        n_contactors: what
+            .scene
+            .displays
+            .iter()
+            .map(|display| display.offsets.len())
+            .sum(),
+        prepare_ns,
+        tick_median_ns: times_ns.quantile(0.5),
+        tick_p99_ns: times_ns.quantile(0.99),
+        tick_max_ns: times_ns.largest(),
+        counters: *renderer.counters(),
+        level_error: comparison.map(|comparison| comparison.meter.finish()),
+    })
+}
+
+/// The reference beside a run.
+struct Comparison {
+    reference: ArrayRenderer,
+    meter: ErrorMeter,
+}
+
+impl Comparison {
+    /// Runs the reference once to learn its largest amplitudes.
+    fn prepare(
+        scene: &RenderScene,
+        ticks: impl Iterator<Item = (u64, Pose)>,
+    ) -> Result<Self, RenderError> {
+        let mut reference = ArrayRenderer::prepare(scene, Method::Reference, &Accuracy::default())?;
+        let mut largest_um = [0.0_f64; 2];
+        let mut poses = vec![Pose::default(); scene.displays.len()];
+        for (_, pose) in ticks {
+            poses.fill(pose);
+            for frame in reference.tick(&poses) {
+                for contactor in 0..frame.n_contactors() {
+                    let amplitudes = frame.amplitude_um(contactor);
+                    (0..2).for_each(|b| largest_um[b] = largest_um[b].max(amplitudes[b]));
+                }
+            }
+        }
+        Ok(Self {
+            reference,
+            meter: ErrorMeter::new(largest_um),
+        })
+    }
+
+    fn add(&mut self, poses: &[Pose], frames: &[DisplayFrame]) {
+        for (frame, reference) in frames.iter().zip(self.reference.tick(poses)) {
+            for contactor in 0..frame.n_contactors() {
+                self.meter.add(
+                    frame.amplitude_um(contactor),
+                    reference.amplitude_um(contactor),
+                );
+            }
+        }
+    }
+}

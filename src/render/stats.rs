@@ -1,0 +1,214 @@
+//! Figures of a run: cost of a tick, work left out, error against the reference.
+//!
+//! Plain numbers that serialise with their units in their names; nothing here measures time.
+
+use serde::Serialize;
+
+use super::Counters;
+use super::array::{ErrorBound, Method};
+
+/// Cells a decade: a quantile is at most 0.9 % too large.
+const CELLS_PER_DECADE: f64 = 256.0;
+/// The smallest value that is told from 0.
+const LEAST: f64 = 1e-9;
+/// Decades from the smallest value on.
+const DECADES: usize = 20;
+
+/// A histogram of non-negative numbers with cells of equal ratio: bounded memory, and quantiles
+/// within 0.9 %, however many numbers.
+#[derive(Debug, Clone)]
+pub struct Histogram {
+    counts: Vec<u64>,
+    n: u64,
+    largest: f64,
+}
+
+impl Default for Histogram {
+    fn default() -> Self {
+        Self {
+            counts: vec![0; 256 * DECADES + 1],
+            n: 0,
+            largest: 0.0,
+        }
+    }
+}
+
+impl Histogram {
+    /// Adds a number. NaN counts as infinite, a negative one as 0.
+    pub fn add(&mut self, value: f64) {
+        let value = if value.is_nan() {
+            f64::INFINITY
+        } else {
+            value.max(0.0)
+        };
+        let cell = cell_of(value).min(self.counts.len() - 1);
+        self.counts[cell] += 1;
+        self.n += 1;
+        self.largest = self.largest.max(value);
+    }
+
+    /// How many numbers were added.
+    pub fn count(&self) -> u64 {
+        self.n
+    }
+
+    /// The largest number; 0 of none.
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// A number that at least the share `q` (0…1) of all do not exceed, at most 0.9 % above the
+    /// smallest such number; 0 of none.
+    pub fn quantile(&self, q: f64) -> f64 {
+        let wanted = (self.n as f64 * q.clamp(0.0, 1.0)).ceil().max(1.0);
+        let mut below = 0_u64;
+        for (cell, count) in self.counts.iter().enumerate() {
+            below += count;
+            if below as f64 >= wanted {
+                return upper_edge(cell).min(self.largest);
+            }
+        }
+        self.largest
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "not negative; saturates"
+)]
+fn cell_of(value: f64) -> usize {
+    if value <= LEAST {
+        return 0;
+    }
+    (CELLS_PER_DECADE * (value / LEAST).log10()).ceil() as usize
+}
+
+fn upper_edge(cell: usize) -> f64 {
+    if cell == 0 {
+        0.0
+    } else {
+        LEAST * 10.0_f64.powf(cell as f64 / CELLS_PER_DECADE)
+    }
+}
+
+/// Error of a run against `reference` on the very same poses.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct LevelError {
+    /// Largest `|20 log₁₀(a/a_ref)|` where `a_ref` is at least a thousandth of its band's largest in
+    /// the run, dB.
+    pub max_db: f64,
+    /// 99th percentile of the same, dB.
+    pub p99_db: f64,
+    /// How many amplitudes that was taken over.
+    pub n_amplitudes: u64,
+    /// Largest `|a − a_ref|` of all others, as a share of their band's largest.
+    pub max_share_below: f64,
+}
+
+/// Share of a band's largest amplitude from which on an error is a matter of level.
+const AUDIBLE_SHARE: f64 = 1e-3;
+
+/// Collects the level error of a run.
+#[derive(Debug, Clone)]
+pub(super) struct ErrorMeter {
+    largest_um: [f64; 2],
+    levels_db: Histogram,
+    max_share_below: f64,
+}
+
+impl ErrorMeter {
+    /// A meter for a run in which these are the reference's largest amplitudes, by band.
+    pub(super) fn new(largest_um: [f64; 2]) -> Self {
+        Self {
+            largest_um,
+            levels_db: Histogram::default(),
+            max_share_below: 0.0,
+        }
+    }
+
+    pub(super) fn add(&mut self, amplitudes_um: [f64; 2], reference_um: [f64; 2]) {
+        for b in 0..2 {
+            let (a, a_ref, largest) = (amplitudes_um[b], reference_um[b], self.largest_um[b]);
+            if largest > 0.0 && a_ref >= AUDIBLE_SHARE * largest {
+                self.levels_db.add((20.0 * (a / a_ref).log10()).abs());
+            } else if a != a_ref {
+                let share = (a - a_ref).abs() / largest;
+                self.max_share_below = self.max_share_below.max(share);
+            }
+        }
+    }
+
+    pub(super) fn finish(&self) -> LevelError {
+        LevelError {
+            max_db: self.levels_db.largest(),
+            p99_db: self.levels_db.quantile(0.99),
+            n_amplitudes: self.levels_db.count(),
+            max_share_below: self.max_share_below,
+        }
+    }
+}
+
+/// What a replayed run cost, left out and got wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RunStats {
+    /// The method asked for.
+    pub method: Method,
+    /// The method that rendered: what `auto` chose.
+    pub method_used: Method,
+    /// The error it promised before the first tick.
+    pub bound: ErrorBound,
+    /// Contactors of all displays.
+    pub n_contactors: usize,
+    /// Preparing the renderer, ns.
+    pub prepare_ns: u64,
+    /// Time a tick, median, ns.
+    pub tick_median_ns: f64,
+    /// Time a tick, 99th percentile, ns.
+    pub tick_p99_ns: f64,
+    /// Time of the slowest tick, ns.
+    pub tick_max_ns: f64,
+    /// What was evaluated and left out.
+    pub counters: Counters,
+    /// The error found, if it was measured.
+    pub level_error: Option<LevelError>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_within_a_cell() {
+        let mut histogram = Histogram::default();
+        (1..=1000).for_each(|i| histogram.add(f64::from(i) * 0.5));
+        for (q, exact) in [(0.5, 250.0), (0.99, 495.0), (1.0, 500.0)] {
+            let found = histogram.quantile(q);
+            assert!((1.0..=1.009).contains(&(found / exact)), "{q}: {found}");
+        }
+        assert_eq!(Histogram::default().quantile(0.5), 0.0);
+        histogram.add(f64::NAN);
+        assert_eq!(histogram.largest(), f64::INFINITY);
+    }
+
+    #[test]
+    fn level_errors_count_above_a_thousandth_of_the_largest() {
+        let mut meter = ErrorMeter::new([10.0, 0.0]);
+        meter.add([10.0, 0.0], [10.0, 0.0]);
+        meter.add([2.0, 0.0], [1.0, 0.0]);
+        meter.add([0.009, 0.0], [0.005, 0.0]);
+        let error = meter.finish();
+        assert!((error.max_db - 6.0206).abs() < 1e-4, "{error:?}");
+        assert_eq!(error.n_amplitudes, 2);
+        assert!((error.max_share_below - 4e-4).abs() < 1e-12, "{error:?}");
+    }
+
+    #[test]
+    fn sound_where_the_reference_is_silent_is_an_infinite_error() {
+        let mut meter = ErrorMeter::new([0.0, 1.0]);
+        meter.add([1.0, 0.0], [0.0, 1.0]);
+        let error = meter.finish();
+        assert_eq!(error.max_share_below, f64::INFINITY);
+        assert_eq!(error.max_db, f64::INFINITY);
+    }
+}
