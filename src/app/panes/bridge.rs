@@ -1,0 +1,133 @@
+//! The device: where it is, how it is, arming, and the counters that tell whether to trust it.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, Align, Button, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2};
+
+use super::Wishes;
+use crate::app::command::Command;
+use crate::app::theme::{self, Palette, ROW};
+use crate::app::view::{BridgePhase, BridgeView, Live};
+use crate::app::widgets::{button, mark, pair, row, section};
+use crate::quantity;
+
+/// Shows the pane. `target` is what the link was opened to, `port` what is typed in the field.
+pub(crate) fn show(
+    ui: &mut Ui,
+    live: &Live,
+    target: Option<&str>,
+    port: &mut String,
+    wishes: &mut Wishes,
+) {
+    section(ui, "Bridge");
+    show_state(ui, live.bridge.as_ref(), target);
+    show_arming(ui, live.bridge.as_ref(), wishes);
+    show_target(ui, live.bridge.is_some(), port, wishes);
+    let none = BridgeView::default();
+    show_counters(ui, live.bridge.as_ref().unwrap_or(&none));
+}
+
+fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
+    let palette = Palette::in_ui(ui);
+    let (lamp, word) = match bridge {
+        None => (palette.line, "not connected"),
+        Some(bridge) => (
+            match bridge.phase {
+                BridgePhase::Armed | BridgePhase::Broken => palette.danger,
+                BridgePhase::Ready => palette.text,
+                BridgePhase::Opening => palette.line,
+            },
+            bridge.state,
+        ),
+    };
+    row(ui, target.unwrap_or("No device"), |ui| {
+        ui.label(RichText::new(word).color(palette.text));
+        mark(ui, lamp, word);
+    });
+}
+
+fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    let phase = bridge.map(|bridge| bridge.phase);
+    let width = ui.available_width();
+    if phase == Some(BridgePhase::Armed) {
+        let text = RichText::new("Disarm").color(palette.danger);
+        let edge = Stroke::new(1.0, palette.danger);
+        let armed = Button::new(text).stroke(edge).min_size(vec2(width, ROW + 4.0));
+        let tip = "Ramp the device to silence; the window goes on";
+        if ui.add(armed).on_hover_text(tip).clicked() {
+            wishes.push(Command::Disarm);
+        }
+        return;
+    }
+    let why = match phase {
+        None => Some("Connect a device first"),
+        Some(BridgePhase::Opening) => Some("The device is not ready yet"),
+        Some(BridgePhase::Broken) => Some("The device is gone or refused: connect again"),
+        Some(_) => None,
+    };
+    let arm = ui.add_enabled(why.is_none(), Button::new("Arm").min_size(vec2(width, ROW + 4.0)));
+    let tip = "Turn the high voltage on; levels rise from zero";
+    let arm = match why {
+        Some(why) => arm.on_disabled_hover_text(why),
+        None => arm.on_hover_text(tip),
+    };
+    if arm.clicked() {
+        wishes.push(Command::Arm);
+    }
+}
+
+fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut Wishes) {
+    ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+        if is_connected {
+            if button(ui, "Disconnect", "Stop the device and let go of it", None) {
+                wishes.push(Command::Disconnect);
+            }
+        } else if button(ui, "Emulator", "Connect to the emulator in this program", None) {
+            wishes.push(Command::ConnectEmulator);
+        }
+        let path = port.trim();
+        let missing = path.is_empty().then_some("Type the path of a port first");
+        let is_asked = button(ui, "Connect", "Connect to this port", missing);
+        let field = TextEdit::singleline(port)
+            .desired_width(ui.available_width())
+            .margin(Margin::symmetric(6, 4))
+            .font(theme::number())
+            .hint_text("port, e.g. /dev/ttyACM0");
+        let response = ui.add(field);
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::TextInput, ui.is_enabled(), "Port")
+        });
+        let is_entered =
+            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let path = port.trim();
+        if (is_asked || is_entered) && !path.is_empty() {
+            wishes.push(Command::ConnectPort(PathBuf::from(path)));
+        }
+    });
+}
+
+fn show_counters(ui: &mut Ui, bridge: &BridgeView) {
+    let palette = Palette::in_ui(ui);
+    let interval = bridge.frame_interval_s.map(|s| quantity::fixed(s * 1e3, 2));
+    pair(ui, "Frame interval", interval.as_deref().unwrap_or("–"), "ms");
+    pair(ui, "Depth", &bridge.depth.to_string(), "ticks");
+    let gain = bridge.gain.map(|gain| quantity::fixed(gain * 100.0, 0));
+    pair(ui, "Soft start", gain.as_deref().unwrap_or("–"), "%");
+    pair(ui, "Frames sent", &bridge.frames_sent.to_string(), "");
+    let trouble: Vec<String> = bridge
+        .troubles
+        .iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(name, count)| format!("{count} {name}"))
+        .collect();
+    let (words, ink) = match trouble.is_empty() {
+        true => ("none".to_owned(), palette.dim),
+        false => (trouble.join(", "), palette.danger),
+    };
+    let names: Vec<&str> = bridge.troubles.iter().map(|(name, _)| *name).collect();
+    row(ui, "Losses and errors", |ui| {
+        let label = egui::Label::new(RichText::new(words).color(ink)).truncate();
+        ui.add(label).on_hover_text(format!("Counted: {}", names.join(", ")));
+    });
+}

@@ -1,0 +1,71 @@
+//! Colours for numbers: viridis, cividis and grey, all of rising lightness.
+//!
+//! Each map is a short table of evenly spaced sRGB colours, mixed linearly in between. Smith and
+//! van der Walt 2015 (viridis); Nuñez, Anderton and Renslow 2018 (cividis, for any colour vision).
+
+use eframe::egui::Color32;
+
+/// Which colours stand for numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum ColourMap {
+    /// Purple, green, yellow.
+    #[default]
+    Viridis,
+    /// Blue, grey, yellow: alike for every colour vision.
+    Cividis,
+    /// Black to white.
+    Grey,
+}
+
+const VIRIDIS: [u32; 11] = [
+    0x0044_0154, 0x0048_2475, 0x0041_4487, 0x0035_5f8d, 0x002a_788e, 0x0021_918c, 0x0022_a884,
+    0x0044_bf70, 0x007a_d151, 0x00bd_df26, 0x00fd_e725,
+];
+const CIVIDIS: [u32; 10] = [
+    0x0000_224e, 0x0012_3570, 0x003b_496c, 0x0057_5d6d, 0x0070_7173, 0x008a_8678, 0x00a5_9c74,
+    0x00c3_b369, 0x00e1_cc55, 0x00fe_e838,
+];
+const GREY: [u32; 2] = [0x0010_1010, 0x00fa_fafa];
+
+impl ColourMap {
+    /// Every map, in the order in which they are offered.
+    pub(crate) const ALL: [Self; 3] = [Self::Viridis, Self::Cividis, Self::Grey];
+
+    /// Its name.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            Self::Viridis => "viridis",
+            Self::Cividis => "cividis",
+            Self::Grey => "grey",
+        }
+    }
+
+    /// The colour of a share 0…1 of the scale; outside it, and for NaN, the nearest end.
+    pub(crate) fn colour(self, share: f64) -> Color32 {
+        let table: &[u32] = match self {
+            Self::Viridis => &VIRIDIS,
+            Self::Cividis => &CIVIDIS,
+            Self::Grey => &GREY,
+        };
+        let place = share.clamp(0.0, 1.0).max(0.0) * (table.len() - 1) as f64;
+        let below = (0..table.len() - 1).rev().find(|&i| i as f64 <= place).unwrap_or(0);
+        let mix = place - below as f64;
+        let (from, to) = (channels(table[below]), channels(table[below + 1]));
+        let [r, g, b] = std::array::from_fn(|i| mixed(from[i], to[i], mix));
+        Color32::from_rgb(r, g, b)
+    }
+}
+
+fn channels(rgb: u32) -> [u8; 3] {
+    let [_, r, g, b] = rgb.to_be_bytes();
+    [r, g, b]
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "between two bytes, and rounded"
+)]
+fn mixed(from: u8, to: u8, share: f64) -> u8 {
+    (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as u8
+}

@@ -1,0 +1,196 @@
+//! What panes draw: plain data, made once a frame from the document and the newest snapshot.
+//!
+//! A pane that has these needs neither the engine nor the scene's file; a test can write them by
+//! hand. Words for people are made here or later, never in the engine.
+
+use std::path::PathBuf;
+
+use eframe::egui::{TextureId, Vec2};
+
+use crate::geometry::{Frame, Point};
+use crate::tactile::{Filters, Tuning};
+
+/// The scene as it is drawn.
+#[derive(Debug, Clone)]
+pub(crate) struct SceneView {
+    /// What people call it.
+    pub(crate) name: String,
+    /// Where it was opened or saved.
+    pub(crate) path: Option<PathBuf>,
+    /// Whether it differs from its file.
+    pub(crate) is_edited: bool,
+    /// Width and height of the workspace, mm.
+    pub(crate) size_mm: [f64; 2],
+    /// The textiles in order; the last one is on top.
+    pub(crate) cloths: Vec<Cloth>,
+    /// Gains and compression in force.
+    pub(crate) tuning: Tuning,
+    /// What "reset" goes back to.
+    pub(crate) default_tuning: Tuning,
+    /// The level that compression leaves alone, dB re 1 µm; `None` while nothing has a level.
+    pub(crate) reference_db: Option<f64>,
+    /// The filters of the two bands.
+    pub(crate) filters: Filters,
+    /// Rows and columns of the display, if its contactors form a grid.
+    pub(crate) grid: Option<(usize, usize)>,
+    /// The textiles of the library with a level, for the compression curve.
+    pub(crate) library: Vec<LibraryDot>,
+    /// What undo would take back.
+    pub(crate) undo: Option<&'static str>,
+    /// What redo would bring back.
+    pub(crate) redo: Option<&'static str>,
+}
+
+/// A textile that lies in the workspace.
+#[derive(Debug, Clone)]
+pub(crate) struct Cloth {
+    /// The scene's name for it: a number or a letter.
+    pub(crate) label: String,
+    /// The textile's name.
+    pub(crate) name: String,
+    /// Where it lies and how it is turned.
+    pub(crate) workspace_from_textile: Frame,
+    /// Extent along warp and weft, mm.
+    pub(crate) size_mm: [f64; 2],
+    /// The scene's gain, dB.
+    pub(crate) gain_db: f64,
+    /// How it looks; `None` while it has no picture.
+    pub(crate) picture: Option<ClothPicture>,
+}
+
+/// The picture that a textile is tiled with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ClothPicture {
+    /// The texture that holds it.
+    pub(crate) texture: TextureId,
+    /// How much cloth one tile shows, mm.
+    pub(crate) tile_mm: Vec2,
+}
+
+/// A textile of the library as the compression curve shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LibraryDot {
+    /// The textile's name.
+    pub(crate) name: String,
+    /// Its mean amplitudes without any gain, µm.
+    pub(crate) mean_um: [f64; 2],
+    /// The gain that its manifest states, dB.
+    pub(crate) gain_db: f64,
+    /// Its level, dB re 1 µm.
+    pub(crate) level_db: f64,
+    /// Whether the scene places it.
+    pub(crate) is_placed: bool,
+}
+
+/// What the engine did last.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Live {
+    /// Ticks since the engine started.
+    pub(crate) tick: u64,
+    /// The middle of the display; `None` before the pointer was ever in the workspace.
+    pub(crate) centre: Option<Point>,
+    /// Speed of the display, mm/s.
+    pub(crate) speed_mm_per_s: f64,
+    /// Contactors in index order.
+    pub(crate) dots: Vec<Dot>,
+    /// Whether everything was switched off and nothing was armed since.
+    pub(crate) is_stopped: bool,
+    /// What moves the display.
+    pub(crate) source: Source,
+    /// Rendering: method and cost.
+    pub(crate) status: Status,
+    /// The device.
+    pub(crate) bridge: Option<BridgeView>,
+}
+
+/// A contactor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Dot {
+    /// Where it is in the workspace.
+    pub(crate) position: Point,
+    /// The textile under it: its place in the scene's list.
+    pub(crate) cloth: Option<usize>,
+    /// Peak amplitudes of both bands after gains, before output limits, µm.
+    pub(crate) amplitude_um: [f64; 2],
+    /// Whether an output limit bites.
+    pub(crate) is_limited: bool,
+}
+
+/// What moves the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Source {
+    /// The pointer.
+    #[default]
+    Pointer,
+    /// The display by itself, along a stroke.
+    Stroke {
+        /// Whether it moves now.
+        is_playing: bool,
+    },
+    /// A recording or a stream.
+    Other,
+}
+
+/// Rendering: method and cost.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Status {
+    /// The rendering method.
+    pub(crate) method: &'static str,
+    /// Cost of a tick, s; `None` where nobody measures.
+    pub(crate) tick_cost_s: Option<f64>,
+    /// Bound of the method's level error, dB.
+    pub(crate) bound_db: f64,
+    /// Ticks that never were.
+    pub(crate) missed: u64,
+    /// Ticks that came late.
+    pub(crate) late: u64,
+    /// Age of the felt amplitude, s: from the pointer to the middle of the felt tick.
+    pub(crate) felt_age_s: Option<f64>,
+}
+
+/// The device and the link to it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct BridgeView {
+    /// Where the connection stands, for people.
+    pub(crate) state: &'static str,
+    /// What may be done with it.
+    pub(crate) phase: BridgePhase,
+    /// Ticks from a frame to its effect.
+    pub(crate) depth: u8,
+    /// From the last frame but one to the last, measured on the device's ticks, s.
+    pub(crate) frame_interval_s: Option<f64>,
+    /// Soft-start gain of the last frame, 0…1.
+    pub(crate) gain: Option<f64>,
+    /// Frames sent.
+    pub(crate) frames_sent: u64,
+    /// Counters that ought to stay at zero, with their names.
+    pub(crate) troubles: Vec<(&'static str, u64)>,
+}
+
+/// What may be done with a device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum BridgePhase {
+    /// On the way to ready.
+    #[default]
+    Opening,
+    /// It may be armed.
+    Ready,
+    /// High voltage is on, or about to be.
+    Armed,
+    /// It refused or is gone.
+    Broken,
+}
+
+impl Live {
+    /// Whether high voltage is on, or about to be.
+    pub(crate) fn is_armed(&self) -> bool {
+        self.bridge.as_ref().is_some_and(|bridge| bridge.phase == BridgePhase::Armed)
+    }
+
+    /// The textile under most contactors; of equals the one on top.
+    pub(crate) fn cloth_under_display(&self) -> Option<usize> {
+        let n_cloths = self.dots.iter().filter_map(|dot| dot.cloth).max()? + 1;
+        let count = |cloth| self.dots.iter().filter(|dot| dot.cloth == Some(cloth)).count();
+        (0..n_cloths).max_by_key(|&cloth| count(cloth))
+    }
+}

@@ -1,0 +1,277 @@
+//! A slider in one row: name, rail, number with unit.
+//!
+//! The rail shows where its resting value is and snaps softly to it; a double click goes back to
+//! it; Shift moves finely; the number can be clicked and typed over, unit and all.
+
+use eframe::egui::{
+    self, Align2, Color32, EventFilter, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo,
+    accesskit, pos2, vec2,
+};
+
+use crate::app::theme::{self, Palette, ROW};
+use crate::quantity;
+
+/// Width of the name, points.
+const NAME: f32 = 84.0;
+/// Width of the number with its unit, points.
+const NUMBER: f32 = 70.0;
+/// Within this distance the thumb snaps to the resting value, points.
+const SNAP: f32 = 4.0;
+/// How much finer Shift moves.
+const FINE: f64 = 0.1;
+
+/// What a slider measures.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scale {
+    /// Lowest value.
+    pub(crate) least: f64,
+    /// Highest value.
+    pub(crate) most: f64,
+    /// The value that a double click goes back to.
+    pub(crate) resting: f64,
+    /// One step of the arrow keys; values from the rail are multiples of it.
+    pub(crate) step: f64,
+    /// Digits after the point.
+    pub(crate) decimals: usize,
+    /// The unit.
+    pub(crate) unit: &'static str,
+    /// Shown values are stored values times this (100 for %).
+    pub(crate) factor: f64,
+}
+
+impl Scale {
+    /// Gains from −30 to +30 dB.
+    pub(crate) fn gain(resting: f64) -> Self {
+        let (least, most) = (-30.0, 30.0);
+        Self { least, most, resting, step: 0.1, decimals: 1, unit: "dB", factor: 1.0 }
+    }
+
+    /// Shares from 0 to 100 %.
+    pub(crate) fn share(resting: f64) -> Self {
+        Self { least: 0.0, most: 1.0, resting, step: 0.01, decimals: 0, unit: "%", factor: 100.0 }
+    }
+
+    fn stepped(&self, value: f64) -> f64 {
+        let whole = (value / self.step).round();
+        // Dividing by the reciprocal keeps tenths as short in files as on the screen.
+        (whole / (1.0 / self.step).round()).clamp(self.least, self.most)
+    }
+
+    fn share_of(&self, value: f64) -> f64 {
+        ((value - self.least) / (self.most - self.least)).clamp(0.0, 1.0)
+    }
+
+    fn value_at(&self, share: f64) -> f64 {
+        self.least + share.clamp(0.0, 1.0) * (self.most - self.least)
+    }
+
+    /// Reads what was typed: digits with a comma or a point, any minus, the unit or none.
+    fn parsed(&self, text: &str) -> Option<f64> {
+        let bare = text.trim().trim_end_matches(self.unit).trim();
+        let plain = bare.replace('−', "-").replace(',', ".");
+        let value = plain.parse::<f64>().ok()? / self.factor;
+        value.is_finite().then(|| value.clamp(self.least, self.most))
+    }
+}
+
+/// Shows the slider; says the new value when the user changed it.
+pub(crate) fn slider_row(
+    ui: &mut Ui,
+    name: &str,
+    ink: Color32,
+    scale: Scale,
+    value: f64,
+) -> (Option<f64>, Response) {
+    let width = ui.available_width();
+    let (row, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+    let palette = Palette::in_ui(ui);
+    let name_at = pos2(row.left(), row.center().y);
+    ui.painter().text(name_at, Align2::LEFT_CENTER, name, theme::body(), palette.text);
+    let rail = Rect::from_min_max(
+        pos2(row.left() + NAME, row.top()),
+        pos2(row.right() - NUMBER - 8.0, row.bottom()),
+    );
+    let id = ui.scope_id().with(("slider", name));
+    let response = ui.interact(rail, id, Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), value * scale.factor, name));
+    declare(ui, id, &scale);
+    let slid = slid(ui, &response, rail, &scale, value);
+    paint_rail(ui, &response, rail, &scale, slid.unwrap_or(value), ink);
+    let number = Rect::from_min_max(pos2(row.right() - NUMBER, row.top()), row.max);
+    let typed = number_field(ui, number, id.with("number"), name, &scale, slid.unwrap_or(value));
+    let new = typed.or(slid).filter(|new| (new - value).abs() > 1e-9);
+    (new, response)
+}
+
+/// The value that pointer, keys or an assistive tool ask for.
+fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> Option<f64> {
+    if response.double_clicked() {
+        return Some(scale.resting);
+    }
+    let fine = ui.input(|input| input.modifiers.shift);
+    if response.dragged() && fine {
+        let moved = f64::from(response.drag_delta().x / span(rail).width());
+        return Some(scale.value_at(scale.share_of(value) + FINE * moved));
+    }
+    if (response.dragged() || response.clicked() || response.is_pointer_button_down_on()) && !fine {
+        let pointer = response.interact_pointer_pos()?;
+        let resting_x = x_of(rail, scale, scale.resting);
+        if (pointer.x - resting_x).abs() < SNAP {
+            return Some(scale.resting);
+        }
+        let share = f64::from((pointer.x - span(rail).left()) / span(rail).width());
+        return Some(scale.stepped(scale.value_at(share)));
+    }
+    let steps = key_steps(ui, response);
+    if steps != 0 {
+        let size = scale.step * if fine { FINE } else { 1.0 };
+        return Some((value + f64::from(steps) * size).clamp(scale.least, scale.most));
+    }
+    asked_value(ui, response.id).map(|asked| (asked / scale.factor).clamp(scale.least, scale.most))
+}
+
+fn key_steps(ui: &Ui, response: &Response) -> i32 {
+    let requests = |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action));
+    let mut ups = requests(accesskit::Action::Increment);
+    let mut downs = requests(accesskit::Action::Decrement);
+    if response.has_focus() {
+        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        ups += ui.input(|input| input.num_presses(Key::ArrowRight));
+        downs += ui.input(|input| input.num_presses(Key::ArrowLeft));
+    }
+    let count = |n: usize| i32::try_from(n).unwrap_or(0);
+    count(ups) - count(downs)
+}
+
+fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
+    ui.input(|input| {
+        let requests = input.accesskit_action_requests(id, accesskit::Action::SetValue);
+        requests
+            .filter_map(|request| match request.data {
+                Some(accesskit::ActionData::NumericValue(value)) => Some(value),
+                _ => None,
+            })
+            .last()
+    })
+    .filter(|value| value.is_finite())
+}
+
+fn declare(ui: &Ui, id: Id, scale: &Scale) {
+    ui.ctx().accesskit_node_builder(id, |node| {
+        node.set_min_numeric_value(scale.least * scale.factor);
+        node.set_max_numeric_value(scale.most * scale.factor);
+        node.set_numeric_value_step(scale.step * scale.factor);
+        node.add_action(accesskit::Action::SetValue);
+        node.add_action(accesskit::Action::Increment);
+        node.add_action(accesskit::Action::Decrement);
+    });
+}
+
+/// Where the middle of the thumb may go.
+fn span(rail: Rect) -> Rect {
+    rail.shrink2(vec2(6.0, 0.0))
+}
+
+fn x_of(rail: Rect, scale: &Scale, value: f64) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
+    let share = scale.share_of(value) as f32;
+    span(rail).left() + share * span(rail).width()
+}
+
+fn paint_rail(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64, ink: Color32) {
+    let palette = Palette::in_ui(ui);
+    let painter = ui.painter();
+    let y = painter.round_to_pixel_center(rail.center().y);
+    let track = span(rail);
+    painter.hline(track.x_range(), y, Stroke::new(2.0, palette.hovered));
+    let (resting, here) = (x_of(rail, scale, scale.resting), x_of(rail, scale, value));
+    painter.vline(
+        painter.round_to_pixel_center(resting),
+        (y - 5.0)..=(y + 5.0),
+        Stroke::new(1.0, palette.line),
+    );
+    painter.hline(resting.min(here)..=resting.max(here), y, Stroke::new(3.0, ink));
+    let is_held = response.hovered() || response.dragged();
+    painter.circle_filled(pos2(here, y), if is_held { 7.0 } else { 6.0 }, ink);
+    painter.circle_filled(pos2(here, y), if is_held { 3.5 } else { 4.0 }, palette.panel);
+    if response.has_focus() {
+        painter.circle_stroke(pos2(here, y), 9.0, Stroke::new(1.0, palette.selection));
+    }
+}
+
+/// The number, right-aligned; a click turns it into a field.
+fn number_field(
+    ui: &mut Ui,
+    rect: Rect,
+    id: Id,
+    name: &str,
+    scale: &Scale,
+    value: f64,
+) -> Option<f64> {
+    let editing: Option<String> = ui.data(|data| data.get_temp(id));
+    let Some(mut text) = editing else {
+        let response = ui.interact(rect, id, Sense::click());
+        let spoken = quantity::with_unit(value * scale.factor, scale.decimals, scale.unit);
+        let label = format!("{name} value");
+        response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &label);
+            info.current_text_value = Some(spoken.clone());
+            info
+        });
+        super::text::paint_number(ui, rect, value * scale.factor, scale.decimals, scale.unit);
+        let response = response.on_hover_text("Click to type a value");
+        if response.clicked() {
+            let digits = quantity::fixed(value * scale.factor, scale.decimals);
+            ui.data_mut(|data| data.insert_temp(id, digits));
+            ui.memory_mut(|memory| memory.request_focus(id));
+        }
+        return None;
+    };
+    let field = egui::TextEdit::singleline(&mut text)
+        .id(id)
+        .font(theme::number())
+        .hint_text(name)
+        .align(egui::Align2::RIGHT_CENTER)
+        .margin(egui::Margin::symmetric(4, 3));
+    let response = ui.put(rect, field);
+    if response.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        let is_cancelled = ui.input(|input| input.key_pressed(Key::Escape));
+        return scale.parsed(&text).filter(|_| !is_cancelled);
+    }
+    ui.data_mut(|data| data.insert_temp(id, text));
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn typed_values_are_read_with_any_minus_comma_and_unit() {
+        let gain = Scale::gain(0.0);
+        for (text, value) in [("−3.5 dB", -3.5), ("-3,5", -3.5), (" 12dB", 12.0), ("99", 30.0)] {
+            assert_eq!(gain.parsed(text), Some(value), "{text}");
+        }
+        assert_eq!(Scale::share(0.0).parsed("35 %"), Some(0.35));
+        for text in ["", "loud", "NaN", "inf"] {
+            assert_eq!(gain.parsed(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn values_from_the_rail_are_round() {
+        let gain = Scale::gain(0.0);
+        assert_eq!(gain.stepped(-3.049), -3.0);
+        assert_eq!(gain.stepped(0.299_999), 0.3);
+        assert_eq!(Scale::share(0.0).stepped(0.348_7), 0.35);
+    }
+
+    #[test]
+    fn the_ends_of_the_rail_are_the_ends_of_the_scale() {
+        let gain = Scale::gain(0.0);
+        assert_eq!(gain.value_at(gain.share_of(-30.0)), -30.0);
+        assert_eq!(gain.value_at(1.7), 30.0);
+    }
+}

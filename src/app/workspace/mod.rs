@@ -1,0 +1,113 @@
+//! The workspace: the scene in mm from above, with the display moving over it, and a lens that
+//! shows what lies under the finger.
+//!
+//! Draws and says where the pointer is; what the pointer does is the engine's business.
+
+mod cloth;
+mod display;
+mod lens;
+mod ruler;
+mod trail;
+mod transform;
+
+pub(crate) use trail::Trail;
+pub(crate) use transform::ViewTransform;
+
+use eframe::egui::{
+    self, CursorIcon, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
+
+use super::theme::Palette;
+use super::view::{Live, SceneView};
+use crate::geometry::Point;
+
+/// Space around the workspace, points.
+const MARGIN: f32 = 16.0;
+
+/// What came of showing the workspace.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shown {
+    /// How mm are laid on the screen.
+    pub(crate) view: ViewTransform,
+    /// Where the pointer is, if it is over the workspace and nothing covers it.
+    pub(crate) pointer: Option<Point>,
+}
+
+/// Shows the workspace in all the space that is left.
+pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -> Shown {
+    let palette = Palette::in_ui(ui);
+    let (frame, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    ui.painter().rect_filled(frame, 0, palette.floor);
+    let inner = Rect::from_min_max(frame.min + vec2(ruler::THICKNESS, ruler::THICKNESS), frame.max);
+    let (ground, lens) = lens::split(inner, scene.size_mm);
+    let view = ViewTransform::fitted(ground.shrink(MARGIN), scene.size_mm);
+    let painter = ui.painter_at(inner);
+    paint_extent(&painter, &view, scene.size_mm);
+    paint_scene(&painter, &view, scene, live, trail);
+    paint_tags(&painter, &view, scene, live);
+    ruler::paint(&ui.painter_at(frame), frame, &view, scene.size_mm, live.centre);
+    if let Some(lens) = lens {
+        lens::show(ui, lens, scene, live, trail);
+    }
+    let pointer = felt_place(&response, &view, ground, scene.size_mm);
+    let response = if pointer.is_some() { response.on_hover_cursor(CursorIcon::Crosshair) } else { response };
+    response.widget_info(|| {
+        let words = format!("Workspace with {} textiles", scene.cloths.len());
+        WidgetInfo::labeled(egui::Role::Canvas, true, words)
+    });
+    Shown { view, pointer }
+}
+
+/// Draws textiles, trail and contactors through a view; the lens uses it too.
+fn paint_scene(
+    painter: &Painter,
+    view: &ViewTransform,
+    scene: &SceneView,
+    live: &Live,
+    trail: &Trail,
+) {
+    let under = live.cloth_under_display();
+    for (index, cloth) in scene.cloths.iter().enumerate() {
+        cloth::paint(painter, view, cloth, under == Some(index));
+    }
+    if scene.cloths.is_empty() {
+        cloth::paint_empty(painter, view.rect());
+    }
+    display::paint_trail(painter, view, &trail.aged());
+    if live.centre.is_some() {
+        display::paint(painter, view, &live.dots);
+    }
+}
+
+fn paint_tags(painter: &Painter, view: &ViewTransform, scene: &SceneView, live: &Live) {
+    let under = live.cloth_under_display();
+    for (index, cloth) in scene.cloths.iter().enumerate() {
+        cloth::paint_tag(painter, view, cloth, under == Some(index));
+    }
+}
+
+fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
+    let palette = Palette::of(painter.ctx().theme());
+    let corners = [Point::default(), Point::new(size_mm[0], size_mm[1])];
+    let [low, high] = corners.map(|corner| view.screen(corner));
+    let extent = Rect::from_two_pos(low, high);
+    painter.rect_stroke(extent, 0, Stroke::new(1.0, palette.hairline), StrokeKind::Outside);
+}
+
+fn felt_place(
+    response: &Response,
+    view: &ViewTransform,
+    ground: Rect,
+    size_mm: [f64; 2],
+) -> Option<Point> {
+    let at = response.hover_pos().filter(|at| ground.contains(*at))?;
+    let place = view.workspace(at);
+    is_near(place, size_mm).then_some(place)
+}
+
+/// Whether a place is in the workspace or so close that the display still reaches into it.
+pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
+    let reach_mm = 20.0;
+    let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
+    within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])
+}
