@@ -1,0 +1,191 @@
+//! Building textiles from recipes, and a library from its recipes.
+//!
+//! Same recipe, same bytes: nothing here looks at a clock, a thread count or the order of a
+//! folder.
+
+use std::fs;
+use std::path::Path;
+
+use super::TextileError;
+use super::cloth::portrait;
+use super::index::{Index, IndexEntry};
+use super::library::{INDEX, Library};
+use super::loaded::{MANIFEST, STEP_MM, made_profiles};
+use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
+use super::profile_file;
+use crate::files::{FileError, encode_png, read_text, sha256_hex, write_atomic};
+use crate::progress::Progress;
+use crate::surface::Direction;
+use crate::tactile::{Filters, Levels, Tuning};
+
+/// The name of the picture.
+const PICTURE: &str = "appearance.png";
+/// Pixels a millimetre of the picture.
+const PX_PER_MM: f64 = 10.0;
+
+/// A file of a built textile.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BuiltFile {
+    /// Its name in the textile's folder.
+    pub name: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+/// Builds a textile from its recipe: four profiles, the picture and the complete manifest. `path`
+/// only names the recipe in errors.
+///
+/// # Errors
+/// A source that is no recipe.
+pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileError> {
+    let no_recipe = || TextileError::NoRecipe {
+        path: path.to_owned(),
+        kind: recipe.source.kind(),
+    };
+    let strokes = made_profiles(&recipe.source).ok_or_else(no_recipe)?;
+    let mut files = Vec::new();
+    let mut smd_um = 0.0;
+    for (direction, heights) in Direction::ALL.into_iter().zip(strokes()) {
+        let name = format!("{}.csv", direction.key());
+        let bytes = profile_file::write(&heights, STEP_MM, Path::new(&name))?;
+        smd_um += 0.25 * profile_file::read(&bytes, Path::new(&name))?.smd_um();
+        files.push(BuiltFile { name, bytes });
+    }
+    let cloth = match &recipe.source {
+        Source::Weave(weave) => weave.cloth(),
+        Source::Knit(knit) => knit.cloth(),
+        Source::Profiles(_) => return Err(no_recipe()),
+    };
+    let bytes = encode_png(&portrait(&cloth), Path::new(PICTURE))?;
+    files.push(BuiltFile {
+        name: PICTURE.to_owned(),
+        bytes,
+    });
+    let manifest = complete(recipe, smd_um, path)?;
+    let bytes = manifest.to_toml(path)?.into_bytes();
+    files.push(BuiltFile {
+        name: MANIFEST.to_owned(),
+        bytes,
+    });
+    Ok(files)
+}
+
+/// The manifest of a built textile: its recipe, the files made from it, its roughness.
+fn complete(recipe: &Manifest, smd_um: f64, path: &Path) -> Result<Manifest, TextileError> {
+    let mut manifest = recipe.clone();
+    let hash = Some(recipe.source.recipe_hash(path)?);
+    let files =
+        ProfileFiles(Direction::ALL.map(|direction| Some(format!("{}.csv", direction.key()))));
+    match &mut manifest.source {
+        Source::Profiles(_) => {}
+        Source::Weave(keys) => keys.set_files(files, hash),
+        Source::Knit(keys) => keys.set_files(files, hash),
+    }
+    manifest.appearance = Some(AppearanceKeys {
+        image: PICTURE.to_owned(),
+        px_per_mm: PX_PER_MM,
+    });
+    manifest
+        .measured
+        .insert("smd_um".to_owned(), (smd_um * 100.0).round() / 100.0);
+    Ok(manifest)
+}
+
+/// Builds the textile of a recipe (TOML) into a folder, the manifest last: a folder with a
+/// manifest is whole.
+pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, TextileError> {
+    let recipe = Manifest::from_toml(recipe, path)?;
+    let files = build(&recipe, path)?;
+    write(&files, folder)?;
+    let manifest = folder.join(MANIFEST);
+    Manifest::from_toml(&read_text(&manifest)?, &manifest)
+}
+
+fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
+    fs::create_dir_all(folder).map_err(|source| FileError::Write {
+        path: folder.to_owned(),
+        source,
+    })?;
+    files
+        .iter()
+        .try_for_each(|file| write_atomic(&folder.join(&file.name), &file.bytes))
+}
+
+/// Builds every textile of the library `from` into the folder `to` and writes its index with this
+/// default tuning. Manifests of recipes are enough; textiles that are no models are copied.
+pub fn build_library(
+    from: &Library,
+    to: &Path,
+    tuning: Tuning,
+    progress: &mut Progress<'_>,
+) -> Result<Index, TextileError> {
+    let n = from.ids().len().max(1) as f64;
+    for (done, id) in from.ids().iter().enumerate() {
+        progress.step(done as f64 / n, id)?;
+        let recipe = from.manifest(id)?;
+        let path = from.root().join(id).join(MANIFEST);
+        let files = match recipe.source {
+            Source::Profiles(_) => copied(from, id, &recipe)?,
+            Source::Weave(_) | Source::Knit(_) => build(&recipe, &path)?,
+        };
+        write(&files, &to.join(id))?;
+    }
+    let index = measure(from.ids(), to, tuning)?;
+    let path = to.join(INDEX);
+    write_atomic(&path, index.to_toml(&path)?.as_bytes())?;
+    progress.step(1.0, INDEX)?;
+    Ok(index)
+}
+
+/// The files of a textile that was not made from a recipe.
+fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile>, TextileError> {
+    let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
+    names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
+    names.push(MANIFEST.to_owned());
+    let copy = |name: String| {
+        let bytes = from.file(id, &name)?.into_owned();
+        Ok(BuiltFile { name, bytes })
+    };
+    names.into_iter().map(copy).collect()
+}
+
+fn measure(ids: &[String], folder: &Path, tuning: Tuning) -> Result<Index, TextileError> {
+    // A library without an index: what the folder holds, whatever an old index says.
+    let built = Library::of_folder(folder, ids);
+    index_of(&built, tuning)
+}
+
+/// The index of a library, from its profiles: levels with the default filters (to six digits), the
+/// mean level, the hash of what they were made from.
+pub(crate) fn index_of(library: &Library, tuning: Tuning) -> Result<Index, TextileError> {
+    let mut textiles = Vec::new();
+    let mut content: Vec<Vec<u8>> = Vec::new();
+    for id in library.ids() {
+        let textile = library.load(id)?;
+        let levels = Levels::of(textile.surface(), &Filters::default());
+        let [a40_um, a320_um] = levels.mean_um.map(six_digits);
+        textiles.push(IndexEntry {
+            id: id.clone(),
+            a40_um,
+            a320_um,
+        });
+        content.push(id.clone().into_bytes());
+        content.push(library.file(id, MANIFEST)?.into_owned());
+        for name in textile.manifest().source.files().0.into_iter().flatten() {
+            content.push(library.file(id, &name)?.into_owned());
+        }
+    }
+    let levels: Vec<f64> = textiles.iter().filter_map(IndexEntry::level_db).collect();
+    let mean = levels.iter().sum::<f64>() / levels.len().max(1) as f64;
+    Ok(Index {
+        content_hash: sha256_hex(content.iter().map(Vec::as_slice)),
+        compression_reference_db: (mean * 1e4).round() / 1e4,
+        tuning,
+        textiles,
+    })
+}
+
+/// A number to six significant digits: what rounding hides cannot differ between machines.
+fn six_digits(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}

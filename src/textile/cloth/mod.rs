@@ -1,0 +1,18 @@
+//! A model cloth: yarns in space, the surface they form, the stroke of the probe over it, and its
+//! picture. Weaves and knits differ only in where their yarns run.
+
+mod fibre;
+mod portrait;
+mod relief;
+mod strand;
+mod stroke;
+mod variation;
+mod yarn;
+
+pub(crate) use fibre::add_hairs;
+pub(crate) use portrait::portrait;
+pub(crate) use strand::{Cloth, Node, Strand};
+pub(crate) use stroke::profiles;
+pub(crate) use variation::{Drift, Field, count};
+pub use yarn::Yarn;
+pub(crate) use yarn::YarnRun;

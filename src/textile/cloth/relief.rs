@@ -1,0 +1,263 @@
+//! The upper surface of a cloth on a grid: the highest strand at every point of a window.
+
+use super::strand::{Cloth, Node, Strand};
+use crate::numerics::Grid;
+
+/// Which way the columns of a window run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Axis {
+    /// Columns along the warp (u), rows along the weft (w).
+    Warp,
+    /// Columns along the weft (w), rows along the warp (u).
+    Weft,
+}
+
+/// Where a cloth is looked at: grid points `start + index · step`, columns along `axis`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Window {
+    pub(crate) axis: Axis,
+    /// Column and row of point (0, 0), mm.
+    pub(crate) start_mm: [f64; 2],
+    /// Between columns and between rows, mm.
+    pub(crate) step_mm: [f64; 2],
+    /// Columns and rows.
+    pub(crate) n: [usize; 2],
+}
+
+/// The upper surface within a window.
+#[derive(Debug, Clone)]
+pub(crate) struct Relief {
+    /// Heights, µm.
+    pub(crate) height_um: Grid<f64>,
+    /// Index of the strand on top; `u32::MAX` where there is none.
+    pub(crate) top: Grid<u32>,
+}
+
+/// How far beyond its ends a straight piece is drawn, in half widths: bends have no gaps then.
+const OVERHANG: f64 = 0.3;
+
+/// Two neighbouring nodes in the coordinates of a window.
+struct Piece<'a> {
+    from: [f64; 2],
+    along: [f64; 2],
+    length_mm: f64,
+    ends: [&'a Node; 2],
+    strand: &'a Strand,
+    index: u32,
+}
+
+impl Relief {
+    /// The upper surface of `cloth` within `window`.
+    pub(crate) fn of(cloth: &Cloth, window: &Window) -> Self {
+        let [columns, rows] = window.n;
+        let mut relief = Self {
+            height_um: Grid::filled(columns, rows, cloth.floor_um),
+            top: Grid::filled(columns, rows, u32::MAX),
+        };
+        for (strand, index) in cloth.strands.iter().zip(0_u32..) {
+            for pair in strand.nodes.windows(2) {
+                let [a, b] = [&pair[0], &pair[1]];
+                let reach = a.half_width_mm.max(b.half_width_mm) * (1.0 + OVERHANG);
+                window.for_repeats(cloth.size_mm, [a, b], reach, |from, to| {
+                    relief.draw(window, &Piece::new([from, to], [a, b], strand, index));
+                });
+            }
+        }
+        relief
+    }
+
+    fn draw(&mut self, window: &Window, piece: &Piece<'_>) {
+        let ([first_x, last_x], [first_y, last_y]) = window.cells(piece);
+        for row in first_y..last_y {
+            let y = window.start_mm[1] + row as f64 * window.step_mm[1] - piece.from[1];
+            let heights = self.height_um.row_mut(row);
+            let tops = self.top.row_mut(row);
+            for column in first_x..last_x {
+                let x = window.start_mm[0] + column as f64 * window.step_mm[0] - piece.from[0];
+                if let Some(height) = piece.height_um(x, y)
+                    && height > heights[column]
+                {
+                    heights[column] = height;
+                    tops[column] = piece.index;
+                }
+            }
+        }
+    }
+}
+
+impl Window {
+    /// Calls `draw` with both ends of a piece, in window coordinates, for every repeat of the
+    /// cloth in which it touches the window.
+    fn for_repeats(
+        &self,
+        size_mm: [f64; 2],
+        ends: [&Node; 2],
+        reach: f64,
+        mut draw: impl FnMut([f64; 2], [f64; 2]),
+    ) {
+        let own = |node: &Node| match self.axis {
+            Axis::Warp => [node.u_mm, node.w_mm],
+            Axis::Weft => [node.w_mm, node.u_mm],
+        };
+        let size = match self.axis {
+            Axis::Warp => size_mm,
+            Axis::Weft => [size_mm[1], size_mm[0]],
+        };
+        let (a, b) = (own(ends[0]), own(ends[1]));
+        let repeats = |k: usize| {
+            let (low, high) = (a[k].min(b[k]) - reach, a[k].max(b[k]) + reach);
+            let end = self.start_mm[k] + self.n[k].saturating_sub(1) as f64 * self.step_mm[k];
+            let first = ((self.start_mm[k] - high) / size[k]).ceil();
+            let last = ((end - low) / size[k]).floor();
+            (first, last)
+        };
+        let ((mut x, last_x), (first_y, last_y)) = (repeats(0), repeats(1));
+        while x <= last_x {
+            let mut y = first_y;
+            while y <= last_y {
+                let by = [x * size[0], y * size[1]];
+                draw([a[0] + by[0], a[1] + by[1]], [b[0] + by[0], b[1] + by[1]]);
+                y += 1.0;
+            }
+            x += 1.0;
+        }
+    }
+
+    /// The half-open ranges of columns and rows that a piece can touch.
+    fn cells(&self, piece: &Piece<'_>) -> ([usize; 2], [usize; 2]) {
+        let half_width = piece.ends[0].half_width_mm.max(piece.ends[1].half_width_mm);
+        let range = |k: usize| {
+            let to = piece.from[k] + piece.along[k] * piece.length_mm;
+            let run = OVERHANG * half_width * piece.along[k].abs();
+            let side = half_width * piece.along[1 - k].abs();
+            let reach = if piece.length_mm > 0.0 {
+                run + side
+            } else {
+                half_width
+            };
+            let index = |x: f64| (x - self.start_mm[k]) / self.step_mm[k];
+            let first = index(piece.from[k].min(to) - reach).ceil();
+            let end = index(piece.from[k].max(to) + reach).floor() + 1.0;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "clamped to the window first"
+            )]
+            let cell = |x: f64| x.clamp(0.0, self.n[k] as f64) as usize;
+            [cell(first), cell(end)]
+        };
+        (range(0), range(1))
+    }
+}
+
+impl<'a> Piece<'a> {
+    fn new(places: [[f64; 2]; 2], ends: [&'a Node; 2], strand: &'a Strand, index: u32) -> Self {
+        let [from, to] = places;
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let length_mm = dx.hypot(dy);
+        let along = if length_mm > 1e-9 {
+            [dx / length_mm, dy / length_mm]
+        } else {
+            [1.0, 0.0]
+        };
+        let length_mm = if length_mm > 1e-9 { length_mm } else { 0.0 };
+        Self {
+            from,
+            along,
+            length_mm,
+            ends,
+            strand,
+            index,
+        }
+    }
+
+    /// Height of the strand at (x, y) from the start of the piece, µm; `None` beside it.
+    fn height_um(&self, x: f64, y: f64) -> Option<f64> {
+        let [a, b] = self.ends;
+        let run = x * self.along[0] + y * self.along[1];
+        let side = y * self.along[0] - x * self.along[1];
+        let slack = OVERHANG * a.half_width_mm;
+        let (share, off) = if self.length_mm > 0.0 {
+            if run < -slack || run > self.length_mm + slack {
+                return None;
+            }
+            ((run / self.length_mm).clamp(0.0, 1.0), side)
+        } else {
+            (0.0, x.hypot(y))
+        };
+        let mix = |from: f64, to: f64| from + (to - from) * share;
+        let across = off / mix(a.half_width_mm, b.half_width_mm);
+        if across.abs() >= 1.0 {
+            return None;
+        }
+        let thickness = mix(a.half_thickness_um, b.half_thickness_um);
+        let height = mix(a.z_um, b.z_um) + thickness * racetrack(across, self.strand.flatness);
+        if self.strand.ridge_um <= 0.0 {
+            return Some(height);
+        }
+        // A ridge climbs over the yarn while it runs along: half a turn from flank to flank.
+        let phase = mix(a.twist_rad, b.twist_rad) + 2.5 * across;
+        Some(height - self.strand.ridge_um * (0.5 - 0.5 * phase.cos()))
+    }
+}
+
+/// Upper outline of a racetrack section, 1 in the flat middle, 0 at the edges ±1.
+fn racetrack(across: f64, flatness: f64) -> f64 {
+    let flank = ((across.abs() - flatness) / (1.0 - flatness)).max(0.0);
+    (1.0 - flank * flank).max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn node(u_mm: f64, w_mm: f64) -> Node {
+        Node {
+            u_mm,
+            w_mm,
+            z_um: 10.0,
+            half_width_mm: 0.2,
+            half_thickness_um: 100.0,
+            twist_rad: 0.0,
+        }
+    }
+
+    fn cloth(nodes: Vec<Node>) -> Cloth {
+        let strand = Strand {
+            nodes,
+            flatness: 0.0,
+            ridge_um: 0.0,
+            colour: [1.0; 3],
+        };
+        Cloth {
+            size_mm: [2.0, 3.0],
+            strands: vec![strand],
+            floor_um: -50.0,
+        }
+    }
+
+    #[test]
+    fn a_straight_yarn_shows_its_section_in_every_repeat() {
+        let cloth = cloth(vec![node(0.0, 0.5), node(1.0, 0.5), node(2.0, 0.5)]);
+        for axis in [Axis::Warp, Axis::Weft] {
+            let window = Window {
+                axis,
+                start_mm: [0.0; 2],
+                step_mm: [0.1; 2],
+                n: [40, 40],
+            };
+            let relief = Relief::of(&cloth, &window);
+            let at = |along: usize, across: usize| match axis {
+                Axis::Warp => relief.height_um.row(across)[along],
+                Axis::Weft => relief.height_um.row(along)[across],
+            };
+            for along in 0..40 {
+                let section = 10.0 + 100.0 * 0.75_f64.sqrt();
+                assert!((at(along, 5) - 110.0).abs() < 1e-9, "crown");
+                assert!((at(along, 4) - section).abs() < 1e-9, "flank");
+                assert!((at(along, 35) - 110.0).abs() < 1e-9, "the next repeat");
+                assert_eq!(at(along, 10), -50.0, "beside it");
+            }
+        }
+    }
+}

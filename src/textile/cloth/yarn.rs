@@ -1,0 +1,232 @@
+//! A yarn as a recipe states it, and how a length of it varies.
+
+use serde::{Deserialize, Serialize};
+
+use super::strand::{Node, Strand};
+use super::variation::{Drift, count};
+use crate::numerics::Random;
+use crate::textile::TextileError;
+use crate::textile::manifest::Checker;
+
+/// A yarn: section, twist, irregularity, loose fibres, colour.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Yarn {
+    /// Width of the section as it lies in the cloth, µm.
+    pub width_um: f64,
+    /// Thickness of the section as it lies in the cloth, µm.
+    pub thickness_um: f64,
+    /// Share of the width that is flat: 0 elliptic, towards 0.9 a tape.
+    #[serde(default)]
+    pub flatness: f64,
+    /// Coefficient of variation of the thickness from yarn to yarn.
+    #[serde(default)]
+    pub count_cv: f64,
+    /// Coefficient of variation of the thickness along a yarn.
+    #[serde(default)]
+    pub uneven_cv: f64,
+    /// Correlation length of the variation along a yarn, mm.
+    #[serde(default = "default_uneven_mm")]
+    pub uneven_mm: f64,
+    /// Thick places per metre of yarn.
+    #[serde(default)]
+    pub slubs_per_m: f64,
+    /// How much thicker a slub is: 0.5 = half as thick again.
+    #[serde(default)]
+    pub slub_gain: f64,
+    /// Length of a slub, mm.
+    #[serde(default = "default_slub_mm")]
+    pub slub_mm: f64,
+    /// Bands (barré): standard deviation of the thickness between groups of yarns.
+    #[serde(default)]
+    pub band_cv: f64,
+    /// Width of a band, mm.
+    #[serde(default = "default_band_mm")]
+    pub band_mm: f64,
+    /// Turns per metre.
+    #[serde(default)]
+    pub twist_per_m: f64,
+    /// Plies (or filament bundles) that show as ridges: ridges per turn.
+    #[serde(default = "default_plies")]
+    pub plies: u8,
+    /// Depth of the ridges, µm.
+    #[serde(default)]
+    pub ridge_um: f64,
+    /// Loose fibres on the surface, per mm².
+    #[serde(default)]
+    pub hairs_per_mm2: f64,
+    /// Length of a loose fibre, mm.
+    #[serde(default = "default_hair_mm")]
+    pub hair_mm: f64,
+    /// Thickness of a loose fibre, or of a tuft that acts as one, µm.
+    #[serde(default = "default_hair_um")]
+    pub hair_um: f64,
+    /// How far a loose fibre stands off the yarn under the probe's load, µm.
+    #[serde(default)]
+    pub hair_lift_um: f64,
+    /// How unevenly the loose fibres are raised: standard deviation of the logarithm.
+    #[serde(default)]
+    pub hair_clump: f64,
+    /// Colour of the fibre, `#rrggbb`.
+    pub colour: String,
+    /// How much the lightness varies from yarn to yarn (standard deviation, share).
+    #[serde(default)]
+    pub colour_cv: f64,
+}
+
+fn default_uneven_mm() -> f64 {
+    3.0
+}
+fn default_slub_mm() -> f64 {
+    8.0
+}
+fn default_band_mm() -> f64 {
+    4.0
+}
+fn default_plies() -> u8 {
+    2
+}
+fn default_hair_mm() -> f64 {
+    1.5
+}
+fn default_hair_um() -> f64 {
+    18.0
+}
+
+impl Yarn {
+    /// Refuses figures that no yarn has.
+    pub(crate) fn check(&self, checker: &Checker<'_>, table: &str) -> Result<(), TextileError> {
+        let share = 0.0..=0.6;
+        let limits = [
+            ("width_um", self.width_um, 10.0..=5000.0),
+            ("thickness_um", self.thickness_um, 10.0..=5000.0),
+            ("flatness", self.flatness, 0.0..=0.9),
+            ("count_cv", self.count_cv, share.clone()),
+            ("uneven_cv", self.uneven_cv, share.clone()),
+            ("uneven_mm", self.uneven_mm, 0.5..=50.0),
+            ("slubs_per_m", self.slubs_per_m, 0.0..=200.0),
+            ("slub_gain", self.slub_gain, 0.0..=4.0),
+            ("slub_mm", self.slub_mm, 0.5..=100.0),
+            ("band_cv", self.band_cv, share.clone()),
+            ("band_mm", self.band_mm, 0.5..=20.0),
+            ("twist_per_m", self.twist_per_m, 0.0..=5000.0),
+            ("plies", f64::from(self.plies), 1.0..=8.0),
+            ("ridge_um", self.ridge_um, 0.0..=500.0),
+            ("hairs_per_mm2", self.hairs_per_mm2, 0.0..=100.0),
+            ("hair_mm", self.hair_mm, 0.1..=10.0),
+            ("hair_um", self.hair_um, 1.0..=500.0),
+            ("hair_lift_um", self.hair_lift_um, 0.0..=3000.0),
+            ("hair_clump", self.hair_clump, 0.0..=2.0),
+            ("colour_cv", self.colour_cv, share),
+        ];
+        for (key, value, range) in limits {
+            checker.within(table, key, value, range)?;
+        }
+        if parse_colour(&self.colour).is_none() {
+            let what = format!("colour is \"{}\"", self.colour);
+            return Err(checker.wrong(table, "colour", what, "write it as \"#rrggbb\""));
+        }
+        Ok(())
+    }
+
+    /// The colour of one yarn, red, green and blue 0…1.
+    pub(crate) fn colour_of_one(&self, random: &mut Random) -> [f64; 3] {
+        let lightness = (1.0 + self.colour_cv * random.normal()).clamp(0.3, 1.7);
+        parse_colour(&self.colour)
+            .unwrap_or([0.5; 3])
+            .map(|c| (c * lightness).min(1.0))
+    }
+
+    /// The bands that groups of yarns share, over an axis of the cloth.
+    pub(crate) fn bands(&self, size_mm: f64, random: &mut Random) -> Drift {
+        Drift::new(size_mm, self.band_mm, random)
+    }
+}
+
+fn parse_colour(text: &str) -> Option<[f64; 3]> {
+    let digits = text
+        .strip_prefix('#')
+        .filter(|d| d.len() == 6 && d.is_ascii())?;
+    let part = |k: usize| u8::from_str_radix(&digits[2 * k..2 * k + 2], 16).ok();
+    Some([part(0)?, part(1)?, part(2)?].map(|v| f64::from(v) / 255.0))
+}
+
+/// One length of yarn that closes on itself: how thick it is and how its ridges lie.
+#[derive(Debug)]
+pub(crate) struct YarnRun<'a> {
+    yarn: &'a Yarn,
+    length_mm: f64,
+    level: f64,
+    uneven: Drift,
+    slubs: Vec<(f64, f64)>,
+    phase_rad: f64,
+    rad_per_mm: f64,
+    colour: [f64; 3],
+}
+
+impl<'a> YarnRun<'a> {
+    /// A run of `length_mm`; `band` is the value of its band (see [`Yarn::bands`]).
+    pub(crate) fn new(yarn: &'a Yarn, length_mm: f64, band: f64, random: &mut Random) -> Self {
+        let level = yarn.count_cv * random.normal() + yarn.band_cv * band;
+        let uneven = Drift::new(length_mm, yarn.uneven_mm, random);
+        let expected = yarn.slubs_per_m * length_mm / 1000.0;
+        // A whole number with the wanted mean: the chance of one more is the fraction.
+        let n_slubs = count((expected - random.uniform()).max(0.0));
+        let slub = |random: &mut Random| {
+            let place = random.uniform() * length_mm;
+            (place, random.uniform_in(0.5, 1.5) * yarn.slub_gain)
+        };
+        let slubs = (0..n_slubs).map(|_| slub(random)).collect();
+        let phase_rad = random.uniform() * std::f64::consts::TAU;
+        // A whole number of ridges closes the run.
+        let ridges = (f64::from(yarn.plies) * yarn.twist_per_m * length_mm / 1000.0).round();
+        let rad_per_mm = ridges * std::f64::consts::TAU / length_mm;
+        let colour = yarn.colour_of_one(random);
+        Self {
+            yarn,
+            length_mm,
+            level,
+            uneven,
+            slubs,
+            phase_rad,
+            rad_per_mm,
+            colour,
+        }
+    }
+
+    /// Thickness over the yarn's mean thickness at a place along the run, mm.
+    pub(crate) fn thickness(&self, along_mm: f64) -> f64 {
+        let own = 1.0 + self.level + self.yarn.uneven_cv * self.uneven.at(along_mm);
+        let slub = |&(place, gain): &(f64, f64)| {
+            let apart = (along_mm - place).rem_euclid(self.length_mm);
+            let apart = apart.min(self.length_mm - apart) / (0.5 * self.yarn.slub_mm);
+            gain * (-2.0 * apart * apart).exp()
+        };
+        (own + self.slubs.iter().map(slub).sum::<f64>()).clamp(0.3, 5.0)
+    }
+
+    /// A node of this run at a place in the cloth.
+    pub(crate) fn node(&self, place: [f64; 2], z_um: f64, along_mm: f64) -> Node {
+        let thick = self.thickness(along_mm);
+        Node {
+            u_mm: place[0],
+            w_mm: place[1],
+            z_um,
+            half_width_mm: 0.0005 * self.yarn.width_um * (0.5 + 0.5 * thick),
+            half_thickness_um: 0.5 * self.yarn.thickness_um * thick,
+            twist_rad: self.phase_rad + self.rad_per_mm * along_mm,
+        }
+    }
+
+    /// The strand of these nodes.
+    pub(crate) fn strand(&self, nodes: Vec<Node>) -> Strand {
+        let yarn = self.yarn;
+        let colour = self.colour;
+        Strand {
+            nodes,
+            flatness: yarn.flatness,
+            ridge_um: yarn.ridge_um,
+            colour,
+        }
+    }
+}

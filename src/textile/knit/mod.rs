@@ -1,0 +1,184 @@
+//! Weft-knitted cloth: courses of loops drawn through the loops of the course before.
+//!
+//! Every course is one yarn along the three-dimensional centre line of its stitches, an omega in
+//! the plane that dives from the face (legs) to the back (head and feet), after the loop models of
+//! Peirce (1947) and Leaf (1960) with the curve written as a trochoid. Structures place face and
+//! back stitches, tucks, a second bed and pile. The stroke along the wales is called warp, the
+//! stroke along the courses weft.
+//!
+//! It knows nothing of probes, spectra or files.
+
+mod course;
+mod structure;
+
+pub use structure::Structure;
+
+use serde::{Deserialize, Serialize};
+
+use super::TextileError;
+use super::cloth::{Cloth, Yarn, add_hairs};
+use super::manifest::{Checker, ProfileFiles};
+use crate::numerics::Random;
+
+/// The recipe of a knitted cloth (`kind = "knit"`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Knit {
+    /// Always `knit`.
+    pub kind: String,
+    /// Hash of the recipe that the profiles came from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recipe_hash: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_forward: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_reverse: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_forward: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_reverse: Option<String>,
+    /// Chooses the irregularities.
+    pub seed: u32,
+    /// Which stitch stands where.
+    pub structure: Structure,
+    /// Wales (columns of loops) per centimetre.
+    pub wales_per_cm: f64,
+    /// Courses (rows of loops) per centimetre.
+    pub courses_per_cm: f64,
+    /// Height of a loop in courses: above 1, since loops overlap.
+    #[serde(default = "default_loop_height")]
+    pub loop_height: f64,
+    /// How much the omega bulges at head and feet, share of the wale pitch.
+    #[serde(default = "default_bulge")]
+    pub bulge: f64,
+    /// How far legs and arcs stand before and behind the middle of the cloth, µm.
+    pub loop_depth_um: f64,
+    /// Height between raised and sunken stitches of a rib or a piqué, µm.
+    #[serde(default)]
+    pub relief_um: f64,
+    /// Height of pile loops under the probe's load, µm.
+    #[serde(default)]
+    pub pile_um: f64,
+    /// How unevenly the pile stands: standard deviation of the logarithm.
+    #[serde(default)]
+    pub pile_clump: f64,
+    /// Standard deviation of the loop size from place to place.
+    #[serde(default = "default_tension")]
+    pub tension_drift: f64,
+    /// Over what length tension and bow change, mm.
+    #[serde(default = "default_drift_mm")]
+    pub drift_mm: f64,
+    /// Standard deviation of the places of wales and courses, share of their pitch.
+    #[serde(default = "default_pitch")]
+    pub pitch_cv: f64,
+    /// Standard deviation of the bow of a course, µm.
+    #[serde(default)]
+    pub bow_um: f64,
+    /// Out-of-plane puckering by lively twist, µm rms.
+    #[serde(default)]
+    pub pucker_um: f64,
+    /// Size of the puckers, mm.
+    #[serde(default = "default_pucker_mm")]
+    pub pucker_mm: f64,
+    /// Noise of the probe, µm rms.
+    #[serde(default = "default_noise_um")]
+    pub noise_um: f64,
+    /// The yarn.
+    pub yarn: Yarn,
+}
+
+fn default_loop_height() -> f64 {
+    1.6
+}
+fn default_bulge() -> f64 {
+    0.1
+}
+fn default_tension() -> f64 {
+    0.1
+}
+fn default_drift_mm() -> f64 {
+    4.0
+}
+fn default_pitch() -> f64 {
+    0.05
+}
+fn default_pucker_mm() -> f64 {
+    2.0
+}
+fn default_noise_um() -> f64 {
+    0.2
+}
+
+impl Knit {
+    /// Refuses what cannot be knitted.
+    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+        let limits = [
+            ("wales_per_cm", self.wales_per_cm, 1.0..=40.0),
+            ("courses_per_cm", self.courses_per_cm, 1.0..=50.0),
+            ("loop_height", self.loop_height, 1.0..=3.0),
+            ("bulge", self.bulge, 0.0..=0.3),
+            ("loop_depth_um", self.loop_depth_um, 1.0..=2000.0),
+            ("relief_um", self.relief_um, 0.0..=3000.0),
+            ("pile_um", self.pile_um, 0.0..=5000.0),
+            ("pile_clump", self.pile_clump, 0.0..=2.0),
+            ("tension_drift", self.tension_drift, 0.0..=0.5),
+            ("drift_mm", self.drift_mm, 1.0..=10.0),
+            ("pitch_cv", self.pitch_cv, 0.0..=0.3),
+            ("bow_um", self.bow_um, 0.0..=2000.0),
+            ("pucker_um", self.pucker_um, 0.0..=500.0),
+            ("pucker_mm", self.pucker_mm, 0.5..=10.0),
+            ("noise_um", self.noise_um, 0.0..=10.0),
+        ];
+        for (key, value, range) in limits {
+            checker.within("source", key, value, range)?;
+        }
+        self.yarn.check(checker, "source.yarn")
+    }
+
+    /// The profile files that stand for the recipe, if it names them.
+    pub(crate) fn files(&self) -> ProfileFiles {
+        ProfileFiles([
+            self.warp_forward.clone(),
+            self.warp_reverse.clone(),
+            self.weft_forward.clone(),
+            self.weft_reverse.clone(),
+        ])
+    }
+
+    /// Names the profile files, and the recipe that they came from.
+    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
+        [
+            self.warp_forward,
+            self.warp_reverse,
+            self.weft_forward,
+            self.weft_reverse,
+        ] = files.0;
+        self.recipe_hash = recipe_hash;
+    }
+
+    /// The cloth.
+    pub(crate) fn cloth(&self) -> Cloth {
+        let random = Random::new(u64::from(self.seed));
+        let bed = course::Bed::new(self, &random);
+        let mut strands = bed.courses(0.0, &random.branch("front"));
+        let behind_um = 2.0 * self.loop_depth_um + self.yarn.thickness_um;
+        if self.structure.has_second_bed() {
+            strands.extend(bed.courses(behind_um, &random.branch("second bed")));
+        }
+        if self.structure.has_pile() {
+            strands.extend(bed.pile(&random));
+        }
+        let floor_um = -(behind_um + self.yarn.thickness_um + self.relief_um);
+        let mut cloth = Cloth {
+            size_mm: bed.size_mm,
+            strands,
+            floor_um,
+        };
+        add_hairs(&mut cloth, 0, &self.yarn, &mut random.branch("hairs"));
+        cloth
+    }
+}

@@ -1,0 +1,109 @@
+//! Which stitch stands where: the structures of common weft knits as repeats of stitches.
+
+use serde::{Deserialize, Serialize};
+
+/// A knitted structure, seen on the side that is touched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Structure {
+    /// Single jersey, face: the legs of the loops make columns of Vs.
+    Jersey,
+    /// Single jersey, back: heads and feet make rows of arcs.
+    ReverseJersey,
+    /// Rib: one wale of face stitches, one of back stitches.
+    #[serde(rename = "rib-1-1")]
+    Rib11,
+    /// Rib: two wales of face stitches, two of back stitches.
+    #[serde(rename = "rib-2-2")]
+    Rib22,
+    /// Interlock: two 1×1 ribs that lock; both sides show face stitches, every second wale half
+    /// a course higher.
+    Interlock,
+    /// Piqué: tuck stitches on every second wale, two courses at a time, seen from the back.
+    Pique,
+    /// Jersey back with a loop of pile drawn out of every stitch.
+    Terry,
+    /// Jersey back with a float yarn laid in and brushed: the nap comes from the yarn's hairs.
+    Fleece,
+}
+
+/// One stitch of a repeat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stitch {
+    /// +1: legs in front (face), −1: arcs in front (back).
+    pub(crate) face: f64,
+    /// Height of the stitch, in units of the recipe's relief.
+    pub(crate) lift: f64,
+    /// Shift along the wale, in courses.
+    pub(crate) shift: f64,
+    /// Length of the loop, in units of the recipe's loop height.
+    pub(crate) length: f64,
+}
+
+const FACE: Stitch = Stitch {
+    face: 1.0,
+    lift: 0.0,
+    shift: 0.0,
+    length: 1.0,
+};
+const BACK: Stitch = Stitch { face: -1.0, ..FACE };
+
+impl Structure {
+    /// Wales and courses in a repeat.
+    pub(crate) fn repeat(self) -> [usize; 2] {
+        match self {
+            Self::Jersey | Self::ReverseJersey | Self::Terry | Self::Fleece => [1, 1],
+            Self::Rib11 | Self::Interlock => [2, 1],
+            Self::Rib22 => [4, 1],
+            Self::Pique => [2, 4],
+        }
+    }
+
+    /// The stitch on a wale of a course.
+    pub(crate) fn stitch(self, wale: usize, course: usize) -> Stitch {
+        let rib = |is_face: bool| {
+            if is_face {
+                Stitch { lift: 0.5, ..FACE }
+            } else {
+                Stitch { lift: -0.5, ..BACK }
+            }
+        };
+        match self {
+            Self::Jersey => FACE,
+            Self::ReverseJersey | Self::Terry | Self::Fleece => BACK,
+            Self::Rib11 => rib(wale.is_multiple_of(2)),
+            Self::Rib22 => rib(wale % 4 < 2),
+            Self::Interlock => {
+                let shift = if wale.is_multiple_of(2) { 0.25 } else { -0.25 };
+                Stitch { shift, ..FACE }
+            }
+            Self::Pique => {
+                // A tuck lies across the loop that it did not knit through: both stand out.
+                let is_tuck = (wale % 2 == 0) == (course % 4 < 2);
+                if is_tuck {
+                    Stitch {
+                        lift: 0.6,
+                        length: 0.8,
+                        ..BACK
+                    }
+                } else {
+                    Stitch {
+                        lift: -0.4,
+                        length: 1.15,
+                        ..BACK
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether a second bed of loops lies behind the first.
+    pub(crate) fn has_second_bed(self) -> bool {
+        matches!(self, Self::Interlock)
+    }
+
+    /// Whether loops of pile stand out of the ground.
+    pub(crate) fn has_pile(self) -> bool {
+        matches!(self, Self::Terry)
+    }
+}

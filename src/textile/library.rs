@@ -1,0 +1,200 @@
+//! Libraries of textiles: a folder, or the one that is part of the program.
+//!
+//! A library knows its ids; everything else is read when it is asked for.
+
+use std::borrow::Cow;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use super::index::Index;
+use super::loaded::{MANIFEST, Textile, read_manifest};
+use super::manifest::Manifest;
+use super::{TextileError, shipped};
+use crate::files::{FileError, read, read_text};
+use crate::tactile::Tuning;
+
+/// The name of the index in a library's folder.
+pub(crate) const INDEX: &str = "library.toml";
+
+/// Where a library's files lie.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Store {
+    /// A folder with a folder for every textile.
+    Folder(PathBuf),
+    /// Part of the program.
+    Shipped,
+}
+
+/// A library of textiles.
+#[derive(Debug, Clone)]
+pub struct Library {
+    store: Store,
+    ids: Vec<String>,
+    index: Option<Index>,
+}
+
+impl Library {
+    /// The library that is part of the program.
+    pub fn shipped() -> Result<Self, TextileError> {
+        let path = Store::Shipped.root().join(INDEX);
+        let index = Index::from_toml(shipped::INDEX, &path)?;
+        Ok(Self::with_index(Store::Shipped, index))
+    }
+
+    /// A folder with textiles. Without a `library.toml` its textiles are the sub-folders that hold
+    /// a manifest, in the order of their names.
+    pub fn open(folder: &Path) -> Result<Self, TextileError> {
+        let failed = |source| FileError::Read {
+            path: folder.to_owned(),
+            source,
+        };
+        let entries = fs::read_dir(folder).map_err(failed)?;
+        let store = Store::Folder(folder.to_owned());
+        let path = folder.join(INDEX);
+        if path.exists() {
+            return Ok(Self::with_index(
+                store,
+                Index::from_toml(&read_text(&path)?, &path)?,
+            ));
+        }
+        let mut ids = Vec::new();
+        for entry in entries {
+            let entry = entry.map_err(failed)?;
+            if let (Ok(id), true) = (
+                entry.file_name().into_string(),
+                entry.path().join(MANIFEST).is_file(),
+            ) {
+                ids.push(id);
+            }
+        }
+        ids.sort();
+        Ok(Self {
+            store,
+            ids,
+            index: None,
+        })
+    }
+
+    /// The textiles with these ids of a folder, whatever index it has.
+    pub(crate) fn of_folder(folder: &Path, ids: &[String]) -> Self {
+        Self {
+            store: Store::Folder(folder.to_owned()),
+            ids: ids.to_vec(),
+            index: None,
+        }
+    }
+
+    fn with_index(store: Store, index: Index) -> Self {
+        let ids = index
+            .textiles
+            .iter()
+            .map(|entry| entry.id.clone())
+            .collect();
+        Self {
+            store,
+            ids,
+            index: Some(index),
+        }
+    }
+
+    /// The ids of the textiles, in order.
+    pub fn ids(&self) -> &[String] {
+        &self.ids
+    }
+
+    /// What `library.toml` says, if there is one.
+    pub fn index(&self) -> Option<&Index> {
+        self.index.as_ref()
+    }
+
+    /// The tuning of a new scene; no gain and no compression without a `library.toml`.
+    pub fn default_tuning(&self) -> Tuning {
+        self.index
+            .as_ref()
+            .map_or_else(Tuning::default, Index::default_tuning)
+    }
+
+    /// The folder, or what stands for it in messages.
+    pub fn root(&self) -> PathBuf {
+        self.store.root()
+    }
+
+    /// Whether this is the library that is part of the program.
+    pub fn is_shipped(&self) -> bool {
+        self.store == Store::Shipped
+    }
+
+    /// The manifest of a textile: no profile is read.
+    pub fn manifest(&self, id: &str) -> Result<Manifest, TextileError> {
+        self.check_id(id)?;
+        read_manifest(&self.store, id)
+    }
+
+    /// A textile with its surface. Only its own files are read.
+    ///
+    /// # Errors
+    /// An unknown id, a file that is missing, wrong or has vanished since the library was opened.
+    pub fn load(&self, id: &str) -> Result<Arc<Textile>, TextileError> {
+        self.check_id(id)?;
+        Textile::load(&self.store, id).map(Arc::new)
+    }
+
+    /// The bytes of a file of a textile.
+    pub(crate) fn file(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, TextileError> {
+        Ok(self.store.read(id, name)?)
+    }
+
+    /// Ids come from the index; a folder without one may have gained textiles meanwhile.
+    fn check_id(&self, id: &str) -> Result<(), TextileError> {
+        let mut parts = Path::new(id).components();
+        let is_name = matches!(
+            (parts.next(), parts.next()),
+            (Some(Component::Normal(_)), None)
+        );
+        let is_there = match &self.store {
+            Store::Folder(folder) => is_name && folder.join(id).join(MANIFEST).is_file(),
+            Store::Shipped => false,
+        };
+        if is_there || self.ids.iter().any(|known| known == id) {
+            return Ok(());
+        }
+        let known = if self.ids.is_empty() {
+            "no textiles".to_owned()
+        } else {
+            self.ids.join(", ")
+        };
+        let library = self.root().display().to_string();
+        Err(TextileError::Unknown {
+            id: id.to_owned(),
+            library,
+            known,
+        })
+    }
+}
+
+impl Store {
+    fn root(&self) -> PathBuf {
+        match self {
+            Self::Folder(folder) => folder.clone(),
+            Self::Shipped => PathBuf::from("the shipped library"),
+        }
+    }
+
+    /// How a file of a textile is called in messages.
+    pub(crate) fn path(&self, id: &str, name: &str) -> PathBuf {
+        self.root().join(id).join(name)
+    }
+
+    /// The bytes of a file of a textile.
+    pub(crate) fn read(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, FileError> {
+        let path = self.path(id, name);
+        match self {
+            Self::Folder(_) => read(&path).map(Cow::Owned),
+            Self::Shipped => shipped::file(id, name).map(Cow::Borrowed).ok_or_else(|| {
+                let source = std::io::Error::from(std::io::ErrorKind::NotFound);
+                FileError::Read { path, source }
+            }),
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Woven cloth: two sets of yarns that pass over and under one another.
+//!
+//! Every end and pick is a tube of its own section that runs over and under by the interlacing
+//! matrix, as Peirce (1937) drew it: at a crossing both centres stand apart by half the sum of the
+//! two thicknesses there, warp and weft sharing that rise by the crimp balance; in between the
+//! path is a cosine, over a float it runs level or bulges. Thick places lift what crosses them,
+//! tension shifts the crimp between warp and weft from place to place, picks bow.
+//!
+//! It knows nothing of probes, spectra or files.
+
+mod crossing;
+mod interlacing;
+
+pub use interlacing::{Interlacing, NAMES};
+
+use serde::{Deserialize, Serialize};
+
+use super::TextileError;
+use super::cloth::{Cloth, Yarn, add_hairs};
+use super::manifest::{Checker, ProfileFiles};
+use crate::numerics::Random;
+
+/// The recipe of a woven cloth (`kind = "weave"`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Weave {
+    /// Always `weave`.
+    pub kind: String,
+    /// Hash of the recipe that the profiles came from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recipe_hash: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_forward: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_reverse: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_forward: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_reverse: Option<String>,
+    /// Chooses the irregularities.
+    pub seed: u32,
+    /// Which yarn lies on top where.
+    pub interlacing: Interlacing,
+    /// Ends per centimetre.
+    pub warp_per_cm: f64,
+    /// Picks per centimetre.
+    pub weft_per_cm: f64,
+    /// Share of the crimp that the warp takes, 0…1.
+    #[serde(default = "half")]
+    pub crimp_share: f64,
+    /// How far apart crossing yarns stand, as a share of half the sum of their thicknesses.
+    #[serde(default = "default_compaction")]
+    pub compaction: f64,
+    /// How far a float bulges for every crossing that it passes, µm.
+    #[serde(default)]
+    pub float_lift_um: f64,
+    /// Standard deviation of the crimp share from place to place.
+    #[serde(default = "default_tension")]
+    pub tension_drift: f64,
+    /// Over what length tension and bow change, mm.
+    #[serde(default = "default_drift_mm")]
+    pub drift_mm: f64,
+    /// Standard deviation of the places of yarns, share of their pitch.
+    #[serde(default = "default_pitch")]
+    pub pitch_cv: f64,
+    /// Standard deviation of the bow of a yarn, µm.
+    #[serde(default)]
+    pub bow_um: f64,
+    /// Out-of-plane puckering by lively twist, µm rms.
+    #[serde(default)]
+    pub pucker_um: f64,
+    /// Size of the puckers, mm.
+    #[serde(default = "default_pucker_mm")]
+    pub pucker_mm: f64,
+    /// Noise of the probe, µm rms.
+    #[serde(default = "default_noise_um")]
+    pub noise_um: f64,
+    /// The warp yarn.
+    pub warp: Yarn,
+    /// The weft yarn.
+    pub weft: Yarn,
+}
+
+fn half() -> f64 {
+    0.5
+}
+fn default_compaction() -> f64 {
+    0.9
+}
+fn default_tension() -> f64 {
+    0.1
+}
+fn default_drift_mm() -> f64 {
+    4.0
+}
+fn default_pitch() -> f64 {
+    0.05
+}
+fn default_pucker_mm() -> f64 {
+    2.0
+}
+fn default_noise_um() -> f64 {
+    0.2
+}
+
+impl Weave {
+    /// Refuses what cannot be woven.
+    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+        let limits = [
+            ("warp_per_cm", self.warp_per_cm, 2.0..=100.0),
+            ("weft_per_cm", self.weft_per_cm, 2.0..=100.0),
+            ("crimp_share", self.crimp_share, 0.0..=1.0),
+            ("compaction", self.compaction, 0.1..=1.2),
+            ("float_lift_um", self.float_lift_um, 0.0..=500.0),
+            ("tension_drift", self.tension_drift, 0.0..=0.5),
+            ("drift_mm", self.drift_mm, 1.0..=10.0),
+            ("pitch_cv", self.pitch_cv, 0.0..=0.3),
+            ("bow_um", self.bow_um, 0.0..=2000.0),
+            ("pucker_um", self.pucker_um, 0.0..=500.0),
+            ("pucker_mm", self.pucker_mm, 0.5..=10.0),
+            ("noise_um", self.noise_um, 0.0..=10.0),
+        ];
+        for (key, value, range) in limits {
+            checker.within("source", key, value, range)?;
+        }
+        if let Err(what) = self.interlacing.repeat() {
+            let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
+            let mend = format!("give rows of X and . or one of {}", names.join(", "));
+            return Err(checker.wrong("source", "interlacing", what, mend));
+        }
+        self.warp.check(checker, "source.warp")?;
+        self.weft.check(checker, "source.weft")
+    }
+
+    /// The profile files that stand for the recipe, if it names them.
+    pub(crate) fn files(&self) -> ProfileFiles {
+        ProfileFiles([
+            self.warp_forward.clone(),
+            self.warp_reverse.clone(),
+            self.weft_forward.clone(),
+            self.weft_reverse.clone(),
+        ])
+    }
+
+    /// Names the profile files, and the recipe that they came from.
+    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
+        [
+            self.warp_forward,
+            self.warp_reverse,
+            self.weft_forward,
+            self.weft_reverse,
+        ] = files.0;
+        self.recipe_hash = recipe_hash;
+    }
+
+    /// The cloth. Empty if the interlacing is none: [`Weave::check`] refuses that.
+    pub(crate) fn cloth(&self) -> Cloth {
+        let random = Random::new(u64::from(self.seed));
+        let thickness = self.warp.thickness_um + self.weft.thickness_um;
+        let floor_um = -thickness;
+        let Ok(repeat) = self.interlacing.repeat() else {
+            return Cloth {
+                size_mm: [1.0; 2],
+                strands: Vec::new(),
+                floor_um,
+            };
+        };
+        let (size_mm, ends, picks) = crossing::strands(self, &repeat, &random);
+        let n_ends = ends.len();
+        let mut cloth = Cloth {
+            size_mm,
+            strands: ends,
+            floor_um,
+        };
+        // Hairs of the warp are rooted before the weft is there, so that each yarn has its own.
+        let mut picks = picks;
+        add_hairs(&mut cloth, 0, &self.warp, &mut random.branch("warp hairs"));
+        let from = cloth.strands.len();
+        cloth.strands.append(&mut picks);
+        add_hairs(
+            &mut cloth,
+            from,
+            &self.weft,
+            &mut random.branch("weft hairs"),
+        );
+        debug_assert!(cloth.strands.len() >= n_ends, "ends stay");
+        cloth
+    }
+}
