@@ -21,22 +21,32 @@
 
 mod codes;
 mod device;
+mod emulator;
 mod error;
 mod fields;
 pub mod framing;
+mod handle;
 mod host;
+mod link;
 pub mod message;
+mod port;
 
 pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
+#[cfg(unix)]
+pub use emulator::PtyEmulator;
+pub use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
 pub use framing::{Decoder, Packet, Received};
+pub use handle::{Bridge, Target};
 pub use host::{
     BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
     SOFT_START_TICKS, SentFrame, Sequence,
 };
+pub use link::{Spread, StopHandle, Timings};
 pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
     Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
     frame, kind,
 };
+pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};

@@ -1,0 +1,122 @@
+//! The real-time front ends. Only counters, states and the device's clock are asserted, never a duration of ours.
+
+use std::time::{Duration, Instant};
+
+use super::*;
+use crate::bridge::framing::Decoder;
+use crate::bridge::message::{DeviceMessage, Hello, Message};
+
+/// Reads until a message satisfies `wanted`, for at most 20 s.
+fn wait_for(port: &mut dyn Port, wanted: impl Fn(&DeviceMessage) -> bool) -> DeviceMessage {
+    let deadline = Instant::now() + Duration::from_secs(20);
+    let mut decoder = Decoder::new(1024);
+    let mut buffer = [0; 256];
+    while Instant::now() < deadline {
+        let count = port.read(&mut buffer, Duration::from_millis(50)).unwrap();
+        for &byte in &buffer[..count] {
+            if let Some(packet) = decoder.push(byte)
+                && let Ok(message) = DeviceMessage::decode(&packet, 24)
+                && wanted(&message)
+            {
+                return message;
+            }
+        }
+    }
+    panic!("nothing came");
+}
+
+fn greet(port: &mut dyn Port, session: u32) {
+    port.write(
+        Hello::new(session).packet(1).unwrap().as_bytes(),
+        Duration::from_secs(1),
+    )
+    .unwrap();
+    wait_for(
+        port,
+        |m| matches!(m, DeviceMessage::Caps(caps) if caps.session == session),
+    );
+    wait_for(port, |m| matches!(m, DeviceMessage::Status(_)));
+}
+
+#[test]
+fn an_emulator_in_process_answers_and_ticks() {
+    let mut port = EmulatorThread::start(DeviceModel::default()).unwrap();
+    greet(&mut port, 7);
+}
+
+#[cfg(unix)]
+mod behind_a_pty {
+    use std::fs;
+    use std::path::PathBuf;
+    use std::sync::Arc;
+    use std::thread::JoinHandle;
+
+    use super::*;
+    use crate::bridge::BridgeError;
+    use crate::bridge::port::SerialLink;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder =
+            std::env::temp_dir().join(format!("selvedge-bridge-{}-{name}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    type Running = (Arc<AtomicBool>, JoinHandle<Result<(), BridgeError>>);
+
+    fn run(emulator: PtyEmulator) -> Running {
+        let stop = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&stop);
+        let thread = Builder::new().spawn(move || emulator.run(&seen)).unwrap();
+        (stop, thread)
+    }
+
+    #[test]
+    fn a_host_finds_it_by_its_link_and_may_come_again() {
+        let folder = folder("again");
+        let (link, log) = (folder.join("array"), folder.join("log.csv"));
+        let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
+        let (stop, thread) = run(emulator);
+        for session in [7, 8] {
+            let mut port = SerialLink::open(&link.display().to_string()).unwrap();
+            greet(&mut port, session);
+        }
+        stop.store(true, Ordering::Release);
+        thread.join().unwrap().unwrap();
+        assert!(fs::symlink_metadata(&link).is_err(), "the link is removed");
+        let log = fs::read_to_string(&log).unwrap();
+        let mut lines = log.lines();
+        let header = lines.next().unwrap();
+        assert!(header.starts_with("dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0"));
+        assert!(lines.next().unwrap().contains(",state,READY,,65535,1,0,"));
+        assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn only_links_to_terminals_are_replaced() {
+        let folder = folder("taken");
+        let (file, link) = (folder.join("file"), folder.join("link"));
+        fs::write(&file, "precious").unwrap();
+        let refused = |path: &std::path::Path| {
+            PtyEmulator::new(DeviceModel::default(), path, None)
+                .unwrap_err()
+                .to_string()
+        };
+        assert!(refused(&file).contains("is not a link to a terminal"));
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        assert!(refused(&link).contains("is not a link to a terminal"));
+        assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
+        assert!(refused(&folder.join("none/array")).contains("cannot make the link"));
+        fs::remove_file(&link).unwrap();
+        std::os::unix::fs::symlink("/dev/pts/999999", &link).unwrap();
+        let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+        assert_eq!(
+            fs::read_link(&link).unwrap(),
+            PathBuf::from(emulator.device_path())
+        );
+        drop(emulator);
+        assert!(fs::symlink_metadata(&link).is_err());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,301 @@
+//! What an engine holds of a device: a session with two threads behind it.
+//!
+//! [`Bridge::poll`] runs the session, so that everything happens on the owner's thread except waiting for the port. An
+//! owner that hangs sends no frames and no pings: the device then goes silent by itself, as it should.
+
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::BridgeError;
+use super::codes::{ArrayProfile, Bite};
+use super::device::DeviceModel;
+use super::emulator::EmulatorThread;
+use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
+use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
+use super::message::{Caps, Config, Status, StopHow};
+use super::port::SerialLink;
+
+/// Which device to talk to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// An emulated device inside this process, shaped like the profile.
+    Emulator,
+    /// A serial port, or anything that looks like one.
+    Port(PathBuf),
+}
+
+impl Target {
+    /// A name for people: `emulator` or the path.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Emulator => String::from("emulator"),
+            Self::Port(path) => path.display().to_string(),
+        }
+    }
+
+    /// Opens both ends. May block.
+    fn open(&self, profile: &ArrayProfile) -> Result<Ends, BridgeError> {
+        match self {
+            Self::Emulator => {
+                let port = EmulatorThread::start(DeviceModel::for_array(profile))?;
+                Ok((Box::new(port.clone()), Box::new(port)))
+            }
+            Self::Port(path) => {
+                let port = SerialLink::open(&path.display().to_string())?;
+                Ok((Box::new(port.try_clone()?), Box::new(port)))
+            }
+        }
+    }
+}
+
+/// One device and the session with it.
+#[derive(Debug)]
+pub struct Bridge {
+    target: String,
+    session: HostSession,
+    link: Option<Link>,
+    /// The STATUS that the last frame answered; only the first answer is timed.
+    answered: Option<Instant>,
+}
+
+impl Bridge {
+    /// Starts to open `target` for a display of `n_contactors` contactors and returns at once; news come from
+    /// [`poll`](Self::poll).
+    ///
+    /// `waker` is called from the link's threads whenever there may be news; it must not block.
+    pub fn open(
+        target: Target,
+        profile: ArrayProfile,
+        n_contactors: usize,
+        waker: impl Fn() + Send + Sync + 'static,
+    ) -> Self {
+        let sequence = Sequence::default();
+        let name = target.name();
+        let shape = profile.clone();
+        let opener = Box::new(move || target.open(&shape));
+        let waker: Waker = Arc::new(waker);
+        let mut session = HostSession::new(nonce(), profile, n_contactors, sequence.clone());
+        let link = match Link::open(opener, n_contactors, sequence, waker) {
+            Ok(link) => Some(link),
+            Err(error) => {
+                session.link_gone(&error.to_string());
+                None
+            }
+        };
+        Self {
+            target: name,
+            session,
+            link,
+            answered: None,
+        }
+    }
+
+    /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at least every 100 ms.
+    pub fn poll(&mut self) -> Option<BridgeEvent> {
+        if let Some(event) = self.session.next_event() {
+            return Some(event);
+        }
+        let now = Instant::now();
+        if let Some(how) = self.link.as_ref().and_then(Link::take_stop_by_handle) {
+            self.session.stop(now, how);
+        }
+        while let Some(incoming) = self.link.as_mut().and_then(Link::next) {
+            match incoming {
+                Incoming::Opened => self.session.opened(now),
+                Incoming::Message { message, received } => {
+                    self.session.on_message(received, &message);
+                }
+                Incoming::Gone(reason) => self.session.link_gone(&reason),
+            }
+            if let Some(event) = self.session.next_event() {
+                self.flush();
+                return Some(event);
+            }
+        }
+        self.session.on_time(now);
+        self.flush();
+        if !self.session.state().is_open() {
+            self.release();
+        }
+        self.session.next_event()
+    }
+
+    /// Asks for output; `Armed` or `Disarmed` follows. False when the device is not `Ready`.
+    pub fn arm(&mut self) -> bool {
+        let asked = self.session.arm(Instant::now());
+        self.flush();
+        asked
+    }
+
+    /// Ends output ahead of everything queued, in any state and any number of times.
+    pub fn stop(&mut self, how: StopHow) {
+        self.session.stop(Instant::now(), how);
+        self.flush();
+    }
+
+    /// Asks a faulted device to clear its faults; it becomes `Ready` when their cause is gone.
+    pub fn clear_faults(&mut self) {
+        self.session.clear_faults(Instant::now());
+        self.flush();
+    }
+
+    /// Sends a PING; `Pong` follows.
+    pub fn ping(&mut self) {
+        self.session.ping(Instant::now());
+        self.flush();
+    }
+
+    /// Sends one FRAME for the coming tick, limits and soft start applied; `None` unless armed.
+    ///
+    /// `amplitudes_um` are `[A40, A320]` in µm in contactor order. `stamp` is the time of the input that they follow from,
+    /// for [`timings`](Self::timings). Neither allocates, locks nor waits.
+    pub fn send(
+        &mut self,
+        amplitudes_um: &[[f32; 2]],
+        stamp: Option<Instant>,
+    ) -> Option<SentFrame> {
+        let link = self.link.as_mut()?;
+        let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
+        let received = self.session.status_received();
+        let answers = received.filter(|_| self.answered != received);
+        self.answered = received;
+        link.send_frame(QueuedFrame {
+            packet,
+            answers,
+            stamp,
+        });
+        Some(sent)
+    }
+
+    /// Where the session stands.
+    pub fn state(&self) -> BridgeState {
+        self.session.state()
+    }
+
+    /// `emulator` or the port's path.
+    pub fn target(&self) -> &str {
+        &self.target
+    }
+
+    /// The device's CAPS, once accepted.
+    pub fn caps(&self) -> Option<&Caps> {
+        self.session.caps()
+    }
+
+    /// The device's effective settings, once configured.
+    pub fn config(&self) -> Option<&Config> {
+        self.session.config()
+    }
+
+    /// The last STATUS.
+    pub fn status(&self) -> Option<&Status> {
+        self.session.status()
+    }
+
+    /// How many ticks ahead frames are sent, 1…3.
+    pub fn depth(&self) -> u8 {
+        self.session.depth()
+    }
+
+    /// What the last frame's amplitudes ran into, per contactor.
+    pub fn limited(&self) -> &[Bite] {
+        self.session.limited()
+    }
+
+    /// Everything that is counted on this link.
+    pub fn counters(&self) -> BridgeCounters {
+        let session = self.session.counters();
+        let Some(link) = self.link.as_ref().map(Link::counters) else {
+            return session;
+        };
+        BridgeCounters {
+            frames_sent: link.frames_sent,
+            frames_superseded: link.frames_superseded,
+            bad_received: link.bad_received,
+            events_dropped: link.events_dropped,
+            write_timeouts: link.write_timeouts,
+            ..session
+        }
+    }
+
+    /// How long frames took to reach the port.
+    pub fn timings(&self) -> Timings {
+        self.link.as_ref().map(Link::timings).unwrap_or_default()
+    }
+
+    /// A way to stop the device from other threads; `None` when the link could not even be started.
+    pub fn stop_handle(&self) -> Option<StopHandle> {
+        self.link.as_ref().map(Link::stop_handle)
+    }
+
+    /// Ends output if there is any, waits for the acknowledgement at most `patience`, and ends the threads.
+    ///
+    /// An error when the device did not confirm that it is at rest, or was lost. Dropping does the same without waiting.
+    pub fn close(mut self, patience: Duration) -> Result<(), BridgeError> {
+        let deadline = Instant::now() + patience;
+        let was_live = self.state().is_live();
+        if was_live {
+            self.stop(StopHow::Ramp);
+        }
+        let mut lost = None;
+        while self.state().is_live() && Instant::now() < deadline {
+            match self.poll() {
+                Some(BridgeEvent::Lost(reason)) => lost = Some(reason),
+                Some(_) => {}
+                None => std::thread::sleep(Duration::from_millis(1)),
+            }
+        }
+        let unconfirmed = was_live && (lost.is_some() || self.state().is_live());
+        self.release();
+        while self.link.as_ref().is_some_and(Link::is_running) && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        if unconfirmed {
+            let reason = lost.unwrap_or_else(|| String::from("the device did not come to rest"));
+            return Err(BridgeError::Link {
+                port: self.target.clone(),
+                reason,
+            });
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) {
+        let Some(link) = &mut self.link else { return };
+        if let Some(packet) = self.session.take_stop() {
+            link.send_stop(packet);
+        }
+        while let Some(packet) = self.session.next_packet() {
+            link.send_control(packet);
+        }
+    }
+
+    /// Lets the threads write what is left and end.
+    fn release(&mut self) {
+        self.flush();
+        if let Some(link) = &self.link {
+            link.quit();
+        }
+    }
+}
+
+impl Drop for Bridge {
+    fn drop(&mut self) {
+        if self.state().is_live() {
+            self.stop(StopHow::Ramp);
+        }
+        self.release();
+    }
+}
+
+/// A session number that no earlier session of this port is likely to have had.
+fn nonce() -> u32 {
+    let hash = RandomState::new().build_hasher().finish();
+    let [a, b, c, d, ..] = hash.to_le_bytes();
+    u32::from_le_bytes([a, b, c, d])
+}
+
+#[cfg(test)]
+mod tests;

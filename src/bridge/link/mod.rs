@@ -1,0 +1,325 @@
+//! The two threads of a link: one opens the port and reads, one writes; nobody else ever waits for a port.
+//!
+//! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped and counted: STATUS repeats
+//! itself, requests are repeated). Towards the port there are three ways, in this order: the STOP slot, a ring of control
+//! packets, a ring of frames of which only the newest is written. A STOP empties the other two, so that nothing queued
+//! earlier can follow it. What the messages mean is the session's business.
+
+mod reader;
+mod timings;
+mod writer;
+
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread::{Builder, Thread};
+use std::time::{Duration, Instant};
+
+use rtrb::{Consumer, Producer, RingBuffer};
+
+use super::BridgeError;
+use super::framing::Packet;
+use super::host::Sequence;
+use super::message::{DeviceMessage, Message, Stop, StopHow};
+use super::port::Port;
+use reader::Reader;
+use timings::Histogram;
+pub use timings::{Spread, Timings};
+use writer::Writer;
+
+const INCOMING: usize = 256;
+const CONTROLS: usize = 16;
+const FRAMES: usize = 4;
+
+/// The reading and the writing end of an open port.
+pub(super) type Ends = (Box<dyn Port>, Box<dyn Port>);
+/// Opens a port; runs on the reader's thread because it may block.
+pub(super) type Opener = Box<dyn FnOnce() -> Result<Ends, BridgeError> + Send>;
+/// Called whenever there may be news.
+pub(super) type Waker = Arc<dyn Fn() + Send + Sync>;
+
+/// What the threads tell the owner.
+#[derive(Debug)]
+pub(super) enum Incoming {
+    /// The port is open.
+    Opened,
+    /// A message arrived.
+    Message {
+        message: DeviceMessage,
+        received: Instant,
+    },
+    /// The port could not be opened, or is gone.
+    Gone(String),
+}
+
+/// A FRAME on its way to the port.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct QueuedFrame {
+    pub(super) packet: Packet,
+    /// Arrival of the STATUS that it answers.
+    pub(super) answers: Option<Instant>,
+    /// Time of the input that it is made of.
+    pub(super) stamp: Option<Instant>,
+}
+
+/// What owner, threads and stop handles share. Only the STOP slot has a lock, held for the copy of one packet.
+struct Shared {
+    sequence: Sequence,
+    stop: Mutex<Option<Packet>>,
+    stops_asked: AtomicU64,
+    stops_written: AtomicU64,
+    /// A STOP that came through a handle, for the owner to learn of: 0 none, 1 ramp, 2 now.
+    stop_by_handle: AtomicU8,
+    quit: AtomicBool,
+    running: AtomicU8,
+    writer: OnceLock<Thread>,
+    waker: Waker,
+    status_to_write: Histogram,
+    stamp_to_write: Histogram,
+    frames_sent: AtomicU64,
+    frames_superseded: AtomicU64,
+    bad_received: AtomicU64,
+    events_dropped: AtomicU64,
+    write_timeouts: AtomicU64,
+}
+
+impl Shared {
+    fn new(sequence: Sequence, waker: Waker) -> Self {
+        Self {
+            sequence,
+            stop: Mutex::new(None),
+            stops_asked: AtomicU64::new(0),
+            stops_written: AtomicU64::new(0),
+            stop_by_handle: AtomicU8::new(0),
+            quit: AtomicBool::new(false),
+            running: AtomicU8::new(0),
+            writer: OnceLock::new(),
+            waker,
+            status_to_write: Histogram::new(),
+            stamp_to_write: Histogram::new(),
+            frames_sent: AtomicU64::new(0),
+            frames_superseded: AtomicU64::new(0),
+            bad_received: AtomicU64::new(0),
+            events_dropped: AtomicU64::new(0),
+            write_timeouts: AtomicU64::new(0),
+        }
+    }
+
+    fn put_stop(&self, packet: Packet) {
+        let mut slot = self.stop.lock().unwrap_or_else(PoisonError::into_inner);
+        *slot = Some(packet);
+        self.stops_asked.fetch_add(1, Ordering::Release);
+        drop(slot);
+        self.unpark_writer();
+    }
+
+    /// The STOP to write and the number of STOPs that its writing will have fulfilled.
+    fn take_stop(&self) -> Option<(Packet, u64)> {
+        let mut slot = self.stop.lock().unwrap_or_else(PoisonError::into_inner);
+        let packet = slot.take()?;
+        Some((packet, self.stops_asked.load(Ordering::Acquire)))
+    }
+
+    fn unpark_writer(&self) {
+        if let Some(writer) = self.writer.get() {
+            writer.unpark();
+        }
+    }
+
+    fn has_quit(&self) -> bool {
+        self.quit.load(Ordering::Acquire)
+    }
+}
+
+/// Counts a thread as running for as long as it lives.
+struct Running(Arc<Shared>);
+
+impl Running {
+    fn new(shared: &Arc<Shared>) -> Self {
+        shared.running.fetch_add(1, Ordering::AcqRel);
+        Self(Arc::clone(shared))
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.0.running.fetch_sub(1, Ordering::AcqRel);
+    }
+}
+
+/// Counters of the threads.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LinkCounters {
+    pub(super) frames_sent: u64,
+    pub(super) frames_superseded: u64,
+    pub(super) bad_received: u64,
+    pub(super) events_dropped: u64,
+    pub(super) write_timeouts: u64,
+}
+
+/// The owner's end of a link.
+pub(super) struct Link {
+    shared: Arc<Shared>,
+    incoming: Consumer<Incoming>,
+    failures: Consumer<String>,
+    controls: Producer<Packet>,
+    frames: Producer<QueuedFrame>,
+}
+
+impl fmt::Debug for Link {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Link").finish_non_exhaustive()
+    }
+}
+
+impl Link {
+    /// Starts the reader, which opens the port and then starts the writer. Never waits.
+    pub(super) fn open(
+        opener: Opener,
+        n_channels: usize,
+        sequence: Sequence,
+        waker: Waker,
+    ) -> Result<Self, BridgeError> {
+        let shared = Arc::new(Shared::new(sequence, waker));
+        let (to_owner, incoming) = RingBuffer::new(INCOMING);
+        let (failed, failures) = RingBuffer::new(FRAMES);
+        let (controls, controls_out) = RingBuffer::new(CONTROLS);
+        let (frames, frames_out) = RingBuffer::new(FRAMES);
+        let writer = Writer::new(Arc::clone(&shared), controls_out, frames_out, failed);
+        let reader = Reader::new(Arc::clone(&shared), to_owner, n_channels);
+        let running = Running::new(&shared);
+        Builder::new()
+            .name(String::from("bridge-reader"))
+            .spawn(move || {
+                let _running = running;
+                reader.run(opener, writer);
+            })
+            .map_err(BridgeError::Thread)?;
+        Ok(Self {
+            shared,
+            incoming,
+            failures,
+            controls,
+            frames,
+        })
+    }
+
+    pub(super) fn next(&mut self) -> Option<Incoming> {
+        self.incoming
+            .pop()
+            .ok()
+            .or_else(|| self.failures.pop().ok().map(Incoming::Gone))
+    }
+
+    pub(super) fn send_stop(&self, packet: Packet) {
+        self.shared.put_stop(packet);
+    }
+
+    /// Without room the packet is dropped: every request is repeated.
+    pub(super) fn send_control(&mut self, packet: Packet) {
+        if self.controls.push(packet).is_ok() {
+            self.shared.unpark_writer();
+        }
+    }
+
+    /// Without room the frame is dropped and counted: the writer is stuck, and the device is on its way to silence.
+    pub(super) fn send_frame(&mut self, frame: QueuedFrame) {
+        if self.frames.push(frame).is_err() {
+            self.shared
+                .frames_superseded
+                .fetch_add(1, Ordering::Relaxed);
+        }
+        self.shared.unpark_writer();
+    }
+
+    /// A STOP that went out through a handle since the last call.
+    pub(super) fn take_stop_by_handle(&self) -> Option<StopHow> {
+        match self.shared.stop_by_handle.swap(0, Ordering::AcqRel) {
+            0 => None,
+            1 => Some(StopHow::Ramp),
+            _ => Some(StopHow::Now),
+        }
+    }
+
+    pub(super) fn stop_handle(&self) -> StopHandle {
+        StopHandle {
+            shared: Arc::clone(&self.shared),
+        }
+    }
+
+    pub(super) fn counters(&self) -> LinkCounters {
+        let get = |count: &AtomicU64| count.load(Ordering::Relaxed);
+        LinkCounters {
+            frames_sent: get(&self.shared.frames_sent),
+            frames_superseded: get(&self.shared.frames_superseded),
+            bad_received: get(&self.shared.bad_received),
+            events_dropped: get(&self.shared.events_dropped),
+            write_timeouts: get(&self.shared.write_timeouts),
+        }
+    }
+
+    pub(super) fn timings(&self) -> Timings {
+        Timings {
+            status_to_write: self.shared.status_to_write.spread(),
+            stamp_to_write: self.shared.stamp_to_write.spread(),
+        }
+    }
+
+    /// Lets the threads end once everything queued is written. Does not wait.
+    pub(super) fn quit(&self) {
+        self.shared.quit.store(true, Ordering::Release);
+        self.shared.unpark_writer();
+    }
+
+    pub(super) fn is_running(&self) -> bool {
+        self.shared.running.load(Ordering::Acquire) > 0
+    }
+}
+
+impl Drop for Link {
+    fn drop(&mut self) {
+        self.quit();
+    }
+}
+
+/// Stops a device from any thread: Esc, a signal, a panic hook. Works even when the bridge's owner hangs.
+#[derive(Clone)]
+pub struct StopHandle {
+    shared: Arc<Shared>,
+}
+
+impl fmt::Debug for StopHandle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("StopHandle").finish_non_exhaustive()
+    }
+}
+
+impl StopHandle {
+    /// Sends STOP ahead of everything queued. The bridge's own state follows at its next poll.
+    pub fn stop(&self, how: StopHow) {
+        let code = if how == StopHow::Ramp { 1 } else { 2 };
+        self.shared.stop_by_handle.fetch_max(code, Ordering::AcqRel);
+        if let Some(packet) = (Stop { reason: 1, how }).packet(self.shared.sequence.next()) {
+            self.shared.put_stop(packet);
+        }
+        (self.shared.waker)();
+    }
+
+    /// Waits until every STOP asked for so far is written, at most `patience`. For the last moments of a program.
+    pub fn wait_written(&self, patience: Duration) -> bool {
+        let deadline = Instant::now() + patience;
+        let asked = self.shared.stops_asked.load(Ordering::Acquire);
+        loop {
+            if self.shared.stops_written.load(Ordering::Acquire) >= asked {
+                return true;
+            }
+            if Instant::now() >= deadline {
+                return false;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,157 @@
+//! How long frames take to reach the port, counted without locks by the writer and read by anyone.
+//!
+//! Durations fall into buckets of 1/16 octave from 1 µs, so a percentile is right within 4.5 %.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+const PER_OCTAVE: f64 = 16.0;
+/// Up to 2²⁰ µs, about a second; longer ones share the last bucket.
+const BUCKETS: usize = 321;
+
+/// Median, 99th percentile and largest of some durations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Spread {
+    /// How many there were.
+    pub n: u64,
+    /// Half were at most this long.
+    pub median: Duration,
+    /// 99 % were at most this long.
+    pub p99: Duration,
+    /// The longest.
+    pub max: Duration,
+}
+
+impl Spread {
+    /// The spread of a list of durations, exact; all zero when it is empty.
+    pub fn of(durations: &mut [Duration]) -> Self {
+        durations.sort_unstable();
+        let at = |share: f64| {
+            let rank = rank(durations.len() as u64, share);
+            usize::try_from(rank)
+                .ok()
+                .and_then(|rank| durations.get(rank.saturating_sub(1)))
+        };
+        Self {
+            n: durations.len() as u64,
+            median: at(0.5).copied().unwrap_or_default(),
+            p99: at(0.99).copied().unwrap_or_default(),
+            max: durations.last().copied().unwrap_or_default(),
+        }
+    }
+}
+
+/// Frame timings of a link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Timings {
+    /// From the arrival of a STATUS to the end of the write of the FRAME that answers it.
+    pub status_to_write: Spread,
+    /// From the stamp of the input that a frame is made of (a pointer event) to the end of its write.
+    pub stamp_to_write: Spread,
+}
+
+/// A histogram that one thread fills and others read.
+#[derive(Debug)]
+pub(super) struct Histogram {
+    counts: Vec<AtomicU64>,
+    max_ns: AtomicU64,
+}
+
+impl Histogram {
+    pub(super) fn new() -> Self {
+        Self {
+            counts: (0..BUCKETS).map(|_| AtomicU64::new(0)).collect(),
+            max_ns: AtomicU64::new(0),
+        }
+    }
+
+    pub(super) fn record(&self, duration: Duration) {
+        if let Some(count) = self.counts.get(bucket(duration)) {
+            count.fetch_add(1, Ordering::Relaxed);
+        }
+        let ns = u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX);
+        self.max_ns.fetch_max(ns, Ordering::Relaxed);
+    }
+
+    pub(super) fn spread(&self) -> Spread {
+        let counts: Vec<u64> = self
+            .counts
+            .iter()
+            .map(|c| c.load(Ordering::Relaxed))
+            .collect();
+        let n = counts.iter().sum();
+        let max = Duration::from_nanos(self.max_ns.load(Ordering::Relaxed));
+        let at = |share| {
+            let mut left = rank(n, share);
+            let found = counts.iter().position(|count| {
+                left = left.saturating_sub(*count);
+                left == 0
+            });
+            found.map_or(max, upper_edge).min(max)
+        };
+        Spread {
+            n,
+            median: at(0.5),
+            p99: at(0.99),
+            max,
+        }
+    }
+}
+
+/// The rank, from 1, of the smallest value that at least `share` of `n` values do not exceed.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share of a count is neither negative nor larger than the count"
+)]
+fn rank(n: u64, share: f64) -> u64 {
+    (n as f64 * share).ceil() as u64
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to the buckets before the cast"
+)]
+fn bucket(duration: Duration) -> usize {
+    let us = (duration.as_secs_f64() * 1e6).max(1.0);
+    (us.log2() * PER_OCTAVE).clamp(0.0, (BUCKETS - 1) as f64) as usize
+}
+
+fn upper_edge(bucket: usize) -> Duration {
+    Duration::from_secs_f64(((bucket + 1) as f64 / PER_OCTAVE).exp2() * 1e-6)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_right_within_a_bucket() {
+        let histogram = Histogram::new();
+        let mut durations: Vec<Duration> = (1..=10_000)
+            .map(|us| Duration::from_micros(us * 3))
+            .collect();
+        for &duration in &durations {
+            histogram.record(duration);
+        }
+        let (exact, seen) = (Spread::of(&mut durations), histogram.spread());
+        assert_eq!((seen.n, seen.max), (exact.n, exact.max));
+        for (seen, exact) in [(seen.median, exact.median), (seen.p99, exact.p99)] {
+            let ratio = seen.as_secs_f64() / exact.as_secs_f64();
+            assert!((1.0..1.05).contains(&ratio), "{ratio}");
+        }
+    }
+
+    #[test]
+    fn no_durations_and_extreme_ones_are_defined() {
+        assert_eq!(Histogram::new().spread(), Spread::default());
+        assert_eq!(Spread::of(&mut []), Spread::default());
+        let histogram = Histogram::new();
+        histogram.record(Duration::ZERO);
+        histogram.record(Duration::from_secs(9999));
+        let spread = histogram.spread();
+        assert_eq!((spread.n, spread.max), (2, Duration::from_secs(9999)));
+        assert!(spread.median <= Duration::from_micros(2));
+    }
+}

@@ -1,0 +1,142 @@
+//! The writer's thread: STOP first, then control packets, then the newest frame; one packet a write.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use rtrb::{Consumer, Producer};
+
+use super::{QueuedFrame, Shared};
+use crate::bridge::framing::Packet;
+use crate::bridge::port::Port;
+
+/// How long a port may take for one packet.
+const PATIENCE: Duration = Duration::from_millis(50);
+/// How long the thread sleeps when nobody wakes it.
+const NAP: Duration = Duration::from_millis(100);
+
+/// What became of a write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Written {
+    Yes,
+    TimedOut,
+    /// The second time-out in a row, or the port is gone: the owner has been told.
+    Gone,
+}
+
+/// What the writing thread owns.
+pub(super) struct Writer {
+    shared: Arc<Shared>,
+    controls: Consumer<Packet>,
+    frames: Consumer<QueuedFrame>,
+    failed: Producer<String>,
+    timed_out: bool,
+}
+
+impl Writer {
+    pub(super) fn new(
+        shared: Arc<Shared>,
+        controls: Consumer<Packet>,
+        frames: Consumer<QueuedFrame>,
+        failed: Producer<String>,
+    ) -> Self {
+        Self {
+            shared,
+            controls,
+            frames,
+            failed,
+            timed_out: false,
+        }
+    }
+
+    pub(super) fn run(mut self, mut port: Box<dyn Port>) {
+        loop {
+            match self.step(port.as_mut()) {
+                Some(Written::Gone) => return,
+                Some(_) => {}
+                None if self.shared.has_quit() => return,
+                None => std::thread::park_timeout(NAP),
+            }
+        }
+    }
+
+    /// Writes the most urgent packet; `None` when there is none.
+    pub(super) fn step(&mut self, port: &mut dyn Port) -> Option<Written> {
+        if let Some((stop, asked)) = self.shared.take_stop() {
+            self.discard();
+            let written = self.write(port, &stop);
+            match written {
+                Written::Yes => self.shared.stops_written.store(asked, Ordering::Release),
+                Written::TimedOut => self.shared.put_stop(stop),
+                Written::Gone => {}
+            }
+            return Some(written);
+        }
+        if let Ok(packet) = self.controls.pop() {
+            return Some(self.write(port, &packet));
+        }
+        let frame = self.newest_frame()?;
+        let written = self.write(port, &frame.packet);
+        if written == Written::Yes {
+            self.record(&frame, Instant::now());
+        }
+        Some(written)
+    }
+
+    /// Nothing queued before a STOP may follow it: an ARM would undo it.
+    fn discard(&mut self) {
+        while self.controls.pop().is_ok() {}
+        if self.newest_frame().is_some() {
+            self.shared
+                .frames_superseded
+                .fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    fn newest_frame(&mut self) -> Option<QueuedFrame> {
+        let mut newest = self.frames.pop().ok()?;
+        while let Ok(newer) = self.frames.pop() {
+            self.shared
+                .frames_superseded
+                .fetch_add(1, Ordering::Relaxed);
+            newest = newer;
+        }
+        Some(newest)
+    }
+
+    fn record(&self, frame: &QueuedFrame, written: Instant) {
+        self.shared.frames_sent.fetch_add(1, Ordering::Relaxed);
+        if let Some(received) = frame.answers {
+            self.shared
+                .status_to_write
+                .record(written.saturating_duration_since(received));
+        }
+        if let Some(stamp) = frame.stamp {
+            self.shared
+                .stamp_to_write
+                .record(written.saturating_duration_since(stamp));
+        }
+    }
+
+    fn write(&mut self, port: &mut dyn Port, packet: &Packet) -> Written {
+        let reason = match port.write(packet.as_bytes(), PATIENCE) {
+            Ok(()) => {
+                self.timed_out = false;
+                return Written::Yes;
+            }
+            Err(error) if error.kind() == io::ErrorKind::TimedOut => {
+                self.shared.write_timeouts.fetch_add(1, Ordering::Relaxed);
+                if !std::mem::replace(&mut self.timed_out, true) {
+                    return Written::TimedOut;
+                }
+                String::from("the device stopped taking data: check that it runs")
+            }
+            Err(error) => format!("the device is gone ({error}): check the cable"),
+        };
+        // The ring has room for as many reasons as anyone will read.
+        drop(self.failed.push(reason));
+        (self.shared.waker)();
+        Written::Gone
+    }
+}

@@ -1,0 +1,173 @@
+//! A serial port: opening it with a reason when that fails, reading and writing with time-outs.
+//!
+//! Write one packet per call: the operating system's write may block beyond any time-out when it is given much at once.
+
+use std::fmt;
+use std::io;
+use std::time::Duration;
+
+use serialport::{ClearBuffer, ErrorKind, SerialPort};
+
+use super::Port;
+use crate::bridge::BridgeError;
+
+/// For bridges with a real UART; USB-CDC and ptys ignore it.
+const BAUD: u32 = 1_000_000;
+const OPEN_PATIENCE: Duration = Duration::from_millis(50);
+
+/// An open serial port.
+pub struct SerialLink {
+    port: Box<dyn SerialPort>,
+    name: String,
+}
+
+impl fmt::Debug for SerialLink {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SerialLink")
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}
+
+impl SerialLink {
+    /// Opens `path` for this program alone and drops whatever input it holds. May block: not for a GUI thread.
+    pub fn open(path: &str) -> Result<Self, BridgeError> {
+        let opened = serialport::new(path, BAUD).timeout(OPEN_PATIENCE).open();
+        let port = opened.map_err(|error| BridgeError::Open {
+            port: String::from(path),
+            reason: open_reason(&error),
+        })?;
+        let link = Self::from_port(port, path);
+        // What cannot be purged is ignored by the session until its own CAPS.
+        drop(link.port.clear(ClearBuffer::Input));
+        Ok(link)
+    }
+
+    /// Wraps an open port.
+    pub fn from_port(port: Box<dyn SerialPort>, name: &str) -> Self {
+        Self {
+            port,
+            name: String::from(name),
+        }
+    }
+
+    /// A second handle, so that one thread can read while another writes.
+    pub fn try_clone(&self) -> Result<Self, BridgeError> {
+        let port = self.port.try_clone().map_err(|error| BridgeError::Open {
+            port: self.name.clone(),
+            reason: format!("cannot be read and written at once: {error}"),
+        })?;
+        Ok(Self {
+            port,
+            name: self.name.clone(),
+        })
+    }
+
+    fn set_patience(&mut self, patience: Duration) -> io::Result<()> {
+        self.port.set_timeout(patience).map_err(io::Error::from)
+    }
+}
+
+impl Port for SerialLink {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
+        self.set_patience(patience)?;
+        match self.port.read(buffer) {
+            Ok(0) => Err(io::ErrorKind::BrokenPipe.into()),
+            Ok(count) => Ok(count),
+            Err(error) if is_patience(&error) => Ok(0),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn write(&mut self, packet: &[u8], patience: Duration) -> io::Result<()> {
+        self.set_patience(patience)?;
+        let mut rest = packet;
+        while !rest.is_empty() {
+            match self.port.write(rest) {
+                Ok(0) => return Err(io::ErrorKind::BrokenPipe.into()),
+                Ok(count) => rest = rest.get(count..).unwrap_or(&[]),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_patience(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::TimedOut | io::ErrorKind::Interrupted | io::ErrorKind::WouldBlock
+    )
+}
+
+/// One line on why a port did not open, and what to do.
+fn open_reason(error: &serialport::Error) -> String {
+    let text = error.to_string();
+    match error.kind {
+        ErrorKind::Io(io::ErrorKind::NotFound) => {
+            String::from("no such port: see `selvedge bridge list`")
+        }
+        ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
+            String::from("no permission: join the group that owns the port (often dialout)")
+        }
+        _ if text.contains("exclusive lock") || text.contains("busy") => {
+            String::from("in use by another program: close that one first")
+        }
+        _ if text.contains("typewriter") || text.contains("ioctl") => {
+            String::from("not a serial port: see `selvedge bridge list`")
+        }
+        _ => format!("cannot be opened: {text}"),
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ports_that_do_not_open_say_why_in_one_line() {
+        let folder = std::env::temp_dir();
+        for (path, word) in [
+            (
+                folder.join("no-such-port").display().to_string(),
+                "no such port",
+            ),
+            (String::from("/dev/null"), "not a serial port"),
+            (folder.display().to_string(), "cannot be opened"),
+            (String::from(""), "no such port"),
+        ] {
+            let message = SerialLink::open(&path).unwrap_err().to_string();
+            assert!(
+                message.contains(word) && !message.contains('\n'),
+                "{message}"
+            );
+            assert!(message.starts_with(&path));
+        }
+    }
+
+    #[test]
+    fn a_second_opener_is_told_that_the_port_is_in_use() {
+        let (_master, slave) = serialport::TTYPort::pair().unwrap();
+        let path = slave.name().unwrap();
+        let _first = SerialLink::open(&path).unwrap();
+        let message = SerialLink::open(&path).unwrap_err().to_string();
+        assert!(message.contains("in use by another program"), "{message}");
+    }
+
+    #[test]
+    fn a_vanished_device_is_an_error_and_silence_is_none() {
+        let (master, slave) = serialport::TTYPort::pair().unwrap();
+        let mut link = SerialLink::open(&slave.name().unwrap()).unwrap();
+        let mut buffer = [0; 8];
+        assert_eq!(link.read(&mut buffer, Duration::ZERO).unwrap(), 0);
+        drop(master);
+        drop(slave);
+        assert!(link.read(&mut buffer, Duration::ZERO).is_err());
+        assert!(link.write(&[0], Duration::ZERO).is_err());
+    }
+}
