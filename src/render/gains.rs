@@ -5,7 +5,7 @@
 
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::quantity::factor_of_gain;
-use crate::tactile::{Band, Tuning};
+use crate::tactile::{Band, Tuning, check_gain};
 
 /// Total gains above this count as this, so that every product stays finite, dB.
 pub const MAX_TOTAL_GAIN_DB: f64 = 300.0;
@@ -75,6 +75,20 @@ impl Gains {
     pub(super) fn set_tuning(&mut self, tuning: &Tuning) -> Result<(), RenderError> {
         tuning.check()?;
         self.tuning = *tuning;
+        self.apply();
+        Ok(())
+    }
+
+    /// Takes the gain that the scene gives a textile, or keeps the last one when it makes no sense.
+    pub(super) fn set_scene_gain(
+        &mut self,
+        textile: usize,
+        gain_db: f64,
+    ) -> Result<(), RenderError> {
+        check_gain("gain_db", gain_db)?;
+        let n_textiles = self.textiles.len();
+        let placed = self.textiles.get_mut(textile);
+        placed.ok_or(RenderError::NoTextile { index: textile, n_textiles })?.scene_db = gain_db;
         self.apply();
         Ok(())
     }

@@ -47,6 +47,14 @@ pub enum RenderError {
         /// How many there may be.
         at_most: usize,
     },
+    /// A textile that the scene does not place.
+    #[error("there is no textile {index}; the scene places {n_textiles}, counted from 0")]
+    NoTextile {
+        /// Which one was meant, from 0.
+        index: usize,
+        /// How many there are.
+        n_textiles: usize,
+    },
     /// Levels do not match the textiles placed.
     #[error("{given} levels for {wanted} textiles; give one for each")]
     WrongNumberOfLevels {

@@ -171,6 +171,15 @@ impl ArrayRenderer {
         self.gains.set_tuning(tuning)
     }
 
+    /// Takes the gain that the scene gives one textile (its place in the list) from the next tick
+    /// on, dB. Recomputes and allocates nothing.
+    ///
+    /// # Errors
+    /// A gain that is NaN or +∞, or no such textile: the last gain stays.
+    pub fn set_scene_gain(&mut self, textile: usize, gain_db: f64) -> Result<(), RenderError> {
+        self.gains.set_scene_gain(textile, gain_db)
+    }
+
     /// Takes levels that were pending, one for every placed textile.
     ///
     /// # Errors
