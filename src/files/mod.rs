@@ -77,6 +77,5 @@ impl FileError {
 
 /// The line, from 1, that holds the byte at `offset`.
 fn line_at(bytes: &[u8], offset: usize) -> usize {
-    let before = &bytes[..offset.min(bytes.len())];
-    before.iter().filter(|&&byte| byte == b'\n').count() + 1
+    bytes[..offset.min(bytes.len())].split(|&byte| byte == b'\n').count()
 }

@@ -1,0 +1,56 @@
+//! Numerical methods that know nothing of textiles: transforms, random numbers, grids.
+//!
+//! # Invariants
+//! - no I/O, no clock, no word of textiles
+//! - the one home of the FFT crate (`fft.rs`) and of the random-number crates (`random.rs`)
+//! - same input, same seed, same bytes
+
+mod fft;
+mod grid;
+mod random;
+
+pub use fft::{ChirpTransform, Complex, RealTransform};
+pub use grid::Grid;
+pub use random::Random;
+
+/// The median of some values; of an even number, the mean of the middle two. NaN of none.
+///
+/// Sorts `values` in place.
+pub fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => values[middle],
+        _ => 0.5 * (values[middle - 1] + values[middle]),
+    }
+}
+
+/// The smallest value that at least the share `q` (0…1) of the values do not exceed. NaN of none.
+///
+/// Sorts `values` in place.
+pub fn quantile(values: &mut [f64], q: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let rank = (values.len() as f64 * q.clamp(0.0, 1.0)).ceil();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 ≤ rank ≤ len"
+    )]
+    let index = (rank as usize).saturating_sub(1);
+    values.get(index).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_statistics_of_few_values() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&mut [4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert_eq!(quantile(&mut [1.0, 2.0, 3.0, 4.0], 0.99), 4.0);
+        assert_eq!(quantile(&mut [1.0, 2.0, 3.0, 4.0], 0.5), 2.0);
+        assert!(median(&mut []).is_nan(), "nothing has no median");
+    }
+}

@@ -1,0 +1,99 @@
+//! Progress and cancellation of long work, and the clock that counts a thread's own CPU time.
+//!
+//! Long work takes a [`Progress`], says how far it is and asks whether to stop; it neither knows
+//! who listens (a terminal, a window, a test) nor prints.
+//!
+//! # Invariants
+//! - no I/O, no locks; cancelling is one atomic flag
+//! - work that is cancelled returns [`Cancelled`] and leaves nothing half-done behind
+
+mod cpu_clock;
+
+pub use cpu_clock::thread_cpu_seconds;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A flag that asks long work to stop. Clones share the flag.
+#[derive(Debug, Clone, Default)]
+pub struct CancelFlag(Arc<AtomicBool>);
+
+impl CancelFlag {
+    /// A flag that is not raised.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A flag over an atomic that somebody else raises, a signal handler for one.
+    pub fn shared(flag: Arc<AtomicBool>) -> Self {
+        Self(flag)
+    }
+
+    /// Asks the work to stop.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the work was asked to stop.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// The work was asked to stop before it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("cancelled")]
+pub struct Cancelled;
+
+/// What long work reports to and asks.
+pub struct Progress<'a> {
+    report: &'a mut dyn FnMut(f64, &str),
+    cancel: CancelFlag,
+}
+
+impl<'a> Progress<'a> {
+    /// Progress told to `report` as (share done 0…1, what is being done).
+    pub fn new(report: &'a mut dyn FnMut(f64, &str), cancel: CancelFlag) -> Self {
+        Self { report, cancel }
+    }
+
+    /// Says how far the work is, 0…1, and what it is doing; fails when it should stop.
+    pub fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled> {
+        (self.report)(share.clamp(0.0, 1.0), doing);
+        if self.cancel.is_cancelled() {
+            Err(Cancelled)
+        } else {
+            Ok(())
+        }
+    }
+}
+
+impl std::fmt::Debug for Progress<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Progress")
+            .field("cancel", &self.cancel)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Runs `work` with progress that nobody hears and that never cancels.
+pub fn unheard<T>(work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
+    work(&mut Progress::new(&mut |_, _| {}, CancelFlag::new()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_raised_flag_stops_the_next_step() {
+        let flag = CancelFlag::new();
+        let mut heard = Vec::new();
+        let mut report = |share: f64, _: &str| heard.push(share);
+        let mut progress = Progress::new(&mut report, flag.clone());
+        assert_eq!(progress.step(0.5, "weaving"), Ok(()));
+        flag.cancel();
+        assert_eq!(progress.step(2.0, "weaving"), Err(Cancelled));
+        assert_eq!(heard, [0.5, 1.0]);
+    }
+}

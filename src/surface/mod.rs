@@ -1,0 +1,275 @@
+//! What a surface is: measured height profiles in four directions, and their local spectra.
+//!
+//! Knows nothing of where a surface came from, of fingers, or of vibrations.
+//!
+//! # Invariants
+//! - every height is finite; every step lies within 0.0005–0.5 mm
+//! - spectra are one-sided powers in µm², bins 0.23 cycles/mm apart, bin k in slot k − 1
+//! - a [`Surface`] has spectra in all four directions: fall-backs are applied once, and named
+
+mod probe;
+mod profile;
+mod spectra;
+
+pub use probe::Probe;
+pub use profile::Profile;
+pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, SpectralPlan, WINDOW_LENGTH_MM};
+
+use std::sync::Arc;
+
+/// A principal direction of a stroke over a textile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Direction {
+    /// Along the warp, u rising.
+    WarpForward,
+    /// Along the warp, u falling.
+    WarpReverse,
+    /// Along the weft, w rising.
+    WeftForward,
+    /// Along the weft, w falling.
+    WeftReverse,
+}
+
+impl Direction {
+    /// All four, in the order of their indices.
+    pub const ALL: [Self; 4] = [
+        Self::WarpForward,
+        Self::WarpReverse,
+        Self::WeftForward,
+        Self::WeftReverse,
+    ];
+
+    /// 0 … 3.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Whether the stroke runs against its axis.
+    pub fn is_reverse(self) -> bool {
+        matches!(self, Self::WarpReverse | Self::WeftReverse)
+    }
+
+    /// The name of the direction as files spell it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::WarpForward => "warp_forward",
+            Self::WarpReverse => "warp_reverse",
+            Self::WeftForward => "weft_forward",
+            Self::WeftReverse => "weft_reverse",
+        }
+    }
+}
+
+/// What can be wrong with a surface.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SurfaceError {
+    /// The samples lie too close or too far apart.
+    #[error("the step is {step_mm} mm; sample at 0.0005 to 0.5 mm")]
+    Step {
+        /// The step found, mm.
+        step_mm: f64,
+    },
+    /// The samples are not evenly spaced.
+    #[error(
+        "row {row} of {n_rows}: x rises by {step_mm} mm where the mean step is {mean_mm} mm; \
+         resample to even steps (within 1 %)"
+    )]
+    Uneven {
+        /// The row, from 1.
+        row: usize,
+        /// How many rows there are.
+        n_rows: usize,
+        /// The step to it, mm.
+        step_mm: f64,
+        /// The mean step, mm.
+        mean_mm: f64,
+    },
+    /// A height is NaN or infinite.
+    #[error("row {row} of {n_rows}: the height is {height_um}; fill or cut missing points")]
+    NotFinite {
+        /// The row, from 1.
+        row: usize,
+        /// How many rows there are.
+        n_rows: usize,
+        /// The height found, µm.
+        height_um: f64,
+    },
+    /// The profile is shorter than one window.
+    #[error(
+        "{n_samples} samples where one window takes {n_window}; \
+         measure at least 4.35 mm (20 mm give 16 points)"
+    )]
+    TooShort {
+        /// How many samples there are.
+        n_samples: usize,
+        /// How many one window takes.
+        n_window: usize,
+    },
+    /// Neither warp profile is there.
+    #[error("no warp profile; give warp_forward or warp_reverse")]
+    NoWarp,
+}
+
+/// The profiles of a surface that were measured, by [`Direction::index`].
+pub type ProfileSet = [Option<Profile>; 4];
+
+/// A surface: its profiles, and local spectra in every direction.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    profiles: ProfileSet,
+    spectra: [Arc<LocalSpectra>; 4],
+    taken_from: [Direction; 4],
+}
+
+impl Surface {
+    /// The surface of the profiles that are there; `noise_floor_um2_mm` is a constant power
+    /// density taken off every bin.
+    ///
+    /// Where both weft profiles are missing the weft takes the warp's, direction for direction;
+    /// then a missing direction takes the spectra of its opposite (power has no direction).
+    ///
+    /// # Errors
+    /// A profile shorter than one window, with its direction; no warp profile at all.
+    pub fn from_profiles(
+        profiles: ProfileSet,
+        noise_floor_um2_mm: f64,
+    ) -> Result<Self, (Direction, SurfaceError)> {
+        let taken_from =
+            sources(&profiles).ok_or((Direction::WarpForward, SurfaceError::NoWarp))?;
+        let mut own: [Option<Arc<LocalSpectra>>; 4] = [const { None }; 4];
+        for direction in Direction::ALL {
+            let Some(profile) = &profiles[direction.index()] else {
+                continue;
+            };
+            let spectra = LocalSpectra::of(profile, direction.is_reverse())
+                .map_err(|error| (direction, error))?;
+            own[direction.index()] = Some(Arc::new(spectra.minus_noise_floor(noise_floor_um2_mm)));
+        }
+        let find = |direction: Direction| own[direction.index()].clone();
+        let [a, b, c, d] = taken_from.map(find);
+        let (Some(a), Some(b), Some(c), Some(d)) = (a, b, c, d) else {
+            return Err((Direction::WarpForward, SurfaceError::NoWarp));
+        };
+        Ok(Self {
+            profiles,
+            spectra: [a, b, c, d],
+            taken_from,
+        })
+    }
+
+    /// The local spectra felt in a direction.
+    pub fn spectra(&self, direction: Direction) -> &Arc<LocalSpectra> {
+        &self.spectra[direction.index()]
+    }
+
+    /// The direction whose profile a direction's spectra come from: itself, or its fall-back.
+    pub fn taken_from(&self, direction: Direction) -> Direction {
+        self.taken_from[direction.index()]
+    }
+
+    /// The profile measured in a direction, if there is one.
+    pub fn profile(&self, direction: Direction) -> Option<&Profile> {
+        self.profiles[direction.index()].as_ref()
+    }
+
+    /// The KES roughness figure SMD in µm: the mean over the profiles that were measured.
+    pub fn smd_um(&self) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for profile in self.profiles.iter().flatten() {
+            sum += profile.smd_um();
+            count += 1.0;
+        }
+        sum / count
+    }
+}
+
+/// Which profile each direction takes; `None` without any warp profile.
+fn sources(profiles: &ProfileSet) -> Option<[Direction; 4]> {
+    use Direction::{WarpForward, WarpReverse, WeftForward, WeftReverse};
+
+    let has = |direction: Direction| profiles[direction.index()].is_some();
+    let pick = |wanted: Direction, opposite: Direction| {
+        if has(wanted) {
+            Some(wanted)
+        } else {
+            has(opposite).then_some(opposite)
+        }
+    };
+    let warp = [
+        pick(WarpForward, WarpReverse)?,
+        pick(WarpReverse, WarpForward)?,
+    ];
+    let weft = match (
+        pick(WeftForward, WeftReverse),
+        pick(WeftReverse, WeftForward),
+    ) {
+        (Some(forward), Some(reverse)) => [forward, reverse],
+        _ => warp,
+    };
+    Some([warp[0], warp[1], weft[0], weft[1]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Direction::{WarpForward, WarpReverse, WeftForward, WeftReverse};
+    use super::*;
+
+    fn wave(amplitude_um: f64) -> Profile {
+        let heights = (0..4600)
+            .map(|i| amplitude_um * (f64::from(i) * 0.02).sin())
+            .collect();
+        Profile::new(1.0 / 230.0, heights).unwrap()
+    }
+
+    fn with(directions: &[Direction]) -> Surface {
+        let mut profiles = ProfileSet::default();
+        for &direction in directions {
+            profiles[direction.index()] = Some(wave(1.0));
+        }
+        Surface::from_profiles(profiles, 0.0).unwrap()
+    }
+
+    #[test]
+    fn missing_directions_take_what_is_there() {
+        let taken = |directions: &[Direction]| {
+            let surface = with(directions);
+            Direction::ALL.map(|direction| surface.taken_from(direction))
+        };
+        assert_eq!(taken(&Direction::ALL), Direction::ALL);
+        assert_eq!(taken(&[WarpForward]), [WarpForward; 4]);
+        assert_eq!(
+            taken(&[WarpForward, WarpReverse]),
+            [WarpForward, WarpReverse, WarpForward, WarpReverse]
+        );
+        assert_eq!(
+            taken(&[WarpReverse, WeftForward]),
+            [WarpReverse, WarpReverse, WeftForward, WeftForward]
+        );
+        assert_eq!(
+            taken(&[WarpForward, WeftReverse]),
+            [WarpForward, WarpForward, WeftReverse, WeftReverse]
+        );
+    }
+
+    #[test]
+    fn no_warp_is_refused() {
+        let mut profiles = ProfileSet::default();
+        profiles[WeftForward.index()] = Some(wave(1.0));
+        let error = Surface::from_profiles(profiles, 0.0).unwrap_err();
+        assert_eq!(error, (WarpForward, SurfaceError::NoWarp));
+    }
+
+    #[test]
+    fn a_short_profile_is_refused_with_its_direction() {
+        let mut profiles = ProfileSet::default();
+        profiles[WarpForward.index()] = Some(wave(1.0));
+        profiles[WeftForward.index()] = Some(Profile::new(1.0 / 230.0, vec![0.0; 999]).unwrap());
+        let (direction, error) = Surface::from_profiles(profiles, 0.0).unwrap_err();
+        assert_eq!(direction, WeftForward);
+        assert!(
+            error
+                .to_string()
+                .starts_with("999 samples where one window takes 1000")
+        );
+    }
+}
