@@ -30,6 +30,8 @@ mod host;
 mod link;
 pub mod message;
 mod port;
+mod self_test;
+mod wav;
 
 pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
@@ -50,3 +52,5 @@ pub use message::{
     frame, kind,
 };
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
+pub use self_test::{SelfTestReport, SelfTestStep, self_test};
+pub use wav::{SampleFormat, WavSpec, WavWriter};
