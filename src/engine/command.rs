@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::PreparedScene;
 use crate::bridge::{BridgeEvent, Target};
+use crate::render::{PlacedLevel, RenderError};
 use crate::scene::{ExplorationPath, Stroke};
 use crate::tactile::Tuning;
 
@@ -27,6 +28,8 @@ pub enum Command {
         /// Its gain on top of the manifest's, dB.
         gain_db: f64,
     },
+    /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
+    SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.
     SetSource(InputSource),
     /// How velocity is estimated from samples.
@@ -108,6 +111,16 @@ impl Default for VelocityMethod {
 }
 
 impl VelocityMethod {
+    /// Whether its numbers make sense: a window of up to a second, shares of 0…1.
+    pub fn is_sound(self) -> bool {
+        let is_share = |share: f64| share > 0.0 && share <= 1.0;
+        match self {
+            Self::FiniteDifference => true,
+            Self::LineFit { window_s } => is_share(window_s),
+            Self::AlphaBeta { alpha, beta } => is_share(alpha) && is_share(beta),
+        }
+    }
+
     /// Its name for people.
     pub fn label(self) -> &'static str {
         match self {
@@ -125,8 +138,8 @@ pub enum Notice {
     Bridge(BridgeEvent),
     /// Something asked for was refused; the sentence says what and why.
     Refused(&'static str),
-    /// A tuning that makes no sense was ignored.
-    TuningIgnored(crate::tactile::TuningError),
+    /// A tuning, gain or level that makes no sense was ignored.
+    GainIgnored(RenderError),
     /// Everything was switched off.
     Stopped,
     /// The scene's first display has another number of contactors: the device was let go.
@@ -143,6 +156,7 @@ impl fmt::Debug for Command {
             Self::SetScene(_) => "SetScene",
             Self::SetTuning(_) => "SetTuning",
             Self::SetTextileGain { .. } => "SetTextileGain",
+            Self::SetLevels(_) => "SetLevels",
             Self::SetSource(_) => "SetSource",
             Self::SetVelocityMethod(_) => "SetVelocityMethod",
             Self::SetAngle(_) => "SetAngle",

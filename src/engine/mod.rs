@@ -18,15 +18,38 @@
 //! - no GUI, no files: recordings are handed over as data
 
 mod command;
+mod engine;
+mod engine_core;
+mod error;
+mod gist;
+mod input;
+mod link;
+mod meters;
+mod order;
+mod pacer;
+mod prepared;
+mod recording;
+mod runner;
 mod sample;
 mod snapshot;
+mod stop;
+mod velocity;
 
 pub use command::{Command, InputSource, Notice, VelocityMethod};
+pub use engine::{Engine, EngineConfig};
+pub use engine_core::EngineCore;
+pub use error::EngineError;
+pub use input::{Control, InputLosses, PointerInput, PointerSender, Reading};
+pub use pacer::{Due, PATIENCE, Pacer};
+pub use prepared::PreparedScene;
+pub use recording::{RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, EngineCounters, LinkView, Playback, PointerView,
     RecordingView, Snapshot, SourceKind,
 };
+pub use stop::StopSwitch;
+pub use velocity::{Estimate, REST, VelocityEstimator};
 
 use std::time::Duration;
 
@@ -34,4 +57,7 @@ use std::time::Duration;
 pub const TICK: Duration = Duration::from_millis(25);
 
 /// Ticks per second.
-pub const TICKS_PER_S: f64 = 40.0;
+pub const TICKS_PER_S: f64 = crate::scene::TICKS_PER_S;
+
+#[cfg(test)]
+mod tests;

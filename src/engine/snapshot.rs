@@ -5,16 +5,18 @@
 
 use std::time::Duration;
 
-use super::{SampleCounters, VelocityMethod};
+use super::{PreparedScene, SampleCounters, VelocityMethod};
 use crate::bridge::{Bite, BridgeCounters, BridgeState, Caps, SentFrame, Spread, Status, Timings};
 use crate::geometry::Point;
-use crate::render::{Method, RenderCounters};
+use crate::render::Counters;
+use crate::render::array::{ErrorBound, Method};
 use crate::scene::Pose;
+use crate::tactile::Tuning;
 
 /// The engine after a tick.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
-    /// Serial number of the scene that this shows, given by [`PreparedScene`](super::PreparedScene).
+    /// Serial number of the scene that this shows, given by [`PreparedScene`].
     pub scene_serial: u64,
     /// Ticks since the engine started.
     pub tick: u64,
@@ -26,12 +28,21 @@ pub struct Snapshot {
     pub displays: Vec<DisplayView>,
     /// Whether everything was switched off and nothing has been armed since.
     pub is_stopped: bool,
-    /// The rendering method chosen.
+    /// Whether the device plays silence: stopped, or a replay that is held (whose amplitudes the
+    /// displays go on to show).
+    pub is_silent: bool,
+    /// The rendering method chosen; never `auto`.
     pub method: Method,
-    /// A-priori bound of the method's level error against the reference, dB.
-    pub bound_db: f64,
+    /// How far amplitudes may be from the reference, known before the first tick.
+    pub bound: ErrorBound,
     /// What the renderer evaluated and what it left out, since the scene was set.
-    pub render: RenderCounters,
+    pub render: Counters,
+    /// The gains that sound.
+    pub tuning: Tuning,
+    /// Whether compression waits for levels.
+    pub compression_is_pending: bool,
+    /// The level that compression leaves alone, dB re 1 µm, once it is known.
+    pub compression_reference_db: Option<f64>,
     /// The pointer and its velocity.
     pub pointer: PointerView,
     /// The replay, stroke or live source.
@@ -46,6 +57,41 @@ pub struct Snapshot {
     pub counters: EngineCounters,
     /// The device; `None` without one.
     pub link: Option<LinkView>,
+}
+
+impl Snapshot {
+    /// A snapshot before the first tick, with room for every contactor of the scene.
+    pub fn of(scene: &PreparedScene) -> Self {
+        let renderer = scene.renderer();
+        Self {
+            scene_serial: scene.serial(),
+            tick: 0,
+            t_s: 0.0,
+            pose: Pose {
+                position: scene.start(),
+                ..Pose::default()
+            },
+            displays: scene.empty_views(),
+            is_stopped: false,
+            is_silent: false,
+            method: renderer.method(),
+            bound: renderer.bound(),
+            render: *renderer.counters(),
+            tuning: *renderer.tuning(),
+            compression_is_pending: renderer.compression_is_pending(),
+            compression_reference_db: renderer.compression_reference_db(),
+            pointer: PointerView::default(),
+            source: SourceKind::Pointer,
+            playback: Playback {
+                is_playing: true,
+                ..Playback::default()
+            },
+            recording: RecordingView::default(),
+            clock: ClockView::default(),
+            counters: EngineCounters::default(),
+            link: None,
+        }
+    }
 }
 
 /// One display in a snapshot.
@@ -97,7 +143,7 @@ pub struct Playback {
 }
 
 /// The pointer in a snapshot.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PointerView {
     /// Whether a sample was ever seen from this source.
     pub is_known: bool,

@@ -1,0 +1,434 @@
+//! The work of a tick, without thread, clock or device: position in, amplitudes out.
+//!
+//! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
+
+use std::time::{Duration, Instant};
+
+use super::input::{Control, LiveInput, PointerInput, PointerSender, Reading, live_ring};
+use super::order::{CoreOrder, Retired};
+use super::recording::{RecordedTick, Recorder};
+use super::sample::{SampleGate, Verdict};
+use super::velocity::{Estimate, REST, VelocityEstimator};
+use super::{
+    Notice, Playback, PointerSample, PointerView, PreparedScene, RecordingView, Snapshot,
+    SourceKind, TICK, TICKS_PER_S, VelocityMethod,
+};
+use crate::bridge::SentFrame;
+use crate::geometry::Velocity;
+use crate::scene::Pose;
+
+/// From a command's refusal to the window: every tick has at most a few.
+type Say<'a> = &'a mut dyn FnMut(Notice);
+
+/// Position in, amplitudes out, one tick at a time.
+#[derive(Debug)]
+pub struct EngineCore {
+    scene: Box<PreparedScene>,
+    tick: u64,
+    pose: Pose,
+    /// The pose that was rendered last: at rest where the pointer's own motion is not felt.
+    rendered: Pose,
+    live: LiveInput,
+    playable: Option<Box<dyn PointerInput>>,
+    track: Track,
+    angle_deg: f64,
+    last_angle_deg: Option<f64>,
+    is_stopped: bool,
+    is_held: bool,
+    has_ended: bool,
+    recorder: Option<Box<Recorder>>,
+    ignored: u64,
+}
+
+/// The samples of a source and what follows from them.
+#[derive(Debug)]
+struct Track {
+    gate: SampleGate,
+    estimator: VelocityEstimator,
+    newest: Option<PointerSample>,
+    /// The stamp of the newest sample, if it came for this tick.
+    fresh: Option<Instant>,
+    estimate: Estimate,
+    age: Option<Duration>,
+}
+
+impl EngineCore {
+    /// A core that feels this scene, and the end of the ring for live samples.
+    pub fn new(scene: Box<PreparedScene>) -> (Self, PointerSender) {
+        let (sender, live) = live_ring();
+        let pose = Pose {
+            position: scene.start(),
+            ..Pose::default()
+        };
+        let mut core = Self {
+            scene,
+            tick: 0,
+            pose,
+            rendered: pose,
+            live,
+            playable: None,
+            track: Track::new(VelocityMethod::default()),
+            angle_deg: 0.0,
+            last_angle_deg: None,
+            is_stopped: false,
+            is_held: false,
+            has_ended: false,
+            recorder: None,
+            ignored: 0,
+        };
+        core.scene.render(pose);
+        (core, sender)
+    }
+
+    /// Does one tick. Allocates nothing.
+    pub fn tick(&mut self, now: Instant, say: Say<'_>) {
+        let reading = self.read(now);
+        self.is_held = false;
+        match reading {
+            Reading::Samples => self.follow(),
+            Reading::Pose(pose) => self.pose = pose,
+            Reading::Held => self.is_held = true,
+            Reading::Ended => {
+                if !self.has_ended {
+                    say(Notice::SourceEnded);
+                }
+                self.pose = at_rest(self.pose);
+            }
+        }
+        self.has_ended = reading == Reading::Ended;
+        if let (Some(recorder), false) = (&self.recorder, self.is_held) {
+            self.pose = recorder.as_replayed(self.pose);
+        }
+        self.rendered = if self.is_stopped {
+            at_rest(self.pose)
+        } else {
+            self.pose
+        };
+        self.scene.render(self.rendered);
+        self.tick += 1;
+    }
+
+    /// Adds the tick to the recording, with the frame that went to the device. The recording comes
+    /// back if that was its end.
+    pub(super) fn record(&mut self, sent: Option<SentFrame>, say: Say<'_>) -> Option<Retired> {
+        if self.is_held {
+            return None;
+        }
+        let recorder = self.recorder.as_mut()?;
+        let tick = RecordedTick {
+            tick: self.tick,
+            pose: self.rendered,
+            sent,
+        };
+        let Err(why) = recorder.push(tick, self.scene.amplitudes_um()) else {
+            return None;
+        };
+        say(Notice::RecordingEnded(why));
+        self.end_recording()
+    }
+
+    /// What the device plays now: amplitudes [A40, A320] of the first display after gains and
+    /// before output limits, µm; zeros while stopped or held.
+    pub fn felt_um(&self) -> &[[f32; 2]] {
+        self.scene.felt_um(self.is_stopped || self.is_held)
+    }
+
+    /// The stamp of the newest live sample, if it came for the last tick.
+    pub fn fresh_stamp(&self) -> Option<Instant> {
+        self.track.fresh
+    }
+
+    /// Ticks done.
+    pub fn ticks(&self) -> u64 {
+        self.tick
+    }
+
+    /// The scene that is felt.
+    pub fn scene(&self) -> &PreparedScene {
+        &self.scene
+    }
+
+    /// Everything off: silent until [`resume`](Self::resume), a replay held, the recording over.
+    pub(super) fn stop(&mut self) -> Option<Retired> {
+        self.is_stopped = true;
+        self.control(Control::Pause);
+        self.scene.render(at_rest(self.pose));
+        self.end_recording()
+    }
+
+    /// Ends the silence of [`stop`](Self::stop).
+    pub(super) fn resume(&mut self) {
+        self.is_stopped = false;
+    }
+
+    /// A device with these limits is connected.
+    pub(super) fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
+        self.scene.set_link_limit(comp_limit);
+    }
+
+    /// Obeys, and hands back what was replaced: at most two things.
+    pub(super) fn obey(&mut self, order: CoreOrder, say: Say<'_>) -> [Option<Retired>; 2] {
+        let mut retired = [None, None];
+        match order {
+            CoreOrder::Scene(scene) => {
+                retired[0] = self.end_recording();
+                retired[1] = Some(Retired::Scene(self.set_scene(scene)));
+            }
+            CoreOrder::Tuning(tuning) => {
+                if let Err(error) = self.scene.renderer.set_tuning(&tuning) {
+                    self.ignored += 1;
+                    say(Notice::GainIgnored(error));
+                }
+            }
+            CoreOrder::TextileGain { textile, gain_db } => {
+                if let Err(error) = self.scene.renderer.set_scene_gain(textile, gain_db) {
+                    self.ignored += 1;
+                    say(Notice::GainIgnored(error));
+                }
+            }
+            CoreOrder::Levels(levels) => {
+                if let Err(error) = self.scene.renderer.set_levels(&levels) {
+                    self.ignored += 1;
+                    say(Notice::GainIgnored(error));
+                }
+                retired[0] = Some(Retired::Levels(levels));
+            }
+            CoreOrder::Source(source) => retired[0] = self.set_source(source),
+            CoreOrder::Velocity(method) => self.set_velocity_method(method, say),
+            CoreOrder::Angle(angle_deg) => self.set_angle(angle_deg, say),
+            CoreOrder::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
+            CoreOrder::Control(control) => self.control(control),
+            CoreOrder::Record(recorder) if self.is_stopped => {
+                say(Notice::Refused("everything is off: arm before recording"));
+                retired[0] = Some(Retired::Recorder(recorder));
+            }
+            CoreOrder::Record(recorder) => {
+                retired[0] = self.end_recording();
+                self.recorder = Some(recorder);
+            }
+            CoreOrder::EndRecording => retired[0] = self.end_recording(),
+        }
+        retired
+    }
+
+    /// Writes the state into a snapshot that was made for this scene; clock and device are the
+    /// caller's. `depth` is how many ticks ahead a device plays.
+    pub(super) fn fill(&self, snapshot: &mut Snapshot, depth: Option<u8>) {
+        let renderer = &self.scene.renderer;
+        snapshot.scene_serial = self.scene.serial();
+        snapshot.tick = self.tick;
+        snapshot.t_s = self.tick as f64 / TICKS_PER_S;
+        snapshot.pose = self.pose;
+        self.scene.fill(&mut snapshot.displays);
+        snapshot.is_stopped = self.is_stopped;
+        snapshot.is_silent = self.is_stopped || self.is_held;
+        snapshot.method = renderer.method();
+        snapshot.bound = renderer.bound();
+        snapshot.render = *renderer.counters();
+        snapshot.tuning = *renderer.tuning();
+        snapshot.compression_is_pending = renderer.compression_is_pending();
+        snapshot.compression_reference_db = renderer.compression_reference_db();
+        snapshot.pointer = self.pointer_view(depth);
+        snapshot.source = self
+            .source()
+            .map_or(SourceKind::Pointer, PointerInput::kind);
+        snapshot.playback = self.playback();
+        snapshot.recording = self.recording_view();
+        snapshot.counters.ignored = self.ignored;
+    }
+
+    fn read(&mut self, now: Instant) -> Reading {
+        let track = &mut self.track;
+        track.fresh = None;
+        let mut restarted = false;
+        let Some(playable) = &mut self.playable else {
+            let reading = self
+                .live
+                .poll(now, &mut |sample| restarted |= track.take(sample, now));
+            track.look(now, restarted);
+            return reading;
+        };
+        // What the mouse did meanwhile is nobody's business.
+        self.live.poll(now, &mut |_| {});
+        let reading = playable.poll(now, &mut |sample| restarted |= track.take(sample, now));
+        track.look(now, restarted);
+        reading
+    }
+
+    /// The pose that follows from samples: where the newest was, as fast as estimated, turned as
+    /// told.
+    fn follow(&mut self) {
+        let position = self
+            .track
+            .newest
+            .map_or(self.pose.position, |newest| newest.position);
+        let before_deg = self.last_angle_deg.unwrap_or(self.angle_deg);
+        self.last_angle_deg = Some(self.angle_deg);
+        self.pose = Pose {
+            t_s: self.tick as f64 / TICKS_PER_S,
+            position,
+            angle_deg: self.angle_deg,
+            velocity: self.track.estimate.velocity,
+            angular_rad_per_s: Pose::turning_rad_per_s(before_deg, self.angle_deg),
+        };
+    }
+
+    /// The new scene is felt from the next tick on; its renderer already holds its tuning.
+    fn set_scene(&mut self, scene: Box<PreparedScene>) -> Box<PreparedScene> {
+        let retired = std::mem::replace(&mut self.scene, scene);
+        if self.track.newest.is_none() && self.playable.is_none() {
+            self.pose = Pose {
+                position: self.scene.start(),
+                ..at_rest(self.pose)
+            };
+        }
+        self.scene.render(at_rest(self.pose));
+        retired
+    }
+
+    fn set_source(&mut self, source: Option<Box<dyn PointerInput>>) -> Option<Retired> {
+        self.track.forget();
+        self.last_angle_deg = None;
+        self.has_ended = false;
+        self.pose = at_rest(self.pose);
+        std::mem::replace(&mut self.playable, source).map(Retired::Source)
+    }
+
+    fn set_velocity_method(&mut self, method: VelocityMethod, say: Say<'_>) {
+        if method.is_sound() {
+            self.track.estimator.set_method(method);
+        } else {
+            self.ignored += 1;
+            say(Notice::Refused(
+                "the velocity method's numbers make no sense; it stays as it was",
+            ));
+        }
+    }
+
+    fn set_angle(&mut self, angle_deg: f64, say: Say<'_>) {
+        if angle_deg.is_finite() {
+            self.angle_deg = angle_deg;
+        } else {
+            self.ignored += 1;
+            say(Notice::Refused(
+                "the display's angle is not finite; it stays as it was",
+            ));
+        }
+    }
+
+    fn control(&mut self, control: Control) {
+        if let Some(playable) = &mut self.playable {
+            playable.control(control);
+        }
+    }
+
+    fn end_recording(&mut self) -> Option<Retired> {
+        let mut recorder = self.recorder.take()?;
+        recorder.hand_over();
+        Some(Retired::Recorder(recorder))
+    }
+
+    fn source(&self) -> Option<&dyn PointerInput> {
+        self.playable.as_deref()
+    }
+
+    fn playback(&self) -> Playback {
+        self.source()
+            .map_or_else(|| self.live.playback(), PointerInput::playback)
+    }
+
+    fn recording_view(&self) -> RecordingView {
+        let n_ticks = self
+            .recorder
+            .as_ref()
+            .map_or(0, |recorder| recorder.n_ticks());
+        RecordingView {
+            is_recording: self.recorder.is_some(),
+            n_ticks,
+        }
+    }
+
+    fn pointer_view(&self, depth: Option<u8>) -> PointerView {
+        let track = &self.track;
+        let losses = self
+            .source()
+            .map_or_else(|| self.live.losses(), PointerInput::losses);
+        let mut samples = track.gate.counters();
+        samples.overflowed = losses.overflowed;
+        samples.bad_lines = losses.bad_lines;
+        let until_mid_tick = TICK * u32::from(depth.unwrap_or(0)) + TICK / 2;
+        PointerView {
+            is_known: track.newest.is_some(),
+            age: track.age,
+            felt_age: track.age.map(|age| age + until_mid_tick),
+            method: track.estimator.method(),
+            velocity_lag_s: track.estimate.lag_s,
+            samples,
+        }
+    }
+}
+
+impl Track {
+    fn new(method: VelocityMethod) -> Self {
+        Self {
+            gate: SampleGate::default(),
+            estimator: VelocityEstimator::new(method),
+            newest: None,
+            fresh: None,
+            estimate: Estimate::REST,
+            age: None,
+        }
+    }
+
+    /// Begins anew with the same method; allocates nothing.
+    fn forget(&mut self) {
+        self.gate = SampleGate::default();
+        self.estimator.reset();
+        self.newest = None;
+        self.fresh = None;
+        self.estimate = Estimate::REST;
+        self.age = None;
+    }
+
+    /// Takes a sample; true if it began a new series.
+    fn take(&mut self, sample: PointerSample, now: Instant) -> bool {
+        let verdict = self.gate.admit(sample, now);
+        let (sample, restarted) = match verdict {
+            Verdict::Drop => return false,
+            Verdict::Append(sample) | Verdict::Replace(sample) => (sample, false),
+            Verdict::Restart(sample) => (sample, true),
+        };
+        if restarted {
+            self.estimator.reset();
+        }
+        if matches!(verdict, Verdict::Replace(_)) {
+            self.estimator.replace(sample);
+        } else {
+            self.estimator.push(sample);
+        }
+        self.newest = Some(sample);
+        self.fresh = Some(sample.stamp);
+        restarted
+    }
+
+    /// Estimates at a tick. One in which the series began anew is silent, whatever followed.
+    fn look(&mut self, now: Instant, restarted: bool) {
+        self.estimate = if restarted {
+            Estimate::REST
+        } else {
+            self.estimator.estimate(now)
+        };
+        let age = self
+            .newest
+            .map(|newest| now.saturating_duration_since(newest.stamp));
+        self.age = age.filter(|age| *age <= REST);
+    }
+}
+
+fn at_rest(pose: Pose) -> Pose {
+    Pose {
+        velocity: Velocity::ZERO,
+        angular_rad_per_s: 0.0,
+        ..pose
+    }
+}

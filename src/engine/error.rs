@@ -1,0 +1,21 @@
+//! What can go wrong with an engine.
+
+use crate::render::RenderError;
+use crate::scene::SceneError;
+
+/// Why an engine, or something that was asked of it, could not be.
+#[derive(Debug, thiserror::Error)]
+pub enum EngineError {
+    /// More commands than it could obey so far.
+    #[error("the engine is busy with earlier commands; try again in a moment")]
+    Busy,
+    /// The system gives no thread.
+    #[error("cannot start a thread: {0}; close other programs and try again")]
+    Thread(#[source] std::io::Error),
+    /// The scene cannot be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A stroke or path makes no sense.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}

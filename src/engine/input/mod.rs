@@ -1,0 +1,81 @@
+//! Where positions come from, behind one trait.
+//!
+//! A source either hands over time-stamped samples, whose velocity is then estimated, or states the
+//! pose of a tick itself, exactly as an offline rendering of the same path takes it.
+
+mod lines;
+mod live;
+mod path;
+
+pub(super) use lines::LineInput;
+pub use live::PointerSender;
+pub(super) use live::{LiveInput, live_ring};
+pub(super) use path::{ReplayInput, StrokeInput};
+
+use std::fmt::Debug;
+use std::time::Instant;
+
+use super::{Playback, PointerSample, SourceKind};
+use crate::scene::Pose;
+
+/// What a source says of one tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reading {
+    /// It handed over what samples there were; velocity is to be estimated.
+    Samples,
+    /// The pose of this tick, velocity included.
+    Pose(Pose),
+    /// It is held: the display stands still where it is.
+    Held,
+    /// It has come to its end.
+    Ended,
+}
+
+/// What can be done with a source that can be played.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Control {
+    /// Move on at every tick.
+    Play,
+    /// Stand still.
+    Pause,
+    /// Move on by one tick, then stand still.
+    Step,
+    /// Back to the first tick.
+    Rewind,
+    /// Whether to begin again at the end.
+    Loop(bool),
+}
+
+/// What a source lost before anybody could look at it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct InputLosses {
+    /// Samples that found the ring full.
+    pub overflowed: u64,
+    /// Lines that were no sample.
+    pub bad_lines: u64,
+}
+
+/// A source of positions in the workspace. [`poll`](Self::poll) neither allocates nor waits.
+pub trait PointerInput: Send + Debug {
+    /// What kind of source this is.
+    fn kind(&self) -> SourceKind;
+
+    /// Called once a tick. Samples that arrived since the last go to `take`, oldest first.
+    fn poll(&mut self, now: Instant, take: &mut dyn FnMut(PointerSample)) -> Reading;
+
+    /// Plays, holds or rewinds. A live source does not care.
+    fn control(&mut self, _control: Control) {}
+
+    /// How far it is.
+    fn playback(&self) -> Playback {
+        Playback {
+            is_playing: true,
+            ..Playback::default()
+        }
+    }
+
+    /// What was lost on the way.
+    fn losses(&self) -> InputLosses {
+        InputLosses::default()
+    }
+}

@@ -1,0 +1,138 @@
+//! The engine's side of the bridge: listens to its events, sends what is felt.
+//!
+//! Frames are only made for a device that is armed. Nothing here arms by itself.
+
+use std::time::Instant;
+
+use super::{LinkView, Notice};
+use crate::bridge::{Bridge, BridgeEvent, SentFrame, StopHow, Timings};
+
+/// Ticks between two looks at the timings of the link: one second.
+const TIMINGS_EVERY: u64 = 40;
+
+/// A device, or none.
+#[derive(Default)]
+pub(super) struct Link {
+    bridge: Option<Box<Bridge>>,
+    sent: Option<SentFrame>,
+    timings: Timings,
+    n_unheard: u64,
+    n_views: u64,
+}
+
+/// What a link has to say that concerns the clock or the core.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum News {
+    /// A device tick began.
+    Tick(u32, Instant),
+    /// A device with these limits is connected.
+    Limits([u16; 2]),
+    /// The device is gone.
+    Gone,
+}
+
+impl Link {
+    /// Takes a device; the last one comes back.
+    pub(super) fn connect(&mut self, bridge: Option<Box<Bridge>>) -> Option<Box<Bridge>> {
+        if let Some(last) = &mut self.bridge {
+            last.stop(StopHow::Ramp);
+        }
+        self.sent = None;
+        self.timings = Timings::default();
+        std::mem::replace(&mut self.bridge, bridge)
+    }
+
+    /// Whether there is a device, or may be one soon.
+    pub(super) fn is_some(&self) -> bool {
+        self.bridge.is_some()
+    }
+
+    /// The next piece of news; notices go to `say`.
+    pub(super) fn hear(&mut self, say: &mut dyn FnMut(Notice)) -> Option<News> {
+        let bridge = self.bridge.as_mut()?;
+        loop {
+            let event = bridge.poll()?;
+            let news = match &event {
+                BridgeEvent::Tick { tick, received } => return Some(News::Tick(*tick, *received)),
+                BridgeEvent::Pong { .. } => continue,
+                BridgeEvent::Connected(caps) => Some(News::Limits(caps.comp_limit)),
+                BridgeEvent::Lost(_) | BridgeEvent::Refused(_) => Some(News::Gone),
+                _ => None,
+            };
+            say(Notice::Bridge(event));
+            if news.is_some() {
+                return news;
+            }
+        }
+    }
+
+    /// Arms; false if there is no device that is ready.
+    pub(super) fn arm(&mut self) -> bool {
+        self.bridge.as_mut().is_some_and(|bridge| bridge.arm())
+    }
+
+    /// Ends output.
+    pub(super) fn stop(&mut self, how: StopHow) {
+        if let Some(bridge) = &mut self.bridge {
+            bridge.stop(how);
+        }
+    }
+
+    /// Sends amplitudes, µm, made from an input with this stamp, if an armed device listens.
+    pub(super) fn send(
+        &mut self,
+        felt_um: &[[f32; 2]],
+        stamp: Option<Instant>,
+    ) -> Option<SentFrame> {
+        let listener = self
+            .bridge
+            .as_mut()
+            .filter(|bridge| bridge.state().takes_frames());
+        let Some(bridge) = listener else {
+            self.n_unheard += 1;
+            return None;
+        };
+        let sent = bridge.send(felt_um, stamp);
+        self.sent = sent.or(self.sent);
+        sent
+    }
+
+    /// Ticks that a frame is sent ahead; `None` without an armed device.
+    pub(super) fn depth(&self) -> Option<u8> {
+        let armed = self
+            .bridge
+            .as_ref()
+            .filter(|bridge| bridge.state().takes_frames());
+        armed.map(|bridge| bridge.depth())
+    }
+
+    /// Frames not made because no armed device listened.
+    pub(super) fn n_unheard(&self) -> u64 {
+        self.n_unheard
+    }
+
+    /// What the window shows of it.
+    pub(super) fn view(&mut self) -> Option<LinkView> {
+        let bridge = self.bridge.as_ref()?;
+        if self.n_views.is_multiple_of(TIMINGS_EVERY) {
+            self.timings = bridge.timings();
+        }
+        self.n_views += 1;
+        Some(LinkView {
+            state: bridge.state(),
+            caps: bridge.caps().copied(),
+            status: bridge.status().copied(),
+            depth: bridge.depth(),
+            counters: bridge.counters(),
+            timings: self.timings,
+            sent: self.sent,
+        })
+    }
+}
+
+impl Drop for Link {
+    /// Also runs when the engine's thread panics.
+    fn drop(&mut self) {
+        self.stop(StopHow::Now);
+    }
+}

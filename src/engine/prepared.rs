@@ -1,0 +1,155 @@
+//! A scene made ready to be felt: everything that the real-time thread must not make itself.
+
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::{DisplayView, EngineError};
+use crate::bridge::{ArrayProfile, Coder};
+use crate::geometry::Point;
+use crate::render::RenderScene;
+use crate::render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
+use crate::scene::Pose;
+
+/// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
+pub struct PreparedScene {
+    serial: u64,
+    start: Point,
+    profile: ArrayProfile,
+    pub(super) renderer: ArrayRenderer,
+    poses: Vec<Pose>,
+    outputs: Vec<Output>,
+}
+
+/// What the limits of an output make of one display.
+struct Output {
+    coder: Coder,
+    codes: Vec<[u16; 2]>,
+    silence: Vec<[f32; 2]>,
+}
+
+impl PreparedScene {
+    /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer
+    /// at `start`.
+    ///
+    /// # Errors
+    /// What [`ArrayRenderer::prepare`] refuses.
+    pub fn from_parts(
+        scene: &RenderScene,
+        profile: ArrayProfile,
+        start: Point,
+        (method, accuracy): (Method, &Accuracy),
+    ) -> Result<Self, EngineError> {
+        static SERIAL: AtomicU64 = AtomicU64::new(1);
+        let renderer = ArrayRenderer::prepare(scene, method, accuracy)?;
+        let output = |frame: &DisplayFrame| Output {
+            coder: Coder::new(&profile, frame.n_contactors()),
+            codes: vec![[0; 2]; frame.n_contactors()],
+            silence: vec![[0.0; 2]; frame.n_contactors()],
+        };
+        Ok(Self {
+            serial: SERIAL.fetch_add(1, Ordering::Relaxed),
+            start,
+            poses: vec![Pose::default(); renderer.frames().len()],
+            outputs: renderer.frames().iter().map(output).collect(),
+            profile,
+            renderer,
+        })
+    }
+
+    /// A number that no other prepared scene has; snapshots carry it.
+    pub fn serial(&self) -> u64 {
+        self.serial
+    }
+
+    /// The device that the first display needs.
+    pub fn profile(&self) -> &ArrayProfile {
+        &self.profile
+    }
+
+    /// Contactors of the first display: those that a device plays.
+    pub fn n_felt(&self) -> usize {
+        self.outputs.first().map_or(0, |output| output.codes.len())
+    }
+
+    /// Contactors of all displays together.
+    pub fn n_contactors(&self) -> usize {
+        self.outputs.iter().map(|output| output.codes.len()).sum()
+    }
+
+    /// The renderer, before the engine has it: its method, bound and levels.
+    pub fn renderer(&self) -> &ArrayRenderer {
+        &self.renderer
+    }
+
+    /// Where the pointer starts.
+    pub(super) fn start(&self) -> Point {
+        self.start
+    }
+
+    /// Renders every display at this pose and looks which output limits its amplitudes meet.
+    pub(super) fn render(&mut self, pose: Pose) {
+        self.poses.fill(pose);
+        self.renderer.tick(&self.poses);
+        for (output, frame) in self.outputs.iter_mut().zip(self.renderer.frames()) {
+            output
+                .coder
+                .encode_into(frame.amplitudes_um(), 1.0, &mut output.codes);
+        }
+    }
+
+    /// The device's own limits, which lower those of the profile for the first display.
+    pub(super) fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
+        if let Some(output) = self.outputs.first_mut() {
+            output.coder.set_link_limit(comp_limit);
+        }
+    }
+
+    /// Amplitudes of every display, µm.
+    pub(super) fn amplitudes_um(&self) -> impl Iterator<Item = &[[f32; 2]]> {
+        self.renderer
+            .frames()
+            .iter()
+            .map(DisplayFrame::amplitudes_um)
+    }
+
+    /// What the device plays: the first display's amplitudes, or silence, µm.
+    pub(super) fn felt_um(&self, is_silent: bool) -> &[[f32; 2]] {
+        let silence = || self.outputs.first().map(|output| &output.silence[..]);
+        let amplitudes = || self.amplitudes_um().next();
+        if is_silent { silence() } else { amplitudes() }.unwrap_or_default()
+    }
+
+    /// Views with room for every contactor.
+    pub(super) fn empty_views(&self) -> Vec<DisplayView> {
+        let view = |output: &Output| DisplayView {
+            contactors: vec![Default::default(); output.codes.len()],
+        };
+        self.outputs.iter().map(view).collect()
+    }
+
+    /// Writes what every contactor does into views that were made for this scene.
+    pub(super) fn fill(&self, views: &mut [DisplayView]) {
+        let frames = self.renderer.frames().iter().zip(&self.outputs);
+        for (view, (frame, output)) in views.iter_mut().zip(frames) {
+            let bites = output.coder.limited();
+            for (index, contactor) in view.contactors.iter_mut().enumerate() {
+                contactor.position = frame.contactor_position(index);
+                contactor.textile = frame.textile(index).and_then(|n| u16::try_from(n).ok());
+                contactor.amplitude_um = frame
+                    .amplitudes_um()
+                    .get(index)
+                    .copied()
+                    .unwrap_or_default();
+                contactor.bite = bites.get(index).copied().unwrap_or_default();
+            }
+        }
+    }
+}
+
+impl fmt::Debug for PreparedScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PreparedScene")
+            .field("serial", &self.serial)
+            .finish_non_exhaustive()
+    }
+}

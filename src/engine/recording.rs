@@ -1,0 +1,298 @@
+//! Recording an exploration: what was done at every tick, handed over in blocks.
+//!
+//! The engine fills blocks that were made before; whoever owns the [`Engine`](super::Engine) takes
+//! full ones away and gives empty ones back. A recording is one exploration with a clock of its
+//! own: its n-th row is at n/40 s exactly, so that replaying it meets every row on a tick and gives
+//! the same amplitudes bit for bit (with the same scene, method and tuning, which it does not hold).
+
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rtrb::{Consumer, Producer, RingBuffer};
+
+use crate::bridge::SentFrame;
+use crate::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
+
+/// Ticks in a block: ten seconds.
+const BLOCK_TICKS: usize = 400;
+/// Blocks on the way: 30 s may pass between two collections.
+const N_BLOCKS: usize = 4;
+/// The longest recording, ticks: four hours.
+const LONGEST: u64 = 4 * 3600 * 40;
+
+/// One tick of a recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RecordedTick {
+    /// The engine's tick.
+    pub tick: u64,
+    /// The pose that was rendered.
+    pub pose: Pose,
+    /// The frame that went to the device, if one did.
+    pub sent: Option<SentFrame>,
+}
+
+#[derive(Debug)]
+struct Block {
+    ticks: Vec<RecordedTick>,
+    amplitudes_um: Vec<[f32; 2]>,
+}
+
+impl Block {
+    fn new(n_contactors: usize) -> Self {
+        Self {
+            ticks: Vec::with_capacity(BLOCK_TICKS),
+            amplitudes_um: Vec::with_capacity(BLOCK_TICKS * n_contactors),
+        }
+    }
+}
+
+/// The engine's side of a recording.
+pub(super) struct Recorder {
+    id: u64,
+    current: Option<Block>,
+    spares: Consumer<Block>,
+    full: Producer<Block>,
+    n_ticks: u64,
+    last_angle_deg: Option<f64>,
+}
+
+/// A recording, as far as its blocks were collected.
+pub struct Recording {
+    id: u64,
+    spares: Producer<Block>,
+    full: Consumer<Block>,
+    n_contactors: usize,
+    ticks: Vec<RecordedTick>,
+    amplitudes_um: Vec<[f32; 2]>,
+    has_ended: bool,
+}
+
+/// Both sides of a recording of `n_contactors` contactors, those of all displays together.
+pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
+    let (mut spares, spares_out) = RingBuffer::new(N_BLOCKS);
+    // Every block that exists finds room among the full ones.
+    let (full_in, full) = RingBuffer::new(N_BLOCKS + 1);
+    for _ in 1..N_BLOCKS {
+        // Room for all of them was just made.
+        drop(spares.push(Block::new(n_contactors)));
+    }
+    static ID: AtomicU64 = AtomicU64::new(0);
+    let id = ID.fetch_add(1, Ordering::Relaxed);
+    let recorder = Recorder {
+        id,
+        current: Some(Block::new(n_contactors)),
+        spares: spares_out,
+        full: full_in,
+        n_ticks: 0,
+        last_angle_deg: None,
+    };
+    let recording = Recording {
+        id,
+        spares,
+        full,
+        n_contactors,
+        ticks: Vec::new(),
+        amplitudes_um: Vec::new(),
+        has_ended: false,
+    };
+    (recorder, recording)
+}
+
+impl Recorder {
+    /// The pose as the recording will replay it: it turns from its own last row, and not at first.
+    pub(super) fn as_replayed(&self, pose: Pose) -> Pose {
+        let before_deg = self.last_angle_deg.unwrap_or(pose.angle_deg);
+        let angular_rad_per_s = Pose::turning_rad_per_s(before_deg, pose.angle_deg);
+        Pose {
+            angular_rad_per_s,
+            ..pose
+        }
+    }
+
+    /// Adds a tick with the amplitudes of every contactor, µm. Fails, saying why, when it cannot.
+    pub(super) fn push<'a>(
+        &mut self,
+        tick: RecordedTick,
+        amplitudes_um: impl Iterator<Item = &'a [[f32; 2]]>,
+    ) -> Result<(), &'static str> {
+        if self.n_ticks >= LONGEST {
+            return Err("the recording is four hours long; that is the most");
+        }
+        if self
+            .current
+            .as_ref()
+            .is_none_or(|block| block.ticks.len() == BLOCK_TICKS)
+        {
+            self.hand_over();
+            self.current = self.spares.pop().ok();
+        }
+        let Some(block) = &mut self.current else {
+            return Err("nobody collected the recording in time");
+        };
+        block.ticks.push(tick);
+        amplitudes_um.for_each(|display| block.amplitudes_um.extend_from_slice(display));
+        self.last_angle_deg = Some(tick.pose.angle_deg);
+        self.n_ticks += 1;
+        Ok(())
+    }
+
+    /// Hands over what the current block holds.
+    pub(super) fn hand_over(&mut self) {
+        if let Some(block) = self.current.take()
+            && let Err(rtrb::PushError::Full(block)) = self.full.push(block)
+        {
+            self.current = Some(block);
+        }
+    }
+
+    /// Ticks recorded so far.
+    pub(super) fn n_ticks(&self) -> u64 {
+        self.n_ticks
+    }
+}
+
+impl Recording {
+    /// The ticks collected so far.
+    pub fn ticks(&self) -> &[RecordedTick] {
+        &self.ticks
+    }
+
+    /// Amplitudes [A40, A320] of every contactor at one of the collected ticks, displays in order,
+    /// after gains and before output limits, µm.
+    pub fn amplitudes_um(&self, index: usize) -> &[[f32; 2]] {
+        let start = index * self.n_contactors;
+        self.amplitudes_um
+            .get(start..start + self.n_contactors)
+            .unwrap_or_default()
+    }
+
+    /// Contactors of all displays together.
+    pub fn n_contactors(&self) -> usize {
+        self.n_contactors
+    }
+
+    /// Whether it is over and complete.
+    pub fn has_ended(&self) -> bool {
+        self.has_ended
+    }
+
+    /// The exploration as a path with its own velocities: its row n is at n/40 s.
+    ///
+    /// # Errors
+    /// Nothing was recorded.
+    pub fn to_path(&self) -> Result<ExplorationPath, SceneError> {
+        let row = |(n, recorded): (usize, &RecordedTick)| PathRow {
+            t_s: n as f64 / TICKS_PER_S,
+            position: recorded.pose.position,
+            angle_deg: recorded.pose.angle_deg,
+            velocity: Some(recorded.pose.velocity),
+        };
+        ExplorationPath::new(self.ticks.iter().enumerate().map(row).collect())
+    }
+
+    /// Whether this is the other side of it.
+    pub(super) fn is_of(&self, recorder: &Recorder) -> bool {
+        self.id == recorder.id
+    }
+
+    /// Takes full blocks away and gives empty ones back.
+    pub(super) fn collect(&mut self) {
+        while let Ok(mut block) = self.full.pop() {
+            self.ticks.append(&mut block.ticks);
+            self.amplitudes_um.append(&mut block.amplitudes_um);
+            // A full ring only means that the engine has enough.
+            drop(self.spares.push(block));
+        }
+    }
+
+    /// The engine gave its side back: what is collected now is all.
+    pub(super) fn end(&mut self) {
+        self.collect();
+        self.has_ended = true;
+    }
+}
+
+impl fmt::Debug for Recorder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recorder")
+            .field("n_ticks", &self.n_ticks)
+            .finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for Recording {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recording")
+            .field("n_ticks", &self.ticks.len())
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+
+    fn tick(n: u64) -> RecordedTick {
+        let pose = Pose {
+            position: Point::new(n as f64, 0.0),
+            ..Pose::default()
+        };
+        RecordedTick {
+            tick: 100 + n,
+            pose,
+            sent: None,
+        }
+    }
+
+    fn amplitudes(n: u64) -> [[f32; 2]; 2] {
+        [[n as f32, 1.0], [2.0, n as f32]]
+    }
+
+    #[test]
+    fn blocks_arrive_in_order_and_rows_lie_on_the_ticks() {
+        let (mut recorder, mut recording) = recording(2);
+        for n in 0..5000 {
+            recorder
+                .push(tick(n), [&amplitudes(n)[..]].into_iter())
+                .unwrap();
+            if n % 1000 == 0 {
+                recording.collect();
+            }
+        }
+        recorder.hand_over();
+        recording.end();
+        assert_eq!((recording.ticks().len(), recorder.n_ticks()), (5000, 5000));
+        assert_eq!(recording.amplitudes_um(4321), amplitudes(4321));
+        let path = recording.to_path().unwrap();
+        assert_eq!(path.n_ticks(), 5000);
+        for (n, pose) in path.ticks() {
+            assert_eq!(pose.position.x_mm, n as f64);
+        }
+    }
+
+    #[test]
+    fn a_recording_that_nobody_collects_ends_with_the_reason() {
+        let (mut recorder, mut recording) = recording(2);
+        let failed = (0..).find_map(|n| {
+            recorder
+                .push(tick(n), [&amplitudes(n)[..]].into_iter())
+                .err()
+                .map(|why| (n, why))
+        });
+        assert_eq!(
+            failed,
+            Some((1600, "nobody collected the recording in time"))
+        );
+        recording.end();
+        assert_eq!(recording.ticks().len(), 1600);
+    }
+
+    #[test]
+    fn an_empty_recording_is_no_path() {
+        let (mut recorder, mut recording) = recording(1);
+        recorder.hand_over();
+        recording.end();
+        assert!(recording.to_path().is_err());
+    }
+}

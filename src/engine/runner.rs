@@ -1,0 +1,306 @@
+//! The engine's loop: stops first, then orders, then the device, then a tick if one is due.
+//!
+//! One step never waits; how long to sleep until the next is its answer. The clock is either the
+//! real one or one that is told, which makes a run repeatable.
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use rtrb::{Consumer, Producer};
+use triple_buffer::Input;
+
+use super::gist::{Gist, Waker};
+use super::link::{Link, News};
+use super::meters::{Histogram, RecentMedian};
+use super::order::{CoreOrder, MOST_RETIRED, Order, Retired};
+use super::pacer::{Due, Pacer};
+use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch};
+use crate::bridge::StopHow;
+
+/// A tick that begins later than this after it was due is late.
+const LATE: Duration = Duration::from_millis(1);
+/// A device wants to be listened to at least this often.
+const LONGEST_NAP: Duration = Duration::from_millis(50);
+
+/// Where the time comes from.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Clock {
+    /// The system.
+    Real,
+    /// Whoever drives the engine.
+    Told(Instant),
+}
+
+impl Clock {
+    pub(super) fn now(self) -> Instant {
+        match self {
+            Self::Real => Instant::now(),
+            Self::Told(now) => now,
+        }
+    }
+}
+
+/// The rings that a runner reads and writes.
+pub(super) struct Channels {
+    pub(super) orders: Consumer<Order>,
+    pub(super) retired: Producer<Retired>,
+    pub(super) notices: Producer<Notice>,
+    pub(super) snapshots: Input<Snapshot>,
+}
+
+/// Everything that the engine's thread owns.
+pub(super) struct Runner {
+    core: EngineCore,
+    channels: Channels,
+    notices_lost: u64,
+    switch: StopSwitch,
+    presses_heard: u64,
+    pub(super) clock: Clock,
+    pacer: Pacer,
+    link: Link,
+    lateness: Histogram,
+    late: u64,
+    cost: RecentMedian,
+    gist: Gist,
+    waker: Waker,
+    is_over: bool,
+}
+
+impl Runner {
+    pub(super) fn new(
+        core: EngineCore,
+        channels: Channels,
+        switch: StopSwitch,
+        clock: Clock,
+        waker: Waker,
+    ) -> Self {
+        Self {
+            core,
+            channels,
+            notices_lost: 0,
+            presses_heard: switch.presses(),
+            switch,
+            clock,
+            pacer: Pacer::new(clock.now()),
+            link: Link::default(),
+            lateness: Histogram::new(),
+            late: 0,
+            cost: RecentMedian::new(),
+            gist: Gist::default(),
+            waker,
+            is_over: false,
+        }
+    }
+
+    /// Runs until it is told to end. Dropping what it owns stops the device, panic or not.
+    pub(super) fn run(mut self) {
+        while !self.is_over {
+            let until = self.step();
+            let nap = until.saturating_duration_since(self.clock.now());
+            if !nap.is_zero() && !self.is_over {
+                thread::park_timeout(nap.min(LONGEST_NAP));
+            }
+        }
+    }
+
+    /// Does what is due, and says when something will be due next.
+    pub(super) fn step(&mut self) -> Instant {
+        self.heed_stop();
+        self.obey();
+        let device_tick = self.hear();
+        let due = match device_tick {
+            Some((number, received)) => self.pacer.device_tick(number, received),
+            None => self.pacer.own_tick(self.clock.now()),
+        };
+        match due {
+            Due::Tick(due) => self.tick(due),
+            Due::Answer => {
+                self.send();
+            }
+            Due::Nothing => {}
+        }
+        self.next_due()
+    }
+
+    /// When the next tick is due if no device tick comes first.
+    pub(super) fn next_due(&self) -> Instant {
+        self.pacer.deadline()
+    }
+
+    fn tick(&mut self, due: Instant) {
+        let started = self.clock.now();
+        let Self {
+            core,
+            channels,
+            notices_lost,
+            ..
+        } = self;
+        core.tick(started, &mut |notice| {
+            tell(&mut channels.notices, notices_lost, notice)
+        });
+        // A stop that came while this tick was made must not be followed by its frame.
+        self.heed_stop();
+        let sent = self.send();
+        let Self {
+            core,
+            channels,
+            notices_lost,
+            ..
+        } = self;
+        let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
+        let ended = core.record(sent, &mut say);
+        self.retire(ended);
+        let done = self.clock.now();
+        self.late += u64::from(started.saturating_duration_since(due) > LATE);
+        self.lateness.add(done.saturating_duration_since(due));
+        self.cost.add(done.saturating_duration_since(started));
+        self.publish();
+    }
+
+    fn send(&mut self) -> Option<crate::bridge::SentFrame> {
+        self.link.send(self.core.felt_um(), self.core.fresh_stamp())
+    }
+
+    /// The last device tick that began, if one did.
+    fn hear(&mut self) -> Option<(u32, Instant)> {
+        let mut tick = None;
+        let Self {
+            link,
+            channels,
+            notices_lost,
+            ..
+        } = self;
+        let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
+        while let Some(news) = link.hear(&mut say) {
+            match news {
+                News::Tick(number, received) => tick = Some((number, received)),
+                News::Limits(comp_limit) => self.core.set_link_limit(comp_limit),
+                News::Gone => {
+                    tick = None;
+                    self.pacer.forget_device();
+                }
+            }
+        }
+        tick
+    }
+
+    /// Stops everything if the switch was pressed since it was last looked at.
+    fn heed_stop(&mut self) {
+        let presses = self.switch.presses();
+        if presses == self.presses_heard {
+            return;
+        }
+        self.presses_heard = presses;
+        self.link.stop(StopHow::Now);
+        let retired = self.core.stop();
+        self.retire(retired);
+        self.say(Notice::Stopped);
+        self.publish();
+    }
+
+    /// Obeys orders while what they replace finds room.
+    fn obey(&mut self) {
+        while self.channels.retired.slots() >= MOST_RETIRED {
+            let Ok(order) = self.channels.orders.pop() else {
+                return;
+            };
+            match order {
+                Order::Core(order) => self.obey_core(order),
+                Order::Scene(scene, snapshots) => self.set_scene(scene, snapshots),
+                Order::Connect(bridge) => self.connect(Some(bridge)),
+                Order::Disconnect => self.connect(None),
+                Order::Arm { presses } => self.arm(presses),
+                Order::Disarm => self.link.stop(StopHow::Ramp),
+                Order::Shutdown => {
+                    self.link.stop(StopHow::Now);
+                    self.is_over = true;
+                }
+            }
+        }
+    }
+
+    fn obey_core(&mut self, order: CoreOrder) {
+        let Self {
+            core,
+            channels,
+            notices_lost,
+            ..
+        } = self;
+        let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
+        for retired in core.obey(order, &mut say) {
+            self.retire(retired);
+        }
+    }
+
+    fn set_scene(&mut self, scene: Box<super::PreparedScene>, snapshots: Input<Snapshot>) {
+        if self.link.is_some() && scene.n_felt() != self.core.scene().n_felt() {
+            self.connect(None);
+            self.say(Notice::DisplayChanged);
+        }
+        self.obey_core(CoreOrder::Scene(scene));
+        let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
+        self.retire(Some(Retired::Snapshots(old)));
+        self.publish();
+    }
+
+    fn connect(&mut self, bridge: Option<Box<crate::bridge::Bridge>>) {
+        let last = self.link.connect(bridge);
+        self.pacer.forget_device();
+        self.retire(last.map(Retired::Bridge));
+    }
+
+    fn arm(&mut self, presses: u64) {
+        if presses != self.presses_heard || presses != self.switch.presses() {
+            self.say(Notice::Refused(
+                "everything was switched off meanwhile: arm again",
+            ));
+            return;
+        }
+        self.core.resume();
+        if !self.link.arm() {
+            self.say(Notice::Refused("no device is ready to be armed"));
+        }
+    }
+
+    /// Writes a snapshot and wakes the window if it shows something new.
+    fn publish(&mut self) {
+        let depth = self.link.depth();
+        let snapshot = self.channels.snapshots.input_buffer_mut();
+        self.core.fill(snapshot, depth);
+        snapshot.counters.notices_lost = self.notices_lost;
+        snapshot.counters.frames_unheard = self.link.n_unheard();
+        snapshot.clock = ClockView {
+            is_device_paced: self.pacer.is_device_paced(),
+            late: self.late,
+            missed: self.pacer.missed(),
+            fallbacks: self.pacer.fallbacks(),
+            lateness: self.lateness.spread(),
+            cost_ns: self.cost.median_ns(),
+        };
+        snapshot.link = self.link.view();
+        let gist = Gist::of(snapshot);
+        self.channels.snapshots.publish();
+        if gist != self.gist {
+            self.gist = gist;
+            self.waker.wake();
+        }
+    }
+
+    fn say(&mut self, notice: Notice) {
+        tell(&mut self.channels.notices, &mut self.notices_lost, notice);
+        self.waker.wake();
+    }
+
+    /// There is room: orders are only obeyed while there is, and a stop retires one thing.
+    fn retire(&mut self, retired: Option<Retired>) {
+        if let Some(retired) = retired {
+            drop(self.channels.retired.push(retired));
+        }
+    }
+}
+
+fn tell(notices: &mut Producer<Notice>, lost: &mut u64, notice: Notice) {
+    if notices.push(notice).is_err() {
+        *lost += 1;
+    }
+}

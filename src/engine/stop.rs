@@ -1,0 +1,82 @@
+//! The emergency stop: works from any thread, waits for nothing, overtakes every queue.
+
+use std::panic;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread::Thread;
+
+use crate::bridge::{StopHandle, StopHow};
+
+/// Switches everything off. Clones are the same switch.
+///
+/// Pressing it sends STOP to the device at once, on the caller's thread, ahead of every frame, and
+/// tells the engine, which stays silent until it is armed anew. An `Arm` that was sent before the
+/// press and not yet heard is void.
+#[derive(Clone, Default)]
+pub struct StopSwitch(Arc<Shared>);
+
+#[derive(Default)]
+struct Shared {
+    presses: AtomicU64,
+    engine: OnceLock<Thread>,
+    /// Only ever held to look or to swap, never by the engine's thread.
+    device: Mutex<Option<StopHandle>>,
+}
+
+impl StopSwitch {
+    /// Everything off.
+    pub fn press(&self) {
+        self.0.presses.fetch_add(1, Ordering::SeqCst);
+        if let Some(device) = &*self.device() {
+            device.stop(StopHow::Now);
+        }
+        if let Some(engine) = self.0.engine.get() {
+            engine.unpark();
+        }
+    }
+
+    /// Lets a panic on any thread of the process press it, before the panic is reported as it was.
+    pub fn press_on_panic(&self) {
+        let switch = self.clone();
+        let report = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            switch.press();
+            report(info);
+        }));
+    }
+
+    /// How often it was pressed.
+    pub(super) fn presses(&self) -> u64 {
+        self.0.presses.load(Ordering::SeqCst)
+    }
+
+    /// The thread to wake.
+    pub(super) fn set_engine(&self, engine: Thread) {
+        // A switch has one engine for its life.
+        drop(self.0.engine.set(engine));
+    }
+
+    /// Wakes the engine.
+    pub(super) fn wake_engine(&self) {
+        if let Some(engine) = self.0.engine.get() {
+            engine.unpark();
+        }
+    }
+
+    /// The device that it stops.
+    pub(super) fn set_device(&self, device: Option<StopHandle>) {
+        *self.device() = device;
+    }
+
+    fn device(&self) -> std::sync::MutexGuard<'_, Option<StopHandle>> {
+        self.0.device.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl std::fmt::Debug for StopSwitch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("StopSwitch")
+            .field("presses", &self.presses())
+            .finish_non_exhaustive()
+    }
+}
