@@ -293,7 +293,7 @@ mod tests {
     fn a_final_full_block_may_or_may_not_carry_its_trailing_one() {
         // Behind the zero of the flags lie 2 + 248 + 4 bytes: a full block, if none of them is zero.
         let packets_of = |seq| Packet::encode(0x44, seq, &[0x55; 248]).unwrap();
-        let seq = (0x0101..)
+        let seq = (0x0101..=u16::MAX)
             .find(|seq| packets_of(*seq).as_bytes()[3] == u8::MAX)
             .unwrap();
         let wire = packets_of(seq).as_bytes().to_vec();

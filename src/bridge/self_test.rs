@@ -69,9 +69,7 @@ impl fmt::Display for SelfTestReport {
 /// Tests `target`, which takes a few seconds. The device is stopped at the end whatever happens.
 pub fn self_test(target: Target, profile: ArrayProfile) -> SelfTestReport {
     let n_contactors = profile.n_contactors();
-    let faint = profile
-        .full_scale_um
-        .map(|full_scale_um| faint_um(full_scale_um));
+    let faint = profile.full_scale_um.map(faint_um);
     let mut bench = Bench {
         bridge: Bridge::open(target, profile, n_contactors, || {}),
         amplitudes_um: vec![faint; n_contactors],

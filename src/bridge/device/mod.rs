@@ -4,6 +4,7 @@
 //! what time it is. All of its rules that keep a finger safe (lease, hold and ramp, arming, STOP, faults) run on a 1 ms
 //! clock, so silence comes at a fixed age of the last frame whatever the phase of the tick. Contactor physics is not here.
 
+mod clock;
 mod model;
 mod output;
 mod queue;
@@ -246,114 +247,6 @@ impl DeviceCore {
         }
     }
 
-    /// One step of the safety clock.
-    fn step_ms(&mut self, sink: &mut impl DeviceSink) {
-        self.check_lease();
-        if self
-            .output
-            .ident
-            .is_some_and(|ident| self.now_us >= ident.until_us)
-        {
-            self.output.ident = None;
-        }
-        if self.state.is_live() {
-            self.step_gain();
-        }
-        if self.state == DeviceState::Fault && self.now_us >= self.next_fault_us {
-            self.send_fault(sink);
-        }
-        self.report_change(sink);
-    }
-
-    fn step_gain(&mut self) {
-        let hold_us = u64::from(self.config.hold_ms) * MS_US;
-        let silent = self.age_us().is_some_and(|age_us| age_us > hold_us);
-        if silent || self.descent.is_some() {
-            self.state = DeviceState::Ramp;
-            if self.output.fall(self.config.ramp_ms == 0) {
-                self.silence(self.descent.unwrap_or(DeviceState::Ready));
-            }
-        } else if !self.output.is_gain_full() {
-            self.output.rise();
-        }
-    }
-
-    /// No valid packet for the lease: running output ramps down first, then the session ends.
-    fn check_lease(&mut self) {
-        let Some(session) = &self.session else { return };
-        if self.now_us - session.last_valid_us <= session.lease_us {
-            return;
-        }
-        match self.state {
-            DeviceState::Run | DeviceState::Hold | DeviceState::Ramp => {
-                self.descent = Some(DeviceState::Idle);
-                self.queue.clear();
-            }
-            DeviceState::Fault => self.session = None,
-            _ => self.silence(DeviceState::Idle),
-        }
-    }
-
-    /// Zero output, empty queue, disarmed, high voltage off, and on to `state`.
-    fn silence(&mut self, state: DeviceState) {
-        self.output.reset(self.config.ramp_ms);
-        self.queue.clear();
-        self.descent = None;
-        self.last_frame_us = None;
-        self.state = state;
-        if state == DeviceState::Idle {
-            self.session = None;
-        }
-    }
-
-    /// The start of a tick: its frame takes effect, then STATUS tells.
-    fn step_tick(&mut self, sink: &mut impl DeviceSink) {
-        if self.state.is_live() && self.descent.is_none() {
-            self.apply_frame(sink);
-        }
-        self.report_change(sink);
-        if self
-            .session
-            .as_ref()
-            .is_some_and(|session| session.wants_status)
-        {
-            self.send(&self.status(), sink);
-        }
-    }
-
-    fn apply_frame(&mut self, sink: &mut impl DeviceSink) {
-        let tick = self.tick();
-        let applied = if let Some(frame) = self.queue.take(tick) {
-            self.output.set_target(&frame.allowed);
-            self.scratch.copy_from_slice(&frame.received);
-            Some(frame.seq)
-        } else {
-            None
-        };
-        match (applied, self.state) {
-            (Some(_), DeviceState::Hold) => self.state = DeviceState::Run,
-            (None, _) if self.last_frame_us.is_some() => {
-                self.counters.underrun = self.counters.underrun.wrapping_add(1);
-                if self.state == DeviceState::Run {
-                    self.state = DeviceState::Hold;
-                }
-            }
-            _ => {}
-        }
-        // A ramp without a new frame only falls: slewing upwards meanwhile would fight it.
-        if applied.is_some() || self.state != DeviceState::Ramp {
-            self.output.slew(self.config.slew);
-        }
-        if let Some(seq) = applied {
-            let moment = self.moment();
-            sink.applied(&AppliedFrame {
-                moment,
-                seq,
-                codes: &self.scratch,
-            });
-        }
-    }
-
     fn status(&self) -> Status {
         let leaving = self.descent == Some(DeviceState::Idle);
         let informative = if leaving { fault_bit::LEASE_LOST } else { 0 };
@@ -398,10 +291,10 @@ impl DeviceCore {
 
     fn send(&mut self, message: &impl Message, sink: &mut impl DeviceSink) {
         let packet = message.packet(self.next_seq);
-        self.send_packet(packet, sink);
+        self.send_packet(packet.as_ref(), sink);
     }
 
-    fn send_packet(&mut self, packet: Option<Packet>, sink: &mut impl DeviceSink) {
+    fn send_packet(&mut self, packet: Option<&Packet>, sink: &mut impl DeviceSink) {
         if let Some(packet) = packet {
             self.next_seq = self.next_seq.wrapping_add(1);
             sink.packet(packet.as_bytes());

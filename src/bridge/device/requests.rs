@@ -4,41 +4,30 @@ use super::output::{IdentDrive, allow};
 use super::{DeviceCore, DeviceSink, MS_US, Session, wrapped_u32};
 use crate::bridge::framing::Received;
 use crate::bridge::message::{
-    ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC, Message,
-    NEXT_TICK, Ping, Pong, Stop, StopHow, VERSION, frame, kind,
+    ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC,
+    Message as _, NEXT_TICK, Ping, Pong, Stop, StopHow, VERSION, frame, kind,
 };
 
 const DEFAULT_LEASE_MS: u16 = 1000;
 const LONGEST_IDENT_MS: u16 = 1000;
 const SAMPLES_HEAD_LEN: usize = 8;
 
+/// What a packet leads to, beside its effect.
+enum Answer {
+    /// Not a valid packet.
+    Bad,
+    /// Valid; the reply, if there is one, is not an ACK.
+    Silence,
+    Ack(AckCode),
+}
+
 impl DeviceCore {
     /// Acts on one packet. False: it is not a valid packet, so it counts as `bad` and does not renew the lease.
     pub(super) fn handle(&mut self, packet: Received<'_>, sink: &mut impl DeviceSink) -> bool {
-        let payload = packet.payload;
-        let understood = match packet.kind {
-            kind::FIRST_DEVICE.. => return false,
-            kind::HELLO => return self.hello(payload, sink),
-            kind::FRAME => self.frame(packet.seq, payload),
-            kind::CONFIG => {
-                let Some(wish) = Config::decode(payload, self.model.n_channels()) else {
-                    return false;
-                };
-                self.configure(&wish, sink)
-            }
-            kind::PING => Ping::decode(payload).map(|ping| {
-                self.pong(ping, sink);
-                None
-            }),
-            kind::ARM => Arm::decode(payload).map(|arm| Some(self.arm(arm))),
-            kind::STOP => Stop::decode(payload).map(|stop| Some(self.stop(stop))),
-            kind::CLEAR => Clear::decode(payload).map(|clear| Some(self.clear(clear))),
-            kind::IDENT => Ident::decode(payload).map(|ident| Some(self.ident(ident))),
-            kind::SAMPLES if payload.len() < SAMPLES_HEAD_LEN => None,
-            _ => Some(Some(AckCode::UnknownType)),
-        };
-        let Some(answer) = understood else {
-            return false;
+        let answer = match self.answer(packet, sink) {
+            Answer::Bad => return false,
+            Answer::Ack(code) => Some(code),
+            Answer::Silence => None,
         };
         if let Some(session) = &mut self.session {
             session.last_valid_us = self.now_us;
@@ -56,13 +45,30 @@ impl DeviceCore {
         true
     }
 
-    /// A new session from any state; a HELLO that is not one of ours changes nothing.
-    fn hello(&mut self, payload: &[u8], sink: &mut impl DeviceSink) -> bool {
-        let Some(hello) = Hello::decode(payload) else {
-            return false;
+    fn answer(&mut self, packet: Received<'_>, sink: &mut impl DeviceSink) -> Answer {
+        let payload = packet.payload;
+        let decoded = match packet.kind {
+            kind::FIRST_DEVICE.. => None,
+            kind::HELLO => self.hello(payload, sink),
+            kind::CONFIG => Config::decode(payload, self.model.n_channels())
+                .map(|wish| self.configure(&wish, sink)),
+            kind::ARM => Arm::decode(payload).map(|arm| Answer::Ack(self.arm(arm))),
+            kind::FRAME => Some(self.frame(packet.seq, payload)),
+            kind::STOP => Stop::decode(payload).map(|stop| Answer::Ack(self.stop(stop))),
+            kind::PING => Ping::decode(payload).map(|ping| self.pong(ping, sink)),
+            kind::CLEAR => Clear::decode(payload).map(|clear| Answer::Ack(self.clear(clear))),
+            kind::SAMPLES if payload.len() < SAMPLES_HEAD_LEN => None,
+            kind::IDENT => Ident::decode(payload).map(|ident| Answer::Ack(self.ident(ident))),
+            _ => Some(Answer::Ack(AckCode::UnknownType)),
         };
+        decoded.unwrap_or(Answer::Bad)
+    }
+
+    /// A new session from any state; a HELLO that is not one of ours (`None`) changes nothing.
+    fn hello(&mut self, payload: &[u8], sink: &mut impl DeviceSink) -> Option<Answer> {
+        let hello = Hello::decode(payload)?;
         if hello.magic != MAGIC || hello.session == 0 {
-            return false;
+            return None;
         }
         let common = (hello.ver_min..=hello.ver_max).contains(&VERSION);
         let faulted = self.state == DeviceState::Fault;
@@ -91,22 +97,22 @@ impl DeviceCore {
             .model
             .caps(hello.session, if common { VERSION } else { 0 });
         self.send(&caps, sink);
-        true
+        Some(Answer::Silence)
     }
 
-    fn configure(&mut self, wish: &Config, sink: &mut impl DeviceSink) -> Option<Option<AckCode>> {
+    fn configure(&mut self, wish: &Config, sink: &mut impl DeviceSink) -> Answer {
         match self.state {
             DeviceState::Ready => {}
-            DeviceState::Fault => return Some(Some(AckCode::Faulted)),
-            _ => return Some(Some(AckCode::WrongState)),
+            DeviceState::Fault => return Answer::Ack(AckCode::Faulted),
+            _ => return Answer::Ack(AckCode::WrongState),
         }
         self.config = self.model.clamp(wish);
         if let Some(session) = &mut self.session {
             session.configured = true;
         }
         let reply = self.config.reply(self.next_seq, self.model.n_channels());
-        self.send_packet(reply, sink);
-        Some(None)
+        self.send_packet(reply.as_ref(), sink);
+        Answer::Silence
     }
 
     fn arm(&mut self, arm: Arm) -> AckCode {
@@ -127,24 +133,24 @@ impl DeviceCore {
         AckCode::Ok
     }
 
-    /// `None`: too short to be a FRAME. An accepted FRAME has no ACK.
-    fn frame(&mut self, seq: u16, payload: &[u8]) -> Option<Option<AckCode>> {
+    /// An accepted FRAME has no ACK: STATUS names the last one.
+    fn frame(&mut self, seq: u16, payload: &[u8]) -> Answer {
         if payload.len() < frame::payload_len(self.model.n_channels()) {
-            return None;
+            return Answer::Bad;
         }
         let Some(apply_tick) = frame::decode_into(payload, &mut self.scratch) else {
-            return Some(Some(AckCode::OutOfRange));
+            return Answer::Ack(AckCode::OutOfRange);
         };
         if self.state == DeviceState::Fault {
-            return Some(Some(AckCode::Faulted));
+            return Answer::Ack(AckCode::Faulted);
         }
         let live = self.state.is_live() && self.descent.is_none();
         let Some(session) = self.session.as_mut().filter(|_| live) else {
-            return Some(Some(AckCode::WrongState));
+            return Answer::Ack(AckCode::WrongState);
         };
         if session.last_seq == Some(seq) {
             self.counters.dup = self.counters.dup.wrapping_add(1);
-            return Some(None);
+            return Answer::Silence;
         }
         let next = wrapped_u32(self.now_us / super::TICK).wrapping_add(1);
         let ahead = apply_tick.wrapping_sub(next).cast_signed();
@@ -155,11 +161,11 @@ impl DeviceCore {
             apply_tick
         };
         if tick.wrapping_sub(next) >= u32::from(self.model.queue) {
-            return Some(Some(AckCode::QueueFull));
+            return Answer::Ack(AckCode::QueueFull);
         }
         session.last_seq = Some(seq);
         self.accept_frame(seq, tick, late);
-        Some(None)
+        Answer::Silence
     }
 
     fn accept_frame(&mut self, seq: u16, tick: u32, late: bool) {
@@ -233,7 +239,7 @@ impl DeviceCore {
         AckCode::Ok
     }
 
-    fn pong(&mut self, ping: Ping, sink: &mut impl DeviceSink) {
+    fn pong(&mut self, ping: Ping, sink: &mut impl DeviceSink) -> Answer {
         let pong = Pong {
             token: ping.token,
             dev_us: wrapped_u32(self.now_us),
@@ -241,5 +247,6 @@ impl DeviceCore {
             phase_us: u16::try_from(self.now_us % super::TICK).unwrap_or(0),
         };
         self.send(&pong, sink);
+        Answer::Silence
     }
 }

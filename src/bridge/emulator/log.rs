@@ -4,7 +4,7 @@
 //! row has no seq and no codes. `gain` is the hold and ramp gain, `amp_sum` the sum of the output codes from then on.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::bridge::BridgeError;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use serialport::{SerialPort, TTYPort};
+use serialport::{SerialPort as _, TTYPort};
 
 use super::{DeviceLog, Emulation};
 use crate::bridge::BridgeError;

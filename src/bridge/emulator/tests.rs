@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::*;
 use crate::bridge::framing::Decoder;
-use crate::bridge::message::{DeviceMessage, Hello, Message};
+use crate::bridge::message::{DeviceMessage, Hello, Message as _};
 
 /// Reads until a message satisfies `wanted`, for at most 20 s.
 fn wait_for(port: &mut dyn Port, wanted: impl Fn(&DeviceMessage) -> bool) -> DeviceMessage {

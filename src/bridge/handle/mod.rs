@@ -3,7 +3,7 @@
 //! [`Bridge::poll`] runs the session, so that everything happens on the owner's thread except waiting for the port. An
 //! owner that hangs sends no frames and no pings: the device then goes silent by itself, as it should.
 
-use std::hash::{BuildHasher, Hasher, RandomState};
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -161,7 +161,7 @@ impl Bridge {
         let received = self.session.status_received();
         let answers = received.filter(|_| self.answered != received);
         self.answered = received;
-        link.send_frame(QueuedFrame {
+        link.send_frame(&QueuedFrame {
             packet,
             answers,
             stamp,
@@ -265,10 +265,10 @@ impl Bridge {
     fn flush(&mut self) {
         let Some(link) = &mut self.link else { return };
         if let Some(packet) = self.session.take_stop() {
-            link.send_stop(packet);
+            link.send_stop(&packet);
         }
         while let Some(packet) = self.session.next_packet() {
-            link.send_control(packet);
+            link.send_control(&packet);
         }
     }
 

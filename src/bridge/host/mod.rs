@@ -8,6 +8,7 @@ mod checks;
 mod pending;
 mod replies;
 mod report;
+mod timers;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -17,20 +18,12 @@ use std::time::{Duration, Instant};
 use super::codes::{ArrayProfile, Bite, Coder};
 use super::framing::Packet;
 use super::message::{
-    Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message, Ping, Status, Stop,
-    StopHow, frame, kind,
+    Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message as _, Ping, Status,
+    Stop, StopHow, frame, kind,
 };
-use pending::{Pending, Verdict};
+use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
 
-/// A host that has nothing to send for this long sends a PING: below a quarter of the lease of 1 s.
-const PING_EVERY: Duration = Duration::from_millis(200);
-/// STATUS missing for this long while armed means that the link is lost.
-const SILENCE_ARMED: Duration = Duration::from_millis(500);
-/// The same while nothing moves; longer, since nothing is at stake.
-const SILENCE_IDLE: Duration = Duration::from_secs(2);
-/// A caller that was away longer than this cannot blame the device for the silence.
-const LONGEST_STEP: Duration = Duration::from_millis(100);
 const TICK: Duration = Duration::from_millis(25);
 /// Ticks of the linear soft start after ARM.
 pub const SOFT_START_TICKS: u32 = 20;
@@ -124,33 +117,13 @@ impl HostSession {
             return;
         }
         self.state = BridgeState::Greeting;
-        self.queue(Some(Packet::delimiter()), now);
+        self.queue(Some(&Packet::delimiter()), now);
         self.request(kind::HELLO, now);
     }
 
     /// The port failed or could not be opened.
     pub fn link_gone(&mut self, reason: &str) {
         self.lose(String::from(reason));
-    }
-
-    /// Lets time pass: repeats, pings, and the patience with a silent device. Call at least every 100 ms.
-    pub fn on_time(&mut self, now: Instant) {
-        let step = self
-            .last_time
-            .map_or(Duration::ZERO, |last| now.saturating_duration_since(last));
-        self.last_time = Some(now);
-        if !self.state.is_open() || self.state == BridgeState::Opening {
-            return;
-        }
-        self.check_request(now);
-        self.check_stop(now);
-        self.check_silence(step.min(LONGEST_STEP));
-        let quiet = self
-            .last_sent
-            .is_none_or(|sent| now.duration_since(sent) >= PING_EVERY);
-        if self.state.is_open() && self.caps.is_some() && quiet {
-            self.ping(now);
-        }
     }
 
     /// Asks for output. True when ARM went out; `Armed` or `Disarmed` follows. Only from `Ready`.
@@ -197,7 +170,7 @@ impl HostSession {
         let seq = self.sequence.next();
         let token = u32::from(seq) | self.nonce << 16;
         self.ping = Some((token, now));
-        self.queue(Ping { token }.packet(seq), now);
+        self.queue(Ping { token }.packet(seq).as_ref(), now);
     }
 
     /// A FRAME for the tick `depth` after the present one, soft start applied; `None` unless armed and a STATUS has come.
@@ -313,7 +286,7 @@ impl HostSession {
             kind::CLEAR => Clear { bits: u16::MAX }.packet(seq),
             _ => Arm::new(self.nonce).packet(seq),
         };
-        self.queue(packet, now);
+        self.queue(packet.as_ref(), now);
     }
 
     fn send_stop(&mut self, stopping: &mut Pending, now: Instant) {
@@ -345,69 +318,6 @@ impl HostSession {
         }
     }
 
-    fn check_request(&mut self, now: Instant) {
-        let Some(mut request) = self.request else {
-            return;
-        };
-        match request.verdict(now) {
-            Verdict::Wait => return,
-            Verdict::Repeat => {
-                self.send_request(&mut request, now);
-                self.request = Some(request);
-                return;
-            }
-            Verdict::GiveUp => self.request = None,
-        }
-        match request.kind() {
-            kind::HELLO => self.lose(String::from(
-                "no answer within 5 s: check that the bridge is powered and that this is its port",
-            )),
-            kind::ARM => {
-                self.stop(now, StopHow::Now);
-                self.stop_ends_output = false;
-                self.disarmed(
-                    DisarmedBy::Device,
-                    String::from("the device did not answer ARM"),
-                );
-            }
-            kind::CONFIG => self.lose(String::from("the device did not answer CONFIG")),
-            _ => {}
-        }
-    }
-
-    fn check_stop(&mut self, now: Instant) {
-        let Some(mut stopping) = self.stopping else {
-            return;
-        };
-        match stopping.verdict(now) {
-            Verdict::Wait => {}
-            Verdict::Repeat => {
-                self.send_stop(&mut stopping, now);
-                self.stopping = Some(stopping);
-            }
-            Verdict::GiveUp => self.lose(String::from("the device did not acknowledge STOP")),
-        }
-    }
-
-    /// Silence is counted in steps of the caller's own presence: a program that was suspended starts afresh.
-    fn check_silence(&mut self, step: Duration) {
-        if self.caps.is_none() {
-            return;
-        }
-        self.silent_for += step;
-        let patience = if self.state.is_live() {
-            SILENCE_ARMED
-        } else {
-            SILENCE_IDLE
-        };
-        if self.silent_for >= patience && self.state.is_open() {
-            self.lose(format!(
-                "no STATUS for {} ms: check the cable and that the bridge is powered",
-                patience.as_millis()
-            ));
-        }
-    }
-
     fn lose(&mut self, reason: String) {
         if !self.state.is_open() {
             return;
@@ -435,11 +345,11 @@ impl HostSession {
         self.event(BridgeEvent::Disarmed { by, reason });
     }
 
-    fn queue(&mut self, packet: Option<Packet>, now: Instant) {
+    fn queue(&mut self, packet: Option<&Packet>, now: Instant) {
         if let Some(packet) = packet
             && self.packets.len() < MOST_PACKETS
         {
-            self.packets.push_back(packet);
+            self.packets.push_back(*packet);
             self.last_sent = Some(now);
         }
     }

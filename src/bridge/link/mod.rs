@@ -20,7 +20,7 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use super::BridgeError;
 use super::framing::Packet;
 use super::host::Sequence;
-use super::message::{DeviceMessage, Message, Stop, StopHow};
+use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use reader::Reader;
 use timings::Histogram;
@@ -105,9 +105,9 @@ impl Shared {
         }
     }
 
-    fn put_stop(&self, packet: Packet) {
+    fn put_stop(&self, packet: &Packet) {
         let mut slot = self.stop.lock().unwrap_or_else(PoisonError::into_inner);
-        *slot = Some(packet);
+        *slot = Some(*packet);
         self.stops_asked.fetch_add(1, Ordering::Release);
         drop(slot);
         self.unpark_writer();
@@ -211,20 +211,20 @@ impl Link {
             .or_else(|| self.failures.pop().ok().map(Incoming::Gone))
     }
 
-    pub(super) fn send_stop(&self, packet: Packet) {
+    pub(super) fn send_stop(&self, packet: &Packet) {
         self.shared.put_stop(packet);
     }
 
     /// Without room the packet is dropped: every request is repeated.
-    pub(super) fn send_control(&mut self, packet: Packet) {
-        if self.controls.push(packet).is_ok() {
+    pub(super) fn send_control(&mut self, packet: &Packet) {
+        if self.controls.push(*packet).is_ok() {
             self.shared.unpark_writer();
         }
     }
 
     /// Without room the frame is dropped and counted: the writer is stuck, and the device is on its way to silence.
-    pub(super) fn send_frame(&mut self, frame: QueuedFrame) {
-        if self.frames.push(frame).is_err() {
+    pub(super) fn send_frame(&mut self, frame: &QueuedFrame) {
+        if self.frames.push(*frame).is_err() {
             self.shared
                 .frames_superseded
                 .fetch_add(1, Ordering::Relaxed);
@@ -300,7 +300,7 @@ impl StopHandle {
         let code = if how == StopHow::Ramp { 1 } else { 2 };
         self.shared.stop_by_handle.fetch_max(code, Ordering::AcqRel);
         if let Some(packet) = (Stop { reason: 1, how }).packet(self.shared.sequence.next()) {
-            self.shared.put_stop(packet);
+            self.shared.put_stop(&packet);
         }
         (self.shared.waker)();
     }

@@ -13,7 +13,7 @@ struct Notes {
 }
 
 impl Port for Notes {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "notes"
     }
 
@@ -76,7 +76,7 @@ impl Desk {
 fn only_the_newest_frame_is_written() {
     let mut desk = desk();
     for tick in 0..6 {
-        desk.link.send_frame(queued(tick));
+        desk.link.send_frame(&queued(tick));
     }
     desk.write_all();
     assert_eq!(desk.port.written, [queued(3).packet.as_bytes()]);
@@ -89,8 +89,8 @@ fn only_the_newest_frame_is_written() {
 fn control_packets_precede_frames() {
     let mut desk = desk();
     let ping = Ping { token: 1 }.packet(0).unwrap();
-    desk.link.send_frame(queued(1));
-    desk.link.send_control(ping);
+    desk.link.send_frame(&queued(1));
+    desk.link.send_control(&ping);
     desk.write_all();
     assert_eq!(
         desk.port.written,
@@ -107,10 +107,10 @@ fn a_stop_overtakes_and_discards_everything_queued() {
     }
     .packet(9)
     .unwrap();
-    desk.link.send_control(Arm::new(5).packet(0).unwrap());
-    desk.link.send_frame(queued(1));
-    desk.link.send_frame(queued(2));
-    desk.link.send_stop(stop);
+    desk.link.send_control(&Arm::new(5).packet(0).unwrap());
+    desk.link.send_frame(&queued(1));
+    desk.link.send_frame(&queued(2));
+    desk.link.send_stop(&stop);
     desk.write_all();
     assert_eq!(desk.port.written, [stop.as_bytes()]);
     assert_eq!(desk.link.counters().frames_superseded, 2);
@@ -139,15 +139,15 @@ fn a_stop_handle_tells_the_owner_and_sees_the_writing() {
 fn a_second_time_out_in_a_row_is_the_end_and_a_stop_is_tried_twice() {
     let mut desk = desk();
     desk.port.fail = Some(io::ErrorKind::TimedOut);
-    desk.link.send_frame(queued(1));
+    desk.link.send_frame(&queued(1));
     assert!(desk.writer.step(&mut desk.port).is_some());
     assert!(desk.link.next().is_none(), "one time-out is forgiven");
     desk.port.fail = None;
-    desk.link.send_frame(queued(2));
+    desk.link.send_frame(&queued(2));
     desk.write_all();
     desk.port.fail = Some(io::ErrorKind::TimedOut);
     desk.link.send_stop(
-        Stop {
+        &Stop {
             reason: 0,
             how: StopHow::Now,
         }
@@ -168,7 +168,7 @@ fn a_second_time_out_in_a_row_is_the_end_and_a_stop_is_tried_twice() {
 fn a_vanished_port_is_the_end_at_once() {
     let mut desk = desk();
     desk.port.fail = Some(io::ErrorKind::BrokenPipe);
-    desk.link.send_frame(queued(1));
+    desk.link.send_frame(&queued(1));
     desk.writer.step(&mut desk.port);
     assert!(matches!(desk.link.next(), Some(Incoming::Gone(_))));
 }
@@ -178,7 +178,7 @@ fn rings_that_are_full_drop_and_count() {
     let mut desk = desk();
     for tick in 0..100 {
         desk.link
-            .send_control(Ping { token: tick }.packet(0).unwrap());
+            .send_control(&Ping { token: tick }.packet(0).unwrap());
     }
     desk.write_all();
     assert_eq!(desk.port.written.len(), CONTROLS);

@@ -68,7 +68,7 @@ impl Writer {
             let written = self.write(port, &stop);
             match written {
                 Written::Yes => self.shared.stops_written.store(asked, Ordering::Release),
-                Written::TimedOut => self.shared.put_stop(stop),
+                Written::TimedOut => self.shared.put_stop(&stop),
                 Written::Gone => {}
             }
             return Some(written);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{AckCode, Caps, Config, DeviceState, Message, kind, message};
+use super::{AckCode, Caps, Config, DeviceState, Message as _, kind, message};
 use crate::bridge::framing::Received;
 
 /// Answers ARM, STOP, CLEAR, IDENT, and whatever was refused.

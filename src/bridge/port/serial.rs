@@ -139,7 +139,7 @@ mod tests {
             ),
             (String::from("/dev/null"), "not a serial port"),
             (folder.display().to_string(), "cannot be opened"),
-            (String::from(""), "no such port"),
+            (String::new(), "no such port"),
         ] {
             let message = SerialLink::open(&path).unwrap_err().to_string();
             assert!(
