@@ -268,7 +268,7 @@ impl Engine {
         Order::Scene(scene, input)
     }
 
-    fn connect_order(&mut self, target: Target) -> Order {
+    fn connect_order(&self, target: Target) -> Order {
         let switch = self.switch.clone();
         let wake = move || switch.wake_engine();
         let bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);

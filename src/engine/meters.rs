@@ -133,10 +133,10 @@ mod tests {
     #[test]
     fn durations_beyond_the_last_bucket_count_as_the_largest() {
         let mut histogram = Histogram::new();
-        histogram.add(Duration::from_secs(3600));
+        histogram.add(Duration::from_hours(1));
         histogram.add(Duration::ZERO);
         assert_eq!(histogram.spread().n, 2);
-        assert_eq!(histogram.spread().max, Duration::from_secs(3600));
+        assert_eq!(histogram.spread().max, Duration::from_hours(1));
     }
 
     #[test]

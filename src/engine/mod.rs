@@ -18,10 +18,10 @@
 //! - no GUI, no files: recordings are handed over as data
 
 mod command;
-mod engine;
 mod engine_core;
 mod error;
 mod gist;
+mod handle;
 mod input;
 mod link;
 mod meters;
@@ -36,9 +36,9 @@ mod stop;
 mod velocity;
 
 pub use command::{Command, InputSource, Notice, VelocityMethod};
-pub use engine::{Engine, EngineConfig};
 pub use engine_core::EngineCore;
 pub use error::EngineError;
+pub use handle::{Engine, EngineConfig};
 pub use input::{Control, InputLosses, PointerInput, PointerSender, Reading};
 pub use pacer::{Due, PATIENCE, Pacer};
 pub use prepared::PreparedScene;

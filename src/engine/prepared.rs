@@ -3,12 +3,12 @@
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{DisplayView, EngineError};
+use super::{ContactorView, DisplayView, EngineError};
 use crate::bridge::{ArrayProfile, Coder};
 use crate::geometry::Point;
 use crate::render::RenderScene;
 use crate::render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
-use crate::scene::Pose;
+use crate::scene::{Display, LoadedScene, Pose};
 
 /// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
 pub struct PreparedScene {
@@ -28,6 +28,21 @@ struct Output {
 }
 
 impl PreparedScene {
+    /// Prepares a loaded scene: tables may take a while. The pointer starts in its middle.
+    ///
+    /// # Errors
+    /// What [`ArrayRenderer::prepare`] refuses.
+    pub fn prepare(
+        loaded: &LoadedScene,
+        method: Method,
+        accuracy: &Accuracy,
+    ) -> Result<Self, EngineError> {
+        let scene = loaded.scene();
+        let start = Point::new(scene.size_mm[0] / 2.0, scene.size_mm[1] / 2.0);
+        let profile = scene.displays.first().map(profile_of).unwrap_or_default();
+        Self::from_parts(&RenderScene::of(loaded), profile, start, (method, accuracy))
+    }
+
     /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer
     /// at `start`.
     ///
@@ -122,7 +137,7 @@ impl PreparedScene {
     /// Views with room for every contactor.
     pub(super) fn empty_views(&self) -> Vec<DisplayView> {
         let view = |output: &Output| DisplayView {
-            contactors: vec![Default::default(); output.codes.len()],
+            contactors: vec![ContactorView::default(); output.codes.len()],
         };
         self.outputs.iter().map(view).collect()
     }
@@ -143,6 +158,19 @@ impl PreparedScene {
                 contactor.bite = bites.get(index).copied().unwrap_or_default();
             }
         }
+    }
+}
+
+/// The array that a display is: its grid, or one row of its contactors.
+fn profile_of(display: &Display) -> ArrayProfile {
+    let geometry = &display.geometry;
+    let (rows, cols) = geometry.grid().unwrap_or_else(|| (1, geometry.n_contactors()));
+    let byte = |count: usize| u8::try_from(count).unwrap_or(u8::MAX);
+    ArrayProfile {
+        name: geometry.label(),
+        rows: byte(rows),
+        cols: byte(cols),
+        ..ArrayProfile::default()
     }
 }
 

@@ -69,6 +69,7 @@ pub struct Recording {
 
 /// Both sides of a recording of `n_contactors` contactors, those of all displays together.
 pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
+    static ID: AtomicU64 = AtomicU64::new(0);
     let (mut spares, spares_out) = RingBuffer::new(N_BLOCKS);
     // Every block that exists finds room among the full ones.
     let (full_in, full) = RingBuffer::new(N_BLOCKS + 1);
@@ -76,7 +77,6 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
         // Room for all of them was just made.
         drop(spares.push(Block::new(n_contactors)));
     }
-    static ID: AtomicU64 = AtomicU64::new(0);
     let id = ID.fetch_add(1, Ordering::Relaxed);
     let recorder = Recorder {
         id,

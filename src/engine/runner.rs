@@ -136,7 +136,7 @@ impl Runner {
             ..
         } = self;
         core.tick(started, &mut |notice| {
-            tell(&mut channels.notices, notices_lost, notice)
+            tell(&mut channels.notices, notices_lost, notice);
         });
         // A stop that came while this tick was made must not be followed by its frame.
         self.heed_stop();

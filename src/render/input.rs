@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::RenderError;
 use crate::geometry::{Displacement, Frame};
+use crate::scene::LoadedScene;
 use crate::surface::Surface;
 use crate::tactile::{Filters, Tuning, check_gain};
 
@@ -81,6 +82,31 @@ pub struct ContactorArray {
 }
 
 impl RenderScene {
+    /// What rendering needs of a loaded scene, with its tuning or the library's.
+    pub fn of(loaded: &LoadedScene) -> Self {
+        let scene = loaded.scene();
+        let placed = scene.textiles.iter().zip(loaded.textiles()).zip(loaded.levels_db());
+        let textiles = placed.map(|((placed, textile), level_db)| PlacedSurface {
+            workspace_from_textile: placed.workspace_from_textile(),
+            size_mm: placed.size_mm,
+            manifest_gain_db: textile.manifest().gain_db,
+            scene_gain_db: placed.gain_db,
+            level: PlacedLevel::of(*level_db),
+            surface: Arc::new(textile.surface().clone()),
+        });
+        let displays = scene.displays.iter().map(|display| ContactorArray {
+            offsets: display.geometry.contactors(),
+            rotation_deg: display.rotation_deg,
+        });
+        Self {
+            textiles: textiles.collect(),
+            displays: displays.collect(),
+            filters: scene.filters,
+            tuning: loaded.tuning(),
+            library_reference_db: loaded.library_reference_db(),
+        }
+    }
+
     /// Refuses what cannot be rendered: gains that are NaN or +∞, a senseless tuning, places that
     /// are not finite, too many textiles.
     pub fn check(&self) -> Result<(), RenderError> {

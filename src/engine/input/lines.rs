@@ -167,7 +167,7 @@ impl Reader {
         let stamp = moved.unwrap_or(now);
         let ahead = stamp.saturating_duration_since(now);
         if ahead > LEAD && ahead <= LONGEST_LEAD {
-            thread::sleep(ahead - LEAD);
+            thread::sleep(ahead.saturating_sub(LEAD));
         }
         stamp
     }
@@ -273,8 +273,8 @@ mod tests {
 
     #[test]
     fn more_lines_than_the_ring_holds_wait_for_room() {
-        let text: String = (0..3000).map(|n| format!("{n},0\n")).collect();
-        let (samples, _) = read(text);
+        let lines: Vec<String> = (0..3000).map(|n| format!("{n},0\n")).collect();
+        let (samples, _) = read(lines.concat());
         assert_eq!(samples.len(), 3000);
         assert!(
             samples
