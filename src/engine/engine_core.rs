@@ -4,14 +4,17 @@
 
 use std::time::{Duration, Instant};
 
-use super::input::{Control, LiveInput, PointerInput, PointerSender, Reading, live_ring};
+use super::handle::playable;
+use super::input::{
+    Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring,
+};
 use super::order::{CoreOrder, Retired};
 use super::recording::{RecordedTick, Recorder};
 use super::sample::{SampleGate, Verdict};
 use super::velocity::{Estimate, REST, VelocityEstimator};
 use super::{
-    Notice, Playback, PointerSample, PointerView, PreparedScene, RecordingView, Snapshot,
-    SourceKind, TICK, TICKS_PER_S, VelocityMethod,
+    EngineError, InputSource, Notice, Playback, PointerSample, PointerView, PreparedScene,
+    RecordingView, Snapshot, SourceKind, TICK, TICKS_PER_S, VelocityMethod,
 };
 use crate::bridge::SentFrame;
 use crate::geometry::Velocity;
@@ -78,6 +81,29 @@ impl EngineCore {
         };
         core.scene.render(pose);
         (core, sender)
+    }
+
+    /// Takes positions from this source, which moves on from the next tick: for whoever drives a
+    /// core without an [`Engine`](super::Engine). Allocates.
+    ///
+    /// # Errors
+    /// A stroke makes no sense, or the system gives no thread for a stream of lines.
+    pub fn play(&mut self, source: InputSource, does_loop: bool) -> Result<(), EngineError> {
+        drop(self.set_source(playable(source)?));
+        self.control(Control::Loop(does_loop));
+        self.control(Control::Play);
+        Ok(())
+    }
+
+    /// The pose that was rendered last.
+    pub fn pose(&self) -> Pose {
+        self.rendered
+    }
+
+    /// What the source lost before anybody could look at it.
+    pub fn losses(&self) -> InputLosses {
+        self.source()
+            .map_or_else(|| self.live.losses(), PointerInput::losses)
     }
 
     /// Does one tick. Allocates nothing.

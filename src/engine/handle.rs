@@ -339,7 +339,7 @@ impl fmt::Debug for EngineConfig {
 }
 
 /// A source as the engine polls it; `None` for live samples.
-fn playable(source: InputSource) -> Result<Option<Box<dyn PointerInput>>, EngineError> {
+pub(super) fn playable(source: InputSource) -> Result<Option<Box<dyn PointerInput>>, EngineError> {
     Ok(match source {
         InputSource::Pointer => None,
         InputSource::Replay(path) => Some(Box::new(ReplayInput::new(path))),
