@@ -88,7 +88,12 @@ impl Gains {
         check_gain("gain_db", gain_db)?;
         let n_textiles = self.textiles.len();
         let placed = self.textiles.get_mut(textile);
-        placed.ok_or(RenderError::NoTextile { index: textile, n_textiles })?.scene_db = gain_db;
+        placed
+            .ok_or(RenderError::NoTextile {
+                index: textile,
+                n_textiles,
+            })?
+            .scene_db = gain_db;
         self.apply();
         Ok(())
     }

@@ -61,6 +61,46 @@ impl Contacts<'_> {
         usize::from(self.owners[contactor]) == self.textile
     }
 
+    /// Does something with the output of every contactor on this textile.
+    #[inline]
+    pub(in crate::render) fn for_each_owned<T>(
+        &self,
+        outputs: &mut [T],
+        mut act: impl FnMut(usize, &mut T),
+    ) {
+        if self.n_contactors == self.owners.len() {
+            // Without a question for each, the loop runs several contactors at a time.
+            outputs
+                .iter_mut()
+                .enumerate()
+                .for_each(|(i, output)| act(i, output));
+        } else {
+            let owned = outputs.iter_mut().enumerate().zip(self.owners);
+            owned
+                .filter(|&(_, &owner)| usize::from(owner) == self.textile)
+                .for_each(|((i, output), _)| act(i, output));
+        }
+    }
+
+    /// The same with the contactor's place along warp and weft, mm.
+    #[inline]
+    pub(in crate::render) fn for_each_placed<T>(
+        &self,
+        outputs: &mut [T],
+        mut act: impl FnMut([f64; 2], &mut T),
+    ) {
+        let places = self.places_mm[0].iter().zip(self.places_mm[1]);
+        let placed = outputs.iter_mut().zip(places);
+        if self.n_contactors == self.owners.len() {
+            placed.for_each(|(output, (&u, &w))| act([u, w], output));
+        } else {
+            let owned = placed.zip(self.owners);
+            owned
+                .filter(|&(_, &owner)| usize::from(owner) == self.textile)
+                .for_each(|((output, (&u, &w)), _)| act([u, w], output));
+        }
+    }
+
     /// A contactor's velocity component along an axis.
     #[inline]
     pub(in crate::render) fn component(&self, axis: Axis, contactor: usize) -> Component {

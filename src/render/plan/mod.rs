@@ -11,7 +11,7 @@ mod point;
 
 pub(super) use contact::{Contacts, DisplayPlan, Motion, TextilePlan};
 pub use counters::Counters;
-pub(super) use point::PointIndex;
+pub(super) use point::{PointIndex, whole_part};
 
 use std::sync::Arc;
 

@@ -23,19 +23,31 @@ impl PointIndex {
         }
     }
 
-    /// The point nearest to a place in mm at or right of −½; places beyond 4·10⁹ mm saturate.
+    /// The point nearest to a place in mm, at or right of −½.
     #[expect(
         clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "inside a textile places are at least -1e-6 mm; the rest is below n_points"
+        reason = "the result is below n_points"
     )]
     #[inline]
     pub(in crate::render) fn nearest(self, place_mm: f64) -> usize {
-        // Truncation is the floor of a number that is not negative, without a library call.
-        let whole = (place_mm + 0.5 + BORDER_MM) as u32;
+        let whole = whole_part(place_mm + 0.5 + BORDER_MM);
         let fraction = self.reciprocal.wrapping_mul(u64::from(whole));
         ((u128::from(fraction) * u128::from(self.n_points)) >> 64) as usize
     }
+}
+
+/// `⌊x⌋` for 0 ≤ x < 2³²; some number beyond. A library's floor, and a cast that saturates, each
+/// cost more than all this: adding 2⁵² rounds to a whole number that stands in the low bits.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the low bits are what is wanted"
+)]
+#[inline]
+pub(in crate::render) fn whole_part(x: f64) -> u32 {
+    const SHIFT: f64 = 4_503_599_627_370_496.0;
+    let shifted = x + SHIFT;
+    let is_rounded_up = shifted - SHIFT > x;
+    (shifted.to_bits() as u32).wrapping_sub(u32::from(is_rounded_up))
 }
 
 #[cfg(test)]
@@ -58,6 +70,23 @@ mod tests {
             assert_eq!(of_16.nearest(place_mm), point, "{place_mm} mm");
         }
         assert_eq!(PointIndex::new(1).nearest(1234.5), 0);
+    }
+
+    #[test]
+    fn the_whole_part_is_the_floor() {
+        for x in [
+            0.0,
+            0.499,
+            0.5,
+            0.999_999,
+            1.0,
+            1.5,
+            2.5,
+            7.0_f64.next_down(),
+            4_294_967_295.9,
+        ] {
+            assert_eq!(f64::from(whole_part(x)), x.floor(), "{x}");
+        }
     }
 
     #[test]

@@ -85,7 +85,7 @@ impl TableEvaluator {
             powers,
         };
         let tables: Vec<Table> = spectra.iter().zip(powers).map(table).collect();
-        let longest = tables.iter().map(|table| table.n_points).max().unwrap_or(0);
+        let longest = tables.iter().map(|table| table.n_points).max().unwrap_or(1);
         let unit_um = |textile: &TextilePlan| units_um2[textile.spectra[0]].sqrt();
         let evaluator = Self {
             segments,
@@ -116,22 +116,19 @@ impl TableEvaluator {
     ) {
         let textile = &plan.textiles[contacts.textile];
         let unit_um = self.unit_um[contacts.textile];
-        let factors = factors.map(|factor| single(factor * unit_um));
         match contacts.motion {
             Motion::Together(_) => self.together(textile, contacts, amplitudes_um, counters),
             Motion::Turning(..) => self.turning(textile, contacts, amplitudes_um, counters),
         }
-        let owned = amplitudes_um.iter_mut().zip(contacts.owners);
-        for ([low, high], &owner) in owned {
-            if usize::from(owner) == contacts.textile {
-                *low = low.sqrt() * factors[0];
-                *high = high.sqrt() * factors[1];
-            }
-        }
+        let [low_factor, high_factor] = factors.map(|factor| single(factor * unit_um));
+        contacts.for_each_owned(amplitudes_um, |_, [low, high]| {
+            *low = low.sqrt() * low_factor;
+            *high = high.sqrt() * high_factor;
+        });
     }
 
-    /// Powers of contactors that share a velocity: each direction is interpolated once, at all of
-    /// its points if there are few.
+    /// Powers of contactors that share a velocity: a direction's speed is looked up once, and its
+    /// powers are interpolated at all points if these are few.
     fn together(
         &mut self,
         textile: &TextilePlan,
@@ -139,34 +136,41 @@ impl TableEvaluator {
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
-        let n = contacts.n_contactors as u64;
+        let n = contacts.n_contactors;
+        let mut points = [PointIndex::new(1); 2];
         for axis in Axis::BOTH {
+            let blended = &mut self.blended[axis as usize];
+            blended[0] = [0.0; 2];
             let component = contacts.component(axis, 0);
             let Component::Felt {
                 speed_mm_per_s,
                 is_reverse,
             } = component
             else {
-                counters.left_out(component, n);
+                counters.left_out(component, n as u64);
                 continue;
             };
-            let d = axis.direction(is_reverse);
-            let (table, index) = (
-                &self.tables[textile.spectra[d.index()]],
-                textile.points[d.index()],
-            );
+            let d = axis.direction(is_reverse).index();
+            let table = &self.tables[textile.spectra[d]];
             let rows = table.rows(self.segments.find(speed_mm_per_s));
-            if table.n_points <= BLEND_ALL * contacts.n_contactors {
-                let blended = &mut self.blended[0][..table.n_points];
+            if table.n_points <= BLEND_ALL * n {
                 rows.blend(blended);
-                counters.directions_evaluated += table.n_points as u64;
-                counters.directions_repeated += n.saturating_sub(table.n_points as u64);
-                add(powers, contacts, (axis, index), |point| blended[point]);
+                points[axis as usize] = textile.points[d];
+                counters.directions_evaluated += table.n_points.min(n) as u64;
+                counters.directions_repeated += n.saturating_sub(table.n_points) as u64;
             } else {
-                counters.directions_evaluated += n;
-                add(powers, contacts, (axis, index), |point| rows.at(point));
+                let (places_mm, points) = (contacts.places_mm[axis as usize], textile.points[d]);
+                contacts.for_each_owned(powers, |contactor, power| {
+                    add(power, rows.at(points.nearest(places_mm[contactor])));
+                });
+                counters.directions_evaluated += n as u64;
             }
         }
+        let [warp, weft] = [&self.blended[0][..], &self.blended[1][..]];
+        contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+            add(power, warp[points[0].nearest(u_mm)]);
+            add(power, weft[points[1].nearest(w_mm)]);
+        });
     }
 
     /// Powers of contactors that each move their own way.
@@ -177,10 +181,7 @@ impl TableEvaluator {
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
-        for (contactor, power) in powers.iter_mut().enumerate() {
-            if !contacts.owns(contactor) {
-                continue;
-            }
+        contacts.for_each_owned(powers, |contactor, power| {
             for axis in Axis::BOTH {
                 let component = contacts.component(axis, contactor);
                 let Component::Felt {
@@ -194,12 +195,10 @@ impl TableEvaluator {
                 let d = axis.direction(is_reverse).index();
                 let point = textile.points[d].nearest(contacts.places_mm[axis as usize][contactor]);
                 let rows = self.tables[textile.spectra[d]].rows(self.segments.find(speed_mm_per_s));
-                let [low, high] = rows.at(point);
-                power[0] += low;
-                power[1] += high;
+                add(power, rows.at(point));
                 counters.directions_evaluated += 1;
             }
-        }
+        });
     }
 }
 
@@ -230,22 +229,10 @@ impl Rows<'_> {
     }
 }
 
-/// Adds a direction's powers to every contactor on the textile.
 #[inline]
-fn add(
-    powers: &mut [[f32; 2]],
-    contacts: &Contacts<'_>,
-    (axis, index): (Axis, PointIndex),
-    power_at: impl Fn(usize) -> [f32; 2],
-) {
-    let places = contacts.places_mm[axis as usize];
-    for ((power, &place_mm), &owner) in powers.iter_mut().zip(places).zip(contacts.owners) {
-        if usize::from(owner) == contacts.textile {
-            let [low, high] = power_at(index.nearest(place_mm));
-            power[0] += low;
-            power[1] += high;
-        }
-    }
+fn add(power: &mut [f32; 2], [low, high]: [f32; 2]) {
+    power[0] += low;
+    power[1] += high;
 }
 
 /// What the powers of each set of spectra are stored as a share of, µm²: the largest power of any

@@ -4,6 +4,7 @@
 //! smooth; at the ends they jump, so both segments keep a value of their own there. Segments
 //! longer than 1/n octave are cut into equal parts.
 
+use crate::render::plan::whole_part;
 use crate::surface::{BIN_SPACING_PER_MM, N_BINS};
 use crate::tactile::{MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
@@ -84,7 +85,7 @@ impl Segments {
     pub(super) fn find(&self, speed_mm_per_s: f64) -> Spot {
         let segment = &self.segments[n_audible(speed_mm_per_s)];
         let at = (log2(speed_mm_per_s) - segment.start) * segment.parts_per_octave;
-        let part = whole(at).min(segment.n_parts - 1);
+        let part = whole_part(at.max(0.0)).min(segment.n_parts - 1);
         let share = (at - f64::from(part)).clamp(0.0, 1.0);
         Spot {
             node: (segment.first_node + part) as usize,
@@ -117,22 +118,11 @@ fn n_parts(octaves: f64, per_octave: u32) -> u32 {
     (octaves * f64::from(per_octave) - 1e-9).ceil().max(1.0) as u32
 }
 
-/// The whole part of a number that is not negative; truncation needs no library call.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates: rounding may give a hair below 0"
-)]
-#[inline]
-fn whole(x: f64) -> u32 {
-    x as u32
-}
-
 /// How many bins sound at a speed that is felt: [`crate::tactile::n_audible_bins`] without a loop.
 #[inline]
 fn n_audible(speed_mm_per_s: f64) -> usize {
     let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
-    let quotient = whole((MAX_FREQUENCY_HZ / spacing_hz).min(N_BINS as f64));
+    let quotient = whole_part((MAX_FREQUENCY_HZ / spacing_hz).min(N_BINS as f64));
     // The quotient may be one off either way: the comparison that defines the limit decides.
     let is_audible = |k: u32| spacing_hz * f64::from(k) < MAX_FREQUENCY_HZ;
     let more = u32::from(is_audible(quotient + 1));
