@@ -1,14 +1,16 @@
 //! Drive codes: the one place where amplitudes in µm become integers for a device.
 //!
-//! Every sink that speaks in codes (serial bridge, emulator, log) goes through [`Coder`], so limits and counters are the
-//! same everywhere. It knows nothing of ticks, sessions or packets, and it smooths nothing: slew belongs to the device.
+//! Every sink that speaks in codes (serial bridge, emulator, log) goes through [`Coder`], so limits
+//! and counters are the same everywhere. It knows nothing of ticks, sessions or packets, and it
+//! smooths nothing: slew belongs to the device.
 
 /// The largest drive code: a component's drive peak is `code / 65535` of the device's full scale.
 pub const FULL_CODE: u16 = u16::MAX;
 
 /// What the host assumes of an array: shape, scale and limits.
 ///
-/// The scale is an assumption of this program (50 µm at full drive), not a property that a device reports.
+/// The scale is an assumption of this program (50 µm at full drive), not a property that a device
+/// reports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrayProfile {
     /// Name for people, `exeter-24`.
@@ -129,7 +131,8 @@ impl Coder {
         }
     }
 
-    /// The component limits to ask a device for: the smallest codes that no allowed amplitude exceeds.
+    /// The component limits to ask a device for: the smallest codes that no allowed amplitude
+    /// exceeds.
     pub fn comp_limit(&self) -> [u16; 2] {
         [0, 1].map(|band| {
             let share = self.profile.limit_um[band] / self.profile.full_scale_um[band];
@@ -139,8 +142,8 @@ impl Coder {
 
     /// Codes `[40 Hz, 320 Hz]` of every contactor, without allocating.
     ///
-    /// `amplitudes_um` are peak amplitudes `[A40, A320]` in µm, `gain` the soft-start gain 0…1 (NaN counts as 0).
-    /// Contactors without an amplitude get 0.
+    /// `amplitudes_um` are peak amplitudes `[A40, A320]` in µm, `gain` the soft-start gain 0…1 (NaN
+    /// counts as 0). Contactors without an amplitude get 0.
     pub fn encode_into(&mut self, amplitudes_um: &[[f32; 2]], gain: f64, codes: &mut [[u16; 2]]) {
         let gain = if gain.is_nan() {
             0.0
@@ -200,7 +203,8 @@ fn usable(amplitude_um: f32) -> bool {
     amplitude_um.is_finite() && amplitude_um >= 0.0
 }
 
-/// The code of one contactor (DESIGN part 2, Output): limit, share full drive, round half up, never more than 65535 in all.
+/// The code of one contactor (DESIGN part 2, Output): limit, share full drive, round half up, never
+/// more than 65535 in all.
 fn drive_code(amplitude_um: [f32; 2], gain: f64, scale: &Scale) -> ([u16; 2], Bite) {
     let mut bite = Bite::default();
     let mut driven_um = [0.0; 2];
@@ -325,7 +329,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_sum_never_exceeds_full_drive(a in any::<f32>(), b in any::<f32>(), g in any::<f64>()) {
+        fn the_sum_never_exceeds_full_drive(
+            a in any::<f32>(), b in any::<f32>(), g in any::<f64>(),
+        ) {
             let [low, high] = coder().encode(&[[a, b]], g)[0];
             prop_assert!(u32::from(low) + u32::from(high) <= 65535);
         }

@@ -60,9 +60,7 @@ pub enum BridgeError {
         n_channels: u16,
     },
     /// A WAV file without channels or without a rate.
-    #[error(
-        "a WAV file needs at least one channel and a rate: {n_channels} channels at {sample_rate_hz} Hz"
-    )]
+    #[error("a WAV file needs channels and a rate: {n_channels} channels at {sample_rate_hz} Hz")]
     WavSpec {
         /// Channels asked for.
         n_channels: u16,

@@ -1,11 +1,12 @@
 //! Little-endian fields at running offsets, for the message tables.
 //!
-//! A reader that runs out of bytes answers zeros and remembers it, so a decoder reads all its fields and asks once.
-//! It knows no message.
+//! A reader that runs out of bytes answers zeros and remembers it, so a decoder reads all its
+//! fields and asks once. It knows no message.
 
 use super::framing::LARGEST_BODY;
 
-/// Appends fields to a payload of at most [`LARGEST_BODY`] bytes; what does not fit is dropped and remembered.
+/// Appends fields to a payload of at most [`LARGEST_BODY`] bytes; what does not fit is dropped and
+/// remembered.
 #[derive(Debug)]
 pub(super) struct FieldWriter {
     bytes: [u8; LARGEST_BODY],

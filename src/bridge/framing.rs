@@ -1,8 +1,9 @@
 //! Framing of HBP v1: `00 | COBS(body) | 00`, the body ending in a CRC-32.
 //!
-//! A packet is `type u8, flags u8, seq u16, payload, crc32 u32`, all little-endian. The leading zero makes a half-sent or
-//! garbage-prefixed packet cost only itself. The decoder works byte by byte in bounded memory and counts, once each,
-//! every text between zeros that is not a packet. It knows nothing of what a type means.
+//! A packet is `type u8, flags u8, seq u16, payload, crc32 u32`, all little-endian. The leading
+//! zero makes a half-sent or garbage-prefixed packet cost only itself. The decoder works byte by
+//! byte in bounded memory and counts, once each, every text between zeros that is not a packet. It
+//! knows nothing of what a type means.
 //!
 //! ```text
 //! 00 | cobs( type | flags | seq lo | seq hi | payload … | crc 0 | crc 1 | crc 2 | crc 3 ) | 00
@@ -35,7 +36,8 @@ impl Packet {
         }
     }
 
-    /// Header and payload, closed by CRC-32 and framed. A payload beyond the largest body gives `None`.
+    /// Header and payload, closed by CRC-32 and framed. A payload beyond the largest body gives
+    /// `None`.
     pub fn encode(kind: u8, seq: u16, payload: &[u8]) -> Option<Self> {
         let mut body = [0; LARGEST_BODY];
         let crc_at = HEADER_LEN + payload.len();
@@ -291,7 +293,8 @@ mod tests {
 
     #[test]
     fn a_final_full_block_may_or_may_not_carry_its_trailing_one() {
-        // Behind the zero of the flags lie 2 + 248 + 4 bytes: a full block, if none of them is zero.
+        // Behind the zero of the flags lie 2 + 248 + 4 bytes: a full block, if none of them is
+        // zero.
         let packets_of = |seq| Packet::encode(0x44, seq, &[0x55; 248]).unwrap();
         let seq = (0x0101..=u16::MAX)
             .find(|seq| packets_of(*seq).as_bytes()[3] == u8::MAX)
@@ -323,7 +326,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn cobs_agrees_with_another_implementation(body in prop::collection::vec(any::<u8>(), 1..600)) {
+        fn cobs_agrees_with_another_implementation(
+            body in prop::collection::vec(any::<u8>(), 1..600),
+        ) {
             let ours = Packet::frame(&body);
             let wire = ours.as_bytes();
             let inner = &wire[1..wire.len() - 1];

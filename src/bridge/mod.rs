@@ -1,19 +1,23 @@
 //! The serial bridge to a tactile array: protocol, safety, device emulators, and the WAV sink.
 //!
-//! Amplitudes in µm come in; a device that synthesizes its own carriers hears of them once per 25 ms tick. The device paces:
-//! it emits STATUS at every tick, the host answers with one FRAME for a coming tick. Every FRAME is the full state, so a
-//! loss needs no repair: the device holds, then ramps to silence within 100 ms by its own clock.
+//! Amplitudes in µm come in; a device that synthesizes its own carriers hears of them once per 25
+//! ms tick. The device paces: it emits STATUS at every tick, the host answers with one FRAME for a
+//! coming tick. Every FRAME is the full state, so a loss needs no repair: the device holds, then
+//! ramps to silence within 100 ms by its own clock.
 //!
 //! ```text
-//! amplitudes ─ codes ─ host ─ message ─ framing ─ port ══ port ─ framing ─ message ─ device ─ output codes
-//!              (µm → u16)  (session)                       (serial, pty or in process)   (hold, ramp, STOP)
+//! amplitudes ─ codes ─ host ─ message ─ framing ─ port     (µm → u16, then the session)
+//!                                                  ║       (serial, pty or in process)
+//! output ─ device ─ message ─ framing ─────────── port     (hold, ramp, STOP)
 //! ```
 //!
-//! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in virtual time. `Bridge` puts
-//! a reader and a writer thread around the former, the emulators put a clock around the latter.
+//! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in
+//! virtual time. `Bridge` puts a reader and a writer thread around the former, the emulators put a
+//! clock around the latter.
 //!
 //! # Invariants
-//! - No textile, no scene, no rendering: this floor knows amplitudes per contactor and nothing of where they come from.
+//! - No textile, no scene, no rendering: this floor knows amplitudes per contactor and nothing of
+//!   where they come from.
 //! - Drive codes are made in `codes` and nowhere else; no NaN reaches a device.
 //! - Nothing here arms without a command, and nothing re-arms.
 //! - Memory is bounded whatever arrives; no bytes make anything panic.

@@ -1,4 +1,5 @@
-//! A check of a connected device: handshake, pings, one second of faint frames, STOP; each step with its result.
+//! A check of a connected device: handshake, pings, one second of faint frames, STOP; each step
+//! with its result.
 //!
 //! It reports and judges nothing but what a working link must do. Printing is left to the caller.
 
@@ -154,7 +155,8 @@ impl Bench {
         })?;
         let caps = self.bridge.caps().ok_or_else(|| String::from("no CAPS"))?;
         Ok(format!(
-            "{}, firmware {}.{}.{}, {} channels ({} × {}), queue {}, {} V drive peak, up to {} bytes",
+            "{}, firmware {}.{}.{}, {} channels ({} × {}), queue {}, \
+             {} V drive peak, up to {} bytes",
             if caps.name().is_empty() {
                 "unnamed device"
             } else {

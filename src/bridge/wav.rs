@@ -1,11 +1,14 @@
-//! Many-channel WAV as a stream: one channel per contactor, written as it is made, sizes filled in at the end.
+//! Many-channel WAV as a stream: one channel per contactor, written as it is made, sizes filled in
+//! at the end.
 //!
-//! The header is our own 68 bytes of `WAVE_FORMAT_EXTENSIBLE` with `dwChannelMask = 0`: 24 contactors are no loudspeakers,
-//! and a mask that names positions makes some systems drop the channels beyond the eighteenth. What a sample means in µm
-//! stands as text in a LIST/INFO chunk behind the data. It knows nothing of carriers or amplitudes.
+//! The header is our own 68 bytes of `WAVE_FORMAT_EXTENSIBLE` with `dwChannelMask = 0`: 24
+//! contactors are no loudspeakers, and a mask that names positions makes some systems drop the
+//! channels beyond the eighteenth. What a sample means in µm stands as text in a LIST/INFO chunk
+//! behind the data. It knows nothing of carriers or amplitudes.
 //!
 //! ```text
-//! "RIFF" size "WAVE" | "fmt " 40 format | "data" size samples … | "LIST" size "INFO" "ICMT" size text
+//! "RIFF" size "WAVE" | "fmt " 40 format | "data" size samples … |
+//! "LIST" size "INFO" "ICMT" size text
 //! ```
 
 use std::fs::File;
@@ -18,7 +21,8 @@ const HEADER_LEN: u64 = 68;
 const RIFF_SIZE_AT: u64 = 4;
 const DATA_SIZE_AT: u64 = 64;
 const EXTENSIBLE: u16 = 0xfffe;
-/// The part that both sub-format identifiers share; the first four bytes tell PCM (1) from IEEE float (3).
+/// The part that both sub-format identifiers share; the first four bytes tell PCM (1) from IEEE
+/// float (3).
 const SUBFORMAT_TAIL: [u8; 12] = [
     0x00, 0x00, 0x10, 0x00, 0x80, 0x00, 0x00, 0xaa, 0x00, 0x38, 0x9b, 0x71,
 ];
@@ -178,7 +182,8 @@ impl<W: Write + Seek> WavWriter<W> {
 
     /// Appends whole frames of interleaved samples, 1.0 = full scale. NaN becomes 0.
     ///
-    /// Refuses what would make the file 4 GiB or larger; what was written before stays a valid file.
+    /// Refuses what would make the file 4 GiB or larger; what was written before stays a valid
+    /// file.
     pub fn write(&mut self, interleaved: &[f32]) -> Result<(), BridgeError> {
         let n_channels = self.spec.n_channels;
         if !interleaved.len().is_multiple_of(usize::from(n_channels)) {

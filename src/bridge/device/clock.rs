@@ -1,4 +1,5 @@
-//! What time does to a device: the 1 ms safety clock (lease, hold, ramp) and the 25 ms tick (frames, slew, STATUS).
+//! What time does to a device: the 1 ms safety clock (lease, hold, ramp) and the 25 ms tick
+//! (frames, slew, STATUS).
 
 use super::{DeviceCore, DeviceSink, MS_US};
 use crate::bridge::device::sink::AppliedFrame;

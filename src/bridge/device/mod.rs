@@ -1,8 +1,10 @@
-//! A device of HBP v1 as a pure state machine: bytes and device time in, bytes and output codes out.
+//! A device of HBP v1 as a pure state machine: bytes and device time in, bytes and output codes
+//! out.
 //!
-//! This is the reference for firmware and the heart of both emulators. It has no clock, no port and no thread: callers say
-//! what time it is. All of its rules that keep a finger safe (lease, hold and ramp, arming, STOP, faults) run on a 1 ms
-//! clock, so silence comes at a fixed age of the last frame whatever the phase of the tick. Contactor physics is not here.
+//! This is the reference for firmware and the heart of both emulators. It has no clock, no port and
+//! no thread: callers say what time it is. All of its rules that keep a finger safe (lease, hold
+//! and ramp, arming, STOP, faults) run on a 1 ms clock, so silence comes at a fixed age of the last
+//! frame whatever the phase of the tick. Contactor physics is not here.
 
 mod clock;
 mod model;
@@ -146,7 +148,8 @@ impl DeviceCore {
         self.decoder = decoder;
     }
 
-    /// When [`advance`](Self::advance) should be called next, in µs since boot; `None` while only bytes can change anything.
+    /// When [`advance`](Self::advance) should be called next, in µs since boot; `None` while only
+    /// bytes can change anything.
     pub fn next_deadline_us(&self) -> Option<u64> {
         if !self.is_awake() {
             return None;
@@ -204,7 +207,8 @@ impl DeviceCore {
         }
     }
 
-    /// Something in the device broke: output zero and high voltage off at once, latched until cleared.
+    /// Something in the device broke: output zero and high voltage off at once, latched until
+    /// cleared.
     pub fn raise_fault(&mut self, bits: u16, channel: u16, value: i32, sink: &mut impl DeviceSink) {
         self.faults |= bits;
         self.fault_causes |= bits;

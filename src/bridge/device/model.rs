@@ -47,7 +47,8 @@ impl Default for DeviceModel {
 }
 
 impl DeviceModel {
-    /// A device shaped like `profile`; its largest body grows with the number of channels, up to 1024 bytes.
+    /// A device shaped like `profile`; its largest body grows with the number of channels, up to
+    /// 1024 bytes.
     pub fn for_array(profile: &ArrayProfile) -> Self {
         let needed = HEADER_LEN + frame::payload_len(profile.n_contactors()) + CRC_LEN;
         Self {
@@ -92,7 +93,8 @@ impl DeviceModel {
         }
     }
 
-    /// The values that hold when a host asks for `wish`: everything within build-time limits, silence within 100 ms.
+    /// The values that hold when a host asks for `wish`: everything within build-time limits,
+    /// silence within 100 ms.
     pub fn clamp(&self, wish: &Config) -> Config {
         let hold_ms = wish.hold_ms.min(100);
         let all = crate::bridge::message::ChannelMask::first(self.n_channels());

@@ -1,6 +1,8 @@
-//! From the newest frame to output codes: mask, limit, sum guard, slew, and the hold/ramp gain on a 1 ms clock.
+//! From the newest frame to output codes: mask, limit, sum guard, slew, and the hold/ramp gain on a
+//! 1 ms clock.
 //!
-//! The gain is a whole number of ramp steps, so that silence is reached exactly and never by rounding.
+//! The gain is a whole number of ramp steps, so that silence is reached exactly and never by
+//! rounding.
 
 use crate::bridge::message::Config;
 
@@ -114,7 +116,8 @@ impl OutputStage {
     }
 }
 
-/// Mask, component limit and sum guard of a received frame. Gives the number of values and channels that were clipped.
+/// Mask, component limit and sum guard of a received frame. Gives the number of values and channels
+/// that were clipped.
 pub(super) fn allow(received: &[[u16; 2]], config: &Config, allowed: &mut [[u16; 2]]) -> u16 {
     let mut clipped = 0u16;
     for (channel, (code, out)) in received.iter().zip(allowed).enumerate() {

@@ -1,4 +1,5 @@
-//! What a device does with each packet. Every refusal has its ACK code; nothing here panics on any bytes.
+//! What a device does with each packet. Every refusal has its ACK code; nothing here panics on any
+//! bytes.
 
 use super::output::{IdentDrive, allow};
 use super::{DeviceCore, DeviceSink, MS_US, Session, wrapped_u32};
@@ -22,7 +23,8 @@ enum Answer {
 }
 
 impl DeviceCore {
-    /// Acts on one packet. False: it is not a valid packet, so it counts as `bad` and does not renew the lease.
+    /// Acts on one packet. False: it is not a valid packet, so it counts as `bad` and does not
+    /// renew the lease.
     pub(super) fn handle(&mut self, packet: Received<'_>, sink: &mut impl DeviceSink) -> bool {
         let answer = match self.answer(packet, sink) {
             Answer::Bad => return false,

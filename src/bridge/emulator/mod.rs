@@ -1,6 +1,7 @@
 //! Emulated devices in real time: the device's state machine with a clock and a link around it.
 //!
-//! They answer the same bytes as a real device, in process or behind a pseudo-terminal. There is no contactor physics here.
+//! They answer the same bytes as a real device, in process or behind a pseudo-terminal. There is no
+//! contactor physics here.
 
 mod log;
 #[cfg(unix)]
@@ -26,7 +27,8 @@ const NAP: Duration = Duration::from_millis(50);
 pub struct EmulatorThread;
 
 impl EmulatorThread {
-    /// Boots a device and gives the host's end of its link; the thread ends when all copies of that end are gone.
+    /// Boots a device and gives the host's end of its link; the thread ends when all copies of that
+    /// end are gone.
     pub fn start(model: DeviceModel) -> Result<PairPort, BridgeError> {
         let (host, mut device) = pair("emulator");
         Builder::new()

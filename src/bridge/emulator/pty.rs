@@ -1,7 +1,8 @@
 //! The emulated device behind a pseudo-terminal: any program opens it like a serial port.
 //!
-//! One slave handle stays open inside the emulator, or the master would report a hang-up whenever no host is connected. A
-//! symbolic link gives the terminal a name that does not change from run to run.
+//! One slave handle stays open inside the emulator, or the master would report a hang-up whenever
+//! no host is connected. A symbolic link gives the terminal a name that does not change from run to
+//! run.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -30,7 +31,8 @@ pub struct PtyEmulator {
 }
 
 impl PtyEmulator {
-    /// Makes a pseudo-terminal and the link to it. An older link to a terminal is replaced, anything else is refused.
+    /// Makes a pseudo-terminal and the link to it. An older link to a terminal is replaced,
+    /// anything else is refused.
     pub fn new(model: DeviceModel, link: &Path, log: Option<&Path>) -> Result<Self, BridgeError> {
         let (master, slave) =
             TTYPort::pair().map_err(|error| BridgeError::Pty(error.to_string()))?;
@@ -55,7 +57,8 @@ impl PtyEmulator {
         &self.device_path
     }
 
-    /// Boots the device and runs it on this thread until `stop` is set; then the link is removed and the log complete.
+    /// Boots the device and runs it on this thread until `stop` is set; then the link is removed
+    /// and the log complete.
     pub fn run(self, stop: &AtomicBool) -> Result<(), BridgeError> {
         let mut port = SerialLink::from_port(Box::new(self.master), &self.device_path);
         let mut emulation = Emulation {
@@ -81,8 +84,8 @@ impl PtyEmulator {
     }
 }
 
-/// A host that was killed leaves the terminal marked exclusive, and nobody could open it again. Closing a copy of the
-/// slave clears the mark; a living host keeps its lock on the file.
+/// A host that was killed leaves the terminal marked exclusive, and nobody could open it again.
+/// Closing a copy of the slave clears the mark; a living host keeps its lock on the file.
 fn release_exclusive(slave: &TTYPort) {
     drop(slave.try_clone_native());
 }

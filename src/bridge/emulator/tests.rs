@@ -1,4 +1,5 @@
-//! The real-time front ends. Only counters, states and the device's clock are asserted, never a duration of ours.
+//! The real-time front ends. Only counters, states and the device's clock are asserted, never a
+//! duration of ours.
 
 use std::time::{Duration, Instant};
 

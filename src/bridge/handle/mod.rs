@@ -1,7 +1,8 @@
 //! What an engine holds of a device: a session with two threads behind it.
 //!
-//! [`Bridge::poll`] runs the session, so that everything happens on the owner's thread except waiting for the port. An
-//! owner that hangs sends no frames and no pings: the device then goes silent by itself, as it should.
+//! [`Bridge::poll`] runs the session, so that everything happens on the owner's thread except
+//! waiting for the port. An owner that hangs sends no frames and no pings: the device then goes
+//! silent by itself, as it should.
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::PathBuf;
@@ -61,8 +62,8 @@ pub struct Bridge {
 }
 
 impl Bridge {
-    /// Starts to open `target` for a display of `n_contactors` contactors and returns at once; news come from
-    /// [`poll`](Self::poll).
+    /// Starts to open `target` for a display of `n_contactors` contactors and returns at once; news
+    /// come from [`poll`](Self::poll).
     ///
     /// `waker` is called from the link's threads whenever there may be news; it must not block.
     pub fn open(
@@ -92,7 +93,8 @@ impl Bridge {
         }
     }
 
-    /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at least every 100 ms.
+    /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at
+    /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
         if let Some(event) = self.session.next_event() {
             return Some(event);
@@ -149,8 +151,8 @@ impl Bridge {
 
     /// Sends one FRAME for the coming tick, limits and soft start applied; `None` unless armed.
     ///
-    /// `amplitudes_um` are `[A40, A320]` in µm in contactor order. `stamp` is the time of the input that they follow from,
-    /// for [`timings`](Self::timings). Neither allocates, locks nor waits.
+    /// `amplitudes_um` are `[A40, A320]` in µm in contactor order. `stamp` is the time of the input
+    /// that they follow from, for [`timings`](Self::timings). Neither allocates, locks nor waits.
     pub fn send(
         &mut self,
         amplitudes_um: &[[f32; 2]],
@@ -230,9 +232,11 @@ impl Bridge {
         self.link.as_ref().map(Link::stop_handle)
     }
 
-    /// Ends output if there is any, waits for the acknowledgement at most `patience`, and ends the threads.
+    /// Ends output if there is any, waits for the acknowledgement at most `patience`, and ends the
+    /// threads.
     ///
-    /// An error when the device did not confirm that it is at rest, or was lost. Dropping does the same without waiting.
+    /// An error when the device did not confirm that it is at rest, or was lost. Dropping does the
+    /// same without waiting.
     pub fn close(mut self, patience: Duration) -> Result<(), BridgeError> {
         let deadline = Instant::now() + patience;
         let was_live = self.state().is_live();

@@ -1,4 +1,5 @@
-//! Why a device is refused: CAPS that this program cannot drive safely, each with one line for people.
+//! Why a device is refused: CAPS that this program cannot drive safely, each with one line for
+//! people.
 
 use crate::bridge::framing::{CRC_LEN, HEADER_LEN};
 use crate::bridge::message::{Caps, TICK_US, frame};
@@ -9,7 +10,7 @@ pub(super) fn refusal(caps: &Caps, n_contactors: usize) -> Option<String> {
     let needed = HEADER_LEN + frame::payload_len(n_ch) + CRC_LEN;
     if caps.version != crate::bridge::message::VERSION {
         return Some(String::from(
-            "the device speaks no protocol version in common with this program (1): update its firmware",
+            "the device does not speak protocol version 1: update its firmware",
         ));
     }
     if usize::from(caps.rows) * usize::from(caps.cols) != n_ch {
@@ -20,7 +21,8 @@ pub(super) fn refusal(caps: &Caps, n_contactors: usize) -> Option<String> {
     }
     if n_ch != n_contactors {
         return Some(format!(
-            "the device has {n_ch} channels, the display {n_contactors} contactors: choose a display that matches"
+            "the device has {n_ch} channels, the display {n_contactors} contactors: \
+             choose a display that matches"
         ));
     }
     if caps.n_comp != 2 {
@@ -43,7 +45,8 @@ pub(super) fn refusal(caps: &Caps, n_contactors: usize) -> Option<String> {
     }
     if usize::from(caps.max_body) < needed {
         return Some(format!(
-            "the device takes packets of at most {} bytes, a frame of {n_ch} channels needs {needed}",
+            "the device takes packets of at most {} bytes, \
+             a frame of {n_ch} channels needs {needed}",
             caps.max_body
         ));
     }

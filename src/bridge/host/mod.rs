@@ -1,8 +1,10 @@
-//! The host's side of HBP v1 as a pure state machine: device messages and time in, packets and events out.
+//! The host's side of HBP v1 as a pure state machine: device messages and time in, packets and
+//! events out.
 //!
-//! It greets, checks, configures, arms, stamps frames with their apply tick and soft-start gain, keeps the lease, repeats
-//! what was not answered, and notices a device that disarms itself or falls silent. It owns no port, no thread and no
-//! clock (callers say what time it is), and it never arms on its own.
+//! It greets, checks, configures, arms, stamps frames with their apply tick and soft-start gain,
+//! keeps the lease, repeats what was not answered, and notices a device that disarms itself or
+//! falls silent. It owns no port, no thread and no clock (callers say what time it is), and it
+//! never arms on its own.
 
 mod checks;
 mod pending;
@@ -173,9 +175,11 @@ impl HostSession {
         self.queue(Ping { token }.packet(seq).as_ref(), now);
     }
 
-    /// A FRAME for the tick `depth` after the present one, soft start applied; `None` unless armed and a STATUS has come.
+    /// A FRAME for the tick `depth` after the present one, soft start applied; `None` unless armed
+    /// and a STATUS has come.
     ///
-    /// The present tick is that of the last STATUS plus whole ticks since it arrived, so a lost STATUS costs nothing.
+    /// The present tick is that of the last STATUS plus whole ticks since it arrived, so a lost
+    /// STATUS costs nothing.
     pub fn frame(
         &mut self,
         now: Instant,

@@ -1,4 +1,5 @@
-//! A request without its reply yet: when to send it again, when to give up, which replies are its own.
+//! A request without its reply yet: when to send it again, when to give up, which replies are its
+//! own.
 
 use std::time::{Duration, Instant};
 
@@ -68,7 +69,8 @@ impl Pending {
         }
     }
 
-    /// Whether an ACK answers one of this request's sendings, and not an older request of the same type.
+    /// Whether an ACK answers one of this request's sendings, and not an older request of the same
+    /// type.
     pub(super) fn is_answered_by(&self, kind: u8, seq: u16) -> bool {
         let span = self.last_seq.wrapping_sub(self.first_seq);
         kind == self.kind && seq.wrapping_sub(self.first_seq) <= span

@@ -9,7 +9,8 @@ use crate::bridge::message::{
 };
 
 impl HostSession {
-    /// Takes one message. Everything before CAPS with our own nonce is left over from another session and ignored.
+    /// Takes one message. Everything before CAPS with our own nonce is left over from another
+    /// session and ignored.
     pub fn on_message(&mut self, received: Instant, message: &DeviceMessage) {
         if !self.state.is_open() {
             return;
@@ -95,7 +96,8 @@ impl HostSession {
         }
     }
 
-    /// STOP is acknowledged. The device may still ramp: `Stopping` lasts until a STATUS shows it at rest.
+    /// STOP is acknowledged. The device may still ramp: `Stopping` lasts until a STATUS shows it at
+    /// rest.
     fn on_stopped(&mut self) {
         self.stopping = None;
         if self.stop_ends_output {
@@ -123,7 +125,8 @@ impl HostSession {
         }
     }
 
-    /// Compares the device's state with ours. It may leave output by itself; it never gets back without a new command.
+    /// Compares the device's state with ours. It may leave output by itself; it never gets back
+    /// without a new command.
     fn follow(&mut self, received: Instant, status: &Status) {
         let device = status.device_state();
         let at_rest = !device.is_some_and(DeviceState::is_live);

@@ -1,4 +1,5 @@
-//! What time does to a session: requests are repeated or given up, a quiet host pings, a silent device is lost.
+//! What time does to a session: requests are repeated or given up, a quiet host pings, a silent
+//! device is lost.
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +17,8 @@ const SILENCE_IDLE: Duration = Duration::from_secs(2);
 const LONGEST_STEP: Duration = Duration::from_millis(100);
 
 impl HostSession {
-    /// Lets time pass: repeats, pings, and the patience with a silent device. Call at least every 100 ms.
+    /// Lets time pass: repeats, pings, and the patience with a silent device. Call at least every
+    /// 100 ms.
     pub fn on_time(&mut self, now: Instant) {
         let step = self
             .last_time
@@ -80,7 +82,8 @@ impl HostSession {
         }
     }
 
-    /// Silence is counted in steps of the caller's own presence: a program that was suspended starts afresh.
+    /// Silence is counted in steps of the caller's own presence: a program that was suspended
+    /// starts afresh.
     fn check_silence(&mut self, step: Duration) {
         if self.caps.is_none() {
             return;

@@ -1,9 +1,11 @@
-//! The two threads of a link: one opens the port and reads, one writes; nobody else ever waits for a port.
+//! The two threads of a link: one opens the port and reads, one writes; nobody else ever waits for
+//! a port.
 //!
-//! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped and counted: STATUS repeats
-//! itself, requests are repeated). Towards the port there are three ways, in this order: the STOP slot, a ring of control
-//! packets, a ring of frames of which only the newest is written. A STOP empties the other two, so that nothing queued
-//! earlier can follow it. What the messages mean is the session's business.
+//! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped and
+//! counted: STATUS repeats itself, requests are repeated). Towards the port there are three ways,
+//! in this order: the STOP slot, a ring of control packets, a ring of frames of which only the
+//! newest is written. A STOP empties the other two, so that nothing queued earlier can follow it.
+//! What the messages mean is the session's business.
 
 mod reader;
 mod timings;
@@ -62,7 +64,8 @@ pub(super) struct QueuedFrame {
     pub(super) stamp: Option<Instant>,
 }
 
-/// What owner, threads and stop handles share. Only the STOP slot has a lock, held for the copy of one packet.
+/// What owner, threads and stop handles share. Only the STOP slot has a lock, held for the copy of
+/// one packet.
 struct Shared {
     sequence: Sequence,
     stop: Mutex<Option<Packet>>,
@@ -222,7 +225,8 @@ impl Link {
         }
     }
 
-    /// Without room the frame is dropped and counted: the writer is stuck, and the device is on its way to silence.
+    /// Without room the frame is dropped and counted: the writer is stuck, and the device is on its
+    /// way to silence.
     pub(super) fn send_frame(&mut self, frame: &QueuedFrame) {
         if self.frames.push(*frame).is_err() {
             self.shared
@@ -282,7 +286,8 @@ impl Drop for Link {
     }
 }
 
-/// Stops a device from any thread: Esc, a signal, a panic hook. Works even when the bridge's owner hangs.
+/// Stops a device from any thread: Esc, a signal, a panic hook. Works even when the bridge's owner
+/// hangs.
 #[derive(Clone)]
 pub struct StopHandle {
     shared: Arc<Shared>,
@@ -305,7 +310,8 @@ impl StopHandle {
         (self.shared.waker)();
     }
 
-    /// Waits until every STOP asked for so far is written, at most `patience`. For the last moments of a program.
+    /// Waits until every STOP asked for so far is written, at most `patience`. For the last moments
+    /// of a program.
     pub fn wait_written(&self, patience: Duration) -> bool {
         let deadline = Instant::now() + patience;
         let asked = self.shared.stops_asked.load(Ordering::Acquire);

@@ -1,4 +1,5 @@
-//! The reader's thread: opens the port, starts the writer, then turns bytes into messages as they come.
+//! The reader's thread: opens the port, starts the writer, then turns bytes into messages as they
+//! come.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;

@@ -46,7 +46,8 @@ impl Spread {
 pub struct Timings {
     /// From the arrival of a STATUS to the end of the write of the FRAME that answers it.
     pub status_to_write: Spread,
-    /// From the stamp of the input that a frame is made of (a pointer event) to the end of its write.
+    /// From the stamp of the input that a frame is made of (a pointer event) to the end of its
+    /// write.
     pub stamp_to_write: Spread,
 }
 

@@ -6,8 +6,10 @@ use crate::bridge::framing::Packet;
 /// What a device is and can do.
 ///
 /// ```text
-/// 0 "HBP1" | 4 session u32 | 8 version u8 | 9 n_comp u8 | 10 n_ch u16 | 12 rows u8 | 13 cols u8 | 14 pitch_um u16
-/// 16 tick_us u32 | 20 queue u8 | 21 dac_bits u8 | 22 modes u16 | 24 fs_mV u32 | 28 hv_max_dV u16 | 30 slew_max u16
+/// 0 "HBP1" | 4 session u32 | 8 version u8 | 9 n_comp u8 | 10 n_ch u16
+/// 12 rows u8 | 13 cols u8 | 14 pitch_um u16
+/// 16 tick_us u32 | 20 queue u8 | 21 dac_bits u8 | 22 modes u16 | 24 fs_mV u32
+/// 28 hv_max_dV u16 | 30 slew_max u16
 /// 32 max_body u16 | 34 sample_hz u16 | 36 freq_mHz u32[2] | 44 comp_limit u16[2] | 48 uid u8[12]
 /// 60 firmware u8[3] | 63 name_len u8 | 64 UTF-8 name
 /// ```

@@ -1,4 +1,5 @@
-//! CONFIG and CFG: one payload, asked for by the host and answered by the device with the values in effect.
+//! CONFIG and CFG: one payload, asked for by the host and answered by the device with the values in
+//! effect.
 
 use super::{FieldReader, FieldWriter, kind};
 use crate::bridge::framing::Packet;

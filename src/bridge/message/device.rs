@@ -33,11 +33,14 @@ message!(
     }
 );
 
-/// The device at the start of a tick, the frame of that tick applied. Counters run from boot and wrap at 65536.
+/// The device at the start of a tick, the frame of that tick applied. Counters run from boot and
+/// wrap at 65536.
 ///
 /// ```text
-/// 0 tick u32 | 4 dev_us u32 | 8 last_seq u16 | 10 state u8 | 11 queued u8 | 12 underrun u16 | 14 late u16 | 16 dup u16
-/// 18 bad u16 | 20 clipped u16 | 22 hv_dV u16 | 24 i_mA u16 | 26 temp i16 | 28 faults u16 | 30 age_ms u16 | 32 amp_sum u32
+/// 0 tick u32 | 4 dev_us u32 | 8 last_seq u16 | 10 state u8 | 11 queued u8
+/// 12 underrun u16 | 14 late u16 | 16 dup u16
+/// 18 bad u16 | 20 clipped u16 | 22 hv_dV u16 | 24 i_mA u16
+/// 26 temp i16 | 28 faults u16 | 30 age_ms u16 | 32 amp_sum u32
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Status {

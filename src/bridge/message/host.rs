@@ -1,4 +1,5 @@
-//! What the host sends: HELLO, ARM, FRAME, STOP, PING, CLEAR, IDENT (CONFIG has its own file, being two messages).
+//! What the host sends: HELLO, ARM, FRAME, STOP, PING, CLEAR, IDENT (CONFIG has its own file, being
+//! two messages).
 
 use super::{FieldReader, FieldWriter, MAGIC, kind, message};
 
@@ -10,7 +11,8 @@ pub const NEXT_TICK: u32 = u32::MAX;
 /// Opens a session; from any state it stops, empties the queue and disarms.
 ///
 /// ```text
-/// 0 "HBP1" | 4 session u32 | 8 ver_min u8 | 9 ver_max u8 | 10 host_flags u16 | 12 lease_ms u16 | 14 reserved u16
+/// 0 "HBP1" | 4 session u32 | 8 ver_min u8 | 9 ver_max u8 | 10 host_flags u16
+/// 12 lease_ms u16 | 14 reserved u16
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hello {
@@ -197,7 +199,8 @@ message!(
     }
 );
 
-/// FRAME: the full state of the array for one tick. Free functions, because its length depends on the device.
+/// FRAME: the full state of the array for one tick. Free functions, because its length depends on
+/// the device.
 ///
 /// ```text
 /// 0 apply_tick u32 (FFFFFFFF = next) | 4 per channel: A40 u16, A320 u16

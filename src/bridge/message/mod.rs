@@ -1,7 +1,8 @@
 //! The messages of HBP v1: one struct a message, its byte table beside its encoder and decoder.
 //!
-//! Offsets in the tables are within the payload; all integers are little-endian. Payloads may grow in later 1.x versions:
-//! trailing bytes are ignored, missing ones are an error. Meaning (what a device does with a message) lives elsewhere.
+//! Offsets in the tables are within the payload; all integers are little-endian. Payloads may grow
+//! in later 1.x versions: trailing bytes are ignored, missing ones are an error. Meaning (what a
+//! device does with a message) lives elsewhere.
 
 mod caps;
 mod config;
@@ -22,7 +23,8 @@ use super::framing::Packet;
 pub const MAGIC: [u8; 4] = *b"HBP1";
 /// The only protocol version so far.
 pub const VERSION: u8 = 1;
-/// Device tick in µs: every amplitude lasts one tick, in which both carriers complete whole periods.
+/// Device tick in µs: every amplitude lasts one tick, in which both carriers complete whole
+/// periods.
 pub const TICK_US: u32 = 25_000;
 
 /// Message types, as on the wire. Host to device below `80`, device to host from there on.
@@ -73,7 +75,8 @@ pub trait Message: Sized {
     fn packet(&self, seq: u16) -> Option<Packet>;
 }
 
-/// Implements [`Message`] from a pair of functions over fields, so that each table stands in one place.
+/// Implements [`Message`] from a pair of functions over fields, so that each table stands in one
+/// place.
 macro_rules! message {
     ($message:ty, $kind:expr, $read:expr, $write:expr) => {
         impl $crate::bridge::message::Message for $message {

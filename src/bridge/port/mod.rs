@@ -1,7 +1,8 @@
-//! A byte link to a device behind three methods, so that a serial port, a pty and an in-process pair are alike.
+//! A byte link to a device behind three methods, so that a serial port, a pty and an in-process
+//! pair are alike.
 //!
-//! Reading and writing wait at most as long as they are told. Nothing here knows what the bytes mean, and nothing ever
-//! flushes: a flush waits for the device.
+//! Reading and writing wait at most as long as they are told. Nothing here knows what the bytes
+//! mean, and nothing ever flushes: a flush waits for the device.
 
 mod listing;
 mod pair;
@@ -19,9 +20,11 @@ pub trait Port: Send {
     /// Name for people: a path, or `emulator`.
     fn name(&self) -> &str;
 
-    /// Reads what is there, waiting at most `patience` for the first byte. `Ok(0)`: nothing came. An error: the link is gone.
+    /// Reads what is there, waiting at most `patience` for the first byte. `Ok(0)`: nothing came.
+    /// An error: the link is gone.
     fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize>;
 
-    /// Writes one packet. `TimedOut`: the link did not take it within `patience`. Other errors: the link is gone.
+    /// Writes one packet. `TimedOut`: the link did not take it within `patience`. Other errors: the
+    /// link is gone.
     fn write(&mut self, packet: &[u8], patience: Duration) -> io::Result<()>;
 }

@@ -1,6 +1,7 @@
 //! A serial port: opening it with a reason when that fails, reading and writing with time-outs.
 //!
-//! Write one packet per call: the operating system's write may block beyond any time-out when it is given much at once.
+//! Write one packet per call: the operating system's write may block beyond any time-out when it is
+//! given much at once.
 
 use std::fmt;
 use std::io;
@@ -30,7 +31,8 @@ impl fmt::Debug for SerialLink {
 }
 
 impl SerialLink {
-    /// Opens `path` for this program alone and drops whatever input it holds. May block: not for a GUI thread.
+    /// Opens `path` for this program alone and drops whatever input it holds. May block: not for a
+    /// GUI thread.
     pub fn open(path: &str) -> Result<Self, BridgeError> {
         let opened = serialport::new(path, BAUD).timeout(OPEN_PATIENCE).open();
         let port = opened.map_err(|error| BridgeError::Open {

@@ -85,7 +85,8 @@ fn slew_moves_every_component_a_step_a_tick_also_in_hold() {
     assert_eq!(bench.core.output()[0], [1000, 0]);
 }
 
-/// 400 frames at depth 2 with garbage, a repeated, a bit-flipped and a truncated frame: the counters of the C prototype.
+/// 400 frames at depth 2 with garbage, a repeated, a bit-flipped and a truncated frame: the
+/// counters of the C prototype.
 #[test]
 fn the_prototype_run_is_reproduced() {
     let mut bench = Bench::armed();

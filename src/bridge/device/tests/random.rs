@@ -9,7 +9,8 @@ proptest! {
 
     #[test]
     fn random_bytes_never_arm(
-        chunks in prop::collection::vec((0u64..50_000, prop::collection::vec(any::<u8>(), 0..80)), 0..20),
+        chunks in prop::collection::vec(
+            (0u64..50_000, prop::collection::vec(any::<u8>(), 0..80)), 0..20),
     ) {
         let mut bench = Bench::ready();
         for (wait_us, bytes) in chunks {

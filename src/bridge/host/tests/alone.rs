@@ -236,11 +236,15 @@ fn news_are_bounded_when_nobody_takes_them() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
-    /// Random packets and texts at any moment: no panic, never armed without ARM's own ACK, bounded queues.
+    /// Random packets and texts at any moment: no panic, never armed without ARM's own ACK, bounded
+    /// queues.
     #[test]
     fn random_device_bytes_never_arm(
         steps in prop::collection::vec(
-            (0u64..300, 0x80u8..0x90, any::<u16>(), prop::collection::vec(any::<u8>(), 0..80), any::<bool>()),
+            (
+                0u64..300, 0x80u8..0x90, any::<u16>(),
+                prop::collection::vec(any::<u8>(), 0..80), any::<bool>(),
+            ),
             0..40),
         greeted in any::<bool>(),
     ) {
