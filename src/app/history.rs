@@ -11,7 +11,7 @@ const GESTURE_S: f64 = 0.6;
 const MAX_STEPS: usize = 200;
 
 /// When an edit happens: the pointer's press that it belongs to, and the time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Moment {
     /// Counts presses of the pointer.
     pub(crate) press: u64,

@@ -14,7 +14,7 @@ pub(crate) use trail::Trail;
 pub(crate) use transform::ViewTransform;
 
 use eframe::egui::{
-    self, CursorIcon, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    self, CursorIcon, Painter, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
 use super::theme::Palette;
@@ -29,8 +29,8 @@ const MARGIN: f32 = 16.0;
 pub(crate) struct Shown {
     /// How mm are laid on the screen.
     pub(crate) view: ViewTransform,
-    /// Where the pointer is, if it is over the workspace and nothing covers it.
-    pub(crate) pointer: Option<Point>,
+    /// The part of the screen where the pointer feels.
+    pub(crate) ground: Rect,
 }
 
 /// Shows the workspace in all the space that is left.
@@ -49,13 +49,12 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -
     if let Some(lens) = lens {
         lens::show(ui, lens, scene, live, trail);
     }
-    let pointer = felt_place(&response, &view, ground, scene.size_mm);
-    let response = if pointer.is_some() { response.on_hover_cursor(CursorIcon::Crosshair) } else { response };
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
     response.widget_info(|| {
         let words = format!("Workspace with {} textiles", scene.cloths.len());
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
-    Shown { view, pointer }
+    Shown { view, ground }
 }
 
 /// Draws textiles, trail and contactors through a view; the lens uses it too.
@@ -92,17 +91,6 @@ fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
     let [low, high] = corners.map(|corner| view.screen(corner));
     let extent = Rect::from_two_pos(low, high);
     painter.rect_stroke(extent, 0, Stroke::new(1.0, palette.hairline), StrokeKind::Outside);
-}
-
-fn felt_place(
-    response: &Response,
-    view: &ViewTransform,
-    ground: Rect,
-    size_mm: [f64; 2],
-) -> Option<Point> {
-    let at = response.hover_pos().filter(|at| ground.contains(*at))?;
-    let place = view.workspace(at);
-    is_near(place, size_mm).then_some(place)
 }
 
 /// Whether a place is in the workspace or so close that the display still reaches into it.

@@ -1,0 +1,211 @@
+//! The document: the scene, undoable and saved.
+//!
+//! Layout (what is shown how) and transient state (notices, fields being typed in, the device) are
+//! not here and are never undone. Knows nothing of windows.
+
+use std::path::{Path, PathBuf};
+
+use super::command::{Edit, Target};
+use super::history::{History, Moment};
+use crate::scene::{Scene, SceneError};
+use crate::tactile::{Band, Tuning};
+
+/// A scene that is being edited.
+#[derive(Debug, Clone)]
+pub(crate) struct Document {
+    scene: Scene,
+    saved: Scene,
+    path: Option<PathBuf>,
+    default_tuning: Tuning,
+    history: History<Scene, Target>,
+}
+
+impl Document {
+    /// A scene as it was opened; without a path it is one that the program ships.
+    pub(crate) fn new(scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
+        Self { saved: scene.clone(), scene, path, default_tuning, history: History::new() }
+    }
+
+    /// The scene.
+    pub(crate) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Where it was opened or saved.
+    pub(crate) fn path(&self) -> Option<&PathBuf> {
+        self.path.as_ref()
+    }
+
+    /// Whether it differs from its file.
+    pub(crate) fn is_edited(&self) -> bool {
+        self.scene != self.saved
+    }
+
+    /// The tuning of a scene that states none.
+    pub(crate) fn default_tuning(&self) -> Tuning {
+        self.default_tuning
+    }
+
+    /// The tuning in force.
+    pub(crate) fn tuning(&self) -> Tuning {
+        self.scene.tuning.unwrap_or(self.default_tuning)
+    }
+
+    /// Makes a change. One that makes no sense is refused and nothing happens.
+    pub(crate) fn edit(&mut self, edit: Edit, now: Moment) -> Result<(), SceneError> {
+        let mut scene = self.scene.clone();
+        let mut tuning = self.tuning();
+        match edit {
+            Edit::MasterGain(db) => tuning.gain_db = db,
+            Edit::BandGain(Band::Low, db) => tuning.gain_40_db = db,
+            Edit::BandGain(Band::High, db) => tuning.gain_320_db = db,
+            Edit::Compression(share) => tuning.compression = share,
+            Edit::TextileGain(index, db) => {
+                let Some(textile) = scene.textiles.get_mut(index) else { return Ok(()) };
+                textile.gain_db = db;
+            }
+        }
+        if tuning != self.tuning() {
+            scene.tuning = Some(tuning);
+        }
+        scene.check()?;
+        let target = edit.target();
+        self.history.begin(&self.scene, target, target.label(), now);
+        self.scene = scene;
+        Ok(())
+    }
+
+    /// Takes the last step back.
+    pub(crate) fn undo(&mut self) -> Option<&'static str> {
+        self.history.undo(&mut self.scene)
+    }
+
+    /// Brings the last undone step back.
+    pub(crate) fn redo(&mut self) -> Option<&'static str> {
+        self.history.redo(&mut self.scene)
+    }
+
+    /// What undo would take back.
+    pub(crate) fn undo_name(&self) -> Option<&'static str> {
+        self.history.undo_name(&self.scene)
+    }
+
+    /// What redo would bring back.
+    pub(crate) fn redo_name(&self) -> Option<&'static str> {
+        self.history.redo_name()
+    }
+
+    /// Writes the scene to `path`, which is its place from now on.
+    pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
+        let mut scene = self.scene.clone();
+        if let Some(old) = self.path.as_deref().filter(|old| old.parent() != path.parent()) {
+            // A library named relative to the old place would not be found from the new one.
+            scene.library = scene.library_folder(old).map(|folder| {
+                std::path::absolute(&folder).unwrap_or(folder)
+            });
+        }
+        scene.write(path)?;
+        self.scene.library.clone_from(&scene.library);
+        self.saved = self.scene.clone();
+        self.path = Some(path.to_owned());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::scene::PlacedTextile;
+
+    fn document() -> Document {
+        let textile = PlacedTextile { id: "silk".to_owned(), size_mm: [10.0; 2], ..empty() };
+        let scene = Scene {
+            name: "Test".to_owned(),
+            size_mm: [100.0; 2],
+            textiles: vec![textile],
+            displays: vec![crate::scene::Display::default()],
+            ..Scene::default()
+        };
+        Document::new(scene, None, Tuning { gain_db: -3.0, ..Tuning::default() })
+    }
+
+    fn empty() -> PlacedTextile {
+        PlacedTextile {
+            id: String::new(),
+            origin_mm: crate::geometry::Point::default(),
+            size_mm: [1.0; 2],
+            rotation_deg: 0.0,
+            gain_db: 0.0,
+            label: String::new(),
+        }
+    }
+
+    fn at(press: u64) -> Moment {
+        Moment { press, is_down: true, t_s: press as f64 }
+    }
+
+    #[test]
+    fn an_edit_starts_from_the_librarys_tuning_and_undo_goes_back_to_none() {
+        let mut document = document();
+        document.edit(Edit::Compression(0.5), at(1)).unwrap();
+        let tuning = document.tuning();
+        assert_eq!((tuning.gain_db, tuning.compression), (-3.0, 0.5));
+        assert!(document.is_edited(), "a changed tuning is an edit");
+        assert_eq!(document.undo(), Some("compression"));
+        assert_eq!(document.scene().tuning, None);
+        assert!(!document.is_edited(), "undone");
+    }
+
+    #[test]
+    fn a_change_that_makes_no_sense_changes_nothing() {
+        let mut document = document();
+        for edit in [Edit::MasterGain(f64::NAN), Edit::Compression(1.5)] {
+            assert!(document.edit(edit, at(1)).is_err(), "{edit:?}");
+        }
+        document.edit(Edit::TextileGain(7, 3.0), at(2)).unwrap();
+        assert!(!document.is_edited(), "nothing changed");
+        assert_eq!(document.undo(), None);
+    }
+
+    #[test]
+    fn saving_is_no_step_of_undo() {
+        let folder = std::env::temp_dir().join(format!("selvedge-document-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("a.scene.toml");
+        let mut document = document();
+        document.edit(Edit::TextileGain(0, 2.5), at(1)).unwrap();
+        document.save_as(&path).unwrap();
+        assert!(!document.is_edited(), "saved");
+        assert_eq!(Scene::read(&path).unwrap(), *document.scene());
+        document.undo();
+        assert!(document.is_edited(), "undone after saving");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    proptest! {
+        #[test]
+        fn undo_takes_everything_back_and_redo_brings_it_again(
+            edits in prop::collection::vec((0_u8..5, -30.0_f64..30.0, 0_u64..6), 0..30)
+        ) {
+            let mut document = document();
+            let first = document.scene().clone();
+            for (kind, value, press) in edits {
+                let edit = match kind {
+                    0 => Edit::MasterGain(value),
+                    1 => Edit::BandGain(Band::Low, value),
+                    2 => Edit::BandGain(Band::High, value),
+                    3 => Edit::Compression((value + 30.0) / 60.0),
+                    _ => Edit::TextileGain(0, value),
+                };
+                document.edit(edit, at(press)).unwrap();
+            }
+            let last = document.scene().clone();
+            while document.undo().is_some() {}
+            prop_assert_eq!(document.scene(), &first);
+            while document.redo().is_some() {}
+            prop_assert_eq!(document.scene(), &last);
+        }
+    }
+}

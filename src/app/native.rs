@@ -1,0 +1,144 @@
+//! The window on a real display: the event loop, and the two events that must not wait for a
+//! frame (a movement of the pointer, and Esc).
+
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::Instant;
+
+use eframe::egui::ViewportBuilder;
+use eframe::{EframeWinitApplication, NativeOptions, Renderer, UserEvent};
+use winit::application::ApplicationHandler;
+use winit::event::{DeviceEvent, DeviceId, ElementState, StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::keyboard::{Key, NamedKey};
+use winit::window::WindowId;
+
+use super::command::Command;
+use super::error::AppError;
+use super::pointer::PointerTap;
+use super::window::{Drive, Workbench};
+use crate::engine::StopSwitch;
+
+/// What the event handler shares with the workbench; both live on the window's thread.
+type Shared = Rc<RefCell<Option<(Rc<RefCell<PointerTap>>, StopSwitch)>>>;
+
+/// Opens the workbench on the scene at `scene` (`None`: the one that the program ships), connected
+/// to the emulator in this process and disarmed. Returns when the window is closed.
+///
+/// # Errors
+/// There is no display, or it cannot draw; the scene cannot be opened.
+pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
+    let event_loop =
+        EventLoop::<UserEvent>::with_user_event().build().map_err(|_no_display| AppError::NoDisplay)?;
+    event_loop.set_control_flow(ControlFlow::Wait);
+    let options = NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_title("Selvedge")
+            .with_app_id("selvedge")
+            .with_inner_size([1400.0, 900.0])
+            .with_min_inner_size([960.0, 600.0]),
+        renderer: Renderer::Glow,
+        ..NativeOptions::default()
+    };
+    let shared = Shared::default();
+    let failure = Rc::new(RefCell::new(None));
+    let (for_app, for_failure) = (Rc::clone(&shared), Rc::clone(&failure));
+    let app = eframe::create_native(
+        "Selvedge",
+        options,
+        Box::new(move |cc| match workbench(cc, scene) {
+            Ok(workbench) => {
+                *for_app.borrow_mut() = Some((Rc::clone(&workbench.tap), workbench.switch.clone()));
+                Ok(Box::new(workbench))
+            }
+            Err(error) => {
+                let words = error.to_string();
+                *for_failure.borrow_mut() = Some(error);
+                Err(words.into())
+            }
+        }),
+        &event_loop,
+    );
+    let outcome = event_loop.run_app(&mut Stamping { app, shared });
+    if let Some(error) = failure.borrow_mut().take() {
+        return Err(error);
+    }
+    outcome.map_err(|error| AppError::NoGraphics(error.to_string()))
+}
+
+fn workbench(
+    cc: &eframe::CreationContext<'_>,
+    scene: Option<PathBuf>,
+) -> Result<Workbench, AppError> {
+    let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
+    workbench.switch.press_on_panic();
+    workbench.dispatch(&cc.egui_ctx, Command::ConnectEmulator);
+    Ok(workbench)
+}
+
+/// The toolkit's own handler, with an ear in front of it.
+struct Stamping<'a> {
+    app: EframeWinitApplication<'a>,
+    shared: Shared,
+}
+
+impl Stamping<'_> {
+    fn listen(&self, event: &WindowEvent) {
+        let stamp = Instant::now();
+        let shared = self.shared.borrow();
+        let Some((tap, switch)) = &*shared else { return };
+        match event {
+            WindowEvent::CursorMoved { position, .. } => {
+                tap.borrow_mut().moved_to_pixel(stamp, [position.x, position.y]);
+            }
+            WindowEvent::KeyboardInput { event, .. } => {
+                let is_escape = event.logical_key == Key::Named(NamedKey::Escape);
+                if is_escape && event.state == ElementState::Pressed {
+                    switch.press();
+                }
+            }
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => switch.press(),
+            _ => {}
+        }
+    }
+}
+
+impl ApplicationHandler<UserEvent> for Stamping<'_> {
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, id: WindowId, event: WindowEvent) {
+        self.listen(&event);
+        self.app.window_event(event_loop, id, event);
+    }
+
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        self.app.resumed(event_loop);
+    }
+
+    fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
+        self.app.new_events(event_loop, cause);
+    }
+
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
+        self.app.user_event(event_loop, event);
+    }
+
+    fn device_event(&mut self, event_loop: &ActiveEventLoop, id: DeviceId, event: DeviceEvent) {
+        self.app.device_event(event_loop, id, event);
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        self.app.about_to_wait(event_loop);
+    }
+
+    fn suspended(&mut self, event_loop: &ActiveEventLoop) {
+        self.app.suspended(event_loop);
+    }
+
+    fn exiting(&mut self, event_loop: &ActiveEventLoop) {
+        self.app.exiting(event_loop);
+    }
+
+    fn memory_warning(&mut self, event_loop: &ActiveEventLoop) {
+        self.app.memory_warning(event_loop);
+    }
+}

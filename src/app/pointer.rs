@@ -1,0 +1,62 @@
+//! The way of a pointer movement to the engine, outside the toolkit.
+//!
+//! The toolkit's events carry no time and wait for the next frame. So the window's own event
+//! handler stamps every movement on arrival, turns it into mm with the view of the last frame and
+//! hands it to the engine's ring, before the toolkit sees it.
+
+use std::time::Instant;
+
+use eframe::egui::{Pos2, Rect, pos2};
+
+use super::workspace::{ViewTransform, is_near};
+use crate::engine::{PointerSample, PointerSender};
+
+/// Where the workspace was drawn last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ground {
+    /// How mm are laid on the screen.
+    pub(crate) view: ViewTransform,
+    /// The part of the screen that belongs to the workspace, points.
+    pub(crate) rect: Rect,
+    /// Width and height of the workspace, mm.
+    pub(crate) size_mm: [f64; 2],
+    /// Pixels per point.
+    pub(crate) pixels_per_point: f32,
+}
+
+/// Takes movements and passes on those over the workspace.
+#[derive(Debug, Default)]
+pub(crate) struct PointerTap {
+    sender: Option<PointerSender>,
+    ground: Option<Ground>,
+}
+
+impl PointerTap {
+    /// A tap that feeds this ring.
+    pub(crate) fn new(sender: Option<PointerSender>) -> Self {
+        Self { sender, ground: None }
+    }
+
+    /// Says where the workspace is now; `None` while something covers it.
+    pub(crate) fn set_ground(&mut self, ground: Option<Ground>) {
+        self.ground = ground;
+    }
+
+    /// Takes in a movement to a pixel, stamped on arrival.
+    pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, [x, y]: [f64; 2]) {
+        let Some(ground) = self.ground else { return };
+        #[expect(clippy::cast_possible_truncation, reason = "the screen is drawn in single precision")]
+        let point = pos2(x as f32, y as f32) / ground.pixels_per_point;
+        self.moved_to(stamp, point);
+    }
+
+    /// Takes in a movement to a place on the screen, points.
+    pub(crate) fn moved_to(&mut self, stamp: Instant, at: Pos2) {
+        let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else { return };
+        let position = ground.view.workspace(at);
+        if ground.rect.contains(at) && is_near(position, ground.size_mm) {
+            // A full ring drops the sample and counts it.
+            sender.push(PointerSample { stamp, position });
+        }
+    }
+}

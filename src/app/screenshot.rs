@@ -1,0 +1,102 @@
+//! The workbench as a picture, without a display: the same window, drawn by our own rasteriser.
+//!
+//! The display has just gone round the scene once, so that everything is lit. Nothing depends on a
+//! clock: the same scene gives the same bytes.
+
+use std::path::PathBuf;
+
+use eframe::App as _;
+use eframe::egui::{self, FullOutput, Pos2, RawInput, Rect, vec2};
+
+use super::command::Command;
+use super::error::AppError;
+use super::raster::{Picture, Rasteriser};
+use super::theme::Palette;
+use super::window::{Drive, Workbench};
+
+/// Frames that are run before the picture is taken, 25 ms apart: 8 s.
+const N_FRAMES: u32 = 316;
+
+/// Dark or light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Theme {
+    /// Light on dark.
+    #[default]
+    Dark,
+    /// Dark on light.
+    Light,
+}
+
+/// What to picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Screenshot {
+    /// The scene; `None` is the one that the program ships.
+    pub scene: Option<PathBuf>,
+    /// Pixels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Pixels per point: 2 is a display at 200 %.
+    pub pixels_per_point: f32,
+    /// Dark or light.
+    pub theme: Theme,
+}
+
+impl Default for Screenshot {
+    fn default() -> Self {
+        Self { scene: None, width: 1400, height: 900, pixels_per_point: 1.0, theme: Theme::Dark }
+    }
+}
+
+/// Draws the workbench.
+///
+/// # Errors
+/// The scene cannot be opened; a picture that is too small or too large.
+pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
+    let Screenshot { width, height, .. } = *wanted;
+    let is_size = |pixels: usize| (320..=16_384).contains(&pixels);
+    if !is_size(width) || !is_size(height) || width * height > 64_000_000 {
+        return Err(AppError::Size { width, height });
+    }
+    let scale = if wanted.pixels_per_point.is_finite() { wanted.pixels_per_point } else { 1.0 };
+    let scale = scale.clamp(0.5, 4.0);
+    let ctx = egui::Context::default();
+    let theme = match wanted.theme {
+        Theme::Dark => egui::Theme::Dark,
+        Theme::Light => egui::Theme::Light,
+    };
+    ctx.set_theme(theme);
+    let mut bench = Workbench::new(&ctx, wanted.scene.clone(), Drive::Stepped)?;
+    let mut rasteriser = Rasteriser::default();
+    bench.dispatch(&ctx, Command::ToggleStroke);
+    let size = vec2(width as f32, height as f32) / scale;
+    let mut frame = eframe::Frame::_new_kittest();
+    let mut run = |index: u32| {
+        let input = raw_input(size, scale, f64::from(index) / 40.0);
+        let mut output = ctx.run_ui(input, |ui| {
+            bench.logic(&ctx, &mut frame);
+            bench.ui(ui, &mut frame);
+        });
+        rasteriser.apply(&mut output.textures_delta);
+        output
+    };
+    for index in 1..N_FRAMES {
+        run(index);
+    }
+    let FullOutput { shapes, pixels_per_point, .. } = run(N_FRAMES);
+    let primitives = ctx.tessellate(shapes, pixels_per_point);
+    let floor = Palette::of(theme).floor;
+    Ok(rasteriser.draw(&primitives, [width, height], pixels_per_point, floor))
+}
+
+fn raw_input(size: egui::Vec2, scale: f32, time_s: f64) -> RawInput {
+    let mut input = RawInput {
+        screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
+        time: Some(time_s),
+        predicted_dt: 0.025,
+        focused: true,
+        ..RawInput::default()
+    };
+    input.viewports.entry(input.viewport_id).or_default().native_pixels_per_point = Some(scale);
+    input
+}
