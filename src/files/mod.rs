@@ -5,13 +5,14 @@
 //! is wrong, where (path and line), and how to mend it.
 //!
 //! # Invariants
-//! - the one home of `csv`, `toml`, `image` and `sha2`
+//! - the one home of `csv`, `toml`, `serde_json`, `image` and `sha2`
 //! - the path is given only to name it in errors: content comes in as bytes or text
 //! - numbers are written with the shortest digits that read back the same
 
 mod atomic;
 mod digits;
 mod hash;
+mod json;
 mod keys;
 mod picture;
 mod table;
@@ -19,8 +20,9 @@ mod table;
 pub use atomic::{create, read, read_text, write_atomic};
 pub use digits::push_number;
 pub use hash::sha256_hex;
+pub use json::to_json_string;
 pub use keys::{keys_from_str, keys_to_string, line_of_key};
-pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba};
+pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use table::{Table, TableWriter};
 
 use std::path::{Path, PathBuf};
@@ -29,7 +31,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// It cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}; check the path", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -37,7 +39,7 @@ pub enum FileError {
         source: std::io::Error,
     },
     /// It cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}; check the folder", path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -77,5 +79,7 @@ impl FileError {
 
 /// The line, from 1, that holds the byte at `offset`.
 fn line_at(bytes: &[u8], offset: usize) -> usize {
-    bytes[..offset.min(bytes.len())].split(|&byte| byte == b'\n').count()
+    bytes[..offset.min(bytes.len())]
+        .split(|&byte| byte == b'\n')
+        .count()
 }

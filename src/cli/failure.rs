@@ -1,0 +1,128 @@
+//! Why a command failed, and which exit code says so.
+//!
+//! 2: the command or what it was given is wrong, and the line says how to mend it. 1: the work
+//! itself failed. A reader that closed our output is no failure.
+
+use std::io;
+
+use crate::app::AppError;
+use crate::bridge::BridgeError;
+use crate::engine::EngineError;
+use crate::files::FileError;
+use crate::progress::Cancelled;
+use crate::render::RenderError;
+use crate::scene::SceneError;
+use crate::textile::TextileError;
+
+/// Why a command failed: one line.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// The command line or what it was given is wrong.
+    #[error("{0}")]
+    Input(String),
+    /// The work failed.
+    #[error("{0}")]
+    Failed(String),
+    /// Whoever reads our output has had enough.
+    #[error("the output was closed")]
+    OutputClosed,
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A textile or a library.
+    #[error(transparent)]
+    Textile(#[from] TextileError),
+    /// A scene or a path.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Something that cannot be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A device.
+    #[error(transparent)]
+    Bridge(#[from] BridgeError),
+    /// The real-time work.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The window.
+    #[error(transparent)]
+    App(#[from] AppError),
+}
+
+impl CliError {
+    /// 0, 1 or 2: see the head of this file.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::OutputClosed => 0,
+            Self::Failed(_) => 1,
+            Self::Input(_) | Self::Render(_) => 2,
+            Self::File(error) => code_of_file(error),
+            Self::Textile(error) => code_of_textile(error),
+            Self::Scene(SceneError::File(error)) => code_of_file(error),
+            Self::Scene(SceneError::Textile(error)) => code_of_textile(error),
+            Self::Scene(SceneError::Value { .. }) => 2,
+            Self::Bridge(error) => code_of_bridge(error),
+            Self::App(error) => code_of_app(error),
+            Self::Engine(EngineError::Render(_) | EngineError::Scene(_)) => 2,
+            Self::Engine(_) => 1,
+        }
+    }
+}
+
+impl From<io::Error> for CliError {
+    /// An error of our standard output.
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Self::OutputClosed;
+        }
+        Self::Failed(format!(
+            "cannot write the output: {error}; make room or choose --out"
+        ))
+    }
+}
+
+impl From<Cancelled> for CliError {
+    fn from(_: Cancelled) -> Self {
+        Self::Failed("stopped before the work was done; run it again to finish".to_owned())
+    }
+}
+
+fn code_of_file(error: &FileError) -> u8 {
+    match error {
+        FileError::Read { .. } | FileError::Content { .. } => 2,
+        FileError::Write { source, .. } if source.kind() == io::ErrorKind::BrokenPipe => 0,
+        FileError::Write { .. } => 1,
+    }
+}
+
+fn code_of_textile(error: &TextileError) -> u8 {
+    match error {
+        TextileError::File(error) => code_of_file(error),
+        TextileError::Cancelled(_) => 1,
+        _ => 2,
+    }
+}
+
+/// Ports and places that are not what was said are wrong input; a link that breaks is not.
+fn code_of_bridge(error: &BridgeError) -> u8 {
+    match error {
+        BridgeError::Open { .. } | BridgeError::LinkTaken(_) | BridgeError::WavSpec { .. } => 2,
+        _ => 1,
+    }
+}
+
+fn code_of_app(error: &AppError) -> u8 {
+    match error {
+        AppError::NoDisplay
+        | AppError::NoGraphics(_)
+        | AppError::Size { .. }
+        | AppError::Render(_) => 2,
+        AppError::Scene(SceneError::File(error)) => code_of_file(error),
+        AppError::Scene(SceneError::Textile(error)) | AppError::Textile(error) => {
+            code_of_textile(error)
+        }
+        AppError::Scene(SceneError::Value { .. }) => 2,
+        AppError::Engine(EngineError::Render(_) | EngineError::Scene(_)) => 2,
+        AppError::Engine(_) => 1,
+    }
+}

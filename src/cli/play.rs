@@ -1,0 +1,271 @@
+//! `selvedge play`: an exploration in real time on a device.
+//!
+//! The device paces: every tick that it announces is answered with the amplitudes of the next tick
+//! of the path, so that what is felt is what `selvedge render` computes, tick for tick. Whatever
+//! happens, the device is told to stop, and its answer is waited for.
+
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+
+use super::play_log::PlayLog;
+use super::play_report::PlayReport;
+use super::{CliError, output, signals, terminal};
+use crate::bridge::{Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target};
+use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
+use crate::render::array::{Accuracy, Method};
+use crate::scene::{ExplorationPath, LoadedScene};
+
+/// How long to wait for the device before something is said of it. It is polled at least this often.
+const NAP: Duration = Duration::from_millis(20);
+/// The last STOP is sent again every 250 ms, eight times; then the session itself gives up.
+const STOP_PATIENCE: Duration = Duration::from_secs(4);
+
+/// What to play, and where.
+#[derive(Debug, Args)]
+pub(super) struct PlayArgs {
+    /// Scene file
+    scene: PathBuf,
+    /// Exploration: a path file, or - for lines of x_mm,y_mm or t_s,x_mm,y_mm on standard input
+    #[arg(long, value_name = "PATH.csv")]
+    path: PathBuf,
+    /// Serial port of the device
+    #[arg(long, value_name = "PORT")]
+    port: PathBuf,
+    /// Begin again at the end of the path, until SIGINT or SIGTERM
+    #[arg(long = "loop")]
+    does_loop: bool,
+    /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
+    #[arg(long, value_name = "L.csv")]
+    log: Option<PathBuf>,
+    /// How to render: reference, banded, table or auto
+    #[arg(long, value_name = "METHOD", default_value = "auto")]
+    method: Method,
+}
+
+/// Plays, and says how punctual it was.
+pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
+    let loaded = LoadedScene::read(&args.scene)?;
+    let source = source_of(args)?;
+    check_port(&args.port)?;
+    let scene = PreparedScene::prepare(&loaded, args.method, &Accuracy::default())?;
+    let log = match &args.log {
+        Some(place) => Some(PlayLog::create(place, scene.profile(), scene.n_felt())?),
+        None => None,
+    };
+    let stop = signals::stop_flag()?;
+    let mut player = Player::open(args, scene, source, log)?;
+    let played = player.play(&stop);
+    let stopped = player.stop();
+    let report = player.close()?;
+    played?;
+    stopped?;
+    output::print(&report.to_string())
+}
+
+fn source_of(args: &PlayArgs) -> Result<InputSource, CliError> {
+    if args.path != Path::new("-") {
+        return Ok(InputSource::Replay(Arc::new(ExplorationPath::read(
+            &args.path,
+        )?)));
+    }
+    if args.does_loop {
+        let what = "a stream on standard input cannot begin again; leave out --loop";
+        return Err(CliError::Input(what.to_owned()));
+    }
+    Ok(InputSource::Lines(Box::new(BufReader::new(io::stdin()))))
+}
+
+/// Refuses what is no port before anything is prepared.
+pub(super) fn check_port(port: &Path) -> Result<(), CliError> {
+    let name = port.display();
+    let mend = "\"selvedge bridge list\" names the ports, \"selvedge bridge emulate\" makes one";
+    // Elsewhere ports are names that no file system knows.
+    if cfg!(unix) && !port.exists() {
+        return Err(CliError::Input(format!("there is no port {name}; {mend}")));
+    }
+    if port.is_dir() || port.is_file() {
+        return Err(CliError::Input(format!("{name} is no serial port; {mend}")));
+    }
+    if cfg!(unix)
+        && let Err(error) = File::options().read(true).write(true).open(port)
+    {
+        return Err(CliError::Input(format!(
+            "cannot open {name}: {error}; {mend}"
+        )));
+    }
+    Ok(())
+}
+
+/// A path on its way to a device.
+struct Player {
+    core: EngineCore,
+    bridge: Bridge,
+    log: Option<PlayLog>,
+    started: Option<Instant>,
+    last_tick: Option<u32>,
+    n_frames: u64,
+    n_missed: u64,
+    n_bad_lines: u64,
+    has_ended: bool,
+}
+
+impl Player {
+    fn open(
+        args: &PlayArgs,
+        scene: PreparedScene,
+        source: InputSource,
+        log: Option<PlayLog>,
+    ) -> Result<Self, CliError> {
+        let waiting = thread::current();
+        let target = Target::Port(args.port.clone());
+        let (profile, n_felt) = (scene.profile().clone(), scene.n_felt());
+        let bridge = Bridge::open(target, profile, n_felt, move || waiting.unpark());
+        let (mut core, _pointer) = EngineCore::new(Box::new(scene));
+        core.play(source, args.does_loop)?;
+        Ok(Self {
+            core,
+            bridge,
+            log,
+            started: None,
+            last_tick: None,
+            n_frames: 0,
+            n_missed: 0,
+            n_bad_lines: 0,
+            has_ended: false,
+        })
+    }
+
+    /// Handshake, arming, and the path to its end or until `stop` is set.
+    fn play(&mut self, stop: &AtomicBool) -> Result<(), CliError> {
+        while !self.has_ended && !stop.load(Ordering::Relaxed) {
+            match self.hear()? {
+                Some(tick) if self.bridge.state().takes_frames() => self.answer(tick)?,
+                _ => thread::park_timeout(NAP),
+            }
+            if self.bridge.state() == BridgeState::Ready && self.started.is_none() {
+                self.bridge.arm();
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes all news, and gives the last device tick that began, if one did.
+    fn hear(&mut self) -> Result<Option<u32>, CliError> {
+        let mut newest = None;
+        while let Some(event) = self.bridge.poll() {
+            match event {
+                BridgeEvent::Tick { tick, .. } => newest = Some(tick),
+                other => self.heed(other)?,
+            }
+        }
+        Ok(newest)
+    }
+
+    fn heed(&mut self, event: BridgeEvent) -> Result<(), CliError> {
+        let target = self.bridge.target();
+        let failed = |what: &str| Err(CliError::Failed(format!("{target}: {what}")));
+        match event {
+            BridgeEvent::Refused(reason) | BridgeEvent::Lost(reason) => return failed(&reason),
+            BridgeEvent::Disarmed {
+                by: DisarmedBy::Device,
+                reason,
+            } => return failed(&reason),
+            BridgeEvent::Connected(caps) => {
+                if let Some(log) = &mut self.log {
+                    log.set_link_limit(caps.comp_limit);
+                }
+            }
+            BridgeEvent::Fault(fault) => {
+                terminal::notice(&format!("{target}: the device reports {fault:?}"));
+            }
+            BridgeEvent::DepthRaised(depth) => {
+                terminal::notice(&format!("frames came late: now sent {depth} ticks ahead"));
+            }
+            BridgeEvent::Log(text) => terminal::notice(&format!("{target} says: {text}")),
+            BridgeEvent::Armed => self.started = Some(Instant::now()),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Answers a device tick with the next tick of the path.
+    fn answer(&mut self, tick: u32) -> Result<(), CliError> {
+        let since = self.last_tick.map_or(1, |last| tick.wrapping_sub(last));
+        self.last_tick = Some(tick);
+        self.n_missed += u64::from(since.saturating_sub(1));
+        let has_ended = &mut self.has_ended;
+        self.core.tick(Instant::now(), &mut |notice| {
+            *has_ended |= matches!(notice, Notice::SourceEnded);
+        });
+        if self.has_ended {
+            return Ok(());
+        }
+        let felt_um = self.core.felt_um();
+        if let Some(sent) = self.bridge.send(felt_um, self.core.fresh_stamp()) {
+            self.n_frames += 1;
+            if let Some(log) = &mut self.log {
+                log.frame(&sent, &self.core.pose(), felt_um)?;
+            }
+        }
+        self.tell_bad_lines();
+        Ok(())
+    }
+
+    /// Lines that were no position are dropped; the first is told at once, all at the end.
+    fn tell_bad_lines(&mut self) {
+        let n_bad = self.core.losses().bad_lines;
+        if n_bad > 0 && self.n_bad_lines == 0 {
+            terminal::notice(
+                "a line is no position and was dropped; write x_mm,y_mm or t_s,x_mm,y_mm",
+            );
+        }
+        self.n_bad_lines = n_bad;
+    }
+
+    /// Tells the device to stop, if it plays, and waits for its answer.
+    fn stop(&mut self) -> Result<(), CliError> {
+        if !self.bridge.state().is_live() {
+            return Ok(());
+        }
+        self.bridge.stop(StopHow::Ramp);
+        let deadline = Instant::now() + STOP_PATIENCE;
+        while self.bridge.state().is_live() {
+            self.hear()?;
+            if Instant::now() > deadline {
+                let target = self.bridge.target();
+                let what = "did not acknowledge the last STOP; switch its power off";
+                return Err(CliError::Failed(format!("{target} {what}")));
+            }
+            thread::park_timeout(NAP);
+        }
+        Ok(())
+    }
+
+    /// Ends the link and the log.
+    fn close(self) -> Result<PlayReport, CliError> {
+        let report = PlayReport {
+            target: self.bridge.target().to_owned(),
+            duration: self
+                .started
+                .map_or(Duration::ZERO, |started| started.elapsed()),
+            n_frames: self.n_frames,
+            n_missed: self.n_missed,
+            n_bad_lines: self.n_bad_lines,
+            counters: self.bridge.counters(),
+            timings: self.bridge.timings(),
+        };
+        let closed: Result<(), BridgeError> = self.bridge.close(STOP_PATIENCE);
+        if let Some(log) = self.log {
+            log.finish()?;
+        }
+        closed?;
+        Ok(report)
+    }
+}

@@ -1,0 +1,203 @@
+//! `selvedge render`: an exploration replayed into files.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::render_out::{AmplitudeTable, DriveFile, SampleKind};
+use super::terminal::Meter;
+use super::{CliError, output, signals};
+use crate::files::to_json_string;
+use crate::progress::Cancelled;
+use crate::render::array::{Accuracy, Method};
+use crate::render::{RenderScene, Replay, RunStats, replay};
+use crate::scene::{ExplorationPath, LoadedScene};
+
+/// What to replay, and what to write.
+#[derive(Debug, Args)]
+pub(super) struct RenderArgs {
+    /// Scene file
+    scene: PathBuf,
+    /// Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s
+    #[arg(long, value_name = "PATH.csv")]
+    path: PathBuf,
+    /// Amplitudes after gains, one row a contactor a tick (standard output if no file is asked for)
+    #[arg(long, value_name = "A.csv")]
+    out: Option<PathBuf>,
+    /// How to render: reference, banded, table or auto
+    #[arg(long, value_name = "METHOD", default_value = "auto")]
+    method: Method,
+    /// The drive waveform, one channel a contactor; full scale is 50 µm
+    #[arg(long, value_name = "W.wav")]
+    wav: Option<PathBuf>,
+    /// Sample rate of the waveform, Hz
+    #[arg(long, value_name = "HZ", default_value_t = 48_000, requires = "wav")]
+    wav_rate: u32,
+    /// Sample format of the waveform
+    #[arg(long, value_enum, default_value_t = SampleKind::F32, requires = "wav")]
+    wav_format: SampleKind,
+    /// Cost, work left out and level error of every method on this path, as JSON
+    #[arg(long, value_name = "S.json")]
+    stats: Option<PathBuf>,
+}
+
+/// What `--stats` writes.
+#[derive(Debug, Serialize)]
+struct StatsFile<'a> {
+    program: &'static str,
+    version: &'static str,
+    scene: &'a Path,
+    path: &'a Path,
+    n_ticks: u64,
+    /// The method that made the amplitudes written.
+    method: Method,
+    /// Every method on this very path, the one above first.
+    methods: Vec<RunStats>,
+}
+
+/// Replays, and writes what was asked for.
+pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
+    let loaded = LoadedScene::read(&args.scene)?;
+    let path = ExplorationPath::read(&args.path)?;
+    let scene = RenderScene::of(&loaded);
+    let stop = signals::stop_flag()?;
+    let mut sinks = Sinks::open(args, &loaded, &scene)?;
+    let first = run_method(
+        &scene,
+        (args.method, args),
+        &path,
+        &mut |tick, pose, frames| sinks.take(tick, pose.t_s, frames, &stop),
+    )?;
+    sinks.finish()?;
+    if let Some(place) = &args.stats {
+        write_stats(args, place, &scene, &path, first, &stop)?;
+    }
+    Ok(())
+}
+
+/// One replay of the whole path.
+fn run_method(
+    scene: &RenderScene,
+    (method, args): (Method, &RenderArgs),
+    path: &ExplorationPath,
+    sink: &mut dyn FnMut(u64, &crate::scene::Pose, &[crate::render::array::DisplayFrame]) -> Step,
+) -> Result<RunStats, CliError> {
+    let what = Replay {
+        scene,
+        method,
+        accuracy: Accuracy::default(),
+        measures_error: args.stats.is_some(),
+    };
+    let started = Instant::now();
+    let mut clock_ns = || u64::try_from(started.elapsed().as_nanos()).unwrap_or(u64::MAX);
+    let mut meter = Meter::new("rendering");
+    let n_ticks = path.n_ticks() as f64;
+    let mut failed = None;
+    let stats = replay(
+        &what,
+        path.ticks(),
+        &mut clock_ns,
+        &mut |tick, pose, frames| {
+            meter.show(tick as f64 / n_ticks, method.name());
+            match sink(tick, pose, frames) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    failed = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        },
+    )?;
+    failed.map_or(Ok(stats), Err)
+}
+
+type Step = Result<(), CliError>;
+
+/// Runs the other methods too and writes the figures of all.
+fn write_stats(
+    args: &RenderArgs,
+    place: &Path,
+    scene: &RenderScene,
+    path: &ExplorationPath,
+    first: RunStats,
+    stop: &AtomicBool,
+) -> Result<(), CliError> {
+    let mut methods = vec![first];
+    for method in [Method::Reference, Method::Banded, Method::Table] {
+        if method != first.method {
+            let goes_on = &mut |_, _: &_, _: &[_]| check(stop);
+            methods.push(run_method(scene, (method, args), path, goes_on)?);
+        }
+    }
+    let file = StatsFile {
+        program: env!("CARGO_PKG_NAME"),
+        version: env!("CARGO_PKG_VERSION"),
+        scene: &args.scene,
+        path: &args.path,
+        n_ticks: path.n_ticks(),
+        method: first.method_used,
+        methods,
+    };
+    output::write_text(Some(place), &to_json_string(&file, place)?)
+}
+
+/// The files of a run.
+struct Sinks<'a> {
+    table: Option<AmplitudeTable<'a>>,
+    drive: Option<DriveFile>,
+}
+
+impl<'a> Sinks<'a> {
+    fn open(
+        args: &RenderArgs,
+        loaded: &'a LoadedScene,
+        scene: &RenderScene,
+    ) -> Result<Self, CliError> {
+        let is_asked = args.out.is_some() || (args.wav.is_none() && args.stats.is_none());
+        let table = is_asked
+            .then(|| AmplitudeTable::new(args.out.as_deref(), loaded))
+            .transpose()?;
+        let n_contactors = scene
+            .displays
+            .iter()
+            .map(|display| display.offsets.len())
+            .sum();
+        let open =
+            |place: &PathBuf| DriveFile::new(place, n_contactors, (args.wav_rate, args.wav_format));
+        let drive = args.wav.as_ref().map(open).transpose()?;
+        Ok(Self { table, drive })
+    }
+
+    fn take(
+        &mut self,
+        tick: u64,
+        t_s: f64,
+        frames: &[crate::render::array::DisplayFrame],
+        stop: &AtomicBool,
+    ) -> Result<(), CliError> {
+        check(stop)?;
+        if let Some(table) = &mut self.table {
+            table.take(tick, t_s, frames)?;
+        }
+        self.drive
+            .as_mut()
+            .map_or(Ok(()), |drive| drive.take(tick, frames))
+    }
+
+    fn finish(self) -> Result<(), CliError> {
+        self.table.map_or(Ok(()), AmplitudeTable::finish)?;
+        self.drive.map_or(Ok(()), DriveFile::finish)
+    }
+}
+
+fn check(stop: &AtomicBool) -> Result<(), CliError> {
+    if stop.load(Ordering::Relaxed) {
+        Err(Cancelled.into())
+    } else {
+        Ok(())
+    }
+}

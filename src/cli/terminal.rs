@@ -1,0 +1,70 @@
+//! The terminal: notices and progress on stderr.
+//!
+//! Nothing here writes results. Errors of stderr are dropped: there is nowhere left to tell them.
+
+use std::io::{self, IsTerminal as _, Write as _};
+use std::time::{Duration, Instant};
+
+/// Work that is shorter than this says nothing.
+const QUIET: Duration = Duration::from_secs(1);
+/// How often a terminal's line is renewed.
+const REFRESH: Duration = Duration::from_millis(100);
+/// How often a log gets a line.
+const LOG_EVERY: Duration = Duration::from_secs(5);
+
+/// One line on stderr.
+pub(super) fn notice(text: &str) {
+    drop(writeln!(io::stderr(), "selvedge: {text}"));
+}
+
+/// Progress of long work: one line that is renewed on a terminal, now and then a line in a log.
+#[derive(Debug)]
+pub(super) struct Meter {
+    doing: &'static str,
+    started: Instant,
+    due: Instant,
+    is_terminal: bool,
+    is_shown: bool,
+}
+
+impl Meter {
+    /// A meter of work that begins now.
+    pub(super) fn new(doing: &'static str) -> Self {
+        let started = Instant::now();
+        let is_terminal = io::stderr().is_terminal();
+        Self {
+            doing,
+            started,
+            due: started + QUIET,
+            is_terminal,
+            is_shown: false,
+        }
+    }
+
+    /// The share done, 0…1, and what is being done to what.
+    pub(super) fn show(&mut self, share: f64, what: &str) {
+        let now = Instant::now();
+        if now < self.due {
+            return;
+        }
+        self.due = now + if self.is_terminal { REFRESH } else { LOG_EVERY };
+        self.is_shown = true;
+        let seconds = now.duration_since(self.started).as_secs();
+        let percent = (share * 100.0).floor();
+        let line = format!("{} {percent} %, {seconds} s {what}", self.doing);
+        if self.is_terminal {
+            drop(write!(io::stderr(), "\r\x1b[2K{line}"));
+            drop(io::stderr().flush());
+        } else {
+            notice(line.trim_end());
+        }
+    }
+}
+
+impl Drop for Meter {
+    fn drop(&mut self) {
+        if self.is_shown && self.is_terminal {
+            drop(write!(io::stderr(), "\r\x1b[2K"));
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! `selvedge textile`: what is in a library, and how strong it is.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+
+use super::output::TableOut;
+use super::terminal::Meter;
+use super::textile_make::{self, MakeCommand};
+use super::{CliError, output};
+use crate::quantity::{factor_of_gain, fixed};
+use crate::surface::{BIN_SPACING_PER_MM, Direction};
+use crate::tactile::{Band, Filters, Levels, Tuning};
+use crate::textile::{Library, Manifest, Textile};
+
+/// What to do with textiles.
+#[derive(Debug, Subcommand)]
+pub(super) enum TextileCommand {
+    /// List the textiles: id, construction, fibre, name
+    List {
+        #[command(flatten)]
+        from: FromLibrary,
+    },
+    /// Show a textile: what it is, its roughness and its levels
+    Show {
+        /// The textile's id
+        id: String,
+        /// Print the recipe of a model instead, to make another from it
+        #[arg(long)]
+        recipe: bool,
+        #[command(flatten)]
+        from: FromLibrary,
+    },
+    /// Local spectra of a textile: direction,point,wavenumber_per_mm,power_um2
+    Spectra {
+        /// The textile's id
+        id: String,
+        /// The table (standard output if none is named)
+        #[arg(long, value_name = "S.csv")]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        from: FromLibrary,
+    },
+    /// Mean amplitudes of every textile at 100 mm/s, before and after the default tuning
+    Levels {
+        /// The table (standard output if none is named)
+        #[arg(long, value_name = "L.csv")]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        from: FromLibrary,
+    },
+    /// Make a textile from a recipe, or a library from recipes
+    #[command(subcommand)]
+    Make(MakeCommand),
+}
+
+/// The library that is meant.
+#[derive(Debug, Args)]
+pub(super) struct FromLibrary {
+    /// Folder of textiles (the library shipped in the program if none is named)
+    #[arg(long, value_name = "FOLDER")]
+    library: Option<PathBuf>,
+}
+
+impl FromLibrary {
+    fn open(&self) -> Result<Library, CliError> {
+        Ok(match &self.library {
+            Some(folder) => Library::open(folder)?,
+            None => Library::shipped()?,
+        })
+    }
+}
+
+/// Does it.
+pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
+    match command {
+        TextileCommand::List { from } => list(&from.open()?),
+        TextileCommand::Show {
+            id,
+            recipe: true,
+            from,
+        } => textile_make::print_recipe(&from.open()?, id),
+        TextileCommand::Show {
+            id,
+            recipe: false,
+            from,
+        } => show(&from.open()?, id),
+        TextileCommand::Spectra { id, out, from } => spectra(&from.open()?, id, out.as_deref()),
+        TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
+        TextileCommand::Make(command) => textile_make::run(command),
+    }
+}
+
+fn list(library: &Library) -> Result<(), CliError> {
+    let mut text = String::new();
+    let widest = library.ids().iter().map(String::len).max().unwrap_or(0);
+    for id in library.ids() {
+        let Manifest {
+            name,
+            construction,
+            fibre,
+            ..
+        } = library.manifest(id)?;
+        let construction = construction.word();
+        text.push_str(&format!(
+            "{id:widest$}  {construction:9}  {fibre:10}  {name}\n"
+        ));
+    }
+    output::print(&text)
+}
+
+fn show(library: &Library, id: &str) -> Result<(), CliError> {
+    let textile = library.load(id)?;
+    let manifest = textile.manifest();
+    let levels = Levels::of(textile.surface(), &Filters::default());
+    let n_points = Direction::ALL.map(|d| textile.surface().spectra(d).n_points().to_string());
+    let level = levels
+        .level_db()
+        .map_or("none".to_owned(), |db| fixed(db, 2));
+    let both = |values: [f64; 2], digits| values.map(|value| fixed(value, digits)).join(" / ");
+    let mut rows = vec![
+        ("id", id.to_owned()),
+        ("name", manifest.name.clone()),
+        ("construction", manifest.construction.word().to_owned()),
+        ("fibre", manifest.fibre.clone()),
+        ("source", manifest.source.kind().to_owned()),
+        ("notes", manifest.notes.clone()),
+        ("licence", manifest.licence.clone()),
+        ("gain", format!("{} dB", fixed(manifest.gain_db, 1))),
+        (
+            "roughness SMD",
+            format!("{} µm", fixed(textile.surface().smd_um(), 2)),
+        ),
+        ("points", n_points.join(", ")),
+        (
+            "A40 / A320",
+            format!("{} µm at 100 mm/s", both(levels.mean_um, 2)),
+        ),
+        ("variation", format!("{} of the mean", both(levels.cv, 2))),
+        (
+            "anisotropy",
+            format!("{} dB", both(levels.anisotropy_db, 1)),
+        ),
+        ("level", format!("{level} dB re 1 µm")),
+    ];
+    rows.extend(
+        textile
+            .fall_backs()
+            .into_iter()
+            .map(|note| ("fall-back", note)),
+    );
+    rows.retain(|(_, value)| !value.is_empty());
+    let lines = rows
+        .into_iter()
+        .map(|(key, value)| format!("{key:14}{value}\n"));
+    output::print(&lines.collect::<String>())
+}
+
+fn spectra(library: &Library, id: &str, out: Option<&Path>) -> Result<(), CliError> {
+    let textile = library.load(id)?;
+    let header = ["direction", "point", "wavenumber_per_mm", "power_um2"];
+    let mut table = TableOut::new(out, &header)?;
+    for direction in Direction::ALL {
+        let spectra = textile.surface().spectra(direction);
+        for point in 0..spectra.n_points() {
+            for (index, power_um2) in spectra.powers_um2(point).iter().enumerate() {
+                let wavenumber_per_mm = BIN_SPACING_PER_MM * (index + 1) as f64;
+                let row = table.rows();
+                row.text(direction.key()).number(point);
+                row.number(wavenumber_per_mm).number(power_um2).end_row()?;
+            }
+        }
+    }
+    table.finish()
+}
+
+const LEVELS_HEADER: [&str; 10] = [
+    "textile",
+    "a40_um",
+    "a320_um",
+    "level_db",
+    "cv40",
+    "cv320",
+    "anisotropy40_db",
+    "anisotropy320_db",
+    "tuned_a40_um",
+    "tuned_a320_um",
+];
+
+fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliError> {
+    let mut all: Vec<(std::sync::Arc<Textile>, Levels)> = Vec::new();
+    let mut meter = Meter::new("reading");
+    for (done, id) in library.ids().iter().enumerate() {
+        meter.show(done as f64 / library.ids().len() as f64, id);
+        let textile = library.load(id)?;
+        let levels = Levels::of(textile.surface(), &Filters::default());
+        all.push((textile, levels));
+    }
+    let tuning = library.default_tuning();
+    let known: Vec<f64> = all
+        .iter()
+        .filter_map(|(_, levels)| levels.level_db())
+        .collect();
+    let mean_db = known.iter().sum::<f64>() / known.len().max(1) as f64;
+    let reference_db = tuning.compression_reference_db.unwrap_or(mean_db);
+    let mut table = TableOut::new(out, &LEVELS_HEADER)?;
+    for (textile, levels) in &all {
+        let row = table.rows();
+        row.text(textile.id())
+            .number(levels.mean_um[0])
+            .number(levels.mean_um[1]);
+        match levels.level_db() {
+            Some(level_db) => row.number(level_db),
+            None => row.text(""),
+        };
+        for value in levels.cv.into_iter().chain(levels.anisotropy_db) {
+            row.number(value);
+        }
+        for band in Band::ALL {
+            row.number(tuned_um(textile, levels, (&tuning, reference_db), band));
+        }
+        row.end_row()?;
+    }
+    table.finish()
+}
+
+/// The mean amplitude of a band with a tuning and the textile's own gain, µm.
+fn tuned_um(
+    textile: &Textile,
+    levels: &Levels,
+    (tuning, reference_db): (&Tuning, f64),
+    band: Band,
+) -> f64 {
+    let gain_db = tuning.band_gain_db(band)
+        + textile.manifest().gain_db
+        + tuning.compression_gain_db(levels.level_db(), reference_db);
+    levels.mean_um[band.index()] * factor_of_gain(gain_db)
+}

@@ -1,0 +1,22 @@
+//! `selvedge [SCENE]`: the way into the workbench.
+
+use std::path::Path;
+
+use super::CliError;
+use crate::app;
+use crate::scene::Scene;
+
+/// Opens the workbench, on the shipped scene if none is named.
+///
+/// # Errors
+/// A scene that is wrong, before a window is tried; no display.
+pub(super) fn open(scene: Option<&Path>) -> Result<(), CliError> {
+    if let Some(path) = scene {
+        if !path.exists() {
+            let what = format!("{} is neither a scene file nor a command", path.display());
+            return Err(CliError::Input(format!("{what}; see \"selvedge --help\"")));
+        }
+        Scene::read(path)?;
+    }
+    Ok(app::run(scene.map(Path::to_path_buf))?)
+}

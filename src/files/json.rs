@@ -1,0 +1,27 @@
+//! JSON text from plain data, for results that other programs read.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::FileError;
+
+/// A value as indented JSON with a final newline; numbers that are not finite become `null`.
+/// `path` only names the file in errors.
+pub fn to_json_string<T: Serialize>(value: &T, path: &Path) -> Result<String, FileError> {
+    let mut text = serde_json::to_string_pretty(value)
+        .map_err(|e| FileError::content(path, 1, e.to_string(), "this cannot be saved as JSON"))?;
+    text.push('\n');
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_digits_and_infinity_is_null() {
+        let text = to_json_string(&[0.1, f64::INFINITY], Path::new("a.json")).unwrap();
+        assert_eq!(text.split_whitespace().collect::<String>(), "[0.1,null]");
+    }
+}
