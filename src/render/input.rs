@@ -85,7 +85,11 @@ impl RenderScene {
     /// What rendering needs of a loaded scene, with its tuning or the library's.
     pub fn of(loaded: &LoadedScene) -> Self {
         let scene = loaded.scene();
-        let placed = scene.textiles.iter().zip(loaded.textiles()).zip(loaded.levels_db());
+        let placed = scene
+            .textiles
+            .iter()
+            .zip(loaded.textiles())
+            .zip(loaded.levels_db());
         let textiles = placed.map(|((placed, textile), level_db)| PlacedSurface {
             workspace_from_textile: placed.workspace_from_textile(),
             size_mm: placed.size_mm,

@@ -19,7 +19,7 @@ use crate::surface::{Direction, LocalSpectra};
 use segments::{Segments, Spot};
 
 /// Most bytes that the tables of a scene may take.
-pub(super) const MAX_TABLE_BYTES: usize = 512_000_000;
+pub(super) const MAX_TABLE_BYTES: usize = 256_000_000;
 /// Points of a direction up to this many times the contactors are interpolated all at once.
 const BLEND_ALL: usize = 2;
 

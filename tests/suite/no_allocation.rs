@@ -1,0 +1,126 @@
+//! Proof that a tick allocates nothing: the suite's global allocator aborts inside a guard.
+
+use std::sync::Arc;
+
+use assert_no_alloc::assert_no_alloc;
+
+use selvedge::geometry::{Displacement, Frame, Point, Rotation, Velocity};
+use selvedge::numerics::Random;
+use selvedge::render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
+use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
+use selvedge::scene::Pose;
+use selvedge::surface::{Profile, ProfileSet, Surface};
+use selvedge::tactile::Tuning;
+
+fn surface(seed: u64, n_samples: u32) -> Arc<Surface> {
+    let mut random = Random::new(seed);
+    let mut level = 0.0;
+    let height = |_| {
+        level = 0.99 * level + random.normal();
+        level
+    };
+    let mut profiles = ProfileSet::default();
+    profiles[0] = Some(Profile::new(1.0 / 230.0, (0..n_samples).map(height).collect()).unwrap());
+    Arc::new(Surface::from_profiles(profiles, 0.0).unwrap())
+}
+
+/// A short and a very long textile that overlap, two displays, one of them turned.
+fn scene() -> RenderScene {
+    let place = |(number, surface)| PlacedSurface {
+        workspace_from_textile: Frame {
+            origin: Point::new(40.0 * f64::from(number), 10.0),
+            rotation: Rotation::from_degrees(30.0 * f64::from(number)),
+        },
+        size_mm: [80.0, 80.0],
+        manifest_gain_db: 0.0,
+        scene_gain_db: -2.0,
+        level: PlacedLevel::Pending,
+        surface,
+    };
+    let offset = |i: u8| Displacement::new(f64::from(i % 4) * 2.0, f64::from(i / 4) * 2.0);
+    let array = |rotation_deg| ContactorArray {
+        offsets: (0..24).map(offset).collect(),
+        rotation_deg,
+    };
+    RenderScene {
+        textiles: [(0_u8, surface(1, 4600)), (1, surface(2, 40_000))]
+            .map(place)
+            .into(),
+        displays: vec![array(0.0), array(45.0)],
+        ..RenderScene::default()
+    }
+}
+
+/// Strokes over both textiles and beyond; still, fast, turning and broken poses.
+fn poses(tick: u32) -> [Pose; 2] {
+    let along = f64::from(tick);
+    let stroke = Pose {
+        t_s: along / 40.0,
+        position: Point::new(along * 1.3 - 20.0, 30.0 + along * 0.2),
+        angle_deg: if tick.is_multiple_of(3) { along } else { 0.0 },
+        velocity: Velocity::new(52.0, 8.0 * (f64::from(tick % 7) - 3.0)),
+        angular_rad_per_s: if tick.is_multiple_of(5) { 1.5 } else { 0.0 },
+    };
+    let odd_speed = [0.0, 5000.0, f64::NAN, 0.02][(tick % 4) as usize];
+    let odd = Pose {
+        velocity: Velocity::new(odd_speed, -30.0),
+        ..stroke
+    };
+    [stroke, odd]
+}
+
+#[test]
+fn a_tick_of_any_method_allocates_nothing() {
+    let scene = scene();
+    for method in Method::ALL {
+        let mut renderer = ArrayRenderer::prepare(&scene, method, &Accuracy::default()).unwrap();
+        let mut sounding = 0;
+        for tick in 0..120 {
+            let poses = poses(tick);
+            assert_no_alloc(|| {
+                let frames = renderer.tick(&poses);
+                let heard = |a: &&[f32; 2]| a[0] > 0.0;
+                sounding += frames[0].amplitudes_um().iter().filter(heard).count();
+            });
+        }
+        assert!(sounding > 200, "{method:?} rendered something: {sounding}");
+    }
+}
+
+#[test]
+fn live_gains_and_levels_allocate_nothing() {
+    let mut renderer =
+        ArrayRenderer::prepare(&scene(), Method::Table, &Accuracy::default()).unwrap();
+    let tuning = Tuning {
+        gain_db: -3.0,
+        compression: 0.7,
+        ..Tuning::default()
+    };
+    let refused = Tuning {
+        gain_db: f64::NAN,
+        ..tuning
+    };
+    let levels = [PlacedLevel::Known(2.0), PlacedLevel::Known(5.0)];
+    assert_no_alloc(|| {
+        assert!(renderer.set_tuning(&tuning).is_ok());
+        assert!(renderer.compression_is_pending());
+        assert!(renderer.set_levels(&levels).is_ok());
+        assert!(renderer.set_tuning(&refused).is_err());
+        renderer.reset();
+    });
+    assert_eq!(renderer.tuning(), &tuning);
+}
+
+#[test]
+fn the_drive_waveform_allocates_nothing() {
+    let mut synth = DriveSynth::prepare(44_100, 24, 50.0).unwrap();
+    let mut block = vec![0.0; 24 * 48];
+    let amplitudes = [[3.0, 1.0]; 24];
+    assert_no_alloc(|| {
+        for _ in 0..100 {
+            synth.set_amplitudes(&amplitudes);
+            synth.fill(&mut block);
+        }
+    });
+    assert_eq!(synth.next_sample(), 4800);
+}
