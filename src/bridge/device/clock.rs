@@ -59,10 +59,12 @@ impl DeviceCore {
         self.output.reset(self.config.ramp_ms);
         self.queue.clear();
         self.descent = None;
-        self.last_frame_us = None;
         self.state = state;
-        if state == DeviceState::Idle {
-            self.session = None;
+        match state {
+            DeviceState::Idle => self.session = None,
+            // No frame since ARM: the age must not start a ramp.
+            DeviceState::Armed => self.last_frame_us = None,
+            _ => {}
         }
     }
 

@@ -64,7 +64,7 @@ pub struct DeviceCore {
     queue: FrameQueue,
     scratch: Vec<[u16; 2]>,
     counters: CoreCounters,
-    /// When the last FRAME was accepted since ARM.
+    /// When the last FRAME was accepted; none since ARM or HELLO is `None`.
     last_frame_us: Option<u64>,
     /// A ramp that nothing can turn back, and the state at its end: STOP or an expired lease.
     descent: Option<DeviceState>,

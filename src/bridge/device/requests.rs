@@ -75,6 +75,7 @@ impl DeviceCore {
         let common = (hello.ver_min..=hello.ver_max).contains(&VERSION);
         let faulted = self.state == DeviceState::Fault;
         self.session = None;
+        self.last_frame_us = None;
         self.silence(match (faulted, common) {
             (true, _) => DeviceState::Fault,
             (false, true) => DeviceState::Ready,

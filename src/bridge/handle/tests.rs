@@ -1,9 +1,13 @@
 //! The whole link in real time against emulators: states and counters only, never durations.
 
+#[cfg(unix)]
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
+#[cfg(unix)]
+use crate::bridge::Coder;
 use crate::bridge::host::DisarmedBy;
 use crate::bridge::message::DeviceState;
 
@@ -77,6 +81,13 @@ fn an_emulated_device_streams_and_stops() {
 }
 
 #[test]
+fn a_bridge_may_move_to_the_engines_thread() {
+    fn moves<T: Send>(_: &T) {}
+    let (bridge, _) = emulated();
+    moves(&bridge);
+}
+
+#[test]
 fn pings_come_back() {
     let (mut bridge, wakes) = emulated();
     until(&mut bridge, |event| matches!(event, BridgeEvent::Ready(_)));
@@ -137,51 +148,13 @@ fn a_display_that_does_not_match_is_refused() {
     assert!(!bridge.arm());
 }
 
-/// What the device logged as applied is what was sent, code for code, over a real terminal.
+/// What was sent, by seq.
 #[cfg(unix)]
-#[test]
-fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
-    use std::collections::BTreeMap;
-    use std::fs;
-    use std::sync::atomic::AtomicBool;
+type Sent = BTreeMap<u16, (SentFrame, Vec<[f32; 2]>)>;
 
-    use crate::bridge::Coder;
-    use crate::bridge::emulator::PtyEmulator;
-
-    let folder = std::env::temp_dir().join(format!("selvedge-stream-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    let (link, log) = (folder.join("array"), folder.join("log.csv"));
-    let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
-    let ended = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&ended);
-    let device = std::thread::Builder::new()
-        .spawn(move || emulator.run(&seen))
-        .unwrap();
-
+#[cfg(unix)]
+fn check_log(text: &str, sent: &Sent) {
     let profile = ArrayProfile::default();
-    let mut bridge = Bridge::open(Target::Port(link), profile.clone(), 24, || {});
-    until(&mut bridge, |event| matches!(event, BridgeEvent::Ready(_)));
-    assert!(bridge.arm());
-    let mut sent = BTreeMap::new();
-    let deadline = Instant::now() + PATIENCE;
-    while sent.len() < 60 && Instant::now() < deadline {
-        if !matches!(bridge.poll(), Some(BridgeEvent::Tick { .. })) {
-            std::thread::sleep(Duration::from_millis(1));
-            continue;
-        }
-        let step = f32::from(u8::try_from(sent.len()).unwrap());
-        let amplitudes_um: Vec<[f32; 2]> = (0..24_u8)
-            .map(|index| [f32::from(index) + 0.1 * step, 40.0 - step])
-            .collect();
-        if let Some(stamp) = bridge.send(&amplitudes_um, None) {
-            sent.insert(stamp.seq, (stamp, amplitudes_um));
-        }
-    }
-    bridge.close(PATIENCE).unwrap();
-    ended.store(true, Ordering::Release);
-    device.join().unwrap().unwrap();
-
-    let text = fs::read_to_string(&log).unwrap();
     let mut ticks = Vec::new();
     for line in text.lines().skip(1) {
         let fields: Vec<&str> = line.split(',').collect();
@@ -205,5 +178,49 @@ fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
         text.lines().last().unwrap().contains(",READY,"),
         "ends at rest"
     );
+}
+
+/// What the device logged as applied is what was sent, code for code, over a real terminal.
+#[cfg(unix)]
+#[test]
+fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
+    use std::fs;
+    use std::sync::atomic::AtomicBool;
+
+    use crate::bridge::emulator::PtyEmulator;
+
+    let folder = std::env::temp_dir().join(format!("selvedge-stream-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let (link, log) = (folder.join("array"), folder.join("log.csv"));
+    let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
+    let ended = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&ended);
+    let device = std::thread::Builder::new()
+        .spawn(move || emulator.run(&seen))
+        .unwrap();
+
+    let mut bridge = Bridge::open(Target::Port(link), ArrayProfile::default(), 24, || {});
+    until(&mut bridge, |event| matches!(event, BridgeEvent::Ready(_)));
+    assert!(bridge.arm());
+    let mut sent = Sent::new();
+    let deadline = Instant::now() + PATIENCE;
+    while sent.len() < 60 && Instant::now() < deadline {
+        if !matches!(bridge.poll(), Some(BridgeEvent::Tick { .. })) {
+            std::thread::sleep(Duration::from_millis(1));
+            continue;
+        }
+        let step = f32::from(u8::try_from(sent.len()).unwrap());
+        let amplitudes_um: Vec<[f32; 2]> = (0..24_u8)
+            .map(|index| [f32::from(index) + 0.1 * step, 40.0 - step])
+            .collect();
+        if let Some(stamp) = bridge.send(&amplitudes_um, None) {
+            sent.insert(stamp.seq, (stamp, amplitudes_um));
+        }
+    }
+    bridge.close(PATIENCE).unwrap();
+    ended.store(true, Ordering::Release);
+    device.join().unwrap().unwrap();
+
+    check_log(&fs::read_to_string(&log).unwrap(), &sent);
     fs::remove_dir_all(&folder).unwrap();
 }

@@ -87,6 +87,11 @@ fn stop_ramps_or_ends_at_once_and_frames_meanwhile_are_refused() {
     assert_eq!(bench.core.state(), DeviceState::Ready);
     assert!(bench.is_silent());
     assert_eq!(
+        bench.core.moment().age_ms,
+        70,
+        "the age goes on until the next ARM"
+    );
+    assert_eq!(
         bench.core.counters().underrun,
         0,
         "a stopped device misses nothing"

@@ -14,6 +14,38 @@ fn session() -> HostSession {
     HostSession::new(NONCE, ArrayProfile::default(), 24, Sequence::default())
 }
 
+/// Drops, flips and inserts bytes; the same ones in every run.
+struct Noise {
+    seed: u64,
+    /// One byte in so many suffers.
+    one_in: u64,
+}
+
+impl Noise {
+    fn next(&mut self) -> u64 {
+        self.seed = self
+            .seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        self.seed >> 33
+    }
+
+    fn damage(&mut self, wire: &mut Vec<u8>) {
+        let mut damaged = Vec::with_capacity(wire.len());
+        for &byte in wire.iter() {
+            let harm = self.next() % (3 * self.one_in);
+            let [random, ..] = self.next().to_le_bytes();
+            match harm {
+                0 => {}
+                1 => damaged.push(byte ^ random),
+                2 => damaged.extend([random, byte]),
+                _ => damaged.push(byte),
+            }
+        }
+        *wire = damaged;
+    }
+}
+
 /// Session and device on one virtual clock; the link delivers at once unless told to lose.
 struct Pair {
     host: HostSession,
@@ -26,6 +58,10 @@ struct Pair {
     sent: Vec<(SentFrame, Vec<[f32; 2]>)>,
     amplitude_um: [f32; 2],
     cut: bool,
+    /// How much faster the host's clock runs, in parts per million.
+    host_ppm: i64,
+    /// Damages what the host writes.
+    noise: Option<Noise>,
 }
 
 #[derive(Default)]
@@ -67,11 +103,15 @@ impl Pair {
             sent: Vec::new(),
             amplitude_um: [10.0, 20.0],
             cut: false,
+            host_ppm: 0,
+            noise: None,
         }
     }
 
     fn now(&self) -> Instant {
-        self.start + Duration::from_micros(self.us)
+        let us = i64::try_from(self.us).unwrap();
+        let host_us = us + us * self.host_ppm / 1_000_000;
+        self.start + Duration::from_micros(u64::try_from(host_us).unwrap())
     }
 
     /// Runs for `ms`, the host acting every ms and answering every tick with a frame.
@@ -104,9 +144,12 @@ impl Pair {
     }
 
     fn host_writes(&mut self, packet: &Packet) {
+        let mut wire = packet.as_bytes().to_vec();
+        if let Some(noise) = &mut self.noise {
+            noise.damage(&mut wire);
+        }
         if !self.cut {
-            self.device
-                .receive(self.us, packet.as_bytes(), &mut self.log);
+            self.device.receive(self.us, &wire, &mut self.log);
         }
     }
 

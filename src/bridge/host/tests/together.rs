@@ -145,3 +145,44 @@ fn missing_ticks_are_estimated_and_a_suspended_host_is_not_lost() {
     pair.run(30);
     assert!(pair.host.state().is_open());
 }
+
+#[test]
+fn clocks_that_drift_apart_miss_no_tick() {
+    for ppm in [-100, 100] {
+        let mut pair = Pair::new();
+        pair.host_ppm = ppm;
+        pair.run(60);
+        assert!(pair.host.arm(pair.now()));
+        pair.run(600_000);
+        assert_eq!(pair.host.state(), BridgeState::Streaming);
+        assert_eq!(
+            pair.host.counters().device,
+            DeviceCounters::default(),
+            "{ppm} ppm"
+        );
+        let ticks: Vec<u32> = pair.log.frames.iter().map(|(tick, ..)| *tick).collect();
+        assert!(ticks.windows(2).all(|pair| pair[1] == pair[0] + 1));
+    }
+}
+
+#[test]
+fn a_noisy_link_costs_frames_but_never_applies_a_wrong_one() {
+    for seed in 0..8 {
+        let mut pair = Pair::streaming(500);
+        pair.noise = Some(Noise { seed, one_in: 400 });
+        pair.run(20_000);
+        let codes = Coder::new(&ArrayProfile::default(), 24).encode(&[[10.0, 20.0]; 24], 1.0);
+        assert!(pair.host.counters().device.bad > 0);
+        assert!(
+            pair.log
+                .frames
+                .iter()
+                .skip(20)
+                .all(|(_, _, applied)| *applied == codes)
+        );
+        pair.noise = None;
+        pair.host.stop(pair.now(), StopHow::Ramp);
+        pair.run(200);
+        assert!(!pair.device.state().is_live());
+    }
+}
