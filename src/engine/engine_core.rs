@@ -165,7 +165,7 @@ impl EngineCore {
     }
 
     /// Ticks done.
-    pub fn ticks(&self) -> u64 {
+    pub fn ticks_done(&self) -> u64 {
         self.tick
     }
 

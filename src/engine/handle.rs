@@ -250,7 +250,7 @@ impl Engine {
         }
     }
 
-    fn push(&mut self, order: Order) -> Result<(), EngineError> {
+    pub(super) fn push(&mut self, order: Order) -> Result<(), EngineError> {
         self.orders.push(order).map_err(|_full| EngineError::Busy)?;
         self.switch.wake_engine();
         Ok(())

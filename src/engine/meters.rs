@@ -144,7 +144,7 @@ mod tests {
         let mut median = RecentMedian::new();
         assert_eq!(median.median_ns(), 0);
         for _ in 0..100 {
-            median.add(Duration::from_nanos(9000));
+            median.add(Duration::from_micros(9));
         }
         for _ in 0..RECENT {
             median.add(Duration::from_nanos(70));

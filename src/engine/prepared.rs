@@ -164,7 +164,9 @@ impl PreparedScene {
 /// The array that a display is: its grid, or one row of its contactors.
 fn profile_of(display: &Display) -> ArrayProfile {
     let geometry = &display.geometry;
-    let (rows, cols) = geometry.grid().unwrap_or_else(|| (1, geometry.n_contactors()));
+    let (rows, cols) = geometry
+        .grid()
+        .unwrap_or_else(|| (1, geometry.n_contactors()));
     let byte = |count: usize| u8::try_from(count).unwrap_or(u8::MAX);
     ArrayProfile {
         name: geometry.label(),

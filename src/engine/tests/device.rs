@@ -1,0 +1,254 @@
+//! The engine with an emulated device, in real time: judged by what the device counts.
+
+use std::thread;
+
+use super::*;
+use crate::bridge::{BridgeEvent, DeviceState, DisarmedBy, Target};
+use crate::engine::input::PointerInput;
+use crate::engine::order::{CoreOrder, Order};
+
+/// Waits for what must come, for as long as a busy machine may take.
+fn wait<T>(engine: &mut Engine, what: &str, mut look: impl FnMut(&mut Engine) -> Option<T>) -> T {
+    for _ in 0..4000 {
+        if let Some(found) = look(engine) {
+            return found;
+        }
+        thread::sleep(Duration::from_millis(5));
+    }
+    panic!("{what} did not happen; {:?}", engine.snapshot().link);
+}
+
+fn wait_for(engine: &mut Engine, what: &str, is_it: impl Fn(&BridgeEvent) -> bool) {
+    wait(engine, what, |engine| {
+        std::iter::from_fn(|| engine.next_notice())
+            .find(|notice| matches!(notice, Notice::Bridge(event) if is_it(event)))
+    });
+}
+
+fn wait_for_status(
+    engine: &mut Engine,
+    what: &str,
+    is_it: impl Fn(&crate::bridge::Status) -> bool,
+) {
+    wait(engine, what, |engine| {
+        let status = engine.snapshot().link.and_then(|link| link.status);
+        status.filter(|status| is_it(status))
+    });
+}
+
+/// A circle over the cloth, played.
+fn play_circle(engine: &mut Engine) {
+    let circle = Stroke::Circle {
+        centre: Point::new(40.0, 70.0),
+        radius_mm: 10.0,
+        speed_mm_per_s: 80.0,
+    };
+    engine
+        .send(Command::SetSource(InputSource::Stroke(circle)))
+        .unwrap();
+    engine.send(Command::Play).unwrap();
+}
+
+fn start_streaming(target: Target) -> Engine {
+    let mut engine = Engine::start(config(Method::Auto)).unwrap();
+    engine.send(Command::Connect(target)).unwrap();
+    wait_for(&mut engine, "ready", |event| {
+        matches!(event, BridgeEvent::Ready(_))
+    });
+    play_circle(&mut engine);
+    engine.send(Command::Arm).unwrap();
+    wait_for(&mut engine, "armed", |event| {
+        matches!(event, BridgeEvent::Armed)
+    });
+    wait_for_status(&mut engine, "output", |status| status.amp_sum > 0);
+    engine
+}
+
+#[test]
+fn a_device_is_armed_paces_plays_what_is_felt_and_stops() {
+    let mut engine = start_streaming(Target::Emulator);
+    wait(&mut engine, "thirty frames", |engine| {
+        engine
+            .snapshot()
+            .link
+            .filter(|link| link.counters.frames_sent >= 30)
+    });
+    let snapshot = engine.snapshot();
+    let link = snapshot.link.unwrap();
+    assert!(snapshot.clock.is_device_paced);
+    assert!(snapshot.pointer.felt_age.is_none(), "a stroke has no stamp");
+    let device = link.counters.device;
+    assert_eq!((device.bad, device.dup, device.clipped), (0, 0, 0));
+    assert_eq!(link.counters.codes.non_finite, 0);
+    assert_eq!(link.caps.unwrap().n_ch, 24);
+
+    engine.stop_switch().press();
+    wait_for_status(&mut engine, "rest", |status| {
+        status.amp_sum == 0 && status.state == DeviceState::Ready.code()
+    });
+    wait(&mut engine, "the stop", |engine| {
+        engine.snapshot().is_stopped.then_some(())
+    });
+    assert!(is_silent(engine.snapshot()));
+    // Nothing arms it again but a command.
+    let unheard = engine.snapshot().counters.frames_unheard;
+    wait(&mut engine, "ticks without frames", |engine| {
+        (engine.snapshot().counters.frames_unheard > unheard + 5).then_some(())
+    });
+    assert_eq!(
+        engine.snapshot().link.unwrap().status.unwrap().state,
+        DeviceState::Ready.code()
+    );
+
+    engine.send(Command::Play).unwrap();
+    wait(&mut engine, "a device that can be armed", |engine| {
+        engine.send(Command::Arm).unwrap();
+        thread::sleep(Duration::from_millis(60));
+        let link = engine.snapshot().link.unwrap();
+        link.status.filter(|status| status.amp_sum > 0)
+    });
+    engine.send(Command::Disarm).unwrap();
+    wait_for(&mut engine, "disarmed", |event| {
+        matches!(
+            event,
+            BridgeEvent::Disarmed {
+                by: DisarmedBy::Host,
+                ..
+            }
+        )
+    });
+}
+
+#[test]
+fn a_live_pointer_shows_the_age_of_what_is_felt() {
+    let mut engine = start_streaming(Target::Emulator);
+    let mut pointer = engine.take_pointer().unwrap();
+    engine
+        .send(Command::SetSource(InputSource::Pointer))
+        .unwrap();
+    let mut x_mm = 30.0;
+    let view = wait(&mut engine, "an age", |engine| {
+        x_mm += 0.3;
+        let position = Point::new(x_mm, 60.0);
+        pointer.push(PointerSample {
+            stamp: Instant::now(),
+            position,
+        });
+        let snapshot = engine.snapshot();
+        let is_felt = snapshot.source == SourceKind::Pointer && !is_silent(snapshot);
+        is_felt.then_some((snapshot.pointer, snapshot.link.unwrap().depth))
+    });
+    let (view, depth) = view;
+    let until_mid_tick = TICK * u32::from(depth) + TICK / 2;
+    assert_eq!(view.felt_age, view.age.map(|age| age + until_mid_tick));
+}
+
+#[test]
+fn a_scene_with_another_display_lets_the_device_go() {
+    let mut engine = start_streaming(Target::Emulator);
+    let offsets = vec![Displacement::default(); 25];
+    engine
+        .send(Command::SetScene(Box::new(prepared(
+            offsets,
+            Method::Banded,
+        ))))
+        .unwrap();
+    wait(&mut engine, "the notice", |engine| {
+        std::iter::from_fn(|| engine.next_notice()).find(|n| matches!(n, Notice::DisplayChanged))
+    });
+    wait(&mut engine, "no device", |engine| {
+        engine.snapshot().link.is_none().then_some(())
+    });
+}
+
+#[test]
+fn a_port_that_is_not_there_is_a_notice_and_the_engine_goes_on() {
+    let mut engine = Engine::start(config(Method::Auto)).unwrap();
+    engine
+        .send(Command::Connect(Target::Port("/nowhere/array".into())))
+        .unwrap();
+    let reason = wait(&mut engine, "the reason", |engine| {
+        match engine.next_notice() {
+            Some(Notice::Bridge(BridgeEvent::Lost(reason) | BridgeEvent::Refused(reason))) => {
+                Some(reason)
+            }
+            _ => None,
+        }
+    });
+    assert!(
+        reason.contains("/nowhere/array") && !reason.contains('\n'),
+        "{reason}"
+    );
+    let tick = engine.snapshot().tick;
+    wait(&mut engine, "more ticks", |engine| {
+        (engine.snapshot().tick > tick + 3).then_some(())
+    });
+}
+
+/// A source that fails in a way that nobody foresaw.
+#[derive(Debug)]
+struct Panics;
+
+impl PointerInput for Panics {
+    fn kind(&self) -> SourceKind {
+        SourceKind::Stroke
+    }
+
+    fn poll(&mut self, _now: Instant, _take: &mut dyn FnMut(PointerSample)) -> Reading {
+        panic!("on purpose: the engine's thread ends")
+    }
+}
+
+/// Lets the engine's thread panic while it streams over a pseudo-terminal, and returns the states
+/// that the device went through.
+#[cfg(unix)]
+fn states_through_a_panic(number: u32) -> Vec<String> {
+    use std::sync::atomic::AtomicBool;
+
+    use crate::bridge::{ArrayProfile, DeviceModel, PtyEmulator};
+
+    let name = format!("selvedge-panic-{}-{number}", std::process::id());
+    let folder = std::env::temp_dir().join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    let (link, log) = (folder.join("array"), folder.join("log.csv"));
+    let model = DeviceModel::for_array(&ArrayProfile::default());
+    let emulator = PtyEmulator::new(model, &link, Some(&log)).unwrap();
+    let is_over = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let emulation = scope.spawn(|| emulator.run(&is_over));
+        let mut engine = start_streaming(Target::Port(link.clone()));
+        let source: Option<Box<dyn PointerInput>> = Some(Box::new(Panics));
+        engine.push(Order::Core(CoreOrder::Source(source))).unwrap();
+        wait(&mut engine, "the panic", |engine| {
+            (!engine.is_running()).then_some(())
+        });
+        thread::sleep(Duration::from_millis(200));
+        is_over.store(true, Ordering::SeqCst);
+        emulation.join().unwrap().unwrap();
+    });
+    let text = std::fs::read_to_string(&log).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let states = text
+        .lines()
+        .filter(|line| line.split(',').nth(2) == Some("state"));
+    states
+        .map(|line| line.split(',').nth(3).unwrap().to_owned())
+        .collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_panic_on_the_engines_thread_stops_the_device_before_it_has_to_help_itself() {
+    // A busy machine may delay the STOP beyond the device's patience; not five times in a row.
+    let stopped_by_host = (0..5).any(|number| {
+        let states = states_through_a_panic(number);
+        assert_eq!(
+            states.last().map(String::as_str),
+            Some("READY"),
+            "{states:?}"
+        );
+        assert!(states.iter().any(|state| state == "RUN"), "{states:?}");
+        states.iter().all(|state| state != "RAMP")
+    });
+    assert!(stopped_by_host, "the device always ramped by itself");
+}
