@@ -75,11 +75,11 @@ impl Histogram {
     }
 
     pub(super) fn spread(&self) -> Spread {
-        let counts: Vec<u64> = self
-            .counts
-            .iter()
-            .map(|c| c.load(Ordering::Relaxed))
-            .collect();
+        // On the stack: an engine asks between two ticks, where nothing may allocate.
+        let mut counts = [0_u64; BUCKETS];
+        for (count, shared) in counts.iter_mut().zip(&self.counts) {
+            *count = shared.load(Ordering::Relaxed);
+        }
         let n = counts.iter().sum();
         let max = Duration::from_nanos(self.max_ns.load(Ordering::Relaxed));
         let at = |share| {
