@@ -16,6 +16,12 @@ pub enum BridgeError {
         /// What is wrong and how to mend it.
         reason: String,
     },
+    /// Another program, or an earlier link of this one, holds the port.
+    #[error("{port}: in use by another program: close that one first")]
+    Busy {
+        /// Name of the port.
+        port: String,
+    },
     /// A file or link could not be written.
     #[error("cannot {action}: {source}: {}", path.display())]
     File {
@@ -73,6 +79,18 @@ pub enum BridgeError {
 }
 
 impl BridgeError {
+    /// The message without the port's name, for owners that know which port they asked for.
+    pub fn without_port(&self) -> String {
+        let text = self.to_string();
+        let (Self::Open { port, .. } | Self::Busy { port } | Self::Link { port, .. }) = self else {
+            return text;
+        };
+        let bare = text
+            .strip_prefix(port.as_str())
+            .and_then(|rest| rest.strip_prefix(": "));
+        bare.map(String::from).unwrap_or(text)
+    }
+
     /// Wraps what a file operation on `path` said.
     pub(super) fn file(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();

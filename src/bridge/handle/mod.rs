@@ -18,6 +18,9 @@ use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker}
 use super::message::{Caps, Config, Status, StopHow};
 use super::port::SerialLink;
 
+const BUSY_PATIENCE: Duration = Duration::from_secs(1);
+const BUSY_NAP: Duration = Duration::from_millis(20);
+
 /// Which device to talk to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
@@ -44,7 +47,7 @@ impl Target {
                 Ok((Box::new(port.clone()), Box::new(port)))
             }
             Self::Port(path) => {
-                let port = SerialLink::open(&path.display().to_string())?;
+                let port = open_patiently(&path.display().to_string())?;
                 Ok((Box::new(port.try_clone()?), Box::new(port)))
             }
         }
@@ -291,6 +294,19 @@ impl Drop for Bridge {
             self.stop(StopHow::Ramp);
         }
         self.release();
+    }
+}
+
+/// Opens a port that an earlier link of this program may still be letting go.
+fn open_patiently(path: &str) -> Result<SerialLink, BridgeError> {
+    let deadline = Instant::now() + BUSY_PATIENCE;
+    loop {
+        match SerialLink::open(path) {
+            Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
+                std::thread::sleep(BUSY_NAP);
+            }
+            result => return result,
+        }
     }
 }
 

@@ -219,3 +219,28 @@ fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
     check_log(&fs::read_to_string(&log).unwrap(), &sent);
     fs::remove_dir_all(&folder).unwrap();
 }
+
+/// Letting a port go takes a moment; whoever opens it again at once need not know.
+#[cfg(unix)]
+#[test]
+fn a_port_can_be_opened_again_at_once() {
+    use std::sync::atomic::AtomicBool;
+
+    use crate::bridge::emulator::PtyEmulator;
+
+    let link = std::env::temp_dir().join(format!("selvedge-again-{}", std::process::id()));
+    let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+    let ended = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&ended);
+    let device = std::thread::Builder::new()
+        .spawn(move || emulator.run(&seen))
+        .unwrap();
+    for _ in 0..3 {
+        let target = Target::Port(link.clone());
+        let mut bridge = Bridge::open(target, ArrayProfile::default(), 24, || {});
+        until(&mut bridge, |event| matches!(event, BridgeEvent::Ready(_)));
+        drop(bridge);
+    }
+    ended.store(true, Ordering::Release);
+    device.join().unwrap().unwrap();
+}

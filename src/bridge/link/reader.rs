@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 use rtrb::Producer;
 
 use super::{Incoming, Opener, Running, Shared, Writer};
-use crate::bridge::BridgeError;
 use crate::bridge::framing::{Decoder, LARGEST_BODY};
 use crate::bridge::message::{DeviceMessage, Unreadable};
 use crate::bridge::port::Port;
@@ -42,9 +41,7 @@ impl Reader {
     pub(super) fn run(mut self, opener: Opener, writer: Writer) {
         let (port, writing) = match opener() {
             Ok(ends) => ends,
-            // The owner knows which port it asked for.
-            Err(BridgeError::Open { reason, .. }) => return self.tell(Incoming::Gone(reason)),
-            Err(error) => return self.tell(Incoming::Gone(error.to_string())),
+            Err(error) => return self.tell(Incoming::Gone(error.without_port())),
         };
         let running = Running::new(&self.shared);
         let spawned = Builder::new()

@@ -35,10 +35,7 @@ impl SerialLink {
     /// GUI thread.
     pub fn open(path: &str) -> Result<Self, BridgeError> {
         let opened = serialport::new(path, BAUD).timeout(OPEN_PATIENCE).open();
-        let port = opened.map_err(|error| BridgeError::Open {
-            port: String::from(path),
-            reason: open_reason(&error),
-        })?;
+        let port = opened.map_err(|error| open_error(path, &error))?;
         let link = Self::from_port(port, path);
         // What cannot be purged is ignored by the session until its own CAPS.
         drop(link.port.clear(ClearBuffer::Input));
@@ -107,23 +104,31 @@ fn is_patience(error: &io::Error) -> bool {
     )
 }
 
-/// One line on why a port did not open, and what to do.
-fn open_reason(error: &serialport::Error) -> String {
+/// Why a port did not open, and what to do.
+fn open_error(path: &str, error: &serialport::Error) -> BridgeError {
     let text = error.to_string();
-    match error.kind {
-        ErrorKind::Io(io::ErrorKind::NotFound) => {
-            String::from("no such port: see `selvedge bridge list`")
-        }
+    let port = String::from(path);
+    let reason = match error.kind {
+        ErrorKind::Io(io::ErrorKind::NotFound) => "no such port: see `selvedge bridge list`",
         ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
-            String::from("no permission: join the group that owns the port (often dialout)")
+            "no permission: join the group that owns the port (often dialout)"
         }
         _ if text.contains("exclusive lock") || text.contains("busy") => {
-            String::from("in use by another program: close that one first")
+            return BridgeError::Busy { port };
         }
         _ if text.contains("typewriter") || text.contains("ioctl") => {
-            String::from("not a serial port: see `selvedge bridge list`")
+            "not a serial port: see `selvedge bridge list`"
         }
-        _ => format!("cannot be opened: {text}"),
+        _ => {
+            return BridgeError::Open {
+                port,
+                reason: format!("cannot be opened: {text}"),
+            };
+        }
+    };
+    BridgeError::Open {
+        port,
+        reason: String::from(reason),
     }
 }
 
