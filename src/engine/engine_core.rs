@@ -96,6 +96,10 @@ impl EngineCore {
     }
 
     /// The pose that was rendered last.
+    #[expect(
+        clippy::misnamed_getters,
+        reason = "the other pose is where the pointer is"
+    )]
     pub fn pose(&self) -> Pose {
         self.rendered
     }
@@ -165,7 +169,7 @@ impl EngineCore {
     }
 
     /// Ticks done.
-    pub fn ticks_done(&self) -> u64 {
+    pub fn tick_count(&self) -> u64 {
         self.tick
     }
 

@@ -127,11 +127,17 @@ impl Engine {
     /// Tells an engine without a thread what time it is; it does one step. A running one is left
     /// alone.
     pub fn advance(&mut self, now: Instant) {
+        self.step_uncollected(now);
+        self.collect();
+    }
+
+    /// As [`advance`](Self::advance), but leaves what was replaced and recorded where it is until
+    /// the next call: all that this does is what the engine's thread would do.
+    pub fn step_uncollected(&mut self, now: Instant) {
         if let Body::Still(runner) = &mut self.body {
             runner.clock = Clock::Told(now);
             runner.step();
         }
-        self.collect();
     }
 
     /// Lets an engine without a thread do `n_ticks` ticks, 25 ms apart, and returns its time. A

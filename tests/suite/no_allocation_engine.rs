@@ -1,0 +1,179 @@
+//! Proof that the engine's tick allocates nothing: the suite's global allocator aborts inside a
+//! guard.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use assert_no_alloc::assert_no_alloc;
+
+use selvedge::bridge::{ArrayProfile, BridgeState, Target};
+use selvedge::engine::{
+    Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene, TICK,
+};
+use selvedge::geometry::{Displacement, Frame, Point, Rotation};
+use selvedge::render::array::{Accuracy, Method};
+use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
+use selvedge::scene::{ExplorationPath, Geometry, PathRow};
+use selvedge::surface::{Profile, ProfileSet, Surface};
+use selvedge::tactile::Tuning;
+
+fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
+    let heights = (0..4600)
+        .map(|i| 3.0 * (f64::from(i) * 0.03).sin())
+        .collect();
+    let mut profiles = ProfileSet::default();
+    profiles[0] = Some(Profile::new(1.0 / 230.0, heights).unwrap());
+    let textile = PlacedSurface {
+        workspace_from_textile: Frame {
+            origin: Point::default(),
+            rotation: Rotation::NONE,
+        },
+        size_mm: [100.0, 100.0],
+        manifest_gain_db: 0.0,
+        scene_gain_db: 0.0,
+        level: PlacedLevel::Known(3.0),
+        surface: Arc::new(Surface::from_profiles(profiles, 0.0).unwrap()),
+    };
+    let scene = RenderScene {
+        textiles: vec![textile],
+        displays: vec![ContactorArray {
+            offsets,
+            rotation_deg: 0.0,
+        }],
+        ..RenderScene::default()
+    };
+    let how = (Method::Auto, &Accuracy::default());
+    let start = Point::new(50.0, 50.0);
+    PreparedScene::from_parts(&scene, ArrayProfile::default(), start, how).unwrap()
+}
+
+fn engine(start: Instant) -> (Engine, PointerSender) {
+    let scene = prepared(Geometry::default().contactors());
+    let mut engine = Engine::without_thread(
+        EngineConfig {
+            scene,
+            on_news: None,
+        },
+        start,
+    )
+    .unwrap();
+    let pointer = engine.take_pointer().unwrap();
+    (engine, pointer)
+}
+
+fn push(pointer: &mut PointerSender, stamp: Instant, since_s: f64) {
+    let position = Point::new(50.0 + 20.0 * (3.0 * since_s).sin(), 40.0);
+    pointer.push(PointerSample { stamp, position });
+}
+
+#[test]
+fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
+    let start = Instant::now();
+    let (mut engine, mut pointer) = engine(start);
+    engine.send(Command::StartRecording).unwrap();
+    // Fewer than a block of the recording: collecting one is the window's affair.
+    for n in 0..390_u32 {
+        let gain_db = f64::from(n % 20);
+        engine
+            .send(Command::SetTuning(Tuning {
+                gain_db,
+                ..Tuning::default()
+            }))
+            .unwrap();
+        engine.send(Command::TurnBy(0.7)).unwrap();
+        assert_no_alloc(|| {
+            for k in 0..25 {
+                let stamp = start + TICK * n + Duration::from_millis(1) * k;
+                push(&mut pointer, stamp, (stamp - start).as_secs_f64());
+            }
+            engine.advance(start + TICK * (n + 1));
+        });
+    }
+    let snapshot = engine.snapshot();
+    assert_eq!(snapshot.recording.n_ticks, 390);
+    assert!(
+        snapshot.render.directions_evaluated > 1000,
+        "{:?}",
+        snapshot.render
+    );
+}
+
+#[test]
+fn a_replay_that_loops_allocates_nothing() {
+    let (mut engine, _) = engine(Instant::now());
+    let row = |n: u32| PathRow {
+        t_s: f64::from(n) * 0.031,
+        position: Point::new(20.0 + f64::from(n), 50.0),
+        ..PathRow::default()
+    };
+    let path = Arc::new(ExplorationPath::new((0..50).map(row).collect()).unwrap());
+    engine
+        .send(Command::SetSource(InputSource::Replay(path)))
+        .unwrap();
+    engine.send(Command::SetLoop(true)).unwrap();
+    engine.send(Command::Play).unwrap();
+    engine.advance_ticks(1);
+    assert_no_alloc(|| {
+        engine.advance_ticks(500);
+    });
+    assert!(engine.snapshot().playback.is_playing);
+}
+
+#[test]
+fn a_new_scene_is_taken_over_without_allocating() {
+    let start = Instant::now();
+    let (mut engine, mut pointer) = engine(start);
+    engine.advance(start);
+    engine.send(Command::StartRecording).unwrap();
+    engine.advance(start + TICK);
+    let scene = prepared(vec![Displacement::default(); 100]);
+    // What comes back is dropped by the owner, whose memory it is: only the take-over is guarded.
+    let due = start + TICK * 2;
+    engine.send(Command::SetScene(Box::new(scene))).unwrap();
+    assert_no_alloc(|| {
+        push(&mut pointer, due, 0.1);
+        engine.step_uncollected(due);
+    });
+    assert_eq!(engine.snapshot().displays[0].contactors.len(), 100);
+}
+
+#[test]
+fn streaming_to_a_device_allocates_nothing() {
+    let (mut engine, mut pointer) = engine(Instant::now());
+    engine.send(Command::Connect(Target::Emulator)).unwrap();
+    let state = |engine: &mut Engine| engine.snapshot().link.map(|link| link.state);
+    let mut is_streaming = false;
+    for _ in 0..4000 {
+        engine.advance(Instant::now());
+        match state(&mut engine) {
+            Some(BridgeState::Ready) => engine.send(Command::Arm).unwrap(),
+            Some(BridgeState::Streaming) => {
+                is_streaming = true;
+                break;
+            }
+            _ => {}
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(
+        is_streaming,
+        "the emulator streams: {:?}",
+        state(&mut engine)
+    );
+    let start = Instant::now();
+    let frames_before = engine.snapshot().link.unwrap().counters.frames_sent;
+    let mut frames = 0;
+    while frames < 60 {
+        std::thread::sleep(Duration::from_millis(2));
+        assert_no_alloc(|| {
+            let now = Instant::now();
+            push(&mut pointer, now, (now - start).as_secs_f64());
+            engine.advance(now);
+        });
+        frames = engine.snapshot().link.unwrap().counters.frames_sent - frames_before;
+        assert!(
+            state(&mut engine).is_some_and(BridgeState::is_live),
+            "it goes on"
+        );
+    }
+}
