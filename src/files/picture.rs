@@ -5,6 +5,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageDecoder as _, ImageEncoder as _};
 
 use super::FileError;
@@ -57,6 +58,17 @@ pub fn encode_png(picture: &Rgb8Image, path: &Path) -> Result<Vec<u8>, FileError
     )
 }
 
+/// Encodes a picture of few colours as PNG, slowly and small: the best compression, no filter.
+pub fn encode_png_small(picture: &Rgb8Image, path: &Path) -> Result<Vec<u8>, FileError> {
+    let bytes: Vec<u8> = picture.pixels.iter().flatten().copied().collect();
+    let mut png = Vec::new();
+    let (compression, filter) = (CompressionType::Best, FilterType::NoFilter);
+    let encoder = PngEncoder::new_with_quality(&mut png, compression, filter);
+    let size = [picture.width, picture.height];
+    write_image(encoder, &bytes, size, ExtendedColorType::Rgb8, path)?;
+    Ok(png)
+}
+
 /// Encodes rows of 8-bit red, green, blue and alpha (not premultiplied) as PNG.
 pub fn encode_png_rgba(
     rgba: &[u8],
@@ -74,6 +86,24 @@ fn encode(
     colour: ExtendedColorType,
     path: &Path,
 ) -> Result<Vec<u8>, FileError> {
+    let mut png = Vec::new();
+    write_image(
+        PngEncoder::new(&mut png),
+        bytes,
+        [width, height],
+        colour,
+        path,
+    )?;
+    Ok(png)
+}
+
+fn write_image(
+    encoder: PngEncoder<&mut Vec<u8>>,
+    bytes: &[u8],
+    [width, height]: [usize; 2],
+    colour: ExtendedColorType,
+    path: &Path,
+) -> Result<(), FileError> {
     let failed = |what: String| FileError::content(path, 1, what, "this cannot be saved as PNG");
     let size = |n: usize| u32::try_from(n).map_err(|error| failed(error.to_string()));
     let (columns, rows) = (size(width)?, size(height)?);
@@ -84,11 +114,9 @@ fn encode(
             bytes.len()
         )));
     }
-    let mut png = Vec::new();
-    image::codecs::png::PngEncoder::new(&mut png)
+    encoder
         .write_image(bytes, columns, rows, colour)
-        .map_err(|error| failed(error.to_string()))?;
-    Ok(png)
+        .map_err(|error| failed(error.to_string()))
 }
 
 #[cfg(test)]

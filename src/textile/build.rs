@@ -13,7 +13,7 @@ use super::library::{INDEX, Library};
 use super::loaded::{MANIFEST, STEP_MM, made_profiles};
 use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
 use super::profile_file;
-use crate::files::{FileError, encode_png, read_text, sha256_hex, write_atomic};
+use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
 use crate::progress::Progress;
 use crate::surface::Direction;
 use crate::tactile::{Filters, Levels, Tuning};
@@ -56,7 +56,7 @@ pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileEr
         Source::Knit(knit) => knit.cloth(),
         Source::Profiles(_) => return Err(no_recipe()),
     };
-    let bytes = encode_png(&portrait(&cloth), Path::new(PICTURE))?;
+    let bytes = encode_png_small(&portrait(&cloth), Path::new(PICTURE))?;
     files.push(BuiltFile {
         name: PICTURE.to_owned(),
         bytes,

@@ -1,9 +1,52 @@
 //! The library that is part of the program: every file of it, by textile and name.
+//!
+//! The bytes are embedded as they lie in `textiles/`; nothing is decoded before it is asked for.
 
 /// `library.toml`.
-pub(crate) const INDEX: &str = "";
+pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
 
-/// A file of a shipped textile.
-pub(crate) fn file(_id: &str, _name: &str) -> Option<&'static [u8]> {
-    None
+/// One embedded file of a textile.
+macro_rules! embedded {
+    ($id:literal, $name:literal) => {
+        Some(include_bytes!(concat!("../../textiles/", $id, "/", $name)))
+    };
 }
+
+/// The table of all textiles; each has the same six files.
+macro_rules! textiles {
+    ($($id:literal),+ $(,)?) => {
+        /// A file of a shipped textile.
+        pub(crate) fn file(id: &str, name: &str) -> Option<&'static [u8]> {
+            match (id, name) {
+                $(
+                    ($id, "textile.toml") => embedded!($id, "textile.toml"),
+                    ($id, "warp_forward.csv") => embedded!($id, "warp_forward.csv"),
+                    ($id, "warp_reverse.csv") => embedded!($id, "warp_reverse.csv"),
+                    ($id, "weft_forward.csv") => embedded!($id, "weft_forward.csv"),
+                    ($id, "weft_reverse.csv") => embedded!($id, "weft_reverse.csv"),
+                    ($id, "appearance.png") => embedded!($id, "appearance.png"),
+                )+
+                _ => None,
+            }
+        }
+    };
+}
+
+textiles![
+    "silk-crepe",
+    "wool-twill",
+    "jute-plain",
+    "denim",
+    "polyester-satin",
+    "polyamide-taffeta",
+    "polyester-panama",
+    "polyester-honeycomb",
+    "polyamide-jersey",
+    "polyester-slub-jersey",
+    "polyester-interlock",
+    "polyester-pique",
+    "polyamide-rib",
+    "wool-rib",
+    "polyester-fleece",
+    "polyester-terry",
+];

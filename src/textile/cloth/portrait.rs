@@ -18,7 +18,7 @@ const RELIEF_SHARE: f64 = 0.55;
 /// Share of light that comes from everywhere.
 const AMBIENT: f64 = 0.42;
 /// Steps that colours are rounded to: what the eye does not see, the file need not hold.
-const COLOUR_STEP: f64 = 6.0;
+const COLOUR_STEP: f64 = 7.0;
 /// Colour seen through the cloth.
 const BENEATH: [f64; 3] = [0.16, 0.15, 0.14];
 

@@ -14,7 +14,8 @@ const N_TRACKS: usize = 80;
 
 /// Heights of four strokes over the cloth, µm, by [`Direction::index`], each in travel order.
 ///
-/// Forward and reverse run over the same strip, as the instrument's do.
+/// Forward and reverse run over the same strip, as the instrument's do; the instrument is zeroed at
+/// the mean height of the strip.
 pub(crate) fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
     let mut heights: [Vec<f64>; 4] = Default::default();
     for (axis, pair) in [
@@ -30,7 +31,9 @@ pub(crate) fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f6
             n: [N_SAMPLES + 2 * margin, N_TRACKS],
         };
         let relief = Relief::of(cloth, &window);
-        let lift = probe.lift_um(&relief.height_um, STEP_MM);
+        let mut lift = probe.lift_um(&relief.height_um, STEP_MM);
+        let mean = lift.iter().sum::<f64>() / lift.len().max(1) as f64;
+        lift.iter_mut().for_each(|height| *height -= mean);
         for direction in pair {
             let mut noise = random.branch(direction.key());
             heights[direction.index()] =

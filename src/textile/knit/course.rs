@@ -22,6 +22,7 @@ pub(super) struct Bed<'a> {
     pub(super) size_mm: [f64; 2],
     wales_mm: Vec<f64>,
     courses_mm: Vec<f64>,
+    needles_um: Vec<f64>,
     bow: [Drift; 2],
     tension: Field,
     pucker: Field,
@@ -44,6 +45,10 @@ impl<'a> Bed<'a> {
             let place = |i: usize| (i as f64 + knit.pitch_cv * random.normal()) * pitch_mm[k];
             (0..n[k]).map(place).collect()
         };
+        let mut needle = random.branch("needles");
+        let needles_um = (0..n[0])
+            .map(|_| knit.needle_um * needle.normal())
+            .collect();
         let mut bow = random.branch("bow");
         Self {
             knit,
@@ -52,6 +57,7 @@ impl<'a> Bed<'a> {
             size_mm,
             wales_mm: places(0, "wales"),
             courses_mm: places(1, "courses"),
+            needles_um,
             bow: [0, 1].map(|_| Drift::new(size_mm[0], knit.drift_mm, &mut bow)),
             tension: Field::new(size_mm, knit.drift_mm, &mut random.branch("tension")),
             pucker: Field::new(size_mm, knit.pucker_mm, &mut random.branch("pucker")),
@@ -89,7 +95,7 @@ impl<'a> Bed<'a> {
     }
 
     /// A node of the loop on wale and course. With t from 0 (foot) over π (head) to 2π:
-    /// `w = W (t/2π + β sin 2t)`, `u = −½ H cos t`, `z = −d cos 2t` on the face.
+    /// `w = W (t/2π + β sin 2t − σ sin t)`, `u = −½ H cos t`, `z = −d cos 2t` on the face.
     fn node(
         &self,
         run: &YarnRun<'_>,
@@ -108,7 +114,8 @@ impl<'a> Bed<'a> {
                 0.0
             };
         let here = self.wales_mm[wale];
-        let across = share + aside + self.knit.bulge * (2.0 * t).sin();
+        let across =
+            share + aside + self.knit.bulge * (2.0 * t).sin() - self.knit.leg_spread * t.sin();
         let w_mm = here + (next - here) * across;
         let middle = self.courses_mm[course] + self.bow_mm(self.courses_mm[course], w_mm);
         let pull = 1.0 + self.knit.tension_drift * self.tension.at(middle, w_mm);
@@ -117,6 +124,7 @@ impl<'a> Bed<'a> {
         let u_mm = middle + stitch.shift * self.pitch_mm[1] - 0.5 * height * t.cos();
         let depth = self.knit.loop_depth_um * pull;
         let z_um = stitch.lift * self.knit.relief_um * pull - stitch.face * depth * (2.0 * t).cos()
+            + self.needles_um[wale] * (0.5 - 0.5 * t.cos())
             + self.knit.pucker_um * self.pucker.at(u_mm, w_mm)
             - behind_um;
         run.node([u_mm, w_mm], z_um, (wale as f64 + share) * loop_mm)

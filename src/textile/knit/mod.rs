@@ -55,9 +55,14 @@ pub struct Knit {
     /// How much the omega bulges at head and feet, share of the wale pitch.
     #[serde(default = "default_bulge")]
     pub bulge: f64,
+    /// How far the legs of a loop stand apart beyond half a wale, share of the wale pitch: the legs
+    /// of neighbouring loops touch before those of one loop do.
+    #[serde(default = "default_leg_spread")]
+    pub leg_spread: f64,
     /// How far legs and arcs stand before and behind the middle of the cloth, µm.
     pub loop_depth_um: f64,
-    /// Height between raised and sunken stitches of a rib or a piqué, µm.
+    /// Height of the raised above the sunken stitches of a rib (face above back) or a piqué
+    /// (tucks above plain ones), µm; below 0 where the others stand out.
     #[serde(default)]
     pub relief_um: f64,
     /// Height of pile loops under the probe's load, µm.
@@ -78,6 +83,9 @@ pub struct Knit {
     /// Standard deviation of the bow of a course, µm.
     #[serde(default)]
     pub bow_um: f64,
+    /// Standard deviation of the height of a wale: needle lines, µm.
+    #[serde(default)]
+    pub needle_um: f64,
     /// Out-of-plane puckering by lively twist, µm rms.
     #[serde(default)]
     pub pucker_um: f64,
@@ -96,6 +104,9 @@ fn default_loop_height() -> f64 {
 }
 fn default_bulge() -> f64 {
     0.1
+}
+fn default_leg_spread() -> f64 {
+    0.03
 }
 fn default_tension() -> f64 {
     0.1
@@ -121,8 +132,10 @@ impl Knit {
             ("courses_per_cm", self.courses_per_cm, 1.0..=50.0),
             ("loop_height", self.loop_height, 1.0..=3.0),
             ("bulge", self.bulge, 0.0..=0.3),
+            ("leg_spread", self.leg_spread, 0.0..=0.15),
+            ("needle_um", self.needle_um, 0.0..=200.0),
             ("loop_depth_um", self.loop_depth_um, 1.0..=2000.0),
-            ("relief_um", self.relief_um, 0.0..=3000.0),
+            ("relief_um", self.relief_um, -1000.0..=3000.0),
             ("pile_um", self.pile_um, 0.0..=5000.0),
             ("pile_clump", self.pile_clump, 0.0..=2.0),
             ("tension_drift", self.tension_drift, 0.0..=0.5),
@@ -172,7 +185,7 @@ impl Knit {
         if self.structure.has_pile() {
             strands.extend(bed.pile(&random));
         }
-        let floor_um = -(behind_um + self.yarn.thickness_um + self.relief_um);
+        let floor_um = -(behind_um + self.yarn.thickness_um + self.relief_um.abs());
         let mut cloth = Cloth {
             size_mm: bed.size_mm,
             strands,

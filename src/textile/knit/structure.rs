@@ -16,8 +16,8 @@ pub enum Structure {
     /// Rib: two wales of face stitches, two of back stitches.
     #[serde(rename = "rib-2-2")]
     Rib22,
-    /// Interlock: two 1×1 ribs that lock; both sides show face stitches, every second wale half
-    /// a course higher.
+    /// Interlock: two 1×1 ribs that lock; both sides show face stitches, every second wale a
+    /// little higher.
     Interlock,
     /// Piqué: tuck stitches on every second wale, two courses at a time, seen from the back.
     Pique,
@@ -74,7 +74,7 @@ impl Structure {
             Self::Rib11 => rib(wale.is_multiple_of(2)),
             Self::Rib22 => rib(wale % 4 < 2),
             Self::Interlock => {
-                let shift = if wale.is_multiple_of(2) { 0.25 } else { -0.25 };
+                let shift = if wale.is_multiple_of(2) { 0.1 } else { -0.1 };
                 Stitch { shift, ..FACE }
             }
             Self::Pique => {

@@ -38,8 +38,8 @@ pub const NAMES: [(&str, &[&str]); 10] = [
     (
         "honeycomb",
         &[
-            "X...X...", ".X.XXX..", "..XXXXX.", ".XXXXXXX", "..XXXXX.", ".X.XXX..", "X...X...",
-            ".X.....X",
+            "...XXX..", "..X...X.", ".XX.X.XX", "X..XXX..", "X.XXXXX.", "X..XXX..", ".XX.X.XX",
+            "..X...X.",
         ],
     ),
 ];
