@@ -37,7 +37,12 @@ use clap::{Parser, Subcommand};
 ///
 /// Without a command: the workbench, on SCENE or on the shipped scene of four textiles.
 #[derive(Debug, Parser)]
-#[command(name = "selvedge", version, args_conflicts_with_subcommands = true)]
+#[command(
+    name = "selvedge",
+    bin_name = "selvedge",
+    version,
+    args_conflicts_with_subcommands = true
+)]
 #[command(disable_help_subcommand = true)]
 struct Cli {
     /// Scene file to open in the workbench

@@ -35,10 +35,11 @@ fn complaint(text: &str) -> String {
         !line.starts_with("Usage:") && !line.starts_with("For more information")
     };
     let lines = text.lines().take_while(is_complaint).map(str::trim);
-    lines
+    let words = lines
         .filter(|line| !line.is_empty())
         .collect::<Vec<_>>()
-        .join(" ")
+        .join(" ");
+    words.replace(" tip: ", "; ")
 }
 
 /// The command whose help explains the usage that the text shows: `selvedge render --help`.

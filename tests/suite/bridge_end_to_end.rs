@@ -1,0 +1,366 @@
+//! `selvedge play` against `selvedge bridge emulate` over a real terminal: two programs, two logs.
+//!
+//! What is compared is counters, device ticks and codes; never wall time, so that a busy machine
+//! changes nothing.
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::program::{Lab, Outcome, Rows};
+
+/// An emulated device that runs until it is told to end.
+struct Device {
+    child: Child,
+}
+
+impl Device {
+    fn start(lab: &Lab) -> Self {
+        let args = [
+            "bridge",
+            "emulate",
+            "--link",
+            "array",
+            "--log",
+            "device.csv",
+        ];
+        let mut child = lab.command(&args).stdout(Stdio::piped()).spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap())
+            .read_line(&mut line)
+            .unwrap();
+        assert!(line.starts_with("array -> /dev/"), "{line}");
+        Self { child }
+    }
+
+    /// SIGTERM: it must end cleanly and take its link away.
+    fn end(mut self, lab: &Lab) -> Rows {
+        signal("TERM", &self.child);
+        assert_eq!(self.child.wait().unwrap().code(), Some(0), "a clean end");
+        assert!(!lab.path("array").is_symlink(), "the link is gone");
+        Rows::read(&lab.path("device.csv"))
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}
+
+fn signal(name: &str, child: &Child) {
+    let sent = Command::new("kill")
+        .args([&format!("-{name}"), &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success(), "kill -{name}");
+}
+
+const PLAY: [&str; 8] = [
+    "play",
+    "a.scene.toml",
+    "--path",
+    "a.csv",
+    "--port",
+    "array",
+    "--log",
+    "host.csv",
+];
+
+/// Codes of a frame as the design defines them, worked out here anew: full scale 50 µm, limit
+/// 50 µm, both components scaled by the same factor when they add up to more than full scale.
+fn codes(a40_um: f32, a320_um: f32, gain: f64) -> [u64; 2] {
+    let clean = |a: f32| {
+        if a.is_finite() && a > 0.0 {
+            f64::from(a)
+        } else {
+            0.0
+        }
+    };
+    let mut a = [a40_um, a320_um].map(|a| (clean(a) * gain).min(50.0));
+    let sum = a[0] / 50.0 + a[1] / 50.0;
+    if sum > 1.0 {
+        a = a.map(|a| a / sum);
+    }
+    let mut codes = a.map(|a| (65535.0 * a / 50.0 + 0.5).floor() as u64);
+    if codes[0] + codes[1] > 65535 {
+        codes[1] -= 1;
+    }
+    codes
+}
+
+/// The device's frames in the order in which it applied them: seq, tick, codes.
+fn applied(device: &Rows) -> Vec<(u64, u64, Vec<[u64; 2]>)> {
+    let number = |text: &str| text.parse::<u64>().unwrap();
+    let (events, seqs, ticks) = (
+        device.text("event"),
+        device.text("seq"),
+        device.text("tick"),
+    );
+    let columns: Vec<[Vec<&str>; 2]> = (0..24)
+        .map(|i| [format!("a40_{i}"), format!("a320_{i}")].map(|c| device.text(&c)))
+        .collect();
+    let codes = |row: usize| {
+        columns
+            .iter()
+            .map(|c| [number(c[0][row]), number(c[1][row])])
+            .collect()
+    };
+    (0..device.len())
+        .filter(|&row| events[row] == "frame")
+        .map(|row| (number(seqs[row]), number(ticks[row]), codes(row)))
+        .collect()
+}
+
+/// The codes that the host's log asks for, by seq: apply tick and codes from amplitudes and gain.
+fn asked(host: &Rows) -> BTreeMap<u64, (u64, Vec<[u64; 2]>)> {
+    let (seqs, ticks) = (host.numbers("seq"), host.numbers("apply_tick"));
+    let gains = host.numbers("gain");
+    let of = |name: &str| -> Vec<Vec<f32>> {
+        let column = |i| host.text(&format!("{name}_{i}"));
+        (0..24)
+            .map(|i| column(i).iter().map(|cell| cell.parse().unwrap()).collect())
+            .collect()
+    };
+    let (low, high) = (of("a40_um"), of("a320_um"));
+    let frame = |row: usize| {
+        let wanted = (0..24)
+            .map(|i| codes(low[i][row], high[i][row], gains[row]))
+            .collect();
+        (seqs[row] as u64, (ticks[row] as u64, wanted))
+    };
+    (0..host.len()).map(frame).collect()
+}
+
+/// Every frame that the device applied is one that the host logged, at its tick and in its order.
+fn check_frames(host: &Rows, device: &Rows) -> usize {
+    let (asked, applied) = (asked(host), applied(device));
+    let mut last_tick = 0;
+    for (seq, tick, codes) in &applied {
+        let (apply_tick, wanted) = asked
+            .get(seq)
+            .unwrap_or_else(|| panic!("frame {seq} is logged"));
+        assert_eq!(codes, wanted, "codes of frame {seq}");
+        // A busy machine may deliver a frame late: the device then applies it at its next tick.
+        assert!(
+            tick >= apply_tick,
+            "frame {seq} at {tick} instead of {apply_tick}"
+        );
+        assert!(*tick > last_tick, "in apply-tick order");
+        last_tick = *tick;
+    }
+    let logged: Vec<String> = host
+        .text("code40_7")
+        .iter()
+        .map(|&c| c.to_owned())
+        .collect();
+    let wanted = asked.values().map(|(_, codes)| codes[7][0].to_string());
+    assert_eq!(
+        logged,
+        wanted.collect::<Vec<_>>(),
+        "the host logs the codes that it sent"
+    );
+    applied.len()
+}
+
+#[test]
+fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() {
+    let lab = Lab::with_scene();
+    // Loud enough that limits and the sum guard bite, also while the soft start still rises.
+    lab.add_textile("flat", |x_mm| {
+        300.0 * (x_mm * 2.4).sin() + 90.0 * (x_mm * 20.0).sin()
+    });
+    lab.write(
+        "a.csv",
+        "t_s,x_mm,y_mm,angle_deg\n0,15,40,0\n0.7,85,42,10\n1.5,15,30,40\n",
+    );
+    let device = Device::start(&lab);
+    let played = lab.run(&PLAY);
+    assert_eq!(played.code, 0, "{played:?}");
+    assert!(played.out.contains("61 frames"), "{}", played.out);
+    assert!(
+        played.out.contains("STATUS to FRAME   median"),
+        "{}",
+        played.out
+    );
+    let (host, device) = (Rows::read(&lab.path("host.csv")), device.end(&lab));
+    let n_applied = check_frames(&host, &device);
+    assert_eq!(host.len(), 61, "one frame a tick of the path");
+    assert!(n_applied >= 40, "{n_applied} of 61 frames applied");
+    let gains = host.numbers("gain");
+    assert_eq!(
+        (gains[0], gains[9], gains[30]),
+        (0.05, 0.5, 1.0),
+        "soft start over 20 ticks"
+    );
+    // The device ends at rest because it was told to, not because it missed us.
+    let last = device.len() - 1;
+    assert_eq!(
+        (device.text("state")[last], device.text("amp_sum")[last]),
+        ("READY", "0")
+    );
+}
+
+#[test]
+fn what_is_played_is_what_is_rendered() {
+    let lab = Lab::with_scene();
+    let device = Device::start(&lab);
+    assert_eq!(lab.run(&PLAY).code, 0);
+    drop(device.end(&lab));
+    let rendered = Rows::parse(&lab.print(&["render", "a.scene.toml", "--path", "a.csv"]));
+    let host = Rows::read(&lab.path("host.csv"));
+    let a320_um = rendered.text("a320_um");
+    for contactor in 0..24 {
+        let played: Vec<f32> = (host.text(&format!("a320_um_{contactor}")).iter())
+            .map(|cell| cell.parse().unwrap())
+            .collect();
+        let wanted = a320_um.iter().skip(contactor).step_by(24);
+        let wanted: Vec<f32> = wanted.map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(played, wanted, "contactor {contactor}");
+    }
+}
+
+#[test]
+fn a_loop_ends_at_rest_when_it_is_told_to() {
+    let lab = Lab::with_scene();
+    let device = Device::start(&lab);
+    let mut child = lab
+        .command(&[&PLAY[..], &["--loop"]].concat())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Longer than the path of 0.5 s: it has begun again.
+    wait_for_frames(&lab, 30);
+    signal("TERM", &child);
+    let code = child.wait().unwrap().code();
+    let outcome = Outcome::of(&child.wait_with_output().unwrap());
+    assert_eq!((code, outcome.err.as_str()), (Some(0), ""), "{outcome:?}");
+    let (host, device) = (Rows::read(&lab.path("host.csv")), device.end(&lab));
+    check_frames(&host, &device);
+    assert!(
+        host.len() > 21,
+        "{} frames of a path with 21 ticks",
+        host.len()
+    );
+    let last = device.len() - 1;
+    assert_eq!(
+        (device.text("state")[last], device.text("amp_sum")[last]),
+        ("READY", "0")
+    );
+}
+
+#[test]
+fn a_device_that_vanishes_is_a_failure_with_its_reason() {
+    let lab = Lab::with_scene();
+    let device = Device::start(&lab);
+    let child = lab
+        .command(&[&PLAY[..], &["--loop"]].concat())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    wait_for_frames(&lab, 5);
+    drop(device);
+    let outcome = Outcome::of(&child.wait_with_output().unwrap());
+    assert_eq!(outcome.code, 1, "{outcome:?}");
+    assert!(outcome.one_line().starts_with("array: "), "{outcome:?}");
+}
+
+#[test]
+fn a_device_of_another_shape_is_refused() {
+    let lab = Lab::with_scene();
+    let scene = lab.read("a.scene.toml").replace("exeter-24", "5x5");
+    lab.write("a.scene.toml", scene);
+    let device = Device::start(&lab);
+    let outcome = lab.run(&PLAY);
+    assert_eq!(outcome.code, 1, "{outcome:?}");
+    let line = outcome.one_line();
+    assert!(line.starts_with("array: ") && line.contains("24"), "{line}");
+    let device = device.end(&lab);
+    assert!(!device.text("event").contains(&"frame"), "nothing was sent");
+}
+
+#[test]
+fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
+    let lab = Lab::with_scene();
+    let device = Device::start(&lab);
+    let args = [
+        "play",
+        "a.scene.toml",
+        "--path",
+        "-",
+        "--port",
+        "array",
+        "--log",
+        "host.csv",
+    ];
+    let mut child = lab
+        .command(&args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = String::from("t_s,x_mm,y_mm\nno line\n");
+    for n in 0..100 {
+        lines.push_str(&format!(
+            "{},{},40\n",
+            f64::from(n) * 0.01,
+            15.0 + f64::from(n) * 0.4
+        ));
+    }
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(lines.as_bytes())
+        .unwrap();
+    let outcome = Outcome::of(&child.wait_with_output().unwrap());
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    assert!(
+        outcome.one_line().contains("was dropped; write x_mm,y_mm"),
+        "{outcome:?}"
+    );
+    assert!(
+        outcome.out.contains("lines dropped     1"),
+        "{}",
+        outcome.out
+    );
+    let host = Rows::read(&lab.path("host.csv"));
+    check_frames(&host, &device.end(&lab));
+    let x_mm = host.numbers("x_mm");
+    assert!(
+        (x_mm[x_mm.len() - 1] - 54.6).abs() < 1e-9,
+        "the last line: {x_mm:?}"
+    );
+    assert!(
+        host.numbers("a320_um_0").iter().any(|&um| um > 0.1),
+        "moving, so it is felt"
+    );
+}
+
+#[test]
+fn a_connected_device_passes_its_test() {
+    let lab = Lab::with_scene();
+    let device = Device::start(&lab);
+    let outcome = lab.run(&["bridge", "test", "--port", "array"]);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    assert!(outcome.out.contains("self-test passed"), "{}", outcome.out);
+    drop(device.end(&lab));
+}
+
+/// Waits until the device has applied this many frames, as its log says.
+fn wait_for_frames(lab: &Lab, n_frames: usize) {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while Instant::now() < deadline {
+        let log = std::fs::read_to_string(lab.path("device.csv")).unwrap_or_default();
+        if log.lines().filter(|line| line.contains(",frame,")).count() >= n_frames {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    panic!("the device applied fewer than {n_frames} frames in a minute");
+}
