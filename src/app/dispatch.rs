@@ -67,7 +67,7 @@ impl Workbench {
     }
 
     fn connect(&mut self, target: Target) {
-        self.transient.target = Some(target.name());
+        self.transient.target = Some(query::device_name(&target));
         self.send(engine::Command::Connect(target));
     }
 
@@ -95,10 +95,7 @@ impl Workbench {
         self.let_engine_follow(&before);
     }
 
-    fn step_history(
-        &mut self,
-        step: fn(&mut super::document::Document) -> Option<&'static str>,
-    ) {
+    fn step_history(&mut self, step: fn(&mut super::document::Document) -> Option<&'static str>) {
         let before = self.document.scene().clone();
         step(&mut self.document);
         self.let_engine_follow(&before);
@@ -124,21 +121,28 @@ impl Workbench {
         match Opening::start(path, ctx) {
             Ok(opening) => self.transient.opening = Some(opening),
             Err(error) => {
-                self.transient.notices.give(format!("The scene was not opened: {error}; try again"));
+                self.transient
+                    .notices
+                    .give(format!("The scene was not opened: {error}; try again"));
             }
         }
     }
 
     /// Takes a scene that was opened; when it was not, says why and keeps the last one.
-    pub(crate) fn take_opened(
-        &mut self,
-        outcome: Result<Box<Opened>, super::error::AppError>,
-    ) {
+    pub(crate) fn take_opened(&mut self, outcome: Result<Box<Opened>, super::error::AppError>) {
         match outcome {
             Ok(opened) => {
-                let Opened { path, loaded, prepared, pictures, flaws } = *opened;
+                let Opened {
+                    path,
+                    loaded,
+                    prepared,
+                    pictures,
+                    flaws,
+                } = *opened;
                 self.send(engine::Command::SetScene(Box::new(prepared)));
-                flaws.into_iter().for_each(|flaw| self.transient.notices.give(flaw));
+                flaws
+                    .into_iter()
+                    .for_each(|flaw| self.transient.notices.give(flaw));
                 self.show_scene(path, loaded, pictures);
             }
             Err(error) => self.transient.notices.give(error.to_string()),

@@ -23,7 +23,13 @@ pub(crate) struct Document {
 impl Document {
     /// A scene as it was opened; without a path it is one that the program ships.
     pub(crate) fn new(scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
-        Self { saved: scene.clone(), scene, path, default_tuning, history: History::new() }
+        Self {
+            saved: scene.clone(),
+            scene,
+            path,
+            default_tuning,
+            history: History::new(),
+        }
     }
 
     /// The scene.
@@ -61,7 +67,9 @@ impl Document {
             Edit::BandGain(Band::High, db) => tuning.gain_320_db = db,
             Edit::Compression(share) => tuning.compression = share,
             Edit::TextileGain(index, db) => {
-                let Some(textile) = scene.textiles.get_mut(index) else { return Ok(()) };
+                let Some(textile) = scene.textiles.get_mut(index) else {
+                    return Ok(());
+                };
                 textile.gain_db = db;
             }
         }
@@ -98,11 +106,15 @@ impl Document {
     /// Writes the scene to `path`, which is its place from now on.
     pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
-        if let Some(old) = self.path.as_deref().filter(|old| old.parent() != path.parent()) {
+        if let Some(old) = self
+            .path
+            .as_deref()
+            .filter(|old| old.parent() != path.parent())
+        {
             // A library named relative to the old place would not be found from the new one.
-            scene.library = scene.library_folder(old).map(|folder| {
-                std::path::absolute(&folder).unwrap_or(folder)
-            });
+            scene.library = scene
+                .library_folder(old)
+                .map(|folder| std::path::absolute(&folder).unwrap_or(folder));
         }
         scene.write(path)?;
         self.scene.library.clone_from(&scene.library);
@@ -120,7 +132,11 @@ mod tests {
     use crate::scene::PlacedTextile;
 
     fn document() -> Document {
-        let textile = PlacedTextile { id: "silk".to_owned(), size_mm: [10.0; 2], ..empty() };
+        let textile = PlacedTextile {
+            id: "silk".to_owned(),
+            size_mm: [10.0; 2],
+            ..empty()
+        };
         let scene = Scene {
             name: "Test".to_owned(),
             size_mm: [100.0; 2],
@@ -128,7 +144,14 @@ mod tests {
             displays: vec![crate::scene::Display::default()],
             ..Scene::default()
         };
-        Document::new(scene, None, Tuning { gain_db: -3.0, ..Tuning::default() })
+        Document::new(
+            scene,
+            None,
+            Tuning {
+                gain_db: -3.0,
+                ..Tuning::default()
+            },
+        )
     }
 
     fn empty() -> PlacedTextile {
@@ -143,7 +166,11 @@ mod tests {
     }
 
     fn at(press: u64) -> Moment {
-        Moment { press, is_down: true, t_s: press as f64 }
+        Moment {
+            press,
+            is_down: true,
+            t_s: press as f64,
+        }
     }
 
     #[test]

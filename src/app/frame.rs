@@ -22,31 +22,57 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
     let mut wishes = Wishes::new();
     let scene = bench.scene_view();
     let palette = Palette::in_ui(ui);
-    let frame = |x, y| Frame::new().fill(palette.panel).inner_margin(Margin::symmetric(x, y));
+    let frame = |x, y| {
+        Frame::new()
+            .fill(palette.panel)
+            .inner_margin(Margin::symmetric(x, y))
+    };
     let transient = &mut bench.transient;
     let colour_map = bench.layout.colour_map;
-    Panel::top("header").exact_size(HEADER).frame(frame(16, 0)).show(ui, |ui| {
-        panes::show_header(ui, &scene, &transient.live, colour_map, &mut wishes);
-    });
-    Panel::right("controls").exact_size(CONTROLS).resizable(false).frame(frame(0, 8)).show(ui, |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            Frame::new().inner_margin(Margin::symmetric(16, 0)).show(ui, |ui| {
-                panes::show_tuning(ui, &scene, &transient.live, &mut wishes);
-                ui.add_space(2.0 * STEP);
-                let target = transient.target.as_deref();
-                panes::show_bridge(ui, &transient.live, target, &mut transient.port, &mut wishes);
+    Panel::top("header")
+        .exact_size(HEADER)
+        .frame(frame(16, 0))
+        .show(ui, |ui| {
+            panes::show_header(ui, &scene, &transient.live, colour_map, &mut wishes);
+        });
+    Panel::right("controls")
+        .exact_size(CONTROLS)
+        .resizable(false)
+        .frame(frame(0, 8))
+        .show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                Frame::new()
+                    .inner_margin(Margin::symmetric(16, 0))
+                    .show(ui, |ui| {
+                        panes::show_tuning(ui, &scene, &transient.live, &mut wishes);
+                        ui.add_space(2.0 * STEP);
+                        let target = transient.target.as_deref();
+                        panes::show_bridge(
+                            ui,
+                            &transient.live,
+                            target,
+                            &mut transient.port,
+                            &mut wishes,
+                        );
+                    });
             });
         });
-    });
-    let height = if ui.ctx().content_rect().height() < LOW { PICTURES[1] } else { PICTURES[0] };
-    Panel::bottom("pictures").exact_size(height).resizable(false).frame(frame(16, 12)).show(ui, |ui| {
-        ui.with_layout(Layout::left_to_right(Align::Min), |ui| {
-            let top_um = transient.scale.top_um();
-            panes::show_heatmaps(ui, &scene, &transient.live, top_um, colour_map);
-            ui.add_space(4.0 * STEP);
-            panes::show_strip(ui, &transient.levels);
+    let height = if ui.ctx().content_rect().height() < LOW {
+        PICTURES[1]
+    } else {
+        PICTURES[0]
+    };
+    Panel::bottom("pictures")
+        .exact_size(height)
+        .resizable(false)
+        .frame(frame(16, 12))
+        .show(ui, |ui| {
+            ui.with_layout(Layout::left_to_right(Align::Min), |ui| {
+                panes::show_heatmaps(ui, &scene, &transient.live, colour_map);
+                ui.add_space(4.0 * STEP);
+                panes::show_strip(ui, &transient.levels);
+            });
         });
-    });
     let shown = CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         workspace::show(ui, &scene, &transient.live, &transient.trail)
     });
@@ -73,7 +99,12 @@ fn feel(bench: &Workbench, ctx: &egui::Context, ground: Ground) {
     if bench.is_stepped {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));
-            input.events.iter().any(is_move).then(|| input.pointer.latest_pos()).flatten()
+            input
+                .events
+                .iter()
+                .any(is_move)
+                .then(|| input.pointer.latest_pos())
+                .flatten()
         });
         if let Some(at) = moved {
             tap.moved_to(bench.stamp(), at);

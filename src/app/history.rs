@@ -46,14 +46,19 @@ struct Open<K> {
 impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     /// Nothing to undo.
     pub(crate) fn new() -> Self {
-        Self { past: Vec::new(), future: Vec::new(), open: None }
+        Self {
+            past: Vec::new(),
+            future: Vec::new(),
+            open: None,
+        }
     }
 
     /// Says that `state` is about to be edited; what could be redone is gone.
     pub(crate) fn begin(&mut self, state: &S, target: K, name: &'static str, now: Moment) {
         let joins = self.open.as_ref().is_some_and(|open| {
             let same_press = open.last.press == now.press && (open.last.is_down || now.is_down);
-            let follows = !now.is_down && !open.last.is_down && now.t_s - open.last.t_s <= GESTURE_S;
+            let follows =
+                !now.is_down && !open.last.is_down && now.t_s - open.last.t_s <= GESTURE_S;
             open.target == target && (same_press || follows)
         });
         self.open = Some(Open { target, last: now });
@@ -62,7 +67,10 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
             if self.past.len() == MAX_STEPS {
                 self.past.remove(0);
             }
-            self.past.push(Step { state: state.clone(), name });
+            self.past.push(Step {
+                state: state.clone(),
+                name,
+            });
         }
     }
 
@@ -73,7 +81,10 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
         while self.past.last().is_some_and(|step| step.state == *state) {
             self.past.pop();
         }
-        let Step { state: before, name } = self.past.pop()?;
+        let Step {
+            state: before,
+            name,
+        } = self.past.pop()?;
         let after = std::mem::replace(state, before);
         self.future.push(Step { state: after, name });
         Some(name)
@@ -84,13 +95,20 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
         self.open = None;
         let Step { state: after, name } = self.future.pop()?;
         let before = std::mem::replace(state, after);
-        self.past.push(Step { state: before, name });
+        self.past.push(Step {
+            state: before,
+            name,
+        });
         Some(name)
     }
 
     /// What undo would take back from `state`.
     pub(crate) fn undo_name(&self, state: &S) -> Option<&'static str> {
-        self.past.iter().rev().find(|step| step.state != *state).map(|step| step.name)
+        self.past
+            .iter()
+            .rev()
+            .find(|step| step.state != *state)
+            .map(|step| step.name)
     }
 
     /// What redo would bring back.
@@ -106,7 +124,11 @@ mod tests {
     use super::*;
 
     fn at(press: u64, is_down: bool, t_s: f64) -> Moment {
-        Moment { press, is_down, t_s }
+        Moment {
+            press,
+            is_down,
+            t_s,
+        }
     }
 
     #[test]

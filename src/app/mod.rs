@@ -15,6 +15,7 @@
 //! - nothing is drawn anew that has not changed; nothing longer than a frame runs on this thread
 //! - Esc, closing the window and a panic switch everything off without waiting for a frame
 
+mod amplitude;
 mod command;
 mod dispatch;
 mod document;

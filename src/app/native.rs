@@ -29,8 +29,9 @@ type Shared = Rc<RefCell<Option<(Rc<RefCell<PointerTap>>, StopSwitch)>>>;
 /// # Errors
 /// There is no display, or it cannot draw; the scene cannot be opened.
 pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
-    let event_loop =
-        EventLoop::<UserEvent>::with_user_event().build().map_err(|_no_display| AppError::NoDisplay)?;
+    let event_loop = EventLoop::<UserEvent>::with_user_event()
+        .build()
+        .map_err(|_no_display| AppError::NoDisplay)?;
     event_loop.set_control_flow(ControlFlow::Wait);
     let options = NativeOptions {
         viewport: ViewportBuilder::default()
@@ -87,10 +88,13 @@ impl Stamping<'_> {
     fn listen(&self, event: &WindowEvent) {
         let stamp = Instant::now();
         let shared = self.shared.borrow();
-        let Some((tap, switch)) = &*shared else { return };
+        let Some((tap, switch)) = &*shared else {
+            return;
+        };
         match event {
             WindowEvent::CursorMoved { position, .. } => {
-                tap.borrow_mut().moved_to_pixel(stamp, [position.x, position.y]);
+                tap.borrow_mut()
+                    .moved_to_pixel(stamp, [position.x, position.y]);
             }
             WindowEvent::KeyboardInput { event, .. } => {
                 let is_escape = event.logical_key == Key::Named(NamedKey::Escape);

@@ -45,11 +45,13 @@ impl Opening {
     pub(crate) fn start(path: PathBuf, ctx: &egui::Context) -> std::io::Result<Self> {
         let (sender, result) = sync_channel(1);
         let (from, ctx) = (path.clone(), ctx.clone());
-        thread::Builder::new().name("selvedge-open".to_owned()).spawn(move || {
-            // Nobody waits any more when another scene was asked for meanwhile.
-            drop(sender.send(open(Some(&from)).map(Box::new)));
-            ctx.request_repaint();
-        })?;
+        thread::Builder::new()
+            .name("selvedge-open".to_owned())
+            .spawn(move || {
+                // Nobody waits any more when another scene was asked for meanwhile.
+                drop(sender.send(open(Some(&from)).map(Box::new)));
+                ctx.request_repaint();
+            })?;
         Ok(Self { path, result })
     }
 
@@ -87,16 +89,31 @@ pub(crate) fn open(path: Option<&Path>) -> Result<Opened, AppError> {
         }
     }
     flaws.dedup();
-    Ok(Opened { path: path.map(Path::to_owned), loaded, prepared, pictures, flaws })
+    Ok(Opened {
+        path: path.map(Path::to_owned),
+        loaded,
+        prepared,
+        pictures,
+        flaws,
+    })
 }
 
 fn picture(textile: &Textile) -> Result<Option<(Arc<ColorImage>, Vec2)>, AppError> {
-    let Some(appearance) = textile.appearance()? else { return Ok(None) };
+    let Some(appearance) = textile.appearance()? else {
+        return Ok(None);
+    };
     let image = &appearance.image;
-    let pixels = image.pixels.iter().map(|&[r, g, b]| Color32::from_rgb(r, g, b)).collect();
+    let pixels = image
+        .pixels
+        .iter()
+        .map(|&[r, g, b]| Color32::from_rgb(r, g, b))
+        .collect();
     let [width, height] = [image.width, image.height].map(|n| n as f32);
     #[expect(clippy::cast_possible_truncation, reason = "a scale, for the screen")]
     let px_per_mm = appearance.px_per_mm.max(1e-3) as f32;
     let tile_mm = vec2(width, height) / px_per_mm;
-    Ok(Some((Arc::new(ColorImage::new([image.width, image.height], pixels)), tile_mm)))
+    Ok(Some((
+        Arc::new(ColorImage::new([image.width, image.height], pixels)),
+        tile_mm,
+    )))
 }

@@ -34,7 +34,10 @@ pub(crate) struct PointerTap {
 impl PointerTap {
     /// A tap that feeds this ring.
     pub(crate) fn new(sender: Option<PointerSender>) -> Self {
-        Self { sender, ground: None }
+        Self {
+            sender,
+            ground: None,
+        }
     }
 
     /// Says where the workspace is now; `None` while something covers it.
@@ -45,14 +48,19 @@ impl PointerTap {
     /// Takes in a movement to a pixel, stamped on arrival.
     pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, [x, y]: [f64; 2]) {
         let Some(ground) = self.ground else { return };
-        #[expect(clippy::cast_possible_truncation, reason = "the screen is drawn in single precision")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the screen is drawn in single precision"
+        )]
         let point = pos2(x as f32, y as f32) / ground.pixels_per_point;
         self.moved_to(stamp, point);
     }
 
     /// Takes in a movement to a place on the screen, points.
     pub(crate) fn moved_to(&mut self, stamp: Instant, at: Pos2) {
-        let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else { return };
+        let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else {
+            return;
+        };
         let position = ground.view.workspace(at);
         if ground.rect.contains(at) && is_near(position, ground.size_mm) {
             // A full ring drops the sample and counts it.

@@ -7,7 +7,7 @@ use super::document::Document;
 use super::view::{
     BridgePhase, BridgeView, Cloth, ClothPicture, Dot, LibraryDot, Live, SceneView, Source, Status,
 };
-use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy};
+use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
 use crate::scene::{LoadedScene, Scene};
 use crate::tactile::{Filters, Levels};
@@ -40,7 +40,10 @@ pub(crate) fn scene_view(
         default_tuning: document.default_tuning(),
         reference_db,
         filters: scene.filters,
-        grid: scene.displays.first().and_then(|display| display.geometry.grid()),
+        grid: scene
+            .displays
+            .first()
+            .and_then(|display| display.geometry.grid()),
         library: library.to_vec(),
         undo: document.undo_name(),
         redo: document.redo_name(),
@@ -53,7 +56,9 @@ pub(crate) fn library_dots(loaded: &LoadedScene) -> Vec<LibraryDot> {
     let scene = loaded.scene();
     let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
     let library = loaded.library();
-    let index = library.index().filter(|_| scene.filters == Filters::default());
+    let index = library
+        .index()
+        .filter(|_| scene.filters == Filters::default());
     if let Some(index) = index {
         let dot = |entry: &crate::textile::IndexEntry| {
             let manifest = library.manifest(&entry.id).ok()?;
@@ -88,7 +93,10 @@ pub(crate) fn library_dots(loaded: &LoadedScene) -> Vec<LibraryDot> {
 
 /// The engine as panes draw it.
 pub(crate) fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>) -> Live {
-    let contactors = snapshot.displays.first().map_or(&[][..], |display| &display.contactors);
+    let contactors = snapshot
+        .displays
+        .first()
+        .map_or(&[][..], |display| &display.contactors);
     let is_placed = snapshot.source != SourceKind::Pointer || snapshot.pointer.is_known;
     Live {
         tick: snapshot.tick,
@@ -98,20 +106,24 @@ pub(crate) fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>) -> L
         is_stopped: snapshot.is_stopped,
         source: match snapshot.source {
             SourceKind::Pointer => Source::Pointer,
-            SourceKind::Stroke => {
-                Source::Stroke { is_playing: snapshot.playback.is_playing }
-            }
+            SourceKind::Stroke => Source::Stroke {
+                is_playing: snapshot.playback.is_playing,
+            },
             SourceKind::Replay | SourceKind::Lines => Source::Other,
         },
         status: Status {
             method: snapshot.method.name(),
-            tick_cost_s: (snapshot.clock.cost_ns > 0).then_some(snapshot.clock.cost_ns as f64 * 1e-9),
+            tick_cost_s: (snapshot.clock.cost_ns > 0)
+                .then_some(snapshot.clock.cost_ns as f64 * 1e-9),
             bound_db: snapshot.bound.level_db,
             missed: snapshot.clock.missed,
             late: snapshot.clock.late,
             felt_age_s: snapshot.pointer.felt_age.map(|age| age.as_secs_f64()),
         },
-        bridge: snapshot.link.as_ref().map(|link| bridge_view(link, frame_interval_s)),
+        bridge: snapshot
+            .link
+            .as_ref()
+            .map(|link| bridge_view(link, frame_interval_s)),
     }
 }
 
@@ -131,7 +143,10 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         phase: phase(link.state),
         depth: link.depth,
         frame_interval_s,
-        gain: link.sent.filter(|_| link.state.takes_frames()).map(|sent| sent.gain),
+        gain: link
+            .sent
+            .filter(|_| link.state.takes_frames())
+            .map(|sent| sent.gain),
         frames_sent: link.counters.frames_sent,
         troubles: vec![
             ("underruns", device.underrun),
@@ -145,6 +160,14 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
             ("messages lost", link.counters.events_dropped),
             ("not finite", codes.non_finite),
         ],
+    }
+}
+
+/// What a device is called: its path, or what it is.
+pub(crate) fn device_name(target: &Target) -> String {
+    match target {
+        Target::Emulator => "Emulator".to_owned(),
+        Target::Port(path) => path.display().to_string(),
     }
 }
 
@@ -164,9 +187,10 @@ pub(crate) fn phase(state: BridgeState) -> BridgePhase {
 }
 
 /// The sentence for something that the user ought to know; `None` for what panes show anyway.
-pub(crate) fn words(notice: &Notice) -> Option<String> {
+/// `device` is what the device is called.
+pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
     match notice {
-        Notice::Bridge(event) => bridge_words(event),
+        Notice::Bridge(event) => bridge_words(event, device),
         Notice::Refused(why) => Some(capitalised(why)),
         Notice::GainIgnored(error) => Some(capitalised(&error.to_string())),
         Notice::RecordingEnded(why) => Some(capitalised(why)),
@@ -179,14 +203,15 @@ pub(crate) fn words(notice: &Notice) -> Option<String> {
     }
 }
 
-fn bridge_words(event: &BridgeEvent) -> Option<String> {
+fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
     match event {
-        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) => Some(capitalised(why)),
-        BridgeEvent::Disarmed { by: DisarmedBy::Device, reason } => {
-            Some(format!("The device disarmed itself: {reason}"))
-        }
+        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) => Some(format!("{device}: {why}")),
+        BridgeEvent::Disarmed {
+            by: DisarmedBy::Device,
+            reason,
+        } => Some(format!("{device} disarmed itself: {reason}")),
         BridgeEvent::Fault(fault) => Some(format!(
-            "The device reports fault {:#06x}; mend its cause, then connect again",
+            "{device} reports fault {:#06x}; mend its cause, then connect again",
             fault.faults
         )),
         BridgeEvent::DepthRaised(depth) => Some(format!(
@@ -198,7 +223,9 @@ fn bridge_words(event: &BridgeEvent) -> Option<String> {
 
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
-    let first = letters.next().map(|letter| letter.to_uppercase().to_string());
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
 }
 
@@ -243,7 +270,11 @@ mod tests {
         let mut meter = IntervalMeter::default();
         assert_eq!(meter.take(Some((10, u32::MAX - 9_999))), None);
         assert_eq!(meter.take(Some((12, 40_000))), Some(0.025));
-        assert_eq!(meter.take(Some((12, 40_000))), Some(0.025), "no new tick, no new interval");
+        assert_eq!(
+            meter.take(Some((12, 40_000))),
+            Some(0.025),
+            "no new tick, no new interval"
+        );
         assert_eq!(meter.take(None), None);
     }
 
@@ -260,14 +291,24 @@ mod tests {
             BridgeState::Lost,
         ];
         for state in states {
-            assert_eq!(phase(state) == BridgePhase::Armed, state.is_live(), "{state:?}");
+            assert_eq!(
+                phase(state) == BridgePhase::Armed,
+                state.is_live(),
+                "{state:?}"
+            );
         }
     }
 
     #[test]
-    fn notices_are_sentences() {
-        let lost = Notice::Bridge(BridgeEvent::Lost("no port at /dev/x; check the cable".to_owned()));
-        assert_eq!(words(&lost).as_deref(), Some("No port at /dev/x; check the cable"));
-        assert_eq!(words(&Notice::Stopped), None);
+    fn notices_name_the_device() {
+        let lost = Notice::Bridge(BridgeEvent::Lost(
+            "no such port; check the cable".to_owned(),
+        ));
+        let sentence = words(&lost, "/dev/x");
+        assert_eq!(
+            sentence.as_deref(),
+            Some("/dev/x: no such port; check the cable")
+        );
+        assert_eq!(words(&Notice::Stopped, "/dev/x"), None);
     }
 }

@@ -4,18 +4,23 @@
 //! clock: the same scene gives the same bytes.
 
 use std::path::PathBuf;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use eframe::App as _;
 use eframe::egui::{self, FullOutput, Pos2, RawInput, Rect, vec2};
 
 use super::command::Command;
 use super::error::AppError;
+use super::query;
 use super::raster::{Picture, Rasteriser};
 use super::theme::Palette;
+use super::view::BridgeView;
 use super::window::{Drive, Workbench};
+use crate::bridge::{ArrayProfile, Bridge, BridgeState, Target};
 
-/// Frames that are run before the picture is taken, 25 ms apart: 8 s.
-const N_FRAMES: u32 = 316;
+/// Frames that are run before the picture is taken, 25 ms apart: 9 s.
+const N_FRAMES: u32 = 357;
 
 /// Dark or light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -44,7 +49,13 @@ pub struct Screenshot {
 
 impl Default for Screenshot {
     fn default() -> Self {
-        Self { scene: None, width: 1400, height: 900, pixels_per_point: 1.0, theme: Theme::Dark }
+        Self {
+            scene: None,
+            width: 1400,
+            height: 900,
+            pixels_per_point: 1.0,
+            theme: Theme::Dark,
+        }
     }
 }
 
@@ -58,7 +69,11 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     if !is_size(width) || !is_size(height) || width * height > 64_000_000 {
         return Err(AppError::Size { width, height });
     }
-    let scale = if wanted.pixels_per_point.is_finite() { wanted.pixels_per_point } else { 1.0 };
+    let scale = if wanted.pixels_per_point.is_finite() {
+        wanted.pixels_per_point
+    } else {
+        1.0
+    };
     let scale = scale.clamp(0.5, 4.0);
     let ctx = egui::Context::default();
     let theme = match wanted.theme {
@@ -69,6 +84,12 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     let mut bench = Workbench::new(&ctx, wanted.scene.clone(), Drive::Stepped)?;
     let mut rasteriser = Rasteriser::default();
     bench.dispatch(&ctx, Command::ToggleStroke);
+    bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
+    bench.transient.target = bench
+        .transient
+        .pictured_bridge
+        .as_ref()
+        .map(|_| query::device_name(&Target::Emulator));
     let size = vec2(width as f32, height as f32) / scale;
     let mut frame = eframe::Frame::_new_kittest();
     let mut run = |index: u32| {
@@ -83,10 +104,37 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     for index in 1..N_FRAMES {
         run(index);
     }
-    let FullOutput { shapes, pixels_per_point, .. } = run(N_FRAMES);
+    let FullOutput {
+        shapes,
+        pixels_per_point,
+        ..
+    } = run(N_FRAMES);
     let primitives = ctx.tessellate(shapes, pixels_per_point);
     let floor = Palette::of(theme).floor;
     Ok(rasteriser.draw(&primitives, [width, height], pixels_per_point, floor))
+}
+
+/// How the emulator shows once it is ready, as in a window that has just been opened. It lives in
+/// real time, which a picture does not: so it is greeted here, and let go.
+fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
+    let mut bridge = Bridge::open(
+        Target::Emulator,
+        profile.clone(),
+        profile.n_contactors(),
+        || {},
+    );
+    let patience = Instant::now() + Duration::from_secs(3);
+    while bridge.state() != BridgeState::Ready && Instant::now() < patience {
+        while bridge.poll().is_some() {}
+        thread::sleep(Duration::from_millis(1));
+    }
+    let state = bridge.state();
+    (state == BridgeState::Ready).then(|| BridgeView {
+        state: state.label(),
+        phase: query::phase(state),
+        depth: bridge.depth(),
+        ..BridgeView::default()
+    })
 }
 
 fn raw_input(size: egui::Vec2, scale: f32, time_s: f64) -> RawInput {
@@ -97,6 +145,10 @@ fn raw_input(size: egui::Vec2, scale: f32, time_s: f64) -> RawInput {
         focused: true,
         ..RawInput::default()
     };
-    input.viewports.entry(input.viewport_id).or_default().native_pixels_per_point = Some(scale);
+    input
+        .viewports
+        .entry(input.viewport_id)
+        .or_default()
+        .native_pixels_per_point = Some(scale);
     input
 }

@@ -26,7 +26,10 @@ pub(crate) fn table() -> Vec<Shortcut> {
     let ctrl_shift = Modifiers::COMMAND.plus(Modifiers::SHIFT);
     let all_off = key(Modifiers::NONE, Key::Escape, Command::AllOff);
     vec![
-        Shortcut { while_typing: true, ..all_off },
+        Shortcut {
+            while_typing: true,
+            ..all_off
+        },
         key(ctrl_shift, Key::Z, Command::Redo),
         key(ctrl, Key::Z, Command::Undo),
         key(ctrl, Key::Y, Command::Redo),
@@ -45,7 +48,12 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let is_typing = ctx.text_edit_focused();
     let has_focus = ctx.memory(|memory| memory.focused().is_some());
     let mut commands = Vec::new();
-    for Shortcut { key, command, while_typing } in table() {
+    for Shortcut {
+        key,
+        command,
+        while_typing,
+    } in table()
+    {
         if is_escape(&key) {
             // Not used up: a field that is being typed in also ends on Esc.
             if ctx.input(|input| input.key_pressed(Key::Escape)) {
@@ -66,8 +74,12 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
 
 /// How the key of a command is written, for tips; empty when it has none.
 pub(crate) fn hint(ctx: &egui::Context, command: &Command) -> String {
-    let found = table().into_iter().find(|shortcut| shortcut.command == *command);
-    found.map(|shortcut| ctx.format_shortcut(&shortcut.key)).unwrap_or_default()
+    let found = table()
+        .into_iter()
+        .find(|shortcut| shortcut.command == *command);
+    found
+        .map(|shortcut| ctx.format_shortcut(&shortcut.key))
+        .unwrap_or_default()
 }
 
 fn is_escape(key: &KeyboardShortcut) -> bool {
@@ -83,7 +95,11 @@ mod tests {
         let table = table();
         for (i, one) in table.iter().enumerate() {
             for other in &table[i + 1..] {
-                assert_ne!(one.key, other.key, "{:?} and {:?}", one.command, other.command);
+                assert_ne!(
+                    one.key, other.key,
+                    "{:?} and {:?}",
+                    one.command, other.command
+                );
             }
         }
     }

@@ -184,13 +184,20 @@ pub(crate) enum BridgePhase {
 impl Live {
     /// Whether high voltage is on, or about to be.
     pub(crate) fn is_armed(&self) -> bool {
-        self.bridge.as_ref().is_some_and(|bridge| bridge.phase == BridgePhase::Armed)
+        self.bridge
+            .as_ref()
+            .is_some_and(|bridge| bridge.phase == BridgePhase::Armed)
     }
 
     /// The textile under most contactors; of equals the one on top.
     pub(crate) fn cloth_under_display(&self) -> Option<usize> {
         let n_cloths = self.dots.iter().filter_map(|dot| dot.cloth).max()? + 1;
-        let count = |cloth| self.dots.iter().filter(|dot| dot.cloth == Some(cloth)).count();
+        let count = |cloth| {
+            self.dots
+                .iter()
+                .filter(|dot| dot.cloth == Some(cloth))
+                .count()
+        };
         (0..n_cloths).max_by_key(|&cloth| count(cloth))
     }
 }

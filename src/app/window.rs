@@ -16,10 +16,10 @@ use super::document::Document;
 use super::error::AppError;
 use super::history::Moment;
 use super::opening::{Opened, Opening, open};
-use super::panes::{Ask, Levels, Notices, ScaleHold};
+use super::panes::{Ask, Levels, Notices};
 use super::pointer::PointerTap;
 use super::theme::{self, ColourMap};
-use super::view::{ClothPicture, LibraryDot, Live, SceneView};
+use super::view::{BridgeView, ClothPicture, LibraryDot, Live, SceneView};
 use super::workspace::Trail;
 use super::{frame, query, shortcuts};
 use crate::engine::{Engine, EngineConfig, StopSwitch, TICK, TICKS_PER_S};
@@ -80,10 +80,10 @@ pub(crate) struct Transient {
     pub(crate) trail: Trail,
     /// How strong it felt.
     pub(crate) levels: Levels,
-    /// The scale of the heatmaps.
-    pub(crate) scale: ScaleHold,
     /// The gesture that edits belong to.
     pub(crate) moment: Moment,
+    /// A device that is shown though the engine has none: in pictures.
+    pub(crate) pictured_bridge: Option<BridgeView>,
     interval: query::IntervalMeter,
     reference_db: Option<f64>,
 }
@@ -100,17 +100,37 @@ impl Workbench {
         drive: Drive,
     ) -> Result<Self, AppError> {
         theme::install(ctx);
-        let Opened { path, loaded, prepared, pictures, flaws } = open(scene.as_deref())?;
+        let Opened {
+            path,
+            loaded,
+            prepared,
+            pictures,
+            flaws,
+        } = open(scene.as_deref())?;
         let now = Instant::now();
         let is_stepped = drive == Drive::Stepped;
         let mut engine = if is_stepped {
-            Engine::without_thread(EngineConfig { scene: prepared, on_news: None }, now)?
+            Engine::without_thread(
+                EngineConfig {
+                    scene: prepared,
+                    on_news: None,
+                },
+                now,
+            )?
         } else {
             let waker = ctx.clone();
-            let on_news: Box<dyn Fn() + Send> = Box::new(move || waker.request_repaint_after(FRAME));
-            Engine::start(EngineConfig { scene: prepared, on_news: Some(on_news) })?
+            let on_news: Box<dyn Fn() + Send> =
+                Box::new(move || waker.request_repaint_after(FRAME));
+            Engine::start(EngineConfig {
+                scene: prepared,
+                on_news: Some(on_news),
+            })?
         };
-        let document = Document::new(loaded.scene().clone(), path.clone(), default_tuning(&loaded));
+        let document = Document::new(
+            loaded.scene().clone(),
+            path.clone(),
+            default_tuning(&loaded),
+        );
         let mut workbench = Self {
             document,
             layout: Layout::default(),
@@ -125,7 +145,9 @@ impl Workbench {
             now,
             loaded: loaded.clone(),
         };
-        flaws.into_iter().for_each(|flaw| workbench.transient.notices.give(flaw));
+        flaws
+            .into_iter()
+            .for_each(|flaw| workbench.transient.notices.give(flaw));
         workbench.show_scene(path, loaded, pictures);
         Ok(workbench)
     }
@@ -142,8 +164,13 @@ impl Workbench {
             ..TextureOptions::LINEAR_REPEAT
         };
         let upload = |(id, (image, tile_mm)): (String, (Arc<ColorImage>, Vec2))| {
-            let handle = self.ctx.load_texture(format!("textile {id}"), image, options);
-            let picture = ClothPicture { texture: handle.id(), tile_mm };
+            let handle = self
+                .ctx
+                .load_texture(format!("textile {id}"), image, options);
+            let picture = ClothPicture {
+                texture: handle.id(),
+                tile_mm,
+            };
             (id, (handle, picture))
         };
         self.pictures = pictures.into_iter().map(upload).collect();
@@ -154,7 +181,7 @@ impl Workbench {
         self.transient.levels = Levels::default();
     }
 
-    /// Empties the inboxes. Says whether anything moved that fades or scrolls by itself.
+    /// Empties the inboxes.
     fn take_news(&mut self, ctx: &egui::Context) {
         if self.is_stepped {
             self.step_engine(ctx);
@@ -165,8 +192,11 @@ impl Workbench {
         }
         // At most as many notices as a frame can tell anybody about.
         for _ in 0..64 {
-            let Some(notice) = self.engine.next_notice() else { break };
-            if let Some(sentence) = query::words(&notice) {
+            let Some(notice) = self.engine.next_notice() else {
+                break;
+            };
+            let device = self.transient.target.as_deref().unwrap_or("The device");
+            if let Some(sentence) = query::words(&notice, device) {
                 self.transient.notices.give(sentence);
             }
         }
@@ -174,12 +204,13 @@ impl Workbench {
         let transient = &mut self.transient;
         let status = snapshot.link.and_then(|link| link.status);
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
-        let live = query::live_view(snapshot, interval_s);
+        let mut live = query::live_view(snapshot, interval_s);
+        if live.bridge.is_none() {
+            live.bridge.clone_from(&transient.pictured_bridge);
+        }
         transient.reference_db = snapshot.compression_reference_db;
         let trail_moves = transient.trail.take(live.tick, live.centre);
         let levels_move = transient.levels.take(live.tick, &live.dots);
-        let peak_um = live.dots.iter().flat_map(|dot| dot.amplitude_um).fold(0.0, f64::max);
-        transient.scale.take(peak_um, live.tick);
         transient.live = live;
         if trail_moves || levels_move {
             ctx.request_repaint_after(FRAME);
@@ -195,7 +226,9 @@ impl Workbench {
     fn step_engine(&mut self, ctx: &egui::Context) {
         let due = ctx.input(|input| input.time) * TICKS_PER_S;
         while (self.transient.live.tick as f64) + 1.0 <= due {
-            let Some(now) = self.engine.advance_ticks(1) else { return };
+            let Some(now) = self.engine.advance_ticks(1) else {
+                return;
+            };
             self.now = now;
             let tick = self.engine.snapshot().tick;
             if tick <= self.transient.live.tick {
@@ -219,12 +252,19 @@ impl Workbench {
 
     /// The stamp of an event that arrives now.
     pub(crate) fn stamp(&self) -> Instant {
-        if self.is_stepped { self.now + TICK / 2 } else { Instant::now() }
+        if self.is_stepped {
+            self.now + TICK / 2
+        } else {
+            Instant::now()
+        }
     }
 
     /// The scene as panes draw it.
     pub(crate) fn scene_view(&self) -> SceneView {
-        let pictures = self.pictures.iter().map(|(id, (_, picture))| (id.clone(), *picture));
+        let pictures = self
+            .pictures
+            .iter()
+            .map(|(id, (_, picture))| (id.clone(), *picture));
         query::scene_view(
             &self.document,
             &self.loaded,
@@ -239,7 +279,12 @@ impl Workbench {
 impl Workbench {
     /// Peak amplitudes [A40, A320] of every contactor after gains, before output limits, µm.
     pub fn amplitudes_um(&self) -> Vec<[f64; 2]> {
-        self.transient.live.dots.iter().map(|dot| dot.amplitude_um).collect()
+        self.transient
+            .live
+            .dots
+            .iter()
+            .map(|dot| dot.amplitude_um)
+            .collect()
     }
 
     /// Gains and compression in force.
@@ -275,7 +320,12 @@ impl Workbench {
 
     /// The sentences that are shown.
     pub fn notices(&self) -> Vec<String> {
-        self.transient.notices.shown().iter().map(|notice| notice.text.clone()).collect()
+        self.transient
+            .notices
+            .shown()
+            .iter()
+            .map(|notice| notice.text.clone())
+            .collect()
     }
 
     /// Connects to the emulator in this process, as the window does when it starts.
@@ -320,7 +370,9 @@ impl eframe::App for Workbench {
 
 impl fmt::Debug for Workbench {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Workbench").field("scene", &self.scene_name()).finish_non_exhaustive()
+        f.debug_struct("Workbench")
+            .field("scene", &self.scene_name())
+            .finish_non_exhaustive()
     }
 }
 

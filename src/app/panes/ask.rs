@@ -26,8 +26,14 @@ pub(crate) struct Ask {
 impl Ask {
     /// A question with the path that is known already.
     pub(crate) fn new(is_save: bool, known: Option<&PathBuf>) -> Self {
-        let path = known.map(|path| path.display().to_string()).unwrap_or_default();
-        Self { is_save, path, was_focused: false }
+        let path = known
+            .map(|path| path.display().to_string())
+            .unwrap_or_default();
+        Self {
+            is_save,
+            path,
+            was_focused: false,
+        }
     }
 
     fn answer(&self) -> Option<Command> {
@@ -36,14 +42,22 @@ impl Ask {
             return None;
         }
         let path = PathBuf::from(path);
-        Some(if self.is_save { Command::SaveAs(path) } else { Command::Open(path) })
+        Some(if self.is_save {
+            Command::SaveAs(path)
+        } else {
+            Command::Open(path)
+        })
     }
 }
 
 /// Shows the question at the upper edge of `over`.
 pub(crate) fn show(ui: &Ui, over: Rect, ask: &mut Ask, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
-    let (title, verb) = if ask.is_save { ("Save scene as", "Save") } else { ("Open scene", "Open") };
+    let (title, verb) = if ask.is_save {
+        ("Save scene as", "Save")
+    } else {
+        ("Open scene", "Open")
+    };
     Area::new(Id::unique("ask for a path"))
         .order(Order::Foreground)
         .pivot(egui::Align2::CENTER_TOP)
@@ -95,6 +109,9 @@ mod tests {
         ask.path = "  ".to_owned();
         assert_eq!(ask.answer(), None);
         ask.path = " a.scene.toml ".to_owned();
-        assert_eq!(ask.answer(), Some(Command::Open(PathBuf::from("a.scene.toml"))));
+        assert_eq!(
+            ask.answer(),
+            Some(Command::Open(PathBuf::from("a.scene.toml")))
+        );
     }
 }

@@ -23,8 +23,7 @@ pub(crate) fn show(
     show_state(ui, live.bridge.as_ref(), target);
     show_arming(ui, live.bridge.as_ref(), wishes);
     show_target(ui, live.bridge.is_some(), port, wishes);
-    let none = BridgeView::default();
-    show_counters(ui, live.bridge.as_ref().unwrap_or(&none));
+    show_counters(ui, live.bridge.as_ref());
 }
 
 fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
@@ -49,13 +48,13 @@ fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
 fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let phase = bridge.map(|bridge| bridge.phase);
-    let width = ui.available_width();
+    let size = vec2(ui.available_width(), ROW + 4.0);
     if phase == Some(BridgePhase::Armed) {
         let text = RichText::new("Disarm").color(palette.danger);
         let edge = Stroke::new(1.0, palette.danger);
-        let armed = Button::new(text).stroke(edge).min_size(vec2(width, ROW + 4.0));
+        let armed = Button::new(text).stroke(edge);
         let tip = "Ramp the device to silence; the window goes on";
-        if ui.add(armed).on_hover_text(tip).clicked() {
+        if ui.add_sized(size, armed).on_hover_text(tip).clicked() {
             wishes.push(Command::Disarm);
         }
         return;
@@ -66,7 +65,9 @@ fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
         Some(BridgePhase::Broken) => Some("The device is gone or refused: connect again"),
         Some(_) => None,
     };
-    let arm = ui.add_enabled(why.is_none(), Button::new("Arm").min_size(vec2(width, ROW + 4.0)));
+    let arm = ui
+        .add_enabled_ui(why.is_none(), |ui| ui.add_sized(size, Button::new("Arm")))
+        .inner;
     let tip = "Turn the high voltage on; levels rise from zero";
     let arm = match why {
         Some(why) => arm.on_disabled_hover_text(why),
@@ -83,7 +84,12 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
             if button(ui, "Disconnect", "Stop the device and let go of it", None) {
                 wishes.push(Command::Disconnect);
             }
-        } else if button(ui, "Emulator", "Connect to the emulator in this program", None) {
+        } else if button(
+            ui,
+            "Emulator",
+            "Connect to the emulator in this program",
+            None,
+        ) {
             wishes.push(Command::ConnectEmulator);
         }
         let path = port.trim();
@@ -95,9 +101,8 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
             .font(theme::number())
             .hint_text("port, e.g. /dev/ttyACM0");
         let response = ui.add(field);
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::TextInput, ui.is_enabled(), "Port")
-        });
+        ui.ctx()
+            .accesskit_node_builder(response.id, |node| node.set_label("Port"));
         let is_entered =
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let path = port.trim();
@@ -107,27 +112,52 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
     });
 }
 
-fn show_counters(ui: &mut Ui, bridge: &BridgeView) {
+fn show_counters(ui: &mut Ui, bridge: Option<&BridgeView>) {
+    let number = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+    let interval_s = bridge.and_then(|bridge| bridge.frame_interval_s);
+    let gain = bridge.and_then(|bridge| bridge.gain);
+    pair(
+        ui,
+        "Frame interval",
+        &number(interval_s.map(|s| quantity::fixed(s * 1e3, 2))),
+        "ms",
+    );
+    pair(
+        ui,
+        "Depth",
+        &number(bridge.map(|bridge| bridge.depth.to_string())),
+        "ticks",
+    );
+    pair(
+        ui,
+        "Soft start",
+        &number(gain.map(|gain| quantity::fixed(gain * 100.0, 0))),
+        "%",
+    );
+    pair(
+        ui,
+        "Frames sent",
+        &number(bridge.map(|bridge| bridge.frames_sent.to_string())),
+        "",
+    );
+    show_troubles(ui, bridge.map_or(&[], |bridge| &bridge.troubles));
+}
+
+/// Counters that ought to be zero: those that are not, in red, the rest on hover.
+fn show_troubles(ui: &mut Ui, troubles: &[(&'static str, u64)]) {
     let palette = Palette::in_ui(ui);
-    let interval = bridge.frame_interval_s.map(|s| quantity::fixed(s * 1e3, 2));
-    pair(ui, "Frame interval", interval.as_deref().unwrap_or("–"), "ms");
-    pair(ui, "Depth", &bridge.depth.to_string(), "ticks");
-    let gain = bridge.gain.map(|gain| quantity::fixed(gain * 100.0, 0));
-    pair(ui, "Soft start", gain.as_deref().unwrap_or("–"), "%");
-    pair(ui, "Frames sent", &bridge.frames_sent.to_string(), "");
-    let trouble: Vec<String> = bridge
-        .troubles
-        .iter()
-        .filter(|(_, count)| *count > 0)
+    let counted = troubles.iter().filter(|(_, count)| *count > 0);
+    let words: Vec<String> = counted
         .map(|(name, count)| format!("{count} {name}"))
         .collect();
-    let (words, ink) = match trouble.is_empty() {
+    let (words, ink) = match words.is_empty() {
         true => ("none".to_owned(), palette.dim),
-        false => (trouble.join(", "), palette.danger),
+        false => (words.join(", "), palette.danger),
     };
-    let names: Vec<&str> = bridge.troubles.iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = troubles.iter().map(|(name, _)| *name).collect();
     row(ui, "Losses and errors", |ui| {
         let label = egui::Label::new(RichText::new(words).color(ink)).truncate();
-        ui.add(label).on_hover_text(format!("Counted: {}", names.join(", ")));
+        ui.add(label)
+            .on_hover_text(format!("Counted: {}", names.join(", ")));
     });
 }

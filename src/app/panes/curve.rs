@@ -1,8 +1,6 @@
 //! What compression does: level in, level out, and the library's textiles as dots on the curve.
 
-use eframe::egui::{
-    self, Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{self, Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::theme::{self, Palette};
 use crate::app::view::{LibraryDot, SceneView};
@@ -21,9 +19,10 @@ pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f
                 + tuning.compression_gain_db(Some(dot.level_db), reference_db)
         });
         let heard = levels.filter(|level| level.is_finite());
-        let (least, most) = heard.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), level| {
-            (least.min(level), most.max(level))
-        });
+        let (least, most) = heard.fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, most), level| (least.min(level), most.max(level)),
+        );
         (most - least).max(0.0)
     })
 }
@@ -36,7 +35,13 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Compression curve"));
     let Some(reference_db) = scene.reference_db.filter(|_| !scene.library.is_empty()) else {
         let words = "Levels are being computed: compression is pending";
-        ui.painter().text(rect.center(), Align2::CENTER_CENTER, words, theme::small(), palette.dim);
+        ui.painter().text(
+            rect.center(),
+            Align2::CENTER_CENTER,
+            words,
+            theme::small(),
+            palette.dim,
+        );
         return;
     };
     let plot = Plot::new(rect, &scene.library, reference_db);
@@ -68,9 +73,10 @@ struct Plot {
 impl Plot {
     fn new(rect: Rect, library: &[LibraryDot], reference_db: f64) -> Self {
         let levels = library.iter().map(|dot| dot.level_db).chain([reference_db]);
-        let (least, most) = levels.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), level| {
-            (least.min(level), most.max(level))
-        });
+        let (least, most) = levels.fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, most), level| (least.min(level), most.max(level)),
+        );
         Self {
             area: Rect::from_min_max(rect.min + vec2(30.0, 6.0), rect.max - vec2(6.0, 18.0)),
             least_db: (least / 10.0 - 0.2).floor() * 10.0,
@@ -95,31 +101,59 @@ impl Plot {
     fn paint_axes(&self, painter: &Painter) {
         let palette = Palette::of(painter.ctx().theme());
         let hairline = Stroke::new(1.0, palette.hairline);
-        let n_steps = ((self.most_db - self.least_db) / 10.0).round().clamp(1.0, 20.0);
+        let n_steps = ((self.most_db - self.least_db) / 10.0)
+            .round()
+            .clamp(1.0, 20.0);
         for i in (0..=20_u8).take_while(|i| f64::from(*i) <= n_steps) {
             let level_db = self.least_db + 10.0 * f64::from(i);
             let at = self.at(level_db, level_db);
-            let (x, y) = (painter.round_to_pixel_center(at.x), painter.round_to_pixel_center(at.y));
+            let (x, y) = (
+                painter.round_to_pixel_center(at.x),
+                painter.round_to_pixel_center(at.y),
+            );
             painter.hline(self.area.x_range(), y, hairline);
             painter.vline(x, self.area.y_range(), hairline);
             let digits = quantity::fixed(level_db, 0);
             let below = pos2(x, self.area.bottom() + 3.0);
             let font = theme::small_number();
-            painter.text(below, Align2::CENTER_TOP, &digits, font.clone(), palette.dim);
+            painter.text(
+                below,
+                Align2::CENTER_TOP,
+                &digits,
+                font.clone(),
+                palette.dim,
+            );
             let before = pos2(self.area.left() - 5.0, y);
             painter.text(before, Align2::RIGHT_CENTER, &digits, font, palette.dim);
         }
         let corner = self.area.left_top() + vec2(6.0, 4.0);
-        painter.text(corner, Align2::LEFT_TOP, "dB out", theme::small(), palette.dim);
+        painter.text(
+            corner,
+            Align2::LEFT_TOP,
+            "dB out",
+            theme::small(),
+            palette.dim,
+        );
         let corner = self.area.right_bottom() - vec2(6.0, 4.0);
-        painter.text(corner, Align2::RIGHT_BOTTOM, "dB in", theme::small(), palette.dim);
+        painter.text(
+            corner,
+            Align2::RIGHT_BOTTOM,
+            "dB in",
+            theme::small(),
+            palette.dim,
+        );
     }
 
     fn paint_curve(&self, painter: &Painter, tuning: &Tuning) {
         let palette = Palette::of(painter.ctx().theme());
         let ends = [self.least_db, self.most_db];
         let unchanged = ends.map(|level_db| self.at(level_db, level_db));
-        painter.add(egui::Shape::dashed_line(&unchanged, Stroke::new(1.0, palette.line), 3.0, 4.0));
+        painter.add(egui::Shape::dashed_line(
+            &unchanged,
+            Stroke::new(1.0, palette.line),
+            3.0,
+            4.0,
+        ));
         let curve = ends.map(|level_db| self.at(level_db, self.out_db(tuning, level_db)));
         painter.line_segment(curve, Stroke::new(1.5, palette.text));
     }
@@ -142,7 +176,8 @@ impl Plot {
         tuning: &Tuning,
     ) -> Option<&'a LibraryDot> {
         let distance = |dot: &LibraryDot| {
-            self.at(dot.level_db, self.out_db(tuning, dot.level_db)).distance(pointer)
+            self.at(dot.level_db, self.out_db(tuning, dot.level_db))
+                .distance(pointer)
         };
         library
             .iter()
@@ -169,12 +204,18 @@ mod tests {
     #[test]
     fn without_compression_the_range_is_the_librarys_own() {
         let range = ranges_db(&library(), &Tuning::default(), 0.0);
-        assert!((range[0] - 40.0).abs() < 1e-9 && (range[1] - 20.0).abs() < 1e-9, "{range:?}");
+        assert!(
+            (range[0] - 40.0).abs() < 1e-9 && (range[1] - 20.0).abs() < 1e-9,
+            "{range:?}"
+        );
     }
 
     #[test]
     fn full_compression_leaves_only_what_tells_the_bands_apart() {
-        let tuning = Tuning { compression: 1.0, ..Tuning::default() };
+        let tuning = Tuning {
+            compression: 1.0,
+            ..Tuning::default()
+        };
         let range = ranges_db(&library(), &tuning, -3.0);
         // Levels 0, 20, 20 dB: out of 40 Hz come −3, −3, +17 dB.
         assert!((range[0] - 20.0).abs() < 1e-9, "{range:?}");

@@ -4,6 +4,7 @@ use eframe::egui::{
     self, Align2, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
+use crate::app::amplitude;
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::{Dot, Live, SceneView};
 use crate::quantity;
@@ -14,48 +15,9 @@ const TITLE: f32 = 20.0;
 /// Space between cells, points.
 const GAP: f32 = 2.0;
 /// Width of the colour bar with its numbers, points.
-const BAR: f32 = 52.0;
+const BAR: f32 = 36.0;
 /// Largest cell, points.
 const MAX_CELL: f32 = 30.0;
-
-/// The upper end of the scale: rises at once, falls one round step at a time and only after a
-/// while, so that a colour keeps its meaning.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ScaleHold {
-    top_um: f64,
-    quiet_since_tick: u64,
-}
-
-/// Round scale ends, µm.
-const TOPS_UM: [f64; 9] = [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
-/// Ticks that the scale waits before it falls (4 s).
-const HOLD_TICKS: u64 = 160;
-
-impl Default for ScaleHold {
-    fn default() -> Self {
-        Self { top_um: 10.0, quiet_since_tick: 0 }
-    }
-}
-
-impl ScaleHold {
-    /// The upper end, µm.
-    pub(crate) fn top_um(self) -> f64 {
-        self.top_um
-    }
-
-    /// Takes in the largest amplitude of a tick. Silence leaves the scale alone.
-    pub(crate) fn take(&mut self, peak_um: f64, tick: u64) {
-        let fits = |top: &f64| *top >= peak_um;
-        let needed = TOPS_UM.into_iter().find(fits).unwrap_or(TOPS_UM[TOPS_UM.len() - 1]);
-        if needed >= self.top_um || peak_um <= 0.0 {
-            self.top_um = self.top_um.max(needed);
-            self.quiet_since_tick = tick;
-        } else if tick.saturating_sub(self.quiet_since_tick) >= HOLD_TICKS {
-            self.top_um = needed;
-            self.quiet_since_tick = tick;
-        }
-    }
-}
 
 /// How wide the heatmaps and their colour bar are at this height, points.
 pub(crate) fn width_at(height: f32, (n_rows, n_columns): (usize, usize)) -> f32 {
@@ -64,11 +26,13 @@ pub(crate) fn width_at(height: f32, (n_rows, n_columns): (usize, usize)) -> f32 
 }
 
 fn cell_size(height: f32, n_rows: usize) -> f32 {
-    ((height - TITLE) / n_rows.max(1) as f32).floor().clamp(4.0, MAX_CELL)
+    ((height - TITLE) / n_rows.max(1) as f32)
+        .floor()
+        .clamp(4.0, MAX_CELL)
 }
 
 /// Shows both heatmaps and the colour bar.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, top_um: f64, map: ColourMap) {
+pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, map: ColourMap) {
     let palette = Palette::in_ui(ui);
     let Some(grid) = scene.grid else {
         ui.label("The contactors of this display form no grid: the workspace shows them");
@@ -78,7 +42,11 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, top_um: f64, map
     let (rect, response) =
         ui.allocate_exact_size(vec2(width_at(height, grid), height), Sense::hover());
     response.widget_info(|| {
-        WidgetInfo::labeled(egui::Role::Canvas, true, format!("Heatmaps, 0 to {top_um} µm"))
+        WidgetInfo::labeled(
+            egui::Role::Canvas,
+            true,
+            "Heatmaps of both bands, 0.5 to 50 µm",
+        )
     });
     let cell = cell_size(height, grid.0);
     let size = vec2(grid.1 as f32 * cell, grid.0 as f32 * cell);
@@ -87,14 +55,25 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, top_um: f64, map
         let cells = Rect::from_min_size(pos2(left, rect.top() + TITLE), size);
         let title_at = pos2(left, rect.top() + 0.5 * TITLE - 1.0);
         let title = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-        ui.painter().text(title_at, Align2::LEFT_CENTER, title, theme::body(), palette.band(band));
-        let map_of = Heatmap { cells, cell, n_columns: grid.1, band };
-        map_of.paint(ui.painter(), &live.dots, top_um, map);
+        ui.painter().text(
+            title_at,
+            Align2::LEFT_CENTER,
+            title,
+            theme::body(),
+            palette.band(band),
+        );
+        let map_of = Heatmap {
+            cells,
+            cell,
+            n_columns: grid.1,
+            band,
+        };
+        map_of.paint(ui.painter(), &live.dots, map);
         map_of.tell(ui, &response, &live.dots, scene);
     }
     let bar_left = rect.left() + 2.0 * size.x + 28.0;
     let bar = Rect::from_min_size(pos2(bar_left, rect.top() + TITLE), vec2(8.0, size.y));
-    paint_bar(ui.painter(), bar, top_um, map);
+    paint_bar(ui.painter(), bar, map);
 }
 
 struct Heatmap {
@@ -111,35 +90,54 @@ impl Heatmap {
         Rect::from_min_size(corner, vec2(self.cell - GAP, self.cell - GAP))
     }
 
-    fn paint(&self, painter: &Painter, dots: &[Dot], top_um: f64, map: ColourMap) {
+    fn paint(&self, painter: &Painter, dots: &[Dot], map: ColourMap) {
         let palette = Palette::of(painter.ctx().theme());
         for (index, dot) in dots.iter().enumerate() {
             let rect = self.cell(index);
             if dot.cloth.is_some() {
-                let share = dot.amplitude_um[self.band.index()] / top_um;
+                let share = amplitude::share(dot.amplitude_um[self.band.index()]);
                 painter.rect_filled(rect, 2, map.colour(share));
                 if dot.is_limited {
-                    let corner = pos2(rect.right() - 4.0, rect.top() + 4.0);
-                    painter.circle_filled(corner, 2.0, palette.danger);
+                    let corner = rect.right_top() + vec2(-5.0, 5.0);
+                    painter.circle(
+                        corner,
+                        2.0,
+                        palette.selection,
+                        Stroke::new(1.5, palette.panel),
+                    );
                 }
             } else {
                 // Off every textile: an empty frame, which no amplitude looks like.
-                painter.rect_stroke(rect, 2, Stroke::new(1.0, palette.hairline), StrokeKind::Inside);
+                painter.rect_stroke(
+                    rect,
+                    2,
+                    Stroke::new(1.0, palette.hairline),
+                    StrokeKind::Inside,
+                );
             }
         }
     }
 
     /// Says what is under the pointer.
     fn tell(&self, ui: &Ui, response: &Response, dots: &[Dot], scene: &SceneView) {
-        let Some(at) = response.hover_pos().filter(|at| self.cells.contains(*at)) else { return };
-        let hit = dots.iter().enumerate().find(|(index, _)| self.cell(*index).contains(at));
+        let Some(at) = response.hover_pos().filter(|at| self.cells.contains(*at)) else {
+            return;
+        };
+        let hit = dots
+            .iter()
+            .enumerate()
+            .find(|(index, _)| self.cell(*index).contains(at));
         let Some((index, dot)) = hit else { return };
         let on = match dot.cloth.and_then(|cloth| scene.cloths.get(cloth)) {
             Some(cloth) => format!("on {} {}", cloth.label, cloth.name),
             None => "off every textile".to_owned(),
         };
         let [low, high] = dot.amplitude_um.map(|um| quantity::with_unit(um, 2, "µm"));
-        let limited = if dot.is_limited { "\nan output limit bites" } else { "" };
+        let limited = if dot.is_limited {
+            "\nan output limit bites"
+        } else {
+            ""
+        };
         let words = format!(
             "Contactor {index}, {on}\n40 Hz  {low}\n320 Hz  {high}\npeak, after gains, before \
              output limits{limited}"
@@ -149,11 +147,12 @@ impl Heatmap {
         });
         let palette = Palette::in_ui(ui);
         let edge = Stroke::new(1.5, palette.selection);
-        ui.painter().rect_stroke(self.cell(index), 2, edge, StrokeKind::Outside);
+        ui.painter()
+            .rect_stroke(self.cell(index), 2, edge, StrokeKind::Outside);
     }
 }
 
-fn paint_bar(painter: &Painter, bar: Rect, top_um: f64, map: ColourMap) {
+fn paint_bar(painter: &Painter, bar: Rect, map: ColourMap) {
     let palette = Palette::of(painter.ctx().theme());
     let n_steps = 64_u8;
     let step = bar.height() / f32::from(n_steps);
@@ -161,47 +160,48 @@ fn paint_bar(painter: &Painter, bar: Rect, top_um: f64, map: ColourMap) {
         let y = bar.bottom() - f32::from(i + 1) * step;
         // Half a point of overlap hides the seams.
         let slice = Rect::from_min_size(pos2(bar.left(), y), vec2(bar.width(), step + 0.5));
-        painter.rect_filled(slice.intersect(bar), 0, map.colour(f64::from(i) / f64::from(n_steps - 1)));
+        painter.rect_filled(
+            slice.intersect(bar),
+            0,
+            map.colour(f64::from(i) / f64::from(n_steps - 1)),
+        );
     }
-    for part in 0..=2_u8 {
-        let share = f64::from(part) / 2.0;
-        let y = bar.bottom() - bar.height() * f32::from(part) / 2.0;
-        let decimals = if top_um < 10.0 { 1 } else { 0 };
-        let digits = format!("{:>4}", quantity::fixed(top_um * share, decimals));
-        let at = pos2(bar.right() + 32.0, y.clamp(bar.top() + 5.0, bar.bottom() - 5.0));
-        painter.text(at, Align2::RIGHT_CENTER, digits, theme::small_number(), palette.dim);
+    for amplitude_um in amplitude::MARKS_UM {
+        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
+        let share = amplitude::share(amplitude_um) as f32;
+        let y = bar.bottom() - bar.height() * share;
+        let decimals = usize::from(amplitude_um < 1.0);
+        let digits = quantity::fixed(amplitude_um, decimals);
+        painter.hline(
+            bar.right()..=bar.right() + 3.0,
+            y,
+            Stroke::new(1.0, palette.line),
+        );
+        let at = pos2(
+            bar.right() + 7.0,
+            y.clamp(bar.top() + 4.0, bar.bottom() - 4.0),
+        );
+        painter.text(
+            at,
+            Align2::LEFT_CENTER,
+            digits,
+            theme::small_number(),
+            palette.dim,
+        );
     }
-    let unit_at = pos2(bar.right() + 32.0, bar.top() - 11.0);
-    painter.text(unit_at, Align2::RIGHT_CENTER, "µm", theme::small(), palette.dim);
+    let unit_at = pos2(bar.left(), bar.top() - 11.0);
+    painter.text(
+        unit_at,
+        Align2::LEFT_CENTER,
+        "µm",
+        theme::small(),
+        palette.dim,
+    );
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_scale_rises_at_once_and_falls_late() {
-        let mut scale = ScaleHold::default();
-        scale.take(17.0, 1);
-        assert_eq!(scale.top_um(), 20.0);
-        for tick in 2..=160 {
-            scale.take(1.5, tick);
-            assert_eq!(scale.top_um(), 20.0, "tick {tick}");
-        }
-        scale.take(1.5, 161);
-        assert_eq!(scale.top_um(), 2.0);
-    }
-
-    #[test]
-    fn silence_and_excess_leave_a_usable_scale() {
-        let mut scale = ScaleHold::default();
-        scale.take(0.0, 10_000);
-        assert_eq!(scale.top_um(), 10.0);
-        for peak_um in [1e9, f64::INFINITY, f64::NAN] {
-            scale.take(peak_um, 10_001);
-            assert_eq!(scale.top_um(), 100.0, "{peak_um}");
-        }
-    }
 
     #[test]
     fn cells_fit_the_height() {

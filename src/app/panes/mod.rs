@@ -15,8 +15,8 @@ mod tuning;
 pub(crate) use ask::{Ask, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
 pub(crate) use header::show as show_header;
-pub(crate) use heatmap::{ScaleHold, show as show_heatmaps};
-pub(crate) use notices::{Notice, Notices, show as show_notices};
+pub(crate) use heatmap::show as show_heatmaps;
+pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use strip::{Levels, show as show_strip};
 pub(crate) use tuning::show as show_tuning;
 

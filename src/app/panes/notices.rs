@@ -35,7 +35,10 @@ impl Notices {
         let text = text.into();
         self.shown.retain(|notice| notice.text != text);
         self.n_given += 1;
-        self.shown.push(Notice { number: self.n_given, text });
+        self.shown.push(Notice {
+            number: self.n_given,
+            text,
+        });
         if self.shown.len() > MAX_NOTICES {
             self.shown.remove(0);
         }
@@ -85,7 +88,7 @@ fn show_one(ui: &mut Ui, notice: &Notice, wishes: &mut Wishes) {
             wishes.push(Command::DismissNotice(notice.number));
         }
         ui.with_layout(Layout::left_to_right(Align::Min), |ui| {
-            mark(ui, palette.danger, "Notice");
+            mark(ui, palette.selection, "Notice");
             let text = RichText::new(&notice.text).color(palette.text);
             ui.add(egui::Label::new(text).wrap().selectable(true));
         });

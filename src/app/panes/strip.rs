@@ -16,7 +16,7 @@ use crate::tactile::Band;
 /// Ticks that the strip shows (8 s).
 const N_TICKS: u64 = 320;
 /// Ends of the level axis, dB re 1 µm.
-const LEAST_DB: f64 = -40.0;
+const LEAST_DB: f64 = -10.0;
 const MOST_DB: f64 = 40.0;
 /// Width of the axis on the left, points.
 const AXIS: f32 = 34.0;
@@ -74,7 +74,13 @@ pub(crate) fn show(ui: &mut Ui, levels: &Levels) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Level strip"));
     let title_at = pos2(rect.left() + AXIS, rect.top() + 0.5 * TITLE - 1.0);
     let title = "Mean level on cloth";
-    ui.painter().text(title_at, Align2::LEFT_CENTER, title, theme::small(), palette.dim);
+    ui.painter().text(
+        title_at,
+        Align2::LEFT_CENTER,
+        title,
+        theme::small(),
+        palette.dim,
+    );
     let plot = Rect::from_min_max(
         pos2(rect.left() + AXIS, rect.top() + TITLE),
         pos2(rect.right() - NUMBERS, rect.bottom() - 14.0),
@@ -92,16 +98,28 @@ pub(crate) fn show(ui: &mut Ui, levels: &Levels) {
 
 fn paint_axes(painter: &Painter, plot: Rect) {
     let palette = Palette::of(painter.ctx().theme());
-    for step in 0..=4_u8 {
-        let level_db = LEAST_DB + f64::from(step) * 20.0;
+    for step in 0..=5_u8 {
+        let level_db = LEAST_DB + f64::from(step) * 10.0;
         let y = painter.round_to_pixel_center(y_of(plot, level_db));
         painter.hline(plot.x_range(), y, Stroke::new(1.0, palette.hairline));
         let digits = quantity::fixed(level_db, 0);
         let at = pos2(plot.left() - 6.0, y);
-        painter.text(at, Align2::RIGHT_CENTER, digits, theme::small_number(), palette.dim);
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            digits,
+            theme::small_number(),
+            palette.dim,
+        );
     }
     let unit_at = pos2(plot.left() - 6.0, plot.top() - 11.0);
-    painter.text(unit_at, Align2::RIGHT_CENTER, "dB", theme::small(), palette.dim);
+    painter.text(
+        unit_at,
+        Align2::RIGHT_CENTER,
+        "dB",
+        theme::small(),
+        palette.dim,
+    );
     for (share, words) in [(0.0, "8 s ago"), (0.5, "4 s"), (1.0, "now")] {
         let at = pos2(plot.left() + share * plot.width(), plot.bottom() + 3.0);
         let anchor = match words {
@@ -114,15 +132,22 @@ fn paint_axes(painter: &Painter, plot: Rect) {
 }
 
 fn paint_band(painter: &Painter, plot: Rect, levels: &Levels, band: Band, ink: Color32) {
-    let Some(&(newest, _)) = levels.felt.back() else { return };
+    let Some(&(newest, _)) = levels.felt.back() else {
+        return;
+    };
     let point = |(at, mean): &(u64, [f64; 2])| {
         #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
         let ago = ((newest - at) as f64 / N_TICKS as f64) as f32;
         let x = plot.right() - ago * plot.width();
         pos2(x, y_of(plot, quantity::level_db(mean[band.index()])))
     };
-    let points: Vec<Pos2> = levels.felt.iter().map(point).collect();
-    painter.with_clip_rect(plot.expand(1.0)).add(Shape::line(points, Stroke::new(1.5, ink)));
+    let painter = painter.with_clip_rect(plot.expand(1.0));
+    let felt: Vec<_> = levels.felt.iter().collect();
+    // Silence between two strokes is a gap, not a plunge.
+    for stroke in felt.split(|(_, mean)| mean[band.index()] <= 0.0) {
+        let points: Vec<Pos2> = stroke.iter().map(|entry| point(entry)).collect();
+        painter.add(Shape::line(points, Stroke::new(1.5, ink)));
+    }
 }
 
 fn paint_numbers(painter: &Painter, rect: Rect, plot: Rect, newest_um: [f64; 2]) {
@@ -131,12 +156,30 @@ fn paint_numbers(painter: &Painter, rect: Rect, plot: Rect, newest_um: [f64; 2])
         let y = plot.top() + 14.0 + 44.0 * band.index() as f32;
         let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
         let left = pos2(plot.right() + 16.0, y - 9.0);
-        painter.text(left, Align2::LEFT_CENTER, name, theme::small(), palette.band(band));
+        painter.text(
+            left,
+            Align2::LEFT_CENTER,
+            name,
+            theme::small(),
+            palette.band(band),
+        );
         let digits = quantity::fixed(newest_um[band.index()], 2);
         let right = pos2(rect.right() - 22.0, y + 7.0);
-        painter.text(right, Align2::RIGHT_CENTER, digits, theme::number(), palette.text);
+        painter.text(
+            right,
+            Align2::RIGHT_CENTER,
+            digits,
+            theme::number(),
+            palette.text,
+        );
         let unit_at = right + vec2(4.0, 0.0);
-        painter.text(unit_at, Align2::LEFT_CENTER, "µm", theme::small(), palette.dim);
+        painter.text(
+            unit_at,
+            Align2::LEFT_CENTER,
+            "µm",
+            theme::small(),
+            palette.dim,
+        );
     }
 }
 
@@ -151,8 +194,18 @@ mod tests {
     use super::*;
 
     fn felt(um: f64) -> Vec<Dot> {
-        let on = Dot { cloth: Some(0), amplitude_um: [um, 2.0 * um], ..Dot::default() };
-        vec![on, Dot { amplitude_um: [99.0; 2], ..Dot::default() }]
+        let on = Dot {
+            cloth: Some(0),
+            amplitude_um: [um, 2.0 * um],
+            ..Dot::default()
+        };
+        vec![
+            on,
+            Dot {
+                amplitude_um: [99.0; 2],
+                ..Dot::default()
+            },
+        ]
     }
 
     #[test]

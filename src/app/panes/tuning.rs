@@ -20,11 +20,32 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, wishes: &mut Wis
         response.on_hover_text("Double click goes back, Shift moves finely");
         wishes.extend(new.map(|db| Command::Edit(edit(db))));
     };
-    gain(ui, "Master", palette.text, rest.gain_db, now.gain_db, &Edit::MasterGain);
+    gain(
+        ui,
+        "Master",
+        palette.text,
+        rest.gain_db,
+        now.gain_db,
+        &Edit::MasterGain,
+    );
     let low = |db| Edit::BandGain(Band::Low, db);
-    gain(ui, "40 Hz", palette.low, rest.gain_40_db, now.gain_40_db, &low);
+    gain(
+        ui,
+        "40 Hz",
+        palette.low,
+        rest.gain_40_db,
+        now.gain_40_db,
+        &low,
+    );
     let high = |db| Edit::BandGain(Band::High, db);
-    gain(ui, "320 Hz", palette.high, rest.gain_320_db, now.gain_320_db, &high);
+    gain(
+        ui,
+        "320 Hz",
+        palette.high,
+        rest.gain_320_db,
+        now.gain_320_db,
+        &high,
+    );
     show_textile(ui, scene, live, &mut gain);
     let scale = Scale::share(rest.compression);
     let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
@@ -58,12 +79,20 @@ fn show_textile(
 }
 
 fn show_ranges(ui: &mut Ui, scene: &SceneView) {
-    let Some(reference_db) = scene.reference_db else { return };
-    let plain = crate::tactile::Tuning { compression: 0.0, ..scene.tuning };
+    let Some(reference_db) = scene.reference_db else {
+        return;
+    };
+    let plain = crate::tactile::Tuning {
+        compression: 0.0,
+        ..scene.tuning
+    };
     let before = curve::ranges_db(&scene.library, &plain, reference_db);
     let after = curve::ranges_db(&scene.library, &scene.tuning, reference_db);
     for band in Band::ALL {
-        let name = format!("Library range at {} Hz", quantity::fixed(band.carrier_hz(), 0));
+        let name = format!(
+            "Library range at {} Hz",
+            quantity::fixed(band.carrier_hz(), 0)
+        );
         let [from, to] = [before, after].map(|r| quantity::fixed(r[band.index()], 1));
         pair(ui, &name, &format!("{from:>4} → {to:>4}"), "dB");
     }

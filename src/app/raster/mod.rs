@@ -62,10 +62,22 @@ impl Rasteriser {
         pixels_per_point: f32,
         background: Color32,
     ) -> Picture {
-        let mut canvas = Canvas { width, height, pixels: vec![background.to_opaque(); width * height] };
-        for ClippedPrimitive { clip_rect, primitive } in primitives {
-            let Primitive::Mesh(mesh) = primitive else { continue };
-            let Some(texture) = self.textures.get(&mesh.texture_id) else { continue };
+        let mut canvas = Canvas {
+            width,
+            height,
+            pixels: vec![background.to_opaque(); width * height],
+        };
+        for ClippedPrimitive {
+            clip_rect,
+            primitive,
+        } in primitives
+        {
+            let Primitive::Mesh(mesh) = primitive else {
+                continue;
+            };
+            let Some(texture) = self.textures.get(&mesh.texture_id) else {
+                continue;
+            };
             let clip = canvas.clip(*clip_rect, pixels_per_point);
             for indices in mesh.triangles() {
                 let corners = indices.map(|index| {
@@ -96,17 +108,27 @@ impl Canvas {
     fn clip(&self, points: egui::Rect, pixels_per_point: f32) -> Clip {
         let edge = |at: f32, limit: usize| whole(at * pixels_per_point).clamp(0, limit as i64);
         Clip {
-            columns: [edge(points.min.x, self.width), edge(points.max.x, self.width)],
-            rows: [edge(points.min.y, self.height), edge(points.max.y, self.height)],
+            columns: [
+                edge(points.min.x, self.width),
+                edge(points.max.x, self.width),
+            ],
+            rows: [
+                edge(points.min.y, self.height),
+                edge(points.max.y, self.height),
+            ],
         }
     }
 
     fn fill(&mut self, corners: [Corner; 3], clip: Clip, texture: &Texture) {
-        let Some(triangle) = triangle::Triangle::new(corners) else { return };
+        let Some(triangle) = triangle::Triangle::new(corners) else {
+            return;
+        };
         let sampler = texture.sampler(triangle.uv_per_pixel());
         let [top, bottom] = triangle.rows();
         for row in top.max(clip.rows[0])..bottom.min(clip.rows[1]) {
-            let Some(Span { from, to }) = triangle.span(row, clip.columns) else { continue };
+            let Some(Span { from, to }) = triangle.span(row, clip.columns) else {
+                continue;
+            };
             let mut at = triangle.at(from, row);
             let first = index(row) * self.width + index(from);
             for pixel in &mut self.pixels[first..first + index(to - from)] {
@@ -119,7 +141,11 @@ impl Canvas {
 
     fn into_picture(self) -> Picture {
         let rgba = self.pixels.iter().flat_map(Color32::to_array).collect();
-        Picture { width: self.width, height: self.height, rgba }
+        Picture {
+            width: self.width,
+            height: self.height,
+            rgba,
+        }
     }
 }
 
@@ -135,7 +161,10 @@ fn over(below: Color32, tint: [f32; 4], texel: [f32; 4]) -> Color32 {
 }
 
 /// The nearest whole pixel edge.
-#[expect(clippy::cast_possible_truncation, reason = "the cast saturates and callers clamp")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the cast saturates and callers clamp"
+)]
 fn whole(at: f32) -> i64 {
     at.round() as i64
 }

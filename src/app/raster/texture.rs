@@ -1,6 +1,8 @@
 //! Textures: pixels with their smaller copies, and reading a colour at a place.
 
-use eframe::egui::{Color32, ImageData, Pos2, TextureFilter, TextureOptions, TextureWrapMode, Vec2};
+use eframe::egui::{
+    Color32, ImageData, Pos2, TextureFilter, TextureOptions, TextureWrapMode, Vec2,
+};
 use eframe::epaint::ImageDelta;
 
 /// A texture and, when it asks for them, its halved copies down to one pixel.
@@ -31,8 +33,14 @@ impl Texture {
     /// A texture of the whole picture in `delta`.
     pub(super) fn new(delta: &ImageDelta) -> Self {
         let ImageData::Color(image) = &delta.image;
-        let whole = Level { size: image.size, pixels: image.pixels.clone() };
-        let mut texture = Self { levels: vec![whole], options: delta.options };
+        let whole = Level {
+            size: image.size,
+            pixels: image.pixels.clone(),
+        };
+        let mut texture = Self {
+            levels: vec![whole],
+            options: delta.options,
+        };
         texture.rebuild_copies();
         texture
     }
@@ -57,12 +65,20 @@ impl Texture {
     pub(super) fn sampler(&self, uv_per_pixel: Vec2) -> Sampler<'_> {
         let whole = &self.levels[0];
         let [width, height] = whole.size.map(|n| n as f32);
-        let texels = (uv_per_pixel.x * width).max(uv_per_pixel.y * height).max(1e-6);
-        let filter =
-            if texels > 1.0 { self.options.minification } else { self.options.magnification };
+        let texels = (uv_per_pixel.x * width)
+            .max(uv_per_pixel.y * height)
+            .max(1e-6);
+        let filter = if texels > 1.0 {
+            self.options.minification
+        } else {
+            self.options.magnification
+        };
         let deepest = self.levels.len() - 1;
         let depth = texels.log2().clamp(0.0, deepest as f32);
-        let fine = (0..deepest).rev().find(|&level| level as f32 <= depth).unwrap_or(0);
+        let fine = (0..deepest)
+            .rev()
+            .find(|&level| level as f32 <= depth)
+            .unwrap_or(0);
         Sampler {
             fine: &self.levels[fine],
             coarse: &self.levels[(fine + 1).min(deepest)],
@@ -95,12 +111,17 @@ impl Level {
             let corner = 2 * y * width + 2 * x;
             let four = [corner, corner + 1, corner + width, corner + width + 1];
             let channel = |c: usize| {
-                let sum: u16 = four.iter().map(|&i| u16::from(self.pixels[i].to_array()[c])).sum();
+                let sum: u16 = four
+                    .iter()
+                    .map(|&i| u16::from(self.pixels[i].to_array()[c]))
+                    .sum();
                 byte(f32::from(sum) * 0.25)
             };
             Color32::from_rgba_premultiplied(channel(0), channel(1), channel(2), channel(3))
         };
-        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| mean(x, y))).collect();
+        let pixels = (0..size[1])
+            .flat_map(|y| (0..size[0]).map(move |x| mean(x, y)))
+            .collect();
         Some(Self { size, pixels })
     }
 
@@ -115,7 +136,9 @@ impl Level {
             }
         };
         let place = super::index(at(row, height) * width + at(column, width));
-        self.pixels.get(place).map_or([0.0; 4], |colour| colour.to_array().map(f32::from))
+        self.pixels
+            .get(place)
+            .map_or([0.0; 4], |colour| colour.to_array().map(f32::from))
     }
 
     fn nearest(&self, uv: Pos2, wrap: TextureWrapMode) -> [f32; 4] {
@@ -128,9 +151,16 @@ impl Level {
         let (x, y) = (uv.x * width - 0.5, uv.y * height - 0.5);
         let (column, row) = (floor(x), floor(y));
         let (right, down) = (x - x.floor(), y - y.floor());
-        let upper = mix(self.texel(column, row, wrap), self.texel(column + 1, row, wrap), right);
-        let lower =
-            mix(self.texel(column, row + 1, wrap), self.texel(column + 1, row + 1, wrap), right);
+        let upper = mix(
+            self.texel(column, row, wrap),
+            self.texel(column + 1, row, wrap),
+            right,
+        );
+        let lower = mix(
+            self.texel(column, row + 1, wrap),
+            self.texel(column + 1, row + 1, wrap),
+            right,
+        );
         mix(upper, lower, down)
     }
 }
@@ -154,7 +184,10 @@ fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "the cast saturates; texels are wrapped after")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the cast saturates; texels are wrapped after"
+)]
 fn floor(at: f32) -> i64 {
     at.floor() as i64
 }

@@ -68,7 +68,12 @@ impl Edge {
         let c = -(a * from[0] + b * from[1]);
         // Left edges and top edges own their pixels; the others give them away.
         let owns = a > 0 || (a == 0 && b > 0);
-        Self { a, b, c, bias: if owns { 0 } else { -1 } }
+        Self {
+            a,
+            b,
+            c,
+            bias: if owns { 0 } else { -1 },
+        }
     }
 
     fn at(self, x: i64, y: i64) -> i64 {
@@ -79,7 +84,8 @@ impl Edge {
 impl Triangle {
     /// The triangle over three corners in any order; `None` when it has no area.
     pub(super) fn new(mut corners: [Corner; 3]) -> Option<Self> {
-        let doubled = |[p, q, r]: [Corner; 3]| Edge::between(p.place, q.place).at(r.place[0], r.place[1]);
+        let doubled =
+            |[p, q, r]: [Corner; 3]| Edge::between(p.place, q.place).at(r.place[0], r.place[1]);
         let mut double_area = doubled(corners);
         if double_area < 0 {
             corners.swap(1, 2);
@@ -90,8 +96,16 @@ impl Triangle {
         }
         let [p, q, r] = corners.map(|corner| corner.place);
         // Edge i lies opposite corner i, so its value there is the corner's weight.
-        let edges = [Edge::between(q, r), Edge::between(r, p), Edge::between(p, q)];
-        Some(Self { corners, edges, double_area })
+        let edges = [
+            Edge::between(q, r),
+            Edge::between(r, p),
+            Edge::between(p, q),
+        ];
+        Some(Self {
+            corners,
+            edges,
+            double_area,
+        })
     }
 
     /// The pixel rows that it may touch: from (inclusive), to (exclusive).
@@ -123,21 +137,37 @@ impl Triangle {
     /// What is interpolated at the middle of a pixel.
     pub(super) fn at(&self, column: i64, row: i64) -> Interpolated {
         let (x, y) = (column * SUB + HALF, row * SUB + HALF);
-        let weights = self.edges.map(|edge| (edge.at(x, y) as f64 / self.double_area as f64) as f32);
-        let steps = self.edges.map(|edge| ((edge.a * SUB) as f64 / self.double_area as f64) as f32);
+        let weights = self
+            .edges
+            .map(|edge| (edge.at(x, y) as f64 / self.double_area as f64) as f32);
+        let steps = self
+            .edges
+            .map(|edge| ((edge.a * SUB) as f64 / self.double_area as f64) as f32);
         let (uv, colour) = self.weighted(weights);
         let (uv_step, colour_step) = self.weighted(steps);
-        Interpolated { uv: uv.to_pos2(), colour, uv_step, colour_step }
+        Interpolated {
+            uv: uv.to_pos2(),
+            colour,
+            uv_step,
+            colour_step,
+        }
     }
 
     /// The largest change of the texture place over one pixel, along either axis.
     pub(super) fn uv_per_pixel(&self) -> Vec2 {
         let area = self.double_area as f64;
         let along = |pick: fn(&Edge) -> i64| {
-            self.weighted(self.edges.map(|edge| ((pick(&edge) * SUB) as f64 / area) as f32)).0
+            self.weighted(
+                self.edges
+                    .map(|edge| ((pick(&edge) * SUB) as f64 / area) as f32),
+            )
+            .0
         };
         let (right, down) = (along(|edge| edge.a), along(|edge| edge.b));
-        vec2(right.x.abs().max(down.x.abs()), right.y.abs().max(down.y.abs()))
+        vec2(
+            right.x.abs().max(down.x.abs()),
+            right.y.abs().max(down.y.abs()),
+        )
     }
 
     fn weighted(&self, weights: [f32; 3]) -> (Vec2, [f32; 4]) {
@@ -164,7 +194,10 @@ impl Interpolated {
 }
 
 /// A pixel coordinate in sub-pixel steps, bounded so that edges cannot overflow.
-#[expect(clippy::cast_possible_truncation, reason = "clamped before; NaN becomes 0")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "clamped before; NaN becomes 0"
+)]
 fn snapped(at: f32) -> i64 {
     (f64::from(at) * SUB as f64).round().clamp(-1e8, 1e8) as i64
 }

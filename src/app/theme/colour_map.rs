@@ -18,12 +18,29 @@ pub(crate) enum ColourMap {
 }
 
 const VIRIDIS: [u32; 11] = [
-    0x0044_0154, 0x0048_2475, 0x0041_4487, 0x0035_5f8d, 0x002a_788e, 0x0021_918c, 0x0022_a884,
-    0x0044_bf70, 0x007a_d151, 0x00bd_df26, 0x00fd_e725,
+    0x0044_0154,
+    0x0048_2475,
+    0x0041_4487,
+    0x0035_5f8d,
+    0x002a_788e,
+    0x0021_918c,
+    0x0022_a884,
+    0x0044_bf70,
+    0x007a_d151,
+    0x00bd_df26,
+    0x00fd_e725,
 ];
 const CIVIDIS: [u32; 10] = [
-    0x0000_224e, 0x0012_3570, 0x003b_496c, 0x0057_5d6d, 0x0070_7173, 0x008a_8678, 0x00a5_9c74,
-    0x00c3_b369, 0x00e1_cc55, 0x00fe_e838,
+    0x0000_224e,
+    0x0012_3570,
+    0x003b_496c,
+    0x0057_5d6d,
+    0x0070_7173,
+    0x008a_8678,
+    0x00a5_9c74,
+    0x00c3_b369,
+    0x00e1_cc55,
+    0x00fe_e838,
 ];
 const GREY: [u32; 2] = [0x0010_1010, 0x00fa_fafa];
 
@@ -48,7 +65,10 @@ impl ColourMap {
             Self::Grey => &GREY,
         };
         let place = share.clamp(0.0, 1.0).max(0.0) * (table.len() - 1) as f64;
-        let below = (0..table.len() - 1).rev().find(|&i| i as f64 <= place).unwrap_or(0);
+        let below = (0..table.len() - 1)
+            .rev()
+            .find(|&i| i as f64 <= place)
+            .unwrap_or(0);
         let mix = place - below as f64;
         let (from, to) = (channels(table[below]), channels(table[below + 1]));
         let [r, g, b] = std::array::from_fn(|i| mixed(from[i], to[i], mix));

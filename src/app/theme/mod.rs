@@ -109,7 +109,11 @@ impl Palette {
 
     /// The colours in force in `ui`.
     pub(crate) fn in_ui(ui: &egui::Ui) -> &'static Self {
-        Self::of(if ui.visuals().dark_mode { egui::Theme::Dark } else { egui::Theme::Light })
+        Self::of(if ui.visuals().dark_mode {
+            egui::Theme::Dark
+        } else {
+            egui::Theme::Light
+        })
     }
 
     /// The colour of a band.

@@ -4,7 +4,11 @@ use super::*;
 fn luminance(colour: Color32) -> f64 {
     let [r, g, b, _] = colour.to_array().map(|c| {
         let c = f64::from(c) / 255.0;
-        if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        if c <= 0.040_45 {
+            c / 12.92
+        } else {
+            ((c + 0.055) / 1.055).powf(2.4)
+        }
     });
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
@@ -23,13 +27,28 @@ fn text_stands_out_from_every_ground_it_is_written_on() {
     for palette in both() {
         for ground in [palette.floor, palette.panel, palette.raised, palette.tag] {
             for ink in [palette.text, palette.dim, palette.selection] {
-                assert!(contrast(ink, ground) >= 4.5, "{ink:?} on {ground:?}: {}", contrast(ink, ground));
+                assert!(
+                    contrast(ink, ground) >= 4.5,
+                    "{ink:?} on {ground:?}: {}",
+                    contrast(ink, ground)
+                );
             }
         }
-        assert!(contrast(palette.text, palette.hovered) >= 4.5, "text under the pointer");
-        assert!(contrast(palette.on_danger, palette.danger) >= 4.5, "{}", contrast(palette.on_danger, palette.danger));
+        assert!(
+            contrast(palette.text, palette.hovered) >= 4.5,
+            "text under the pointer"
+        );
+        assert!(
+            contrast(palette.on_danger, palette.danger) >= 4.5,
+            "{}",
+            contrast(palette.on_danger, palette.danger)
+        );
         for ink in [palette.low, palette.high] {
-            assert!(contrast(ink, palette.panel) >= 4.5, "band titles: {}", contrast(ink, palette.panel));
+            assert!(
+                contrast(ink, palette.panel) >= 4.5,
+                "band titles: {}",
+                contrast(ink, palette.panel)
+            );
         }
     }
 }
@@ -38,9 +57,19 @@ fn text_stands_out_from_every_ground_it_is_written_on() {
 fn graphics_stand_out_from_panel_and_floor() {
     for palette in both() {
         for ground in [palette.floor, palette.panel] {
-            let inks = [palette.low, palette.high, palette.contactor, palette.danger, palette.line];
+            let inks = [
+                palette.low,
+                palette.high,
+                palette.contactor,
+                palette.danger,
+                palette.line,
+            ];
             for ink in inks {
-                assert!(contrast(ink, ground) >= 3.0, "{ink:?} on {ground:?}: {}", contrast(ink, ground));
+                assert!(
+                    contrast(ink, ground) >= 3.0,
+                    "{ink:?} on {ground:?}: {}",
+                    contrast(ink, ground)
+                );
             }
         }
     }
@@ -49,10 +78,17 @@ fn graphics_stand_out_from_panel_and_floor() {
 #[test]
 fn every_colour_map_only_gets_lighter() {
     for map in ColourMap::ALL {
-        let lightness: Vec<f64> =
-            (0..=200).map(|i| luminance(map.colour(f64::from(i) / 200.0))).collect();
-        assert!(lightness.windows(2).all(|pair| pair[1] >= pair[0]), "{map:?}: {lightness:?}");
-        assert!(lightness[200] > lightness[0] + 0.5, "{map:?} spans dark to bright");
+        let lightness: Vec<f64> = (0..=200)
+            .map(|i| luminance(map.colour(f64::from(i) / 200.0)))
+            .collect();
+        assert!(
+            lightness.windows(2).all(|pair| pair[1] >= pair[0]),
+            "{map:?}: {lightness:?}"
+        );
+        assert!(
+            lightness[200] > lightness[0] + 0.5,
+            "{map:?} spans dark to bright"
+        );
     }
 }
 

@@ -12,7 +12,7 @@ use crate::app::theme::{self, Palette, ROW};
 use crate::quantity;
 
 /// Width of the name, points.
-const NAME: f32 = 84.0;
+const NAME: f32 = 92.0;
 /// Width of the number with its unit, points.
 const NUMBER: f32 = 70.0;
 /// Within this distance the thumb snaps to the resting value, points.
@@ -43,12 +43,28 @@ impl Scale {
     /// Gains from −30 to +30 dB.
     pub(crate) fn gain(resting: f64) -> Self {
         let (least, most) = (-30.0, 30.0);
-        Self { least, most, resting, step: 0.1, decimals: 1, unit: "dB", factor: 1.0 }
+        Self {
+            least,
+            most,
+            resting,
+            step: 0.1,
+            decimals: 1,
+            unit: "dB",
+            factor: 1.0,
+        }
     }
 
     /// Shares from 0 to 100 %.
     pub(crate) fn share(resting: f64) -> Self {
-        Self { least: 0.0, most: 1.0, resting, step: 0.01, decimals: 0, unit: "%", factor: 100.0 }
+        Self {
+            least: 0.0,
+            most: 1.0,
+            resting,
+            step: 0.01,
+            decimals: 0,
+            unit: "%",
+            factor: 100.0,
+        }
     }
 
     fn stepped(&self, value: f64) -> f64 {
@@ -70,7 +86,9 @@ impl Scale {
         let bare = text.trim().trim_end_matches(self.unit).trim();
         let plain = bare.replace('−', "-").replace(',', ".");
         let value = plain.parse::<f64>().ok()? / self.factor;
-        value.is_finite().then(|| value.clamp(self.least, self.most))
+        value
+            .is_finite()
+            .then(|| value.clamp(self.least, self.most))
     }
 }
 
@@ -86,7 +104,13 @@ pub(crate) fn slider_row(
     let (row, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
     let palette = Palette::in_ui(ui);
     let name_at = pos2(row.left(), row.center().y);
-    ui.painter().text(name_at, Align2::LEFT_CENTER, name, theme::body(), palette.text);
+    ui.painter().text(
+        name_at,
+        Align2::LEFT_CENTER,
+        name,
+        theme::body(),
+        palette.text,
+    );
     let rail = Rect::from_min_max(
         pos2(row.left() + NAME, row.top()),
         pos2(row.right() - NUMBER - 8.0, row.bottom()),
@@ -98,7 +122,14 @@ pub(crate) fn slider_row(
     let slid = slid(ui, &response, rail, &scale, value);
     paint_rail(ui, &response, rail, &scale, slid.unwrap_or(value), ink);
     let number = Rect::from_min_max(pos2(row.right() - NUMBER, row.top()), row.max);
-    let typed = number_field(ui, number, id.with("number"), name, &scale, slid.unwrap_or(value));
+    let typed = number_field(
+        ui,
+        number,
+        id.with("number"),
+        name,
+        &scale,
+        slid.unwrap_or(value),
+    );
     let new = typed.or(slid).filter(|new| (new - value).abs() > 1e-9);
     (new, response)
 }
@@ -131,11 +162,15 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
 }
 
 fn key_steps(ui: &Ui, response: &Response) -> i32 {
-    let requests = |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action));
+    let requests =
+        |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action));
     let mut ups = requests(accesskit::Action::Increment);
     let mut downs = requests(accesskit::Action::Decrement);
     if response.has_focus() {
-        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        let filter = EventFilter {
+            horizontal_arrows: true,
+            ..EventFilter::default()
+        };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
         ups += ui.input(|input| input.num_presses(Key::ArrowRight));
         downs += ui.input(|input| input.num_presses(Key::ArrowLeft));
@@ -191,10 +226,18 @@ fn paint_rail(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f6
         (y - 5.0)..=(y + 5.0),
         Stroke::new(1.0, palette.line),
     );
-    painter.hline(resting.min(here)..=resting.max(here), y, Stroke::new(3.0, ink));
+    painter.hline(
+        resting.min(here)..=resting.max(here),
+        y,
+        Stroke::new(3.0, ink),
+    );
     let is_held = response.hovered() || response.dragged();
     painter.circle_filled(pos2(here, y), if is_held { 7.0 } else { 6.0 }, ink);
-    painter.circle_filled(pos2(here, y), if is_held { 3.5 } else { 4.0 }, palette.panel);
+    painter.circle_filled(
+        pos2(here, y),
+        if is_held { 3.5 } else { 4.0 },
+        palette.panel,
+    );
     if response.has_focus() {
         painter.circle_stroke(pos2(here, y), 9.0, Stroke::new(1.0, palette.selection));
     }
@@ -232,9 +275,11 @@ fn number_field(
         .id(id)
         .font(theme::number())
         .hint_text(name)
-        .align(egui::Align2::RIGHT_CENTER)
+        .align(Align2::RIGHT_CENTER)
         .margin(egui::Margin::symmetric(4, 3));
     let response = ui.put(rect, field);
+    ui.ctx()
+        .accesskit_node_builder(id, |node| node.set_label(format!("{name} value")));
     if response.lost_focus() {
         ui.data_mut(|data| data.remove::<String>(id));
         let is_cancelled = ui.input(|input| input.key_pressed(Key::Escape));
@@ -251,7 +296,12 @@ mod tests {
     #[test]
     fn typed_values_are_read_with_any_minus_comma_and_unit() {
         let gain = Scale::gain(0.0);
-        for (text, value) in [("−3.5 dB", -3.5), ("-3,5", -3.5), (" 12dB", 12.0), ("99", 30.0)] {
+        for (text, value) in [
+            ("−3.5 dB", -3.5),
+            ("-3,5", -3.5),
+            (" 12dB", 12.0),
+            ("99", 30.0),
+        ] {
             assert_eq!(gain.parsed(text), Some(value), "{text}");
         }
         assert_eq!(Scale::share(0.0).parsed("35 %"), Some(0.35));

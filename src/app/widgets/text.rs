@@ -19,7 +19,8 @@ pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R
     let size = vec2(ui.available_width(), 20.0);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.label(name);
-        ui.with_layout(Layout::right_to_left(Align::Center), content).inner
+        ui.with_layout(Layout::right_to_left(Align::Center), content)
+            .inner
     })
     .inner
 }
@@ -59,9 +60,21 @@ pub(crate) fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, uni
     let palette = Palette::in_ui(ui);
     let right = pos2(rect.right(), rect.center().y);
     let painter = ui.painter();
-    let unit_at = painter.text(right, Align2::RIGHT_CENTER, unit, theme::small(), palette.dim);
+    let unit_at = painter.text(
+        right,
+        Align2::RIGHT_CENTER,
+        unit,
+        theme::small(),
+        palette.dim,
+    );
     // Units are two letters wide at most: the number keeps its place whatever the unit.
     let number_right = pos2(right.x - unit_at.width().max(14.0) - 4.0, right.y);
     let digits = quantity::fixed(value, decimals);
-    painter.text(number_right, Align2::RIGHT_CENTER, digits, theme::number(), palette.text);
+    painter.text(
+        number_right,
+        Align2::RIGHT_CENTER,
+        digits,
+        theme::number(),
+        palette.text,
+    );
 }

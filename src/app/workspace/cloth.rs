@@ -1,6 +1,8 @@
 //! Textiles drawn as cloth: their own picture, tiled from their origin and turned with them.
 
-use eframe::egui::{Align2, Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use eframe::egui::{
+    Align2, Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2,
+};
 use eframe::epaint::Vertex;
 
 use super::ViewTransform;
@@ -16,15 +18,27 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_l
     for spread in [1.0_f32, 3.0, 5.0] {
         let veil = palette.shadow.gamma_multiply(0.4);
         let shadow = corners.map(|corner| corner + drop).to_vec();
-        painter.add(Shape::convex_polygon(shadow, veil, Stroke::new(2.0 * spread, veil.gamma_multiply(0.5))));
+        painter.add(Shape::convex_polygon(
+            shadow,
+            veil,
+            Stroke::new(2.0 * spread, veil.gamma_multiply(0.5)),
+        ));
     }
-    let tint = if is_lifted { Color32::WHITE } else { palette.resting_cloth };
+    let tint = if is_lifted {
+        Color32::WHITE
+    } else {
+        palette.resting_cloth
+    };
     match cloth.picture {
         Some(picture) => {
             painter.add(Shape::mesh(textured(corners, cloth.size_mm, picture, tint)));
         }
         None => {
-            painter.add(Shape::convex_polygon(corners.to_vec(), palette.raised, Stroke::NONE));
+            painter.add(Shape::convex_polygon(
+                corners.to_vec(),
+                palette.raised,
+                Stroke::NONE,
+            ));
         }
     }
     if is_lifted {
@@ -39,11 +53,18 @@ pub(crate) fn paint_tag(painter: &Painter, view: &ViewTransform, cloth: &Cloth, 
     let ink = if is_lifted { palette.text } else { palette.dim };
     let label = painter.layout_no_wrap(cloth.label.clone(), theme::body(), palette.text);
     let name = painter.layout_no_wrap(cloth.name.clone(), theme::small(), ink);
-    let label_width = if cloth.label.is_empty() { 0.0 } else { label.size().x + 6.0 };
+    let label_width = if cloth.label.is_empty() {
+        0.0
+    } else {
+        label.size().x + 6.0
+    };
     let size = vec2(label_width + name.size().x + 14.0, 20.0);
     let corner = lower_left(&corners(view, cloth));
     let tag = Rect::from_min_size(pos2(corner.x, corner.y - size.y), size);
-    let rounding = CornerRadius { ne: 5, ..CornerRadius::ZERO };
+    let rounding = CornerRadius {
+        ne: 5,
+        ..CornerRadius::ZERO
+    };
     painter.rect_filled(tag, rounding, palette.tag);
     let middle = tag.center().y;
     let at = |x: f32, height: f32| pos2(tag.left() + 7.0 + x, middle - 0.5 * height);
@@ -62,19 +83,39 @@ fn corners(view: &ViewTransform, cloth: &Cloth) -> [Pos2; 4] {
 /// The corner that looks most like "lower left".
 fn lower_left(corners: &[Pos2; 4]) -> Pos2 {
     let leftness = |corner: &Pos2| corner.y - corner.x;
-    corners.iter().copied().max_by(|a, b| leftness(a).total_cmp(&leftness(b))).unwrap_or_default()
+    corners
+        .iter()
+        .copied()
+        .max_by(|a, b| leftness(a).total_cmp(&leftness(b)))
+        .unwrap_or_default()
 }
 
 fn textured(corners: [Pos2; 4], size_mm: [f64; 2], picture: ClothPicture, tint: Color32) -> Mesh {
     let [n_across, n_up] = tiles(size_mm, picture);
     // Row 0 of a picture is its top, and the textile's origin is at the picture's lower left.
-    let places = [[0.0, 1.0], [n_across, 1.0], [n_across, 1.0 - n_up], [0.0, 1.0 - n_up]];
-    let vertex = |(pos, [u, v]): (Pos2, [f32; 2])| Vertex { pos, uv: pos2(u, v), color: tint };
+    let places = [
+        [0.0, 1.0],
+        [n_across, 1.0],
+        [n_across, 1.0 - n_up],
+        [0.0, 1.0 - n_up],
+    ];
+    let vertex = |(pos, [u, v]): (Pos2, [f32; 2])| Vertex {
+        pos,
+        uv: pos2(u, v),
+        color: tint,
+    };
     let vertices = corners.into_iter().zip(places).map(vertex).collect();
-    Mesh { indices: vec![0, 1, 2, 0, 2, 3], vertices, texture_id: picture.texture }
+    Mesh {
+        indices: vec![0, 1, 2, 0, 2, 3],
+        vertices,
+        texture_id: picture.texture,
+    }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "the screen is drawn in single precision")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the screen is drawn in single precision"
+)]
 fn tiles(size_mm: [f64; 2], picture: ClothPicture) -> [f32; 2] {
     [
         size_mm[0] as f32 / picture.tile_mm.x.max(1e-3),
@@ -86,7 +127,13 @@ fn tiles(size_mm: [f64; 2], picture: ClothPicture) -> [f32; 2] {
 pub(crate) fn paint_empty(painter: &Painter, rect: Rect) {
     let palette = Palette::of(painter.ctx().theme());
     let words = "No textile is placed: open a scene with Ctrl+O";
-    painter.text(rect.center(), Align2::CENTER_CENTER, words, theme::body(), palette.dim);
+    painter.text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        words,
+        theme::body(),
+        palette.dim,
+    );
 }
 
 #[cfg(test)]
@@ -97,8 +144,16 @@ mod tests {
 
     #[test]
     fn a_picture_is_tiled_from_the_textiles_lower_left_corner() {
-        let picture = ClothPicture { texture: TextureId::default(), tile_mm: vec2(25.0, 50.0) };
-        let corners = [pos2(0.0, 100.0), pos2(100.0, 100.0), pos2(100.0, 0.0), pos2(0.0, 0.0)];
+        let picture = ClothPicture {
+            texture: TextureId::default(),
+            tile_mm: vec2(25.0, 50.0),
+        };
+        let corners = [
+            pos2(0.0, 100.0),
+            pos2(100.0, 100.0),
+            pos2(100.0, 0.0),
+            pos2(0.0, 0.0),
+        ];
         let mesh = textured(corners, [100.0, 100.0], picture, Color32::WHITE);
         assert_eq!(mesh.vertices[0].uv, pos2(0.0, 1.0));
         assert_eq!(mesh.vertices[2].uv, pos2(4.0, -1.0));
@@ -106,7 +161,12 @@ mod tests {
 
     #[test]
     fn the_tag_hangs_on_the_lower_left_corner_however_the_textile_is_turned() {
-        let corners = [pos2(100.0, 100.0), pos2(100.0, 0.0), pos2(0.0, 0.0), pos2(0.0, 100.0)];
+        let corners = [
+            pos2(100.0, 100.0),
+            pos2(100.0, 0.0),
+            pos2(0.0, 0.0),
+            pos2(0.0, 100.0),
+        ];
         assert_eq!(lower_left(&corners), pos2(0.0, 100.0));
     }
 }

@@ -38,14 +38,20 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -
     let palette = Palette::in_ui(ui);
     let (frame, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, palette.floor);
-    let inner = Rect::from_min_max(frame.min + vec2(ruler::THICKNESS, ruler::THICKNESS), frame.max);
+    let inner = Rect::from_min_max(frame.min + vec2(ruler::LEFT, ruler::TOP), frame.max);
     let (ground, lens) = lens::split(inner, scene.size_mm);
     let view = ViewTransform::fitted(ground.shrink(MARGIN), scene.size_mm);
     let painter = ui.painter_at(inner);
     paint_extent(&painter, &view, scene.size_mm);
     paint_scene(&painter, &view, scene, live, trail);
     paint_tags(&painter, &view, scene, live);
-    ruler::paint(&ui.painter_at(frame), frame, &view, scene.size_mm, live.centre);
+    ruler::paint(
+        &ui.painter_at(frame),
+        frame,
+        &view,
+        scene.size_mm,
+        live.centre,
+    );
     if let Some(lens) = lens {
         lens::show(ui, lens, scene, live, trail);
     }
@@ -90,7 +96,12 @@ fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
     let corners = [Point::default(), Point::new(size_mm[0], size_mm[1])];
     let [low, high] = corners.map(|corner| view.screen(corner));
     let extent = Rect::from_two_pos(low, high);
-    painter.rect_stroke(extent, 0, Stroke::new(1.0, palette.hairline), StrokeKind::Outside);
+    painter.rect_stroke(
+        extent,
+        0,
+        Stroke::new(1.0, palette.hairline),
+        StrokeKind::Outside,
+    );
 }
 
 /// Whether a place is in the workspace or so close that the display still reaches into it.

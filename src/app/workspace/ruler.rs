@@ -7,8 +7,10 @@ use crate::app::theme::{self, Palette};
 use crate::geometry::Point;
 use crate::quantity;
 
-/// How thick a ruler is, points.
-pub(crate) const THICKNESS: f32 = 20.0;
+/// How high the upper ruler is, points.
+pub(crate) const TOP: f32 = 20.0;
+/// How wide the left ruler is, points.
+pub(crate) const LEFT: f32 = 34.0;
 
 /// Least distance between labelled marks, points.
 const MIN_LABEL_POINTS: f64 = 48.0;
@@ -30,11 +32,11 @@ pub(crate) fn paint(
 ) {
     let palette = Palette::of(painter.ctx().theme());
     let line = Stroke::new(1.0, palette.hairline);
-    let (left, top) = (frame.left() + THICKNESS, frame.top() + THICKNESS);
+    let (left, top) = (frame.left() + LEFT, frame.top() + TOP);
     painter.hline(frame.x_range(), top, line);
     painter.vline(left, frame.y_range(), line);
     painter.text(
-        pos2(frame.left() + 0.5 * THICKNESS, frame.top() + 0.5 * THICKNESS),
+        pos2(frame.left() + 0.5 * LEFT, frame.top() + 0.5 * TOP),
         Align2::CENTER_CENTER,
         "mm",
         theme::small_number(),
@@ -49,7 +51,13 @@ pub(crate) fn paint(
             painter.vline(x, (top - length)..=top, tick);
             if is_labelled {
                 let at = pos2(x, top - 7.0);
-                painter.text(at, Align2::CENTER_BOTTOM, label(at_mm), theme::small_number(), palette.dim);
+                painter.text(
+                    at,
+                    Align2::CENTER_BOTTOM,
+                    label(at_mm),
+                    theme::small_number(),
+                    palette.dim,
+                );
             }
         }
     }
@@ -59,8 +67,14 @@ pub(crate) fn paint(
             let length = if is_labelled { 6.0 } else { 3.0 };
             painter.hline((left - length)..=left, y, tick);
             if is_labelled {
-                let at = pos2(left - 7.5, y - 1.0);
-                painter.text(at, Align2::RIGHT_BOTTOM, label(at_mm), theme::small_number(), palette.dim);
+                let at = pos2(left - 9.0, y);
+                painter.text(
+                    at,
+                    Align2::RIGHT_CENTER,
+                    label(at_mm),
+                    theme::small_number(),
+                    palette.dim,
+                );
             }
         }
     }
@@ -79,14 +93,21 @@ fn marks(length_mm: f64, points_per_mm: f64) -> impl Iterator<Item = Mark> {
     let n_marks = (length_mm / fine_mm + 1e-6).floor().clamp(0.0, 2000.0);
     (0..=2000_u32)
         .take_while(move |&i| f64::from(i) <= n_marks)
-        .map(move |i| Mark { at_mm: f64::from(i) * fine_mm, is_labelled: i % 5 == 0 })
+        .map(move |i| Mark {
+            at_mm: f64::from(i) * fine_mm,
+            is_labelled: i % 5 == 0,
+        })
 }
 
 /// The smallest of 1, 2, 5 · 10ⁿ that is at least `least`.
 fn round_step(least: f64) -> f64 {
     let decade = 10.0_f64.powf(least.log10().floor());
     let factors = [1.0, 2.0, 5.0, 10.0];
-    factors.into_iter().map(|f| f * decade).find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or(least)
+    factors
+        .into_iter()
+        .map(|f| f * decade)
+        .find(|&s| s >= least * (1.0 - 1e-9))
+        .unwrap_or(least)
 }
 
 #[cfg(test)]
@@ -95,8 +116,18 @@ mod tests {
 
     #[test]
     fn steps_are_round() {
-        for (least, expected) in [(17.0, 20.0), (20.0, 20.0), (21.0, 50.0), (0.3, 0.5), (61.0, 100.0)] {
-            assert!((round_step(least) - expected).abs() < 1e-9, "{least} → {}", round_step(least));
+        for (least, expected) in [
+            (17.0, 20.0),
+            (20.0, 20.0),
+            (21.0, 50.0),
+            (0.3, 0.5),
+            (61.0, 100.0),
+        ] {
+            assert!(
+                (round_step(least) - expected).abs() < 1e-9,
+                "{least} → {}",
+                round_step(least)
+            );
         }
     }
 
@@ -104,8 +135,11 @@ mod tests {
     fn a_ruler_of_260_mm_is_marked_every_ten_and_labelled_every_fifty() {
         let marks: Vec<Mark> = marks(260.0, 2.2).collect();
         assert_eq!(marks.len(), 27);
-        let labelled: Vec<f64> =
-            marks.iter().filter(|m| m.is_labelled).map(|m| m.at_mm).collect();
+        let labelled: Vec<f64> = marks
+            .iter()
+            .filter(|m| m.is_labelled)
+            .map(|m| m.at_mm)
+            .collect();
         assert_eq!(labelled, [0.0, 50.0, 100.0, 150.0, 200.0, 250.0]);
     }
 }

@@ -52,7 +52,10 @@ impl Trail {
 
     /// `(age in s, place)`, old to new.
     pub(crate) fn aged(&self) -> Vec<(f64, Point)> {
-        self.places.iter().map(|&(tick, place)| (self.age_s(tick), place)).collect()
+        self.places
+            .iter()
+            .map(|&(tick, place)| (self.age_s(tick), place))
+            .collect()
     }
 
     fn age_s(&self, tick: u64) -> f64 {

@@ -20,7 +20,11 @@ pub(crate) struct ViewTransform {
 impl ViewTransform {
     /// Shows `points_per_mm` around `centre` in `rect`.
     pub(crate) fn new(rect: Rect, centre: Point, points_per_mm: f64) -> Self {
-        Self { rect, centre, points_per_mm }
+        Self {
+            rect,
+            centre,
+            points_per_mm,
+        }
     }
 
     /// Shows the whole of a workspace of `size_mm`, as large as fits in `rect`.
@@ -28,7 +32,11 @@ impl ViewTransform {
         let [width_mm, height_mm] = size_mm.map(|mm| if mm > 0.0 { mm } else { 1.0 });
         let points_per_mm = (f64::from(rect.width().max(1.0)) / width_mm)
             .min(f64::from(rect.height().max(1.0)) / height_mm);
-        Self::new(rect, Point::new(width_mm / 2.0, height_mm / 2.0), points_per_mm)
+        Self::new(
+            rect,
+            Point::new(width_mm / 2.0, height_mm / 2.0),
+            points_per_mm,
+        )
     }
 
     /// Points per millimetre.
@@ -61,7 +69,10 @@ impl ViewTransform {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "the screen is drawn in single precision")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the screen is drawn in single precision"
+)]
 fn narrow(value: f64) -> f32 {
     value as f32
 }
