@@ -20,7 +20,7 @@ mod stats;
 pub use gains::{GainTerms, MAX_TOTAL_GAIN_DB};
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 pub use plan::Counters;
-pub use replay::{Replay, replay};
+pub use replay::{FrameSink, Replay, replay};
 pub use stats::{Histogram, LevelError, RunStats};
 
 use crate::tactile::TuningError;

@@ -23,6 +23,9 @@ pub struct Replay<'a> {
     pub measures_error: bool,
 }
 
+/// Takes a tick's number, pose and frames; may stop the run.
+pub type FrameSink<'a> = dyn FnMut(u64, &Pose, &[DisplayFrame]) -> ControlFlow<()> + 'a;
+
 /// Replays ticks (number, pose). `clock_ns` tells a monotonic time in ns; `sink` takes every tick's
 /// number, pose and frames, and may stop the run.
 ///
@@ -32,7 +35,7 @@ pub fn replay(
     what: &Replay<'_>,
     ticks: impl Iterator<Item = (u64, Pose)> + Clone,
     clock_ns: &mut dyn FnMut() -> u64,
-    sink: &mut dyn FnMut(u64, &Pose, &[DisplayFrame]) -> ControlFlow<()>,
+    sink: &mut FrameSink<'_>,
 ) -> Result<RunStats, RenderError> {
     let started_ns = clock_ns();
     let mut renderer = ArrayRenderer::prepare(what.scene, what.method, &what.accuracy)?;

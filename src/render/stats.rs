@@ -132,7 +132,7 @@ impl ErrorMeter {
             let (a, a_ref, largest) = (amplitudes_um[b], reference_um[b], self.largest_um[b]);
             if largest > 0.0 && a_ref >= AUDIBLE_SHARE * largest {
                 self.levels_db.add((20.0 * (a / a_ref).log10()).abs());
-            } else if a != a_ref {
+            } else if (a - a_ref).abs() > 0.0 {
                 let share = (a - a_ref).abs() / largest;
                 self.max_share_below = self.max_share_below.max(share);
             }

@@ -1,7 +1,7 @@
 //! Amplitudes of a contactor array that moves over textiles.
 //!
-//! After Philpott and Summers (2012), section 2.2. A contactor at u, w that moves at (v_u, v_w) in
-//! its textile's frame feels the local spectra P of the nearest points along warp and weft; bin k
+//! After Philpott and Summers (2012), section 2.2. A contactor at u, w that moves in its
+//! textile's frame feels the local spectra P of the nearest points along warp and weft; bin k
 //! of a direction d sounds at `f = |v_d|·0.23·k` Hz, below 1 kHz, and
 //! `A_b = √(2 Σ_d Σ_k P_{d,k} H_b(f_{d,k})²)` for the bands b at 40 and 320 Hz.
 //!
@@ -116,12 +116,11 @@ impl ArrayRenderer {
         self.counters.ticks += 1;
         self.evaluator.begin_tick();
         for index in 0..self.frames.len() {
-            match poses.get(index) {
-                Some(pose) => self.tick_display(index, pose),
-                None => {
-                    self.counters.poses_missing += 1;
-                    self.frames[index].silence();
-                }
+            if let Some(pose) = poses.get(index) {
+                self.tick_display(index, pose);
+            } else {
+                self.counters.poses_missing += 1;
+                self.frames[index].silence();
             }
         }
         &self.frames
@@ -221,10 +220,8 @@ impl ArrayRenderer {
 
 impl Evaluator {
     fn begin_tick(&mut self) {
-        match self {
-            Self::Reference(_) => {}
-            Self::Banded(banded) => banded.begin_tick(),
-            Self::Table(table) => table.begin_tick(),
+        if let Self::Banded(banded) = self {
+            banded.begin_tick();
         }
     }
 
@@ -260,7 +257,7 @@ fn finite_pose(pose: &Pose, counters: &mut Counters) -> Option<Pose> {
         angular_rad_per_s: 0.0,
         ..*pose
     };
-    is_placed.then(|| if is_moving { *pose } else { at_rest })
+    is_placed.then_some(if is_moving { *pose } else { at_rest })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! interpolating `H²` itself over log frequency. That depends on the filter and on the distance of
 //! the nodes only, and is known before any spectrum is.
 
-use crate::surface::{BIN_SPACING_PER_MM, N_BINS};
+use crate::surface::BIN_SPACING_PER_MM;
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
 /// Nodes an octave to choose from.
@@ -53,11 +53,12 @@ fn sampled(filters: &Filters, band: Band) -> Vec<f64> {
         let frequency_hz = (lowest + f64::from(step) / per_octave).exp2();
         filters.power_gain(band, frequency_hz)
     };
-    debug_assert!(N_BINS > 0, "there are bins");
-    let is_heard = |step: &u32| {
-        lowest + (f64::from(*step) - per_octave) / per_octave < MAX_FREQUENCY_HZ.log2()
-    };
-    (0..).take_while(is_heard).map(gain).collect()
+    let octaves = MAX_FREQUENCY_HZ.log2() - lowest;
+    // One octave more: intervals may begin anywhere below 1 kHz.
+    let n_steps = (0..30 * SAMPLES_PER_OCTAVE)
+        .take_while(|&step| f64::from(step) < (octaves + 1.0) * per_octave)
+        .count();
+    (0..).map(gain).take(n_steps).collect()
 }
 
 /// The largest level error in dB of interpolating between samples 1/`per_octave` octave apart,

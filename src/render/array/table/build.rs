@@ -20,11 +20,10 @@ struct Grouped {
     /// Bins beyond this are 0 at every point.
     n_bins: usize,
     groups: Vec<[f64; POINTS]>,
-    /// What a power is stored as a share of.
-    unit_um2: f64,
 }
 
 impl Grouped {
+    /// Powers as shares of a unit, which is 0 only if all powers are.
     fn of(spectra: &LocalSpectra, unit_um2: f64) -> Self {
         let n_points = spectra.n_points();
         let is_silent = |bin: &usize| (0..n_points).all(|p| spectra.powers_um2(p)[*bin] == 0.0);
@@ -43,7 +42,6 @@ impl Grouped {
             n_points,
             n_bins,
             groups,
-            unit_um2,
         }
     }
 }
@@ -101,7 +99,7 @@ fn fill_gains(gains: &mut [[[f64; 2]; NODES]], nodes: &[Node], filters: &Filters
 }
 
 fn fill_rows(rows: &mut [[f32; 2]], spectra: &Grouped, gains: &[[[f64; 2]; NODES]]) {
-    if spectra.n_bins == 0 || !(spectra.unit_um2 > 0.0) {
+    if spectra.n_bins == 0 {
         return;
     }
     for (group, powers) in spectra.groups.chunks_exact(spectra.n_bins).enumerate() {

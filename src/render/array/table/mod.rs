@@ -72,7 +72,7 @@ impl TableEvaluator {
             return Err(RenderError::TableTooLarge { megabytes });
         }
         let segments = Segments::new(density.per_octave);
-        let units_um2 = units_um2(scene, plan);
+        let units_um2 = units_um2(plan);
         let spectra: Vec<(&LocalSpectra, f64)> = plan
             .pool
             .iter()
@@ -102,8 +102,6 @@ impl TableEvaluator {
             },
         ))
     }
-
-    pub(super) fn begin_tick(&mut self) {}
 
     /// Amplitudes of the contactors on one textile, µm.
     pub(super) fn evaluate(
@@ -238,7 +236,7 @@ fn add(power: &mut [f32; 2], [low, high]: [f32; 2]) {
 /// What the powers of each set of spectra are stored as a share of, µm²: the largest power of any
 /// point of the surfaces that use it, so that very low and very high surfaces keep all digits.
 /// 0 for flat ones.
-fn units_um2(scene: &RenderScene, plan: &ScenePlan) -> Vec<f64> {
+fn units_um2(plan: &ScenePlan) -> Vec<f64> {
     let total = |powers: &[f64]| powers.iter().sum::<f64>();
     let largest = |spectra: &LocalSpectra| {
         (0..spectra.n_points())
@@ -247,7 +245,6 @@ fn units_um2(scene: &RenderScene, plan: &ScenePlan) -> Vec<f64> {
     };
     let own: Vec<f64> = plan.pool.iter().map(|spectra| largest(spectra)).collect();
     let mut units = own.clone();
-    debug_assert_eq!(scene.textiles.len(), plan.textiles.len());
     // A surface's four directions share a unit, because their powers are added.
     for textile in &plan.textiles {
         let unit = textile.spectra.iter().map(|&s| own[s]).fold(0.0, f64::max);

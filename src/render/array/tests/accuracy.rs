@@ -65,7 +65,7 @@ proptest! {
         kind in 0..5_u8,
         seed in any::<u64>(),
         octaves in prop_oneof![Just(2.0), 1.0..4.0_f64],
-        logs in proptest::collection::vec((-2.0..3.64_f64, 0.0..6.283_f64, 0.0..90.0_f64), 60),
+        logs in proptest::collection::vec((-2.0..3.64_f64, 0.0..std::f64::consts::TAU, 0.0..90.0_f64), 60),
         angular_rad_per_s in prop_oneof![Just(0.0), -3.0..3.0_f64],
     ) {
         let mut scene = alone(&cloth::of_kind(kind, seed));

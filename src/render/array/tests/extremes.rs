@@ -204,12 +204,8 @@ fn places_that_are_not_finite_are_refused() {
 #[test]
 fn a_profile_of_metres_falls_back_where_tables_would_not_fit() {
     let long = cloth::noise(&mut Random::new(4), 1_100_000);
-    let scene = alone(&cloth::surface([
-        Some(long.clone()),
-        Some(long.clone()),
-        Some(long.clone()),
-        Some(long),
-    ]));
+    let cloth = cloth::surface([(); 4].map(|()| Some(long.clone())));
+    let scene = scene_of(vec![placed(&cloth, [0.0, 0.0], 0.0)], exeter());
     let refused = ArrayRenderer::prepare(&scene, Method::Table, &Accuracy::default());
     assert!(
         matches!(refused, Err(RenderError::TableTooLarge { .. })),

@@ -40,7 +40,7 @@ fn powers(heights: &[f64]) -> Vec<f64> {
 impl Naive<'_> {
     /// Σ P H² of one direction, for both bands.
     fn sums(&self, direction: usize, place: f64, speed: f64) -> [f64; 2] {
-        if speed < 0.01 || speed >= 1000.0 / 0.23 {
+        if !(0.01..1000.0 / 0.23).contains(&speed) {
             return [0.0; 2];
         }
         let heights = self.profiles[direction].heights_um();

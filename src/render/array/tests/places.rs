@@ -219,8 +219,8 @@ fn the_trace_explains_the_reference() {
         let trace = ContactTrace::of(&scene, 0, contactor, &at).unwrap();
         let frame = &renderer.tick(&[at])[0];
         assert_eq!(trace.position, frame.contactor_position(contactor));
-        for b in 0..2 {
-            let ratio = trace.amplitudes_um[b] / expected[contactor][b];
+        for (a, expected) in trace.amplitudes_um.iter().zip(expected[contactor]) {
+            let ratio = a / expected;
             assert!((ratio - 1.0).abs() < 1e-12, "{trace:?}");
         }
         let touch = trace.touch.unwrap();
