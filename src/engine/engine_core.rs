@@ -2,7 +2,7 @@
 //!
 //! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::handle::playable;
 use super::input::{
@@ -10,11 +10,10 @@ use super::input::{
 };
 use super::order::{CoreOrder, Retired};
 use super::recording::{RecordedTick, Recorder};
-use super::sample::{SampleGate, Verdict};
-use super::velocity::{Estimate, REST, VelocityEstimator};
+use super::track::Track;
 use super::{
-    EngineError, InputSource, Notice, Playback, PointerSample, PointerView, PreparedScene,
-    RecordingView, Snapshot, SourceKind, TICK, TICKS_PER_S, VelocityMethod,
+    EngineError, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot, SourceKind,
+    TICKS_PER_S, VelocityMethod,
 };
 use crate::bridge::SentFrame;
 use crate::geometry::Velocity;
@@ -41,18 +40,6 @@ pub struct EngineCore {
     has_ended: bool,
     recorder: Option<Box<Recorder>>,
     ignored: u64,
-}
-
-/// The samples of a source and what follows from them.
-#[derive(Debug)]
-struct Track {
-    gate: SampleGate,
-    estimator: VelocityEstimator,
-    newest: Option<PointerSample>,
-    /// The stamp of the newest sample, if it came for this tick.
-    fresh: Option<Instant>,
-    estimate: Estimate,
-    age: Option<Duration>,
 }
 
 impl EngineCore {
@@ -165,7 +152,7 @@ impl EngineCore {
 
     /// The stamp of the newest live sample, if it came for the last tick.
     pub fn fresh_stamp(&self) -> Option<Instant> {
-        self.track.fresh
+        self.track.fresh_stamp()
     }
 
     /// Ticks done.
@@ -258,7 +245,7 @@ impl EngineCore {
         snapshot.tuning = *renderer.tuning();
         snapshot.compression_is_pending = renderer.compression_is_pending();
         snapshot.compression_reference_db = renderer.compression_reference_db();
-        snapshot.pointer = self.pointer_view(depth);
+        snapshot.pointer = self.track.view(self.losses(), depth);
         snapshot.source = self
             .source()
             .map_or(SourceKind::Pointer, PointerInput::kind);
@@ -269,7 +256,7 @@ impl EngineCore {
 
     fn read(&mut self, now: Instant) -> Reading {
         let track = &mut self.track;
-        track.fresh = None;
+        track.begin_tick();
         let mut restarted = false;
         let Some(playable) = &mut self.playable else {
             let reading = self
@@ -288,17 +275,14 @@ impl EngineCore {
     /// The pose that follows from samples: where the newest was, as fast as estimated, turned as
     /// told.
     fn follow(&mut self) {
-        let position = self
-            .track
-            .newest
-            .map_or(self.pose.position, |newest| newest.position);
+        let position = self.track.position().unwrap_or(self.pose.position);
         let before_deg = self.last_angle_deg.unwrap_or(self.angle_deg);
         self.last_angle_deg = Some(self.angle_deg);
         self.pose = Pose {
             t_s: self.tick as f64 / TICKS_PER_S,
             position,
             angle_deg: self.angle_deg,
-            velocity: self.track.estimate.velocity,
+            velocity: self.track.estimate().velocity,
             angular_rad_per_s: Pose::turning_rad_per_s(before_deg, self.angle_deg),
         };
     }
@@ -306,7 +290,7 @@ impl EngineCore {
     /// The new scene is felt from the next tick on; its renderer already holds its tuning.
     fn set_scene(&mut self, scene: Box<PreparedScene>) -> Box<PreparedScene> {
         let retired = std::mem::replace(&mut self.scene, scene);
-        if self.track.newest.is_none() && self.playable.is_none() {
+        if self.track.position().is_none() && self.playable.is_none() {
             self.pose = Pose {
                 position: self.scene.start(),
                 ..at_rest(self.pose)
@@ -326,7 +310,7 @@ impl EngineCore {
 
     fn set_velocity_method(&mut self, method: VelocityMethod, say: Say<'_>) {
         if method.is_sound() {
-            self.track.estimator.set_method(method);
+            self.track.set_method(method);
         } else {
             self.ignored += 1;
             say(Notice::Refused(
@@ -376,82 +360,6 @@ impl EngineCore {
             is_recording: self.recorder.is_some(),
             n_ticks,
         }
-    }
-
-    fn pointer_view(&self, depth: Option<u8>) -> PointerView {
-        let track = &self.track;
-        let losses = self
-            .source()
-            .map_or_else(|| self.live.losses(), PointerInput::losses);
-        let mut samples = track.gate.counters();
-        samples.overflowed = losses.overflowed;
-        samples.bad_lines = losses.bad_lines;
-        let until_mid_tick = TICK * u32::from(depth.unwrap_or(0)) + TICK / 2;
-        PointerView {
-            is_known: track.newest.is_some(),
-            age: track.age,
-            felt_age: track.age.map(|age| age + until_mid_tick),
-            method: track.estimator.method(),
-            velocity_lag_s: track.estimate.lag_s,
-            samples,
-        }
-    }
-}
-
-impl Track {
-    fn new(method: VelocityMethod) -> Self {
-        Self {
-            gate: SampleGate::default(),
-            estimator: VelocityEstimator::new(method),
-            newest: None,
-            fresh: None,
-            estimate: Estimate::REST,
-            age: None,
-        }
-    }
-
-    /// Begins anew with the same method; allocates nothing.
-    fn forget(&mut self) {
-        self.gate = SampleGate::default();
-        self.estimator.reset();
-        self.newest = None;
-        self.fresh = None;
-        self.estimate = Estimate::REST;
-        self.age = None;
-    }
-
-    /// Takes a sample; true if it began a new series.
-    fn take(&mut self, sample: PointerSample, now: Instant) -> bool {
-        let verdict = self.gate.admit(sample, now);
-        let (sample, restarted) = match verdict {
-            Verdict::Drop => return false,
-            Verdict::Append(sample) | Verdict::Replace(sample) => (sample, false),
-            Verdict::Restart(sample) => (sample, true),
-        };
-        if restarted {
-            self.estimator.reset();
-        }
-        if matches!(verdict, Verdict::Replace(_)) {
-            self.estimator.replace(sample);
-        } else {
-            self.estimator.push(sample);
-        }
-        self.newest = Some(sample);
-        self.fresh = Some(sample.stamp);
-        restarted
-    }
-
-    /// Estimates at a tick. One in which the series began anew is silent, whatever followed.
-    fn look(&mut self, now: Instant, restarted: bool) {
-        self.estimate = if restarted {
-            Estimate::REST
-        } else {
-            self.estimator.estimate(now)
-        };
-        let age = self
-            .newest
-            .map(|newest| now.saturating_duration_since(newest.stamp));
-        self.age = age.filter(|age| *age <= REST);
     }
 }
 

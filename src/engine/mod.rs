@@ -33,6 +33,7 @@ mod runner;
 mod sample;
 mod snapshot;
 mod stop;
+mod track;
 mod velocity;
 
 pub use command::{Command, InputSource, Notice, VelocityMethod};

@@ -3,7 +3,7 @@
 //! The engine fills blocks that were made before; whoever owns the [`Engine`](super::Engine) takes
 //! full ones away and gives empty ones back. A recording is one exploration with a clock of its
 //! own: its n-th row is at n/40 s exactly, so that replaying it meets every row on a tick and gives
-//! the same amplitudes bit for bit (with the same scene, method and tuning, which it does not hold).
+//! the same amplitudes bit for bit, with the same scene, method and tuning: it does not hold those.
 
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -203,7 +203,7 @@ impl PointerInput for Panics {
 /// that the device went through.
 #[cfg(unix)]
 fn states_through_a_panic(number: u32) -> Vec<String> {
-    use std::sync::atomic::AtomicBool;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     use crate::bridge::{ArrayProfile, DeviceModel, PtyEmulator};
 

@@ -1,8 +1,8 @@
 //! Velocity from a series of places and times.
 //!
 //! The methods and their lags are told apart by [`VelocityMethod`]. A pointer that sends nothing
-//! for [`REST`] is at rest: a mouse says nothing while it lies still. Places are taken as they come;
-//! none is extrapolated, so at a tick the display is where the newest sample was.
+//! for [`REST`] is at rest: a mouse says nothing while it lies still. Places are taken as they come
+//! and none is extrapolated, so at a tick the display is where the newest sample was.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};

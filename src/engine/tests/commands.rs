@@ -1,0 +1,207 @@
+//! What commands and the stop switch do, and what is news.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::*;
+
+#[test]
+fn the_switch_silences_holds_and_ends_until_armed_again() {
+    let (mut engine, _) = engine(Method::Auto);
+    engine
+        .send(Command::SetSource(InputSource::Replay(path())))
+        .unwrap();
+    engine.send(Command::Play).unwrap();
+    engine.send(Command::StartRecording).unwrap();
+    engine.advance_ticks(10);
+    assert!(!is_silent(engine.snapshot()), "it plays");
+    // An arm that was on its way when the switch was pressed is void.
+    engine.send(Command::Arm).unwrap();
+    engine.stop_switch().press();
+    engine.advance_ticks(5);
+    let snapshot = engine.snapshot();
+    assert!(
+        snapshot.is_stopped && snapshot.is_silent && is_silent(snapshot),
+        "{snapshot:?}"
+    );
+    assert!(!snapshot.playback.is_playing && !snapshot.recording.is_recording);
+    assert_eq!(engine.take_recording().unwrap().ticks().len(), 10);
+    let notices: Vec<String> = std::iter::from_fn(|| engine.next_notice())
+        .map(|n| format!("{n:?}"))
+        .collect();
+    assert!(
+        notices[0].contains("Stopped") && notices[1].contains("arm again"),
+        "{notices:?}"
+    );
+
+    engine.send(Command::Play).unwrap();
+    engine.advance_ticks(3);
+    assert!(
+        is_silent(engine.snapshot()),
+        "playing alone does not end the silence"
+    );
+    engine.send(Command::StartRecording).unwrap();
+    engine.advance_ticks(1);
+    assert!(
+        engine.take_recording().unwrap().ticks().is_empty(),
+        "nor is silence recorded"
+    );
+    engine.send(Command::Arm).unwrap();
+    engine.advance_ticks(3);
+    assert!(
+        !engine.snapshot().is_stopped && !is_silent(engine.snapshot()),
+        "armed: felt again"
+    );
+}
+
+#[test]
+fn senseless_gains_angles_and_methods_are_ignored_with_a_notice() {
+    let (mut engine, _) = engine(Method::Auto);
+    let tuning = Tuning {
+        gain_db: f64::NAN,
+        ..Tuning::default()
+    };
+    engine.send(Command::SetTuning(tuning)).unwrap();
+    engine
+        .send(Command::SetTextileGain {
+            textile: 0,
+            gain_db: f64::INFINITY,
+        })
+        .unwrap();
+    engine
+        .send(Command::SetTextileGain {
+            textile: 9,
+            gain_db: 0.0,
+        })
+        .unwrap();
+    engine.send(Command::SetLevels(vec![])).unwrap();
+    engine.send(Command::SetAngle(f64::NAN)).unwrap();
+    let method = VelocityMethod::LineFit { window_s: f64::NAN };
+    engine.send(Command::SetVelocityMethod(method)).unwrap();
+    engine.advance_ticks(1);
+    assert_eq!(engine.snapshot().counters.ignored, 6);
+    assert_eq!(engine.snapshot().tuning, Tuning::default());
+    assert_eq!(std::iter::from_fn(|| engine.next_notice()).count(), 6);
+    let circle = Stroke::Circle {
+        centre: Point::default(),
+        radius_mm: 0.0,
+        speed_mm_per_s: 1.0,
+    };
+    let refused = engine.send(Command::SetSource(InputSource::Stroke(circle)));
+    assert!(matches!(refused, Err(EngineError::Scene(_))), "{refused:?}");
+}
+
+#[test]
+fn gains_change_at_a_tick_and_scale_what_is_felt() {
+    let (mut engine, _) = engine(Method::Auto);
+    let line = Stroke::Line {
+        start: Point::new(40.0, 60.0),
+        end: Point::new(60.0, 70.0),
+        speed_mm_per_s: 0.0,
+    };
+    engine
+        .send(Command::SetSource(InputSource::Stroke(line)))
+        .unwrap();
+    engine
+        .send(Command::SetSource(InputSource::Replay(path())))
+        .unwrap();
+    engine.send(Command::Step).unwrap();
+    engine.send(Command::Step).unwrap();
+    engine.advance_ticks(2);
+    engine.send(Command::Step).unwrap();
+    engine.advance_ticks(1);
+    let before = amplitudes(engine.snapshot());
+    // While the replay is held its moment is shown with the gains of now.
+    engine
+        .send(Command::SetTuning(Tuning {
+            gain_db: -20.0,
+            ..Tuning::default()
+        }))
+        .unwrap();
+    engine
+        .send(Command::SetTextileGain {
+            textile: 0,
+            gain_db: 14.0,
+        })
+        .unwrap();
+    engine.advance_ticks(1);
+    for (before, after) in before.iter().zip(amplitudes(engine.snapshot())) {
+        assert!(
+            (after[0] - before[0] * 0.501_187).abs() < 1e-4,
+            "{before:?} {after:?}"
+        );
+    }
+}
+
+#[test]
+fn limits_that_bite_are_shown_by_contactor() {
+    let (mut engine, start) = engine(Method::Auto);
+    engine
+        .send(Command::SetTuning(Tuning {
+            gain_db: 60.0,
+            ..Tuning::default()
+        }))
+        .unwrap();
+    explore(&mut engine, start, 10);
+    let contactors = &engine.snapshot().displays[0].contactors;
+    assert!(
+        contactors.iter().all(|contactor| contactor.bite.limited[0]),
+        "{contactors:?}"
+    );
+}
+
+#[test]
+fn a_full_queue_refuses_and_a_stop_does_not_wait_for_it() {
+    let (mut engine, _) = engine(Method::Auto);
+    let mut n_sent = 0;
+    while engine.send(Command::Rewind).is_ok() {
+        n_sent += 1;
+    }
+    assert_eq!(n_sent, 64);
+    assert!(matches!(engine.send(Command::Play), Err(EngineError::Busy)));
+    engine.send(Command::StopAll).unwrap();
+    engine.advance_ticks(1);
+    assert!(engine.snapshot().is_stopped, "the stop was heard");
+    engine.send(Command::Play).unwrap();
+}
+
+#[test]
+fn many_scenes_at_once_are_obeyed_as_what_they_replace_is_taken_back() {
+    let (mut engine, _) = engine(Method::Auto);
+    let mut last = 0;
+    for _ in 0..10 {
+        let scene = prepared(exeter(), Method::Banded);
+        last = scene.serial();
+        engine.send(Command::SetScene(Box::new(scene))).unwrap();
+    }
+    engine.advance_ticks(20);
+    assert_eq!(engine.snapshot().scene_serial, last);
+}
+
+#[test]
+fn nothing_changing_is_no_news() {
+    let n_news = Arc::new(AtomicU64::new(0));
+    let heard = Arc::clone(&n_news);
+    let on_news = move || {
+        heard.fetch_add(1, Ordering::SeqCst);
+    };
+    let config = EngineConfig {
+        on_news: Some(Box::new(on_news)),
+        ..config(Method::Auto)
+    };
+    let mut engine = Engine::without_thread(config, Instant::now()).unwrap();
+    let settle = || std::thread::sleep(Duration::from_millis(50));
+    engine.advance_ticks(2);
+    settle();
+    let before = n_news.load(Ordering::SeqCst);
+    assert!(before > 0, "the first snapshot is news");
+    engine.advance_ticks(200);
+    settle();
+    assert_eq!(n_news.load(Ordering::SeqCst), before);
+    engine.send(Command::SetAngle(10.0)).unwrap();
+    engine.advance_ticks(1);
+    settle();
+    assert!(
+        n_news.load(Ordering::SeqCst) > before,
+        "a turned display is news"
+    );
+}

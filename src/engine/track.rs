@@ -1,0 +1,120 @@
+//! The samples of a live source: judged, remembered, and what follows from them at a tick.
+
+use std::time::{Duration, Instant};
+
+use super::input::InputLosses;
+use super::sample::{SampleGate, Verdict};
+use super::velocity::{Estimate, REST, VelocityEstimator};
+use super::{PointerSample, PointerView, TICK, VelocityMethod};
+use crate::geometry::Point;
+
+/// The samples of a source and what follows from them.
+#[derive(Debug)]
+pub(super) struct Track {
+    gate: SampleGate,
+    estimator: VelocityEstimator,
+    newest: Option<PointerSample>,
+    /// The stamp of the newest sample, if it came for this tick.
+    fresh: Option<Instant>,
+    estimate: Estimate,
+    age: Option<Duration>,
+}
+
+impl Track {
+    /// A track without samples. Allocates; nothing else here does.
+    pub(super) fn new(method: VelocityMethod) -> Self {
+        Self {
+            gate: SampleGate::default(),
+            estimator: VelocityEstimator::new(method),
+            newest: None,
+            fresh: None,
+            estimate: Estimate::REST,
+            age: None,
+        }
+    }
+
+    /// Begins anew with the same method.
+    pub(super) fn forget(&mut self) {
+        self.gate = SampleGate::default();
+        self.estimator.reset();
+        self.newest = None;
+        self.fresh = None;
+        self.estimate = Estimate::REST;
+        self.age = None;
+    }
+
+    /// What comes from here on is fresh.
+    pub(super) fn begin_tick(&mut self) {
+        self.fresh = None;
+    }
+
+    /// Takes a sample; true if it began a new series.
+    pub(super) fn take(&mut self, sample: PointerSample, now: Instant) -> bool {
+        let verdict = self.gate.admit(sample, now);
+        let (sample, restarted) = match verdict {
+            Verdict::Drop => return false,
+            Verdict::Append(sample) | Verdict::Replace(sample) => (sample, false),
+            Verdict::Restart(sample) => (sample, true),
+        };
+        if restarted {
+            self.estimator.reset();
+        }
+        if matches!(verdict, Verdict::Replace(_)) {
+            self.estimator.replace(sample);
+        } else {
+            self.estimator.push(sample);
+        }
+        self.newest = Some(sample);
+        self.fresh = Some(sample.stamp);
+        restarted
+    }
+
+    /// Estimates at a tick. One in which the series began anew is silent, whatever followed.
+    pub(super) fn look(&mut self, now: Instant, restarted: bool) {
+        self.estimate = if restarted {
+            Estimate::REST
+        } else {
+            self.estimator.estimate(now)
+        };
+        let age = self
+            .newest
+            .map(|newest| now.saturating_duration_since(newest.stamp));
+        self.age = age.filter(|age| *age <= REST);
+    }
+
+    /// Chooses another method; the estimate begins anew.
+    pub(super) fn set_method(&mut self, method: VelocityMethod) {
+        self.estimator.set_method(method);
+    }
+
+    /// Where the newest sample is.
+    pub(super) fn position(&self) -> Option<Point> {
+        self.newest.map(|newest| newest.position)
+    }
+
+    /// The velocity at the last tick.
+    pub(super) fn estimate(&self) -> Estimate {
+        self.estimate
+    }
+
+    /// The stamp of the newest sample, if it came for the last tick.
+    pub(super) fn fresh_stamp(&self) -> Option<Instant> {
+        self.fresh
+    }
+
+    /// What a snapshot shows. `depth` is how many ticks ahead a device plays.
+    pub(super) fn view(&self, losses: InputLosses, depth: Option<u8>) -> PointerView {
+        let mut samples = self.gate.counters();
+        samples.overflowed = losses.overflowed;
+        samples.bad_lines = losses.bad_lines;
+        let until_mid_tick = TICK * u32::from(depth.unwrap_or(0)) + TICK / 2;
+        PointerView {
+            is_known: self.newest.is_some(),
+            age: self.age,
+            felt_age: self.age.map(|age| age + until_mid_tick),
+            method: self.estimator.method(),
+            velocity_lag_s: self.estimate.lag_s,
+            samples,
+        }
+    }
+}
