@@ -58,13 +58,10 @@ impl CliError {
             Self::Input(_) | Self::Render(_) => 2,
             Self::File(error) => code_of_file(error),
             Self::Textile(error) => code_of_textile(error),
-            Self::Scene(SceneError::File(error)) => code_of_file(error),
-            Self::Scene(SceneError::Textile(error)) => code_of_textile(error),
-            Self::Scene(SceneError::Value { .. }) => 2,
+            Self::Scene(error) => code_of_scene(error),
             Self::Bridge(error) => code_of_bridge(error),
+            Self::Engine(error) => code_of_engine(error),
             Self::App(error) => code_of_app(error),
-            Self::Engine(EngineError::Render(_) | EngineError::Scene(_)) => 2,
-            Self::Engine(_) => 1,
         }
     }
 }
@@ -103,6 +100,14 @@ fn code_of_textile(error: &TextileError) -> u8 {
     }
 }
 
+fn code_of_scene(error: &SceneError) -> u8 {
+    match error {
+        SceneError::File(error) => code_of_file(error),
+        SceneError::Textile(error) => code_of_textile(error),
+        SceneError::Value { .. } => 2,
+    }
+}
+
 /// Ports and places that are not what was said are wrong input; a link that breaks is not.
 fn code_of_bridge(error: &BridgeError) -> u8 {
     match error {
@@ -111,18 +116,23 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
     }
 }
 
+fn code_of_engine(error: &EngineError) -> u8 {
+    match error {
+        EngineError::Render(_) => 2,
+        EngineError::Scene(error) => code_of_scene(error),
+        EngineError::Busy | EngineError::Thread(_) => 1,
+    }
+}
+
+/// A missing display is for the user to mend.
 fn code_of_app(error: &AppError) -> u8 {
     match error {
+        AppError::Scene(error) => code_of_scene(error),
+        AppError::Textile(error) => code_of_textile(error),
+        AppError::Engine(error) => code_of_engine(error),
         AppError::NoDisplay
         | AppError::NoGraphics(_)
-        | AppError::Size { .. }
-        | AppError::Render(_) => 2,
-        AppError::Scene(SceneError::File(error)) => code_of_file(error),
-        AppError::Scene(SceneError::Textile(error)) | AppError::Textile(error) => {
-            code_of_textile(error)
-        }
-        AppError::Scene(SceneError::Value { .. }) => 2,
-        AppError::Engine(EngineError::Render(_) | EngineError::Scene(_)) => 2,
-        AppError::Engine(_) => 1,
+        | AppError::Render(_)
+        | AppError::Size { .. } => 2,
     }
 }

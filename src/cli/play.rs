@@ -17,7 +17,9 @@ use clap::Args;
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::{CliError, output, signals, terminal};
-use crate::bridge::{Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target};
+use crate::bridge::{
+    Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target, fault_bit,
+};
 use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
 use crate::scene::{ExplorationPath, LoadedScene};
@@ -27,13 +29,15 @@ const NAP: Duration = Duration::from_millis(20);
 /// The last STOP is sent again every 250 ms, eight times; then the session itself gives up.
 const STOP_PATIENCE: Duration = Duration::from_secs(4);
 
+const PATH_HELP: &str =
+    "Exploration: a path file, or - for lines of x_mm,y_mm or t_s,x_mm,y_mm on standard input";
+
 /// What to play, and where.
 #[derive(Debug, Args)]
 pub(super) struct PlayArgs {
     /// Scene file
     scene: PathBuf,
-    /// Exploration: a path file, or - for lines of x_mm,y_mm or t_s,x_mm,y_mm on standard input
-    #[arg(long, value_name = "PATH.csv")]
+    #[arg(long, value_name = "PATH.csv", help = PATH_HELP)]
     path: PathBuf,
     /// Serial port of the device
     #[arg(long, value_name = "PORT")]
@@ -172,8 +176,9 @@ impl Player {
         let target = self.bridge.target();
         let failed = |what: &str| Err(CliError::Failed(format!("{target}: {what}")));
         match event {
-            BridgeEvent::Refused(reason) | BridgeEvent::Lost(reason) => return failed(&reason),
-            BridgeEvent::Disarmed {
+            BridgeEvent::Refused(reason)
+            | BridgeEvent::Lost(reason)
+            | BridgeEvent::Disarmed {
                 by: DisarmedBy::Device,
                 reason,
             } => return failed(&reason),
@@ -183,7 +188,8 @@ impl Player {
                 }
             }
             BridgeEvent::Fault(fault) => {
-                terminal::notice(&format!("{target}: the device reports {fault:?}"));
+                let names = fault_bit::names(fault.faults);
+                terminal::notice(&format!("{target}: the device reports a fault: {names}"));
             }
             BridgeEvent::DepthRaised(depth) => {
                 terminal::notice(&format!("frames came late: now sent {depth} ticks ahead"));

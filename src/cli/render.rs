@@ -17,13 +17,15 @@ use crate::render::array::{Accuracy, Method};
 use crate::render::{RenderScene, Replay, RunStats, replay};
 use crate::scene::{ExplorationPath, LoadedScene};
 
+const PATH_HELP: &str =
+    "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s";
+
 /// What to replay, and what to write.
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
     /// Scene file
     scene: PathBuf,
-    /// Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s
-    #[arg(long, value_name = "PATH.csv")]
+    #[arg(long, value_name = "PATH.csv", help = PATH_HELP)]
     path: PathBuf,
     /// Amplitudes after gains, one row a contactor a tick (standard output if no file is asked for)
     #[arg(long, value_name = "A.csv")]

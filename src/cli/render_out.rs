@@ -63,7 +63,7 @@ impl<'a> AmplitudeTable<'a> {
                 row.text(placed.map_or("", |placed| &placed.id));
                 for (exact, single) in exact_um.into_iter().zip(single_um) {
                     // What has no more digits than f32 is written with no more.
-                    if f64::from(single) == exact {
+                    if f64::from(single).to_bits() == exact.to_bits() {
                         row.number(single)
                     } else {
                         row.number(exact)

@@ -31,7 +31,7 @@ pub(super) enum TextileCommand {
         #[command(flatten)]
         from: FromLibrary,
     },
-    /// Local spectra of a textile: direction,point,wavenumber_per_mm,power_um2
+    /// Local spectra of a textile: power by direction, point and wavenumber
     Spectra {
         /// The textile's id
         id: String,
@@ -92,7 +92,7 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
 }
 
 fn list(library: &Library) -> Result<(), CliError> {
-    let mut text = String::new();
+    let mut lines = Vec::new();
     let widest = library.ids().iter().map(String::len).max().unwrap_or(0);
     for id in library.ids() {
         let Manifest {
@@ -102,11 +102,11 @@ fn list(library: &Library) -> Result<(), CliError> {
             ..
         } = library.manifest(id)?;
         let construction = construction.word();
-        text.push_str(&format!(
+        lines.push(format!(
             "{id:widest$}  {construction:9}  {fibre:10}  {name}\n"
         ));
     }
-    output::print(&text)
+    output::print(&lines.concat())
 }
 
 fn show(library: &Library, id: &str) -> Result<(), CliError> {
@@ -116,7 +116,7 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
     let n_points = Direction::ALL.map(|d| textile.surface().spectra(d).n_points().to_string());
     let level = levels
         .level_db()
-        .map_or("none".to_owned(), |db| fixed(db, 2));
+        .map_or_else(|| "none".to_owned(), |db| fixed(db, 2));
     let both = |values: [f64; 2], digits| values.map(|value| fixed(value, digits)).join(" / ");
     let mut rows = vec![
         ("id", id.to_owned()),

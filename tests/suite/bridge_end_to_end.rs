@@ -71,7 +71,7 @@ const PLAY: [&str; 8] = [
 
 /// Codes of a frame as the design defines them, worked out here anew: full scale 50 µm, limit
 /// 50 µm, both components scaled by the same factor when they add up to more than full scale.
-fn codes(a40_um: f32, a320_um: f32, gain: f64) -> [u64; 2] {
+fn codes(a40_um: f32, a320_um: f32, gain: f64) -> [f64; 2] {
     let clean = |a: f32| {
         if a.is_finite() && a > 0.0 {
             f64::from(a)
@@ -84,52 +84,61 @@ fn codes(a40_um: f32, a320_um: f32, gain: f64) -> [u64; 2] {
     if sum > 1.0 {
         a = a.map(|a| a / sum);
     }
-    let mut codes = a.map(|a| (65535.0 * a / 50.0 + 0.5).floor() as u64);
-    if codes[0] + codes[1] > 65535 {
-        codes[1] -= 1;
+    let mut codes = a.map(|a| (65535.0 * a / 50.0 + 0.5).floor());
+    if codes[0] + codes[1] > 65535.0 {
+        codes[1] -= 1.0;
     }
     codes
 }
 
+/// Codes of every contactor, `[A40, A320]`.
+type Codes = Vec<[f64; 2]>;
+
 /// The device's frames in the order in which it applied them: seq, tick, codes.
-fn applied(device: &Rows) -> Vec<(u64, u64, Vec<[u64; 2]>)> {
-    let number = |text: &str| text.parse::<u64>().unwrap();
-    let (events, seqs, ticks) = (
-        device.text("event"),
-        device.text("seq"),
-        device.text("tick"),
-    );
-    let columns: Vec<[Vec<&str>; 2]> = (0..24)
-        .map(|i| [format!("a40_{i}"), format!("a320_{i}")].map(|c| device.text(&c)))
+fn applied(device: &Rows) -> Vec<(u64, u64, Codes)> {
+    let events = device.text("event");
+    let (seqs, ticks) = (device.text("seq"), device.text("tick"));
+    let column = |name: &str, i: usize| device.text(&format!("{name}_{i}"));
+    let columns: Vec<_> = (0..24)
+        .map(|i| (column("a40", i), column("a320", i)))
         .collect();
+    let code = |cell: &str| cell.parse::<f64>().unwrap();
     let codes = |row: usize| {
         columns
             .iter()
-            .map(|c| [number(c[0][row]), number(c[1][row])])
+            .map(|c| [code(c.0[row]), code(c.1[row])])
             .collect()
     };
     (0..device.len())
         .filter(|&row| events[row] == "frame")
-        .map(|row| (number(seqs[row]), number(ticks[row]), codes(row)))
+        .map(|row| {
+            (
+                seqs[row].parse().unwrap(),
+                ticks[row].parse().unwrap(),
+                codes(row),
+            )
+        })
         .collect()
 }
 
 /// The codes that the host's log asks for, by seq: apply tick and codes from amplitudes and gain.
-fn asked(host: &Rows) -> BTreeMap<u64, (u64, Vec<[u64; 2]>)> {
-    let (seqs, ticks) = (host.numbers("seq"), host.numbers("apply_tick"));
+fn asked(host: &Rows) -> BTreeMap<u64, (u64, Codes)> {
+    let (seqs, ticks) = (host.text("seq"), host.text("apply_tick"));
     let gains = host.numbers("gain");
     let of = |name: &str| -> Vec<Vec<f32>> {
         let column = |i| host.text(&format!("{name}_{i}"));
-        (0..24)
-            .map(|i| column(i).iter().map(|cell| cell.parse().unwrap()).collect())
-            .collect()
+        let numbers = |i| column(i).iter().map(|cell| cell.parse().unwrap()).collect();
+        (0..24).map(numbers).collect()
     };
     let (low, high) = (of("a40_um"), of("a320_um"));
     let frame = |row: usize| {
         let wanted = (0..24)
             .map(|i| codes(low[i][row], high[i][row], gains[row]))
             .collect();
-        (seqs[row] as u64, (ticks[row] as u64, wanted))
+        (
+            seqs[row].parse().unwrap(),
+            (ticks[row].parse().unwrap(), wanted),
+        )
     };
     (0..host.len()).map(frame).collect()
 }
@@ -165,6 +174,35 @@ fn check_frames(host: &Rows, device: &Rows) -> usize {
     applied.len()
 }
 
+/// Plays to the end on a device of its own. A machine so busy that the program sleeps for a tenth
+/// of a second lets the device disarm itself, as it should: then it is tried again.
+fn play_to_the_end(lab: &Lab, args: &[&str]) -> (Outcome, Rows, Rows) {
+    undisturbed(|| {
+        let device = Device::start(lab);
+        let outcome = lab.run(args);
+        let rows = (Rows::read(&lab.path("host.csv")), device.end(lab));
+        is_undisturbed(&outcome).then_some((outcome, rows.0, rows.1))
+    })
+}
+
+fn is_undisturbed(outcome: &Outcome) -> bool {
+    !outcome.err.contains("no frame reached it in time")
+}
+
+fn undisturbed<T>(attempt: impl Fn() -> Option<T>) -> T {
+    let found = (0..5).find_map(|_| attempt());
+    found.expect("five attempts disturbed by a machine that is too busy")
+}
+
+/// The device ends at rest: the last that its log says.
+fn check_rest(device: &Rows) {
+    let last = device.len() - 1;
+    assert_eq!(
+        (device.text("state")[last], device.text("amp_sum")[last]),
+        ("READY", "0")
+    );
+}
+
 #[test]
 fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() {
     let lab = Lab::with_scene();
@@ -176,8 +214,7 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
         "a.csv",
         "t_s,x_mm,y_mm,angle_deg\n0,15,40,0\n0.7,85,42,10\n1.5,15,30,40\n",
     );
-    let device = Device::start(&lab);
-    let played = lab.run(&PLAY);
+    let (played, host, device) = play_to_the_end(&lab, &PLAY);
     assert_eq!(played.code, 0, "{played:?}");
     assert!(played.out.contains("61 frames"), "{}", played.out);
     assert!(
@@ -185,7 +222,6 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
         "{}",
         played.out
     );
-    let (host, device) = (Rows::read(&lab.path("host.csv")), device.end(&lab));
     let n_applied = check_frames(&host, &device);
     assert_eq!(host.len(), 61, "one frame a tick of the path");
     assert!(n_applied >= 40, "{n_applied} of 61 frames applied");
@@ -195,22 +231,20 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
         (0.05, 0.5, 1.0),
         "soft start over 20 ticks"
     );
-    // The device ends at rest because it was told to, not because it missed us.
-    let last = device.len() - 1;
-    assert_eq!(
-        (device.text("state")[last], device.text("amp_sum")[last]),
-        ("READY", "0")
-    );
+    let sums = (0..host.len()).map(|row| {
+        let code = |name: &str| host.numbers(name)[row];
+        code("code40_0") + code("code320_0")
+    });
+    assert!(sums.fold(0.0, f64::max) >= 65534.0, "the limits were met");
+    check_rest(&device);
 }
 
 #[test]
 fn what_is_played_is_what_is_rendered() {
     let lab = Lab::with_scene();
-    let device = Device::start(&lab);
-    assert_eq!(lab.run(&PLAY).code, 0);
-    drop(device.end(&lab));
+    let (played, host, _) = play_to_the_end(&lab, &PLAY);
+    assert_eq!(played.code, 0, "{played:?}");
     let rendered = Rows::parse(&lab.print(&["render", "a.scene.toml", "--path", "a.csv"]));
-    let host = Rows::read(&lab.path("host.csv"));
     let a320_um = rendered.text("a320_um");
     for contactor in 0..24 {
         let played: Vec<f32> = (host.text(&format!("a320_um_{contactor}")).iter())
@@ -222,49 +256,50 @@ fn what_is_played_is_what_is_rendered() {
     }
 }
 
-#[test]
-fn a_loop_ends_at_rest_when_it_is_told_to() {
-    let lab = Lab::with_scene();
-    let device = Device::start(&lab);
-    let mut child = lab
-        .command(&[&PLAY[..], &["--loop"]].concat())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Longer than the path of 0.5 s: it has begun again.
-    wait_for_frames(&lab, 30);
-    signal("TERM", &child);
-    let code = child.wait().unwrap().code();
-    let outcome = Outcome::of(&child.wait_with_output().unwrap());
-    assert_eq!((code, outcome.err.as_str()), (Some(0), ""), "{outcome:?}");
-    let (host, device) = (Rows::read(&lab.path("host.csv")), device.end(&lab));
-    check_frames(&host, &device);
-    assert!(
-        host.len() > 21,
-        "{} frames of a path with 21 ticks",
-        host.len()
-    );
-    let last = device.len() - 1;
-    assert_eq!(
-        (device.text("state")[last], device.text("amp_sum")[last]),
-        ("READY", "0")
-    );
-}
-
-#[test]
-fn a_device_that_vanishes_is_a_failure_with_its_reason() {
-    let lab = Lab::with_scene();
-    let device = Device::start(&lab);
+/// Plays in a loop; `then` is done when some frames were applied.
+fn play_in_a_loop(lab: &Lab, device: Device, then: impl FnOnce(&Child, Device)) -> Outcome {
     let child = lab
         .command(&[&PLAY[..], &["--loop"]].concat())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    wait_for_frames(&lab, 5);
-    drop(device);
-    let outcome = Outcome::of(&child.wait_with_output().unwrap());
+    wait_for_frames(lab, 30);
+    then(&child, device);
+    Outcome::of(&child.wait_with_output().unwrap())
+}
+
+#[test]
+fn a_loop_ends_at_rest_when_it_is_told_to() {
+    let lab = Lab::with_scene();
+    let (host, device) = undisturbed(|| {
+        let (back, kept) = std::sync::mpsc::sync_channel(1);
+        let outcome = play_in_a_loop(&lab, Device::start(&lab), |child, device| {
+            signal("TERM", child);
+            back.send(device).unwrap();
+        });
+        let device = kept.recv().unwrap().end(&lab);
+        is_undisturbed(&outcome).then(|| {
+            assert_eq!((outcome.code, outcome.err.as_str()), (0, ""), "{outcome:?}");
+            (Rows::read(&lab.path("host.csv")), device)
+        })
+    });
+    check_frames(&host, &device);
+    assert!(
+        host.len() > 21,
+        "{} frames of a path with 21 ticks",
+        host.len()
+    );
+    check_rest(&device);
+}
+
+#[test]
+fn a_device_that_vanishes_is_a_failure_with_its_reason() {
+    let lab = Lab::with_scene();
+    let outcome = undisturbed(|| {
+        let outcome = play_in_a_loop(&lab, Device::start(&lab), |_, device| drop(device));
+        is_undisturbed(&outcome).then_some(outcome)
+    });
     assert_eq!(outcome.code, 1, "{outcome:?}");
     assert!(outcome.one_line().starts_with("array: "), "{outcome:?}");
 }
@@ -286,7 +321,12 @@ fn a_device_of_another_shape_is_refused() {
 #[test]
 fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
     let lab = Lab::with_scene();
-    let device = Device::start(&lab);
+    let line = |n: u8| {
+        let (t_s, x_mm) = (f64::from(n) * 0.01, 15.0 + f64::from(n) * 0.4);
+        format!("{t_s},{x_mm},40\n")
+    };
+    let stream: String = (0..100).map(line).collect();
+    let lines = format!("t_s,x_mm,y_mm\nno line\n{stream}");
     let args = [
         "play",
         "a.scene.toml",
@@ -297,28 +337,24 @@ fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
         "--log",
         "host.csv",
     ];
-    let mut child = lab
-        .command(&args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut lines = String::from("t_s,x_mm,y_mm\nno line\n");
-    for n in 0..100 {
-        lines.push_str(&format!(
-            "{},{},40\n",
-            f64::from(n) * 0.01,
-            15.0 + f64::from(n) * 0.4
-        ));
-    }
-    child
-        .stdin
-        .take()
-        .unwrap()
-        .write_all(lines.as_bytes())
-        .unwrap();
-    let outcome = Outcome::of(&child.wait_with_output().unwrap());
+    let (outcome, device) = undisturbed(|| {
+        let device = Device::start(&lab);
+        let mut command = lab.command(&args);
+        command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        child
+            .stdin
+            .take()
+            .unwrap()
+            .write_all(lines.as_bytes())
+            .unwrap();
+        let outcome = Outcome::of(&child.wait_with_output().unwrap());
+        let device = device.end(&lab);
+        is_undisturbed(&outcome).then_some((outcome, device))
+    });
     assert_eq!(outcome.code, 0, "{outcome:?}");
     assert!(
         outcome.one_line().contains("was dropped; write x_mm,y_mm"),
@@ -330,7 +366,7 @@ fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
         outcome.out
     );
     let host = Rows::read(&lab.path("host.csv"));
-    check_frames(&host, &device.end(&lab));
+    check_frames(&host, &device);
     let x_mm = host.numbers("x_mm");
     assert!(
         (x_mm[x_mm.len() - 1] - 54.6).abs() < 1e-9,
@@ -352,9 +388,9 @@ fn a_connected_device_passes_its_test() {
     drop(device.end(&lab));
 }
 
-/// Waits until the device has applied this many frames, as its log says.
+/// Waits until the device has applied this many frames, as its log says, or no more will come.
 fn wait_for_frames(lab: &Lab, n_frames: usize) {
-    let deadline = Instant::now() + Duration::from_secs(60);
+    let deadline = Instant::now() + Duration::from_secs(20);
     while Instant::now() < deadline {
         let log = std::fs::read_to_string(lab.path("device.csv")).unwrap_or_default();
         if log.lines().filter(|line| line.contains(",frame,")).count() >= n_frames {
@@ -362,5 +398,4 @@ fn wait_for_frames(lab: &Lab, n_frames: usize) {
         }
         std::thread::sleep(Duration::from_millis(20));
     }
-    panic!("the device applied fewer than {n_frames} frames in a minute");
 }

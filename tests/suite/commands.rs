@@ -3,7 +3,7 @@
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::process::Stdio;
 
-use crate::program::{Lab, Outcome, Rows};
+use crate::program::{Lab, Rows};
 
 const RENDER: [&str; 4] = ["render", "a.scene.toml", "--path", "a.csv"];
 
@@ -293,6 +293,6 @@ fn help_and_version_are_results() {
 
 #[test]
 fn ports_can_be_listed_anywhere() {
-    let outcome: Outcome = Lab::new().run(&["bridge", "list"]);
+    let outcome = Lab::new().run(&["bridge", "list"]);
     assert_eq!(outcome.code, 0, "{outcome:?}");
 }

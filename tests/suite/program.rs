@@ -51,11 +51,12 @@ impl Lab {
 
     /// Adds a textile that is measured along the warp only, 20 mm of it.
     pub(crate) fn add_textile(&self, id: &str, height_um: impl Fn(f64) -> f64) {
-        let mut profile = String::from("x_mm,height_um\n");
-        for sample in 0..4600 {
+        let row = |sample: u16| {
             let x_mm = f64::from(sample) / 230.0;
-            profile.push_str(&format!("{x_mm},{}\n", height_um(x_mm)));
-        }
+            format!("{x_mm},{}\n", height_um(x_mm))
+        };
+        let rows: String = (0..4600).map(row).collect();
+        let profile = format!("x_mm,height_um\n{rows}");
         self.write(&format!("textiles/{id}/warp.csv"), profile);
         self.write(&format!("textiles/{id}/textile.toml"), MANIFEST);
     }
