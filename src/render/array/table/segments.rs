@@ -130,8 +130,8 @@ fn n_audible(speed_mm_per_s: f64) -> usize {
     ((quotient + more - less) as usize).clamp(1, N_BINS)
 }
 
-/// log₂ of a positive normal number, within 1e-10: the exponent, and `ln((1+s)/(1−s)) = 2(s + s³/3 + …)`
-/// for the mantissa in √½…√2.
+/// log₂ of a positive normal number, within 1e-10: the exponent, and
+/// `ln((1 + s)/(1 − s)) = 2 (s + s³/3 + s⁵/5 + …)` for the mantissa in √½…√2.
 #[inline]
 pub(super) fn log2(x: f64) -> f64 {
     const SQRT_HALF_BITS: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
@@ -140,8 +140,14 @@ pub(super) fn log2(x: f64) -> f64 {
     let mantissa = f64::from_bits(x.to_bits().wrapping_sub((exponent << 52).cast_unsigned()));
     let s = (mantissa - 1.0) / (mantissa + 1.0);
     let q = s * s;
-    let even =
-        1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q / 11.0))));
+    let q2 = q * q;
+    // Pairs instead of a chain: half of the waiting for one product after another.
+    let pairs = [
+        1.0 + q * (1.0 / 3.0),
+        1.0 / 5.0 + q * (1.0 / 7.0),
+        1.0 / 9.0 + q * (1.0 / 11.0),
+    ];
+    let even = pairs[0] + q2 * (pairs[1] + q2 * pairs[2]);
     exponent as f64 + SCALE * s * even
 }
 
