@@ -205,3 +205,38 @@ fn nothing_changing_is_no_news() {
         "a turned display is news"
     );
 }
+
+#[test]
+fn a_panic_anywhere_in_the_process_presses_the_switch() {
+    let (mut engine, _) = engine(Method::Auto);
+    engine.stop_switch().press_on_panic();
+    let panics = || panic!("on purpose: any thread of the process");
+    let thread = std::thread::Builder::new()
+        .name("clumsy".to_owned())
+        .spawn(panics)
+        .unwrap();
+    assert!(thread.join().is_err());
+    engine.advance_ticks(1);
+    assert!(engine.snapshot().is_stopped);
+}
+
+#[test]
+fn dropping_a_running_engine_ends_its_threads() {
+    let news = Arc::new(());
+    let held = Arc::clone(&news);
+    let on_news: Box<dyn Fn() + Send> = Box::new(move || drop(Arc::clone(&held)));
+    let mut engine = Engine::start(EngineConfig {
+        on_news: Some(on_news),
+        ..config(Method::Auto)
+    })
+    .unwrap();
+    while engine.snapshot().tick < 3 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    drop(engine);
+    assert_eq!(
+        Arc::strong_count(&news),
+        1,
+        "the listener is gone, and its thread with it"
+    );
+}

@@ -1,9 +1,15 @@
 //! The engine with an emulated device, in real time: judged by what the device counts.
 
+#[cfg(unix)]
+use std::path::Path;
+#[cfg(unix)]
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use super::*;
-use crate::bridge::{BridgeEvent, DeviceState, DisarmedBy, Target};
+use crate::bridge::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
+#[cfg(unix)]
+use crate::bridge::{DeviceModel, PtyEmulator};
 use crate::engine::input::PointerInput;
 use crate::engine::order::{CoreOrder, Order};
 
@@ -185,6 +191,25 @@ fn a_port_that_is_not_there_is_a_notice_and_the_engine_goes_on() {
     });
 }
 
+#[cfg(unix)]
+#[test]
+fn a_device_that_vanishes_is_a_notice_and_the_own_clock_goes_on() {
+    let (mut engine, _) = with_terminal("vanish", |link, vanish| {
+        let mut engine = start_streaming(Target::Port(link.to_owned()));
+        vanish.store(true, Ordering::SeqCst);
+        wait_for(&mut engine, "the loss", |event| {
+            matches!(event, BridgeEvent::Lost(_))
+        });
+        engine
+    });
+    let tick = engine.snapshot().tick;
+    wait(&mut engine, "more ticks", |engine| {
+        (engine.snapshot().tick > tick + 5).then_some(())
+    });
+    assert!(!engine.snapshot().clock.is_device_paced);
+    assert_eq!(engine.snapshot().link.unwrap().state, BridgeState::Lost);
+}
+
 /// A source that fails in a way that nobody foresaw.
 #[derive(Debug)]
 struct Panics;
@@ -199,36 +224,43 @@ impl PointerInput for Panics {
     }
 }
 
-/// Lets the engine's thread panic while it streams over a pseudo-terminal, and returns the states
-/// that the device went through.
+/// Runs an emulated device behind a pseudo-terminal until the work is done, or sets the flag that
+/// ends it. Returns the work's result and the device's log.
 #[cfg(unix)]
-fn states_through_a_panic(number: u32) -> Vec<String> {
-    use std::sync::atomic::{AtomicBool, Ordering};
-
-    use crate::bridge::{ArrayProfile, DeviceModel, PtyEmulator};
-
-    let name = format!("selvedge-panic-{}-{number}", std::process::id());
+fn with_terminal<T>(name: &str, work: impl FnOnce(&Path, &AtomicBool) -> T) -> (T, String) {
+    let name = format!("selvedge-{name}-{}", std::process::id());
     let folder = std::env::temp_dir().join(name);
     std::fs::create_dir_all(&folder).unwrap();
     let (link, log) = (folder.join("array"), folder.join("log.csv"));
     let model = DeviceModel::for_array(&ArrayProfile::default());
     let emulator = PtyEmulator::new(model, &link, Some(&log)).unwrap();
     let is_over = AtomicBool::new(false);
-    thread::scope(|scope| {
+    let done = thread::scope(|scope| {
         let emulation = scope.spawn(|| emulator.run(&is_over));
-        let mut engine = start_streaming(Target::Port(link.clone()));
+        let done = work(&link, &is_over);
+        is_over.store(true, Ordering::SeqCst);
+        emulation.join().unwrap().unwrap();
+        done
+    });
+    let text = std::fs::read_to_string(&log).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    (done, text)
+}
+
+/// Lets the engine's thread panic while it streams, and returns the states that the device went
+/// through.
+#[cfg(unix)]
+fn states_through_a_panic(number: u32) -> Vec<String> {
+    let ((), log) = with_terminal(&format!("panic-{number}"), |link, _| {
+        let mut engine = start_streaming(Target::Port(link.to_owned()));
         let source: Option<Box<dyn PointerInput>> = Some(Box::new(Panics));
         engine.push(Order::Core(CoreOrder::Source(source))).unwrap();
         wait(&mut engine, "the panic", |engine| {
             (!engine.is_running()).then_some(())
         });
         thread::sleep(Duration::from_millis(200));
-        is_over.store(true, Ordering::SeqCst);
-        emulation.join().unwrap().unwrap();
     });
-    let text = std::fs::read_to_string(&log).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
-    let states = text
+    let states = log
         .lines()
         .filter(|line| line.split(',').nth(2) == Some("state"));
     states

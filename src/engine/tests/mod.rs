@@ -230,3 +230,35 @@ fn poses_of_a_live_exploration_turn_as_the_display_does() {
     engine.advance(start + TICK * 2);
     assert_eq!(engine.snapshot().pose.angular_rad_per_s, 0.0);
 }
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn no_samples_make_a_tick_fail_or_a_pose_or_an_amplitude_be_no_number(
+        samples in proptest::collection::vec(
+            (-4_000_000_i64..4_000_000, proptest::num::f64::ANY, proptest::num::f64::ANY),
+            0..60,
+        ),
+        ticks in proptest::collection::vec(0_u64..100, 1..20),
+    ) {
+        // A day after the system's origin, so that every stamp exists.
+        let mut now = Instant::now() + Duration::from_hours(24);
+        let mut engine = Engine::without_thread(config(Method::Table), now).unwrap();
+        let mut pointer = engine.take_pointer().unwrap();
+        let mut samples = samples.into_iter();
+        for pause_ms in ticks {
+            now += Duration::from_millis(pause_ms);
+            for (offset_ms, x_mm, y_mm) in samples.by_ref().take(4) {
+                let by = Duration::from_millis(offset_ms.unsigned_abs());
+                let stamp = if offset_ms < 0 { now.checked_sub(by).unwrap() } else { now + by };
+                pointer.push(PointerSample { stamp, position: Point::new(x_mm, y_mm) });
+            }
+            engine.advance(now);
+            let snapshot = engine.snapshot();
+            let pose = snapshot.pose;
+            assert!(pose.position.is_finite() && pose.velocity.is_finite(), "{pose:?}");
+            assert!(amplitudes(snapshot).iter().flatten().all(|a| a.is_finite() && *a >= 0.0));
+        }
+    }
+}
