@@ -72,7 +72,9 @@ impl Probe {
             }
         }
         let scale = 1.0 / heights_um.height().max(1) as f64;
-        lift.iter_mut().for_each(|sum| *sum *= scale);
+        for sum in &mut lift {
+            *sum *= scale;
+        }
         lift
     }
 
@@ -124,4 +126,147 @@ fn rest_um(track: &[f64], drops: &[f64]) -> f64 {
     let left = left.iter().rev().zip(&drops[1..]);
     let highest = |best: f64, (height, drop): (&f64, &f64)| best.max(height - drop);
     left.fold(right.fold(f64::NEG_INFINITY, highest), highest)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::*;
+    use crate::surface::Profile;
+
+    const STEP_MM: f64 = 1.0 / 230.0;
+
+    /// The wire's heights over 20 mm of a surface that is the same on every track.
+    fn over(probe: &Probe, height_um: impl Fn(f64) -> f64) -> Vec<f64> {
+        let margin = probe.margin_samples(STEP_MM);
+        let n = 4600 + 2 * margin;
+        let track: Vec<f64> = (0..n)
+            .map(|i| height_um((i as f64 - margin as f64) * STEP_MM))
+            .collect();
+        let tracks = Grid::from_rows(n, [track.clone(), track].concat()).unwrap();
+        probe.lift_um(&tracks, STEP_MM)
+    }
+
+    /// Amplitude at a whole number of cycles in 20 mm.
+    fn amplitude(heights_um: &[f64], per_mm: f64) -> f64 {
+        let phase = |i: usize| TAU * per_mm * i as f64 * STEP_MM;
+        let part = |f: fn(f64) -> f64| {
+            heights_um
+                .iter()
+                .enumerate()
+                .map(|(i, h)| h * f(phase(i)))
+                .sum::<f64>()
+        };
+        2.0 * part(f64::sin).hypot(part(f64::cos)) / heights_um.len() as f64
+    }
+
+    #[test]
+    fn a_gentle_sine_passes_unchanged() {
+        // Curvature a(2πν)² of 0.32 and 3.2 per mm; the wire follows up to 1/r = 4 per mm.
+        for (a_um, per_mm) in [(2.0, 2.0), (9.0, 3.0)] {
+            let curvature = a_um / 1000.0 * (TAU * per_mm).powi(2);
+            assert!(curvature < 4.0, "{curvature}");
+            let lift = over(&Probe::ideal(), |x| a_um * (TAU * per_mm * x).sin());
+            let highest = lift.iter().copied().fold(f64::MIN, f64::max);
+            let lowest = lift.iter().copied().fold(f64::MAX, f64::min);
+            assert!(
+                (highest - lowest - 2.0 * a_um).abs() < 0.01 * a_um,
+                "{highest} {lowest}"
+            );
+            if curvature < 0.4 {
+                // The wire's own shape leans the flanks by ½ r slope²: a second harmonic, no less of
+                // the first to this order.
+                let second = 0.25 * 250.0 * (a_um / 1000.0 * TAU * per_mm).powi(2);
+                assert!(
+                    (amplitude(&lift, 2.0 * per_mm) - second).abs() < 0.1 * second,
+                    "{second}"
+                );
+                assert!(
+                    (amplitude(&lift, per_mm) - a_um).abs() < 0.01 * a_um,
+                    "{a_um}"
+                );
+                let smd = Profile::new(STEP_MM, lift).unwrap().smd_um();
+                assert!((smd - 2.0 * a_um / PI).abs() < 0.01 * a_um, "{smd}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_steep_sine_loses_its_troughs() {
+        let lift = over(&Probe::ideal(), |x| 30.0 * (TAU * 4.0 * x).cos());
+        let lowest = lift.iter().copied().fold(f64::MAX, f64::min);
+        // Crests 0.25 mm apart hold the wire; half-way it sags by less than r − √(r² − 0.125²).
+        let sag = 250.0 - (250.0_f64.powi(2) - 125.0_f64.powi(2)).sqrt();
+        assert!(
+            lowest > 30.0 - sag - 1e-9 && lowest < 30.0 - 1.0,
+            "{lowest}"
+        );
+    }
+
+    #[test]
+    fn a_narrow_slit_is_closed() {
+        let lift = over(&Probe::ideal(), |x| {
+            if (x - 10.0).abs() < 0.05 { -500.0 } else { 0.0 }
+        });
+        let lowest = lift.iter().copied().fold(f64::MAX, f64::min);
+        let sag = 250.0 - (250.0_f64.powi(2) - 50.0_f64.powi(2)).sqrt();
+        assert!(
+            (lowest + sag).abs() < 0.6,
+            "{lowest} where the wire sags by {sag}"
+        );
+        assert_eq!(lift[0], 0.0);
+    }
+
+    #[test]
+    fn the_load_is_shared_over_the_tracks() {
+        let margin = Probe::ideal().margin_samples(STEP_MM);
+        let n = 2 * margin + 3;
+        let mut tracks = Grid::filled(n, 4, 0.0);
+        tracks.row_mut(1).fill(8.0);
+        assert_eq!(Probe::ideal().lift_um(&tracks, STEP_MM), [2.0; 3]);
+        assert!(
+            Probe::ideal()
+                .lift_um(&Grid::filled(5, 1, 0.0), STEP_MM)
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn noise_is_as_strong_as_said_and_never_the_same_twice() {
+        let probe = Probe::default();
+        let mut random = Random::new(1);
+        let flat = vec![0.0; 20_000];
+        let first = probe.stroke(&flat, STEP_MM, false, &mut random);
+        let second = probe.stroke(&flat, STEP_MM, false, &mut random);
+        let rms = (first.iter().map(|h| h * h).sum::<f64>() / 20_000.0).sqrt();
+        assert!((rms - 0.2).abs() < 0.005, "{rms}");
+        assert_ne!(first, second);
+    }
+
+    #[test]
+    fn reverse_is_travelled_backwards_and_friction_tells() {
+        let saw = |x: f64| 20.0 * (x.fract() - 0.5).abs();
+        let lift = over(&Probe::ideal(), saw);
+        let mut random = Random::new(1);
+        let backwards = Probe::ideal().stroke(&lift, STEP_MM, true, &mut random);
+        assert!(
+            backwards.iter().eq(lift.iter().rev()),
+            "without friction only the order differs"
+        );
+        let probe = Probe {
+            noise_um: 0.0,
+            ..Probe::default()
+        };
+        let forward = probe.stroke(&lift, STEP_MM, false, &mut random);
+        let mut reverse = probe.stroke(&lift, STEP_MM, true, &mut random);
+        reverse.reverse();
+        let apart = forward
+            .iter()
+            .zip(&reverse)
+            .map(|(a, b)| (a - b).abs())
+            .sum::<f64>()
+            / 4600.0;
+        assert!(apart > 0.05 && apart < 1.0, "mean difference {apart} µm");
+    }
 }

@@ -7,12 +7,11 @@ use std::fs;
 use std::path::Path;
 
 use super::TextileError;
-use super::cloth::portrait;
 use super::index::{Index, IndexEntry};
 use super::library::{INDEX, Library};
-use super::loaded::{MANIFEST, STEP_MM, made_profiles};
+use super::loaded::MANIFEST;
 use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
-use super::profile_file;
+use super::model::{Model, profiles_of_files};
 use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
 use crate::progress::Progress;
 use crate::surface::Direction;
@@ -38,25 +37,22 @@ pub struct BuiltFile {
 /// # Errors
 /// A source that is no recipe.
 pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileError> {
-    let no_recipe = || TextileError::NoRecipe {
+    let model = Model::of(&recipe.source).ok_or_else(|| TextileError::NoRecipe {
         path: path.to_owned(),
         kind: recipe.source.kind(),
+    })?;
+    let texts = model.profile_files()?;
+    let smd_um: f64 = profiles_of_files(&texts)?
+        .iter()
+        .flatten()
+        .map(|profile| 0.25 * profile.smd_um())
+        .sum();
+    let file = |(direction, text): (Direction, String)| BuiltFile {
+        name: format!("{}.csv", direction.key()),
+        bytes: text.into_bytes(),
     };
-    let strokes = made_profiles(&recipe.source).ok_or_else(no_recipe)?;
-    let mut files = Vec::new();
-    let mut smd_um = 0.0;
-    for (direction, heights) in Direction::ALL.into_iter().zip(strokes()) {
-        let name = format!("{}.csv", direction.key());
-        let bytes = profile_file::write(&heights, STEP_MM, Path::new(&name))?;
-        smd_um += 0.25 * profile_file::read(&bytes, Path::new(&name))?.smd_um();
-        files.push(BuiltFile { name, bytes });
-    }
-    let cloth = match &recipe.source {
-        Source::Weave(weave) => weave.cloth(),
-        Source::Knit(knit) => knit.cloth(),
-        Source::Profiles(_) => return Err(no_recipe()),
-    };
-    let bytes = encode_png_small(&portrait(&cloth), Path::new(PICTURE))?;
+    let mut files: Vec<_> = Direction::ALL.into_iter().zip(texts).map(file).collect();
+    let bytes = encode_png_small(&model.picture(), Path::new(PICTURE))?;
     files.push(BuiltFile {
         name: PICTURE.to_owned(),
         bytes,

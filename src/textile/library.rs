@@ -174,6 +174,16 @@ impl Library {
 }
 
 impl Store {
+    /// The text of a file of a textile.
+    pub(crate) fn text(&self, id: &str, name: &str) -> Result<String, FileError> {
+        match self {
+            Self::Folder(_) => read_text(&self.path(id, name)),
+            Self::Shipped => self
+                .read(id, name)
+                .map(|bytes| String::from_utf8_lossy(&bytes).into_owned()),
+        }
+    }
+
     fn root(&self) -> PathBuf {
         match self {
             Self::Folder(folder) => folder.clone(),

@@ -16,6 +16,7 @@ mod knit;
 mod library;
 mod loaded;
 mod manifest;
+mod model;
 mod profile_file;
 mod shipped;
 mod weave;
@@ -71,3 +72,6 @@ pub enum TextileError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+#[cfg(test)]
+mod tests;

@@ -33,7 +33,9 @@ pub(crate) fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f6
         let relief = Relief::of(cloth, &window);
         let mut lift = probe.lift_um(&relief.height_um, STEP_MM);
         let mean = lift.iter().sum::<f64>() / lift.len().max(1) as f64;
-        lift.iter_mut().for_each(|height| *height -= mean);
+        for height in &mut lift {
+            *height -= mean;
+        }
         for direction in pair {
             let mut noise = random.branch(direction.key());
             heights[direction.index()] =

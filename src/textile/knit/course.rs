@@ -167,11 +167,11 @@ impl<'a> Bed<'a> {
         let field = Field::new(self.size_mm, 2.5, &mut random);
         let mut strands = Vec::with_capacity(self.n[0] * self.n[1]);
         for course in 0..self.n[1] {
-            let mut run = YarnRun::new(&self.knit.yarn, self.size_mm[1], 0.0, &mut random);
+            let run = YarnRun::new(&self.knit.yarn, self.size_mm[1], 0.0, &mut random);
             for wale in 0..self.n[0] {
                 let root = [self.courses_mm[course], self.wales_mm[wale]];
                 let clump = (self.knit.pile_clump * field.at(root[0], root[1])).exp();
-                strands.push(self.pile_loop(&mut run, root, clump, &mut random));
+                strands.push(self.pile_loop(&run, root, clump, &mut random));
             }
         }
         strands
@@ -179,7 +179,7 @@ impl<'a> Bed<'a> {
 
     fn pile_loop(
         &self,
-        run: &mut YarnRun<'_>,
+        run: &YarnRun<'_>,
         root: [f64; 2],
         clump: f64,
         random: &mut Random,

@@ -79,7 +79,7 @@ impl Structure {
             }
             Self::Pique => {
                 // A tuck lies across the loop that it did not knit through: both stand out.
-                let is_tuck = (wale % 2 == 0) == (course % 4 < 2);
+                let is_tuck = wale.is_multiple_of(2) == (course % 4 < 2);
                 if is_tuck {
                     Stitch {
                         lift: 0.6,

@@ -43,7 +43,7 @@ impl Checker<'_> {
 
 /// The line of a key of a table; of the table's header where the key is not there.
 fn line_of(text: &str, table: &str, key: &str) -> usize {
-    let mut at_table = if table.is_empty() { 1 } else { 0 };
+    let mut at_table = usize::from(table.is_empty());
     let mut current = "";
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();

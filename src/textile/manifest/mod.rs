@@ -167,6 +167,7 @@ impl Source {
     }
 
     /// The recipe alone: a model without the files that were made from it.
+    #[must_use]
     pub fn recipe(&self) -> Self {
         let mut recipe = self.clone();
         match &mut recipe {
