@@ -7,3 +7,15 @@
     clippy::print_stderr,
     reason = "a test that fails says so by panicking, and compares exact results on purpose"
 )]
+
+mod bad_input;
+mod bridge_end_to_end;
+mod commands;
+mod no_allocation;
+mod no_allocation_engine;
+mod program;
+mod window;
+
+/// Aborts when something allocates inside `assert_no_alloc`.
+#[global_allocator]
+static GUARD: assert_no_alloc::AllocDisabler = assert_no_alloc::AllocDisabler;
