@@ -149,3 +149,106 @@ fn levels_db(textiles: &[Arc<Textile>], filters: &Filters) -> Vec<Option<f64>> {
     }
     levels_db
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::scene::PlacedTextile;
+
+    fn placed(id: &str) -> PlacedTextile {
+        PlacedTextile {
+            id: id.to_owned(),
+            origin_mm: Point::default(),
+            size_mm: [50.0; 2],
+            rotation_deg: 0.0,
+            gain_db: 0.0,
+            label: String::new(),
+        }
+    }
+
+    fn with(ids: &[&str]) -> Scene {
+        let shipped = LoadedScene::shipped().unwrap().scene;
+        Scene {
+            textiles: ids.iter().map(|id| placed(id)).collect(),
+            ..shipped
+        }
+    }
+
+    #[test]
+    fn the_shipped_scene_has_four_textiles_and_the_librarys_tuning() {
+        let loaded = LoadedScene::shipped().unwrap();
+        let labels: Vec<&str> = loaded
+            .scene
+            .textiles
+            .iter()
+            .map(|t| t.label.as_str())
+            .collect();
+        assert_eq!(labels, ["1", "2", "3", "4"]);
+        assert_eq!(loaded.tuning(), loaded.library().default_tuning());
+        assert_eq!(
+            loaded.library_reference_db(),
+            loaded.tuning().compression_reference_db
+        );
+        let stored = loaded.library().index().unwrap();
+        for (textile, level_db) in loaded.textiles().iter().zip(loaded.levels_db()) {
+            let expected_db = stored.entry(textile.id()).unwrap().level_db().unwrap();
+            // The library keeps six digits.
+            assert!(
+                (level_db.unwrap() - expected_db).abs() < 1e-4,
+                "{}",
+                textile.id()
+            );
+        }
+    }
+
+    #[test]
+    fn a_textile_is_loaded_once_however_often_it_is_placed() {
+        let library = Arc::new(Library::shipped().unwrap());
+        let loaded = LoadedScene::load(with(&["denim", "silk-crepe", "denim"]), library).unwrap();
+        assert!(
+            Arc::ptr_eq(&loaded.textiles()[0], &loaded.textiles()[2]),
+            "one denim"
+        );
+        let moved = loaded.with_scene(with(&["jute-plain", "denim"])).unwrap();
+        assert!(
+            Arc::ptr_eq(&loaded.textiles()[0], &moved.textiles()[1]),
+            "still the same"
+        );
+        assert_eq!(moved.levels_db()[1], loaded.levels_db()[2]);
+    }
+
+    #[test]
+    fn a_textile_that_is_not_there_is_refused_with_its_line() {
+        let text = "name = \"A\"\nsize_mm = [1, 1]\n[[textile]]\norigin_mm = [0, 0]\n\
+                    size_mm = [1, 1]\nid = \"felt\"\n";
+        let error = LoadedScene::from_toml(text, Path::new("a.toml"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.starts_with("a.toml:6: no textile \"felt\" in "),
+            "{error}"
+        );
+        let library = Arc::new(Library::shipped().unwrap());
+        assert!(LoadedScene::load(with(&["felt"]), library).is_err());
+    }
+
+    #[test]
+    fn a_stated_tuning_goes_before_the_librarys() {
+        let library = Arc::new(Library::shipped().unwrap());
+        let tuning = Tuning {
+            gain_db: -6.0,
+            ..Tuning::default()
+        };
+        let scene = Scene {
+            tuning: Some(tuning),
+            ..with(&[])
+        };
+        let loaded = LoadedScene::load(scene, library).unwrap();
+        assert_eq!(loaded.tuning(), tuning);
+        assert!(
+            loaded.library_reference_db().is_some(),
+            "compression still has a reference"
+        );
+    }
+}

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use proptest::prelude::*;
+
 use super::*;
-use crate::geometry::Point;
+use crate::geometry::{Displacement, Point};
+use crate::tactile::{Filters, Tuning};
 
 const GOOD: &str = r#"name = "Two"
 library = "textiles"
@@ -114,11 +117,48 @@ fn a_library_is_found_beside_its_scene() {
     assert_eq!(folder.as_deref(), Some(Path::new("/lab/scenes/textiles")));
 }
 
-#[test]
-fn no_text_makes_the_reader_panic() {
-    for end in 0..GOOD.len() {
-        if let Some(text) = GOOD.get(..end) {
-            drop(read(text));
+proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(text in any::<String>()) {
+        drop(read(&text));
+    }
+
+    #[test]
+    fn no_damage_makes_the_reader_panic(at in 0..GOOD.len(), end in 0..GOOD.len(), put in ".{0,8}") {
+        let mut text = GOOD.to_owned();
+        text.replace_range(at.min(end)..at.max(end), &put);
+        if let Ok(scene) = read(&text) {
+            prop_assert_eq!(read(&scene.to_toml().unwrap()).unwrap(), scene);
         }
+    }
+
+    #[test]
+    fn any_good_scene_survives_writing_and_reading(
+        numbers in prop::array::uniform8(-1e9..1e9_f64),
+        text in any::<String>(),
+        octaves in 1e-3..10.0_f64,
+        compression in prop::option::of(0.0..=1.0_f64),
+    ) {
+        let [x_mm, y_mm, width_mm, height_mm, rotation_deg, gain_db, dx_mm, dy_mm] = numbers;
+        let size_mm = [width_mm.abs() + 1e-3, height_mm.abs() + 1e-3];
+        let textile = PlacedTextile {
+            id: "wool".to_owned(),
+            origin_mm: Point::new(x_mm, y_mm),
+            size_mm,
+            rotation_deg,
+            gain_db,
+            label: text.clone(),
+        };
+        let offsets = vec![Displacement::new(dx_mm, dy_mm), Displacement::new(dx_mm + 1.0, 0.0)];
+        let scene = Scene {
+            name: text,
+            library: None,
+            size_mm,
+            textiles: vec![textile],
+            displays: vec![Display { geometry: Geometry::Contactors(offsets), rotation_deg }],
+            filters: Filters::LogGaussian { octaves },
+            tuning: compression.map(|compression| Tuning { compression, ..Tuning::default() }),
+        };
+        prop_assert_eq!(read(&scene.to_toml().unwrap()).unwrap(), scene);
     }
 }

@@ -1,5 +1,7 @@
 //! Paths against the formulas of the design, and against bad files.
 
+use proptest::prelude::*;
+
 use super::*;
 
 const PATH: &str = "stroke.csv";
@@ -130,4 +132,36 @@ fn rows_that_are_made_are_checked_like_rows_that_are_read() {
         .unwrap_err()
         .to_string();
     assert!(error.starts_with("row 2: t_s is 1 after 1; "), "{error}");
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(text in any::<String>(), rows in "[-0-9.,enaif\n]{0,60}") {
+        drop(read(&text));
+        if let Ok(path) = read(&format!("t_s,x_mm,y_mm\n{rows}")) {
+            let n_checked = path.ticks().take(100).filter(|(_, pose)| pose.position.is_finite()).count();
+            prop_assert_eq!(n_checked as u64, path.n_ticks().min(100));
+        }
+    }
+
+    #[test]
+    fn ticks_are_forty_a_second_and_follow_the_rows(
+        steps_s in prop::collection::vec(1e-4..0.3_f64, 1..40),
+        start_s in -1e3..1e3_f64,
+    ) {
+        let mut t_s = start_s;
+        let rows: Vec<PathRow> = std::iter::once(0.0).chain(steps_s).map(|step_s| {
+            t_s += step_s;
+            // A straight line, so that interpolation must give its own function of time.
+            PathRow { t_s, position: Point::new(3.0 * t_s, -t_s), ..PathRow::default() }
+        }).collect();
+        let path = ExplorationPath::new(rows).unwrap();
+        let poses: Vec<(u64, Pose)> = path.ticks().collect();
+        prop_assert_eq!(poses.len() as u64, path.n_ticks());
+        for (n, (tick, pose)) in poses.iter().enumerate() {
+            prop_assert_eq!(*tick, n as u64);
+            prop_assert_eq!(pose.t_s, path.rows()[0].t_s + n as f64 / 40.0);
+            prop_assert!((pose.position.x_mm - 3.0 * pose.t_s).abs() < 1e-6, "{:?}", pose);
+        }
+    }
 }
