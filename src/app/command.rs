@@ -17,6 +17,8 @@ pub(crate) enum Command {
     AllOff,
     /// Arm the device: high voltage on.
     Arm,
+    /// End the silence of all off where there is no device to arm.
+    GoOn,
     /// Ramp the device to silence.
     Disarm,
     /// Connect to the emulator in this process.

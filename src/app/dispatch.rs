@@ -24,6 +24,11 @@ impl Workbench {
         match command {
             Command::AllOff => self.all_off(),
             Command::Arm => self.send(engine::Command::Arm),
+            Command::GoOn => {
+                // The engine goes on and refuses to arm what is not there: no news to anybody.
+                self.transient.is_going_on = true;
+                self.send(engine::Command::Arm);
+            }
             Command::Disarm => self.send(engine::Command::Disarm),
             Command::ConnectEmulator => self.connect(Target::Emulator),
             Command::ConnectPort(path) => self.connect(Target::Port(path)),
@@ -140,9 +145,9 @@ impl Workbench {
                     flaws,
                 } = *opened;
                 self.send(engine::Command::SetScene(Box::new(prepared)));
-                flaws
-                    .into_iter()
-                    .for_each(|flaw| self.transient.notices.give(flaw));
+                for flaw in flaws {
+                    self.transient.notices.give(flaw);
+                }
                 self.show_scene(path, loaded, pictures);
             }
             Err(error) => self.transient.notices.give(error.to_string()),

@@ -2,7 +2,7 @@
 //! frame (a movement of the pointer, and Esc).
 
 use std::cell::RefCell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
 
@@ -48,7 +48,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
     let app = eframe::create_native(
         "Selvedge",
         options,
-        Box::new(move |cc| match workbench(cc, scene) {
+        Box::new(move |cc| match workbench(cc, scene.as_deref()) {
             Ok(workbench) => {
                 *for_app.borrow_mut() = Some((Rc::clone(&workbench.tap), workbench.switch.clone()));
                 Ok(Box::new(workbench))
@@ -70,7 +70,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
 
 fn workbench(
     cc: &eframe::CreationContext<'_>,
-    scene: Option<PathBuf>,
+    scene: Option<&Path>,
 ) -> Result<Workbench, AppError> {
     let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
     workbench.switch.press_on_panic();

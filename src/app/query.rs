@@ -101,7 +101,11 @@ pub(crate) fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>) -> L
     Live {
         tick: snapshot.tick,
         centre: is_placed.then_some(snapshot.pose.position),
-        speed_mm_per_s: snapshot.pose.velocity.speed_mm_per_s(),
+        speed_mm_per_s: if snapshot.is_silent {
+            0.0
+        } else {
+            snapshot.pose.velocity.speed_mm_per_s()
+        },
         dots: contactors.iter().map(dot).collect(),
         is_stopped: snapshot.is_stopped,
         source: match snapshot.source {
@@ -143,6 +147,9 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         phase: phase(link.state),
         depth: link.depth,
         frame_interval_s,
+        stamp_to_write_s: Some(link.timings.stamp_to_write)
+            .filter(|spread| spread.n > 0)
+            .map(|spread| spread.p99.as_secs_f64()),
         gain: link
             .sent
             .filter(|_| link.state.takes_frames())
@@ -191,9 +198,8 @@ pub(crate) fn phase(state: BridgeState) -> BridgePhase {
 pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
     match notice {
         Notice::Bridge(event) => bridge_words(event, device),
-        Notice::Refused(why) => Some(capitalised(why)),
+        Notice::Refused(why) | Notice::RecordingEnded(why) => Some(capitalised(why)),
         Notice::GainIgnored(error) => Some(capitalised(&error.to_string())),
-        Notice::RecordingEnded(why) => Some(capitalised(why)),
         Notice::DisplayChanged => Some(
             "This scene's display has another number of contactors: the device was let go; connect \
              it again"

@@ -81,7 +81,7 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         Theme::Light => egui::Theme::Light,
     };
     ctx.set_theme(theme);
-    let mut bench = Workbench::new(&ctx, wanted.scene.clone(), Drive::Stepped)?;
+    let mut bench = Workbench::new(&ctx, wanted.scene.as_deref(), Drive::Stepped)?;
     let mut rasteriser = Rasteriser::default();
     bench.dispatch(&ctx, Command::ToggleStroke);
     bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());

@@ -54,7 +54,7 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
         while_typing,
     } in table()
     {
-        if is_escape(&key) {
+        if is_escape(key) {
             // Not used up: a field that is being typed in also ends on Esc.
             if ctx.input(|input| input.key_pressed(Key::Escape)) {
                 commands.push(command);
@@ -82,7 +82,7 @@ pub(crate) fn hint(ctx: &egui::Context, command: &Command) -> String {
         .unwrap_or_default()
 }
 
-fn is_escape(key: &KeyboardShortcut) -> bool {
+fn is_escape(key: KeyboardShortcut) -> bool {
     key.logical_key == Key::Escape
 }
 
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn escape_is_all_off_whatever_is_typed() {
         let first = &table()[0];
-        assert!(is_escape(&first.key) && first.while_typing, "{first:?}");
+        assert!(is_escape(first.key) && first.while_typing, "{first:?}");
         assert_eq!(first.command, Command::AllOff);
     }
 }

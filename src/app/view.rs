@@ -159,6 +159,8 @@ pub(crate) struct BridgeView {
     pub(crate) depth: u8,
     /// From the last frame but one to the last, measured on the device's ticks, s.
     pub(crate) frame_interval_s: Option<f64>,
+    /// From a pointer event to the end of the write of its frame, 99th percentile, s.
+    pub(crate) stamp_to_write_s: Option<f64>,
     /// Soft-start gain of the last frame, 0…1.
     pub(crate) gain: Option<f64>,
     /// Frames sent.

@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -22,7 +22,7 @@ use super::theme::{self, ColourMap};
 use super::view::{BridgeView, ClothPicture, LibraryDot, Live, SceneView};
 use super::workspace::Trail;
 use super::{frame, query, shortcuts};
-use crate::engine::{Engine, EngineConfig, StopSwitch, TICK, TICKS_PER_S};
+use crate::engine::{Engine, EngineConfig, Notice, StopSwitch, TICK, TICKS_PER_S};
 use crate::scene::LoadedScene;
 use crate::tactile::Tuning;
 
@@ -84,6 +84,8 @@ pub(crate) struct Transient {
     pub(crate) moment: Moment,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured_bridge: Option<BridgeView>,
+    /// Whether the next refusal to arm is expected.
+    pub(crate) is_going_on: bool,
     interval: query::IntervalMeter,
     reference_db: Option<f64>,
 }
@@ -94,11 +96,7 @@ impl Workbench {
     ///
     /// # Errors
     /// The scene cannot be opened, or the engine cannot start.
-    pub fn new(
-        ctx: &egui::Context,
-        scene: Option<PathBuf>,
-        drive: Drive,
-    ) -> Result<Self, AppError> {
+    pub fn new(ctx: &egui::Context, scene: Option<&Path>, drive: Drive) -> Result<Self, AppError> {
         theme::install(ctx);
         let Opened {
             path,
@@ -106,7 +104,7 @@ impl Workbench {
             prepared,
             pictures,
             flaws,
-        } = open(scene.as_deref())?;
+        } = open(scene)?;
         let now = Instant::now();
         let is_stepped = drive == Drive::Stepped;
         let mut engine = if is_stepped {
@@ -145,9 +143,9 @@ impl Workbench {
             now,
             loaded: loaded.clone(),
         };
-        flaws
-            .into_iter()
-            .for_each(|flaw| workbench.transient.notices.give(flaw));
+        for flaw in flaws {
+            workbench.transient.notices.give(flaw);
+        }
         workbench.show_scene(path, loaded, pictures);
         Ok(workbench)
     }
@@ -173,6 +171,9 @@ impl Workbench {
             };
             (id, (handle, picture))
         };
+        let title = format!("{} – Selvedge", loaded.scene().name);
+        self.ctx
+            .send_viewport_cmd(egui::ViewportCommand::Title(title));
         self.pictures = pictures.into_iter().map(upload).collect();
         self.library = query::library_dots(&loaded);
         self.document = Document::new(loaded.scene().clone(), path, default_tuning(&loaded));
@@ -195,6 +196,11 @@ impl Workbench {
             let Some(notice) = self.engine.next_notice() else {
                 break;
             };
+            if matches!(notice, Notice::Refused(_))
+                && std::mem::take(&mut self.transient.is_going_on)
+            {
+                continue;
+            }
             let device = self.transient.target.as_deref().unwrap_or("The device");
             if let Some(sentence) = query::words(&notice, device) {
                 self.transient.notices.give(sentence);

@@ -108,7 +108,7 @@ fn window(scene: &Path) -> Harness<'static, Workbench> {
         .with_step_dt(1.0 / 40.0)
         .with_max_steps(200)
         .renderer(Soft(Rasteriser::default()))
-        .build_eframe(move |cc| Workbench::new(&cc.egui_ctx, Some(scene), Drive::Stepped).unwrap())
+        .build_eframe(move |cc| Workbench::new(&cc.egui_ctx, Some(&scene), Drive::Stepped).unwrap())
 }
 
 /// A place over the textile.
@@ -279,6 +279,11 @@ fn escape_silences_from_anywhere_also_while_typing() {
         0.0,
         "and silent though the pointer moves"
     );
+    harness.get_by_label("Go on without a device").click();
+    harness.run_steps(2);
+    stroke(&mut harness, 20);
+    assert!(loudest_um(&harness) > 0.1, "felt again");
+    assert!(harness.state().notices().is_empty(), "nothing went wrong");
 }
 
 #[test]

@@ -7,6 +7,9 @@ use eframe::egui::{
     vec2,
 };
 
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::TextEditState;
+
 use super::Wishes;
 use crate::app::command::Command;
 use crate::app::theme::{self, Palette};
@@ -76,9 +79,11 @@ pub(crate) fn show(ui: &Ui, over: Rect, ask: &mut Ask, wishes: &mut Wishes) {
                     .font(theme::number())
                     .margin(Margin::symmetric(8, 6))
                     .hint_text("/path/to/NAME.scene.toml");
-                let response = ui.add(field).labelled_by(label.id);
+                let output = field.show(ui);
+                let response = output.response.response.labelled_by(label.id);
                 if !ask.was_focused {
                     response.request_focus();
+                    select_all(ui, output.state, response.id, &ask.path);
                     ask.was_focused = true;
                 }
                 let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
@@ -97,6 +102,15 @@ pub(crate) fn show(ui: &Ui, over: Rect, ask: &mut Ask, wishes: &mut Wishes) {
                 });
             });
         });
+}
+
+/// Selects the known path, so that typing replaces it.
+fn select_all(ui: &Ui, mut state: TextEditState, id: Id, text: &str) {
+    let end = CCursor::new(text.chars().count());
+    state
+        .cursor
+        .set_char_range(Some(CCursorRange::two(CCursor::default(), end)));
+    state.store(ui.ctx(), id);
 }
 
 #[cfg(test)]

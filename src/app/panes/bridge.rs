@@ -21,9 +21,9 @@ pub(crate) fn show(
 ) {
     section(ui, "Bridge");
     show_state(ui, live.bridge.as_ref(), target);
-    show_arming(ui, live.bridge.as_ref(), wishes);
+    show_arming(ui, live.bridge.as_ref(), live.is_stopped, wishes);
     show_target(ui, live.bridge.is_some(), port, wishes);
-    show_counters(ui, live.bridge.as_ref());
+    show_counters(ui, live.bridge.as_ref(), live.status.felt_age_s);
 }
 
 fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
@@ -45,7 +45,7 @@ fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
     });
 }
 
-fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
+fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, is_stopped: bool, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let phase = bridge.map(|bridge| bridge.phase);
     let size = vec2(ui.available_width(), ROW + 4.0);
@@ -56,6 +56,17 @@ fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
         let tip = "Ramp the device to silence; the window goes on";
         if ui.add_sized(size, armed).on_hover_text(tip).clicked() {
             wishes.push(Command::Disarm);
+        }
+        return;
+    }
+    if phase.is_none() && is_stopped {
+        let tip = "End the silence of all off; no device is connected";
+        if ui
+            .add_sized(size, Button::new("Go on without a device"))
+            .on_hover_text(tip)
+            .clicked()
+        {
+            wishes.push(Command::GoOn);
         }
         return;
     }
@@ -112,16 +123,18 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
     });
 }
 
-fn show_counters(ui: &mut Ui, bridge: Option<&BridgeView>) {
+fn show_counters(ui: &mut Ui, bridge: Option<&BridgeView>, felt_age_s: Option<f64>) {
     let number = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
-    let interval_s = bridge.and_then(|bridge| bridge.frame_interval_s);
-    let gain = bridge.and_then(|bridge| bridge.gain);
-    pair(
-        ui,
-        "Frame interval",
-        &number(interval_s.map(|s| quantity::fixed(s * 1e3, 2))),
-        "ms",
-    );
+    let ms = |s: f64| quantity::fixed(s * 1e3, 2);
+    let of = |pick: fn(&BridgeView) -> Option<f64>| bridge.and_then(pick);
+    let interval_s = of(|bridge| bridge.frame_interval_s);
+    let gain = of(|bridge| bridge.gain);
+    let written = number(of(|bridge| bridge.stamp_to_write_s).map(ms));
+    pair(ui, "Frame interval", &number(interval_s.map(ms)), "ms");
+    pair(ui, "Pointer to skin", &number(felt_age_s.map(ms)), "ms").on_hover_text(format!(
+        "From the pointer's movement to the middle of the tick in which it is felt\nto the end of \
+         the write to the port, 99 of 100: {written} ms"
+    ));
     pair(
         ui,
         "Depth",
@@ -150,9 +163,10 @@ fn show_troubles(ui: &mut Ui, troubles: &[(&'static str, u64)]) {
     let words: Vec<String> = counted
         .map(|(name, count)| format!("{count} {name}"))
         .collect();
-    let (words, ink) = match words.is_empty() {
-        true => ("none".to_owned(), palette.dim),
-        false => (words.join(", "), palette.danger),
+    let (words, ink) = if words.is_empty() {
+        ("none".to_owned(), palette.dim)
+    } else {
+        (words.join(", "), palette.danger)
     };
     let names: Vec<&str> = troubles.iter().map(|(name, _)| *name).collect();
     row(ui, "Losses and errors", |ui| {

@@ -53,9 +53,10 @@ fn show_scene(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
     let place = scene.path.as_ref().map(|path| path.display().to_string());
     name.on_hover_text(place.unwrap_or_else(|| "The scene shipped with the program".to_owned()));
     // The mark keeps its place when there is nothing to mark, so that nothing moves.
-    let (ink, words) = match scene.is_edited {
-        true => (palette.selection, "edited: not saved yet"),
-        false => (egui::Color32::TRANSPARENT, "saved"),
+    let (ink, words) = if scene.is_edited {
+        (palette.selection, "edited: not saved yet")
+    } else {
+        (egui::Color32::TRANSPARENT, "saved")
     };
     mark(ui, ink, words).on_hover_text(words);
     ui.add_space(STEP);

@@ -111,7 +111,7 @@ impl Heatmap {
                 painter.rect_stroke(
                     rect,
                     2,
-                    Stroke::new(1.0, palette.hairline),
+                    Stroke::new(1.0, palette.hovered),
                     StrokeKind::Inside,
                 );
             }

@@ -37,10 +37,10 @@ impl Levels {
     /// Takes in a tick. Says whether the strip looks different now.
     pub(crate) fn take(&mut self, tick: u64, dots: &[Dot]) -> bool {
         let now = mean_um(dots);
-        let was_silent = self.felt.back().is_none_or(|(_, mean)| *mean == [0.0; 2]);
+        let was_silent = self.felt.back().is_none_or(|(_, mean)| is_silent(mean));
         let gap = tick.saturating_sub(self.last_tick);
         self.last_tick = tick;
-        if gap == 0 || (was_silent && now == [0.0; 2]) {
+        if gap == 0 || (was_silent && is_silent(&now)) {
             return false;
         }
         // A pause between two strokes is one tick wide.
@@ -57,6 +57,10 @@ impl Levels {
     fn newest_um(&self) -> [f64; 2] {
         self.felt.back().map_or([0.0; 2], |(_, mean)| *mean)
     }
+}
+
+fn is_silent(mean_um: &[f64; 2]) -> bool {
+    mean_um.iter().all(|um| *um <= 0.0)
 }
 
 /// Mean amplitudes over the contactors that are on a textile, µm; 0 when none is.

@@ -103,11 +103,9 @@ fn show_filters(ui: &mut Ui, filters: Filters) {
         Filters::LogGaussian { octaves } => ("log-Gaussian", Some(octaves)),
         Filters::Receptor => ("receptor thresholds", None),
     };
-    match width {
-        Some(octaves) => {
-            let value = format!("{kind}  {}", quantity::fixed(octaves, 1));
-            pair(ui, "Filters", &value, "oct");
-        }
-        None => pair(ui, "Filters", kind, ""),
-    }
+    let (value, unit) = match width {
+        Some(octaves) => (format!("{kind}  {}", quantity::fixed(octaves, 1)), "oct"),
+        None => (kind.to_owned(), ""),
+    };
+    pair(ui, "Filters", &value, unit);
 }

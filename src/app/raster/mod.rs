@@ -36,6 +36,10 @@ pub struct Rasteriser {
 
 impl Rasteriser {
     /// Takes in new, changed and retired textures and leaves `delta` empty.
+    #[expect(
+        clippy::iter_over_hash_type,
+        reason = "every texture stands for itself: any order"
+    )]
     pub fn apply(&mut self, delta: &mut TexturesDelta) {
         for (id, changes) in delta.set.drain() {
             for change in changes {
@@ -106,7 +110,7 @@ struct Canvas {
 
 impl Canvas {
     fn clip(&self, points: egui::Rect, pixels_per_point: f32) -> Clip {
-        let edge = |at: f32, limit: usize| whole(at * pixels_per_point).clamp(0, limit as i64);
+        let edge = |at: f32, limit: usize| whole(at * pixels_per_point).clamp(0, signed(limit));
         Clip {
             columns: [
                 edge(points.min.x, self.width),
@@ -167,6 +171,11 @@ fn over(below: Color32, tint: [f32; 4], texel: [f32; 4]) -> Color32 {
 )]
 fn whole(at: f32) -> i64 {
     at.round() as i64
+}
+
+/// A count as a pixel coordinate.
+fn signed(count: usize) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
 }
 
 /// A pixel coordinate that clipping has made non-negative, as an index.

@@ -126,7 +126,7 @@ impl Level {
     }
 
     fn texel(&self, column: i64, row: i64, wrap: TextureWrapMode) -> [f32; 4] {
-        let [width, height] = self.size.map(|n| n as i64);
+        let [width, height] = self.size.map(super::signed);
         let at = |i: i64, n: i64| match wrap {
             TextureWrapMode::ClampToEdge => i.clamp(0, n - 1),
             TextureWrapMode::Repeat => i.rem_euclid(n),

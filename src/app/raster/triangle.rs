@@ -139,10 +139,8 @@ impl Triangle {
         let (x, y) = (column * SUB + HALF, row * SUB + HALF);
         let weights = self
             .edges
-            .map(|edge| (edge.at(x, y) as f64 / self.double_area as f64) as f32);
-        let steps = self
-            .edges
-            .map(|edge| ((edge.a * SUB) as f64 / self.double_area as f64) as f32);
+            .map(|edge| share(edge.at(x, y), self.double_area));
+        let steps = self.edges.map(|edge| share(edge.a * SUB, self.double_area));
         let (uv, colour) = self.weighted(weights);
         let (uv_step, colour_step) = self.weighted(steps);
         Interpolated {
@@ -155,11 +153,10 @@ impl Triangle {
 
     /// The largest change of the texture place over one pixel, along either axis.
     pub(super) fn uv_per_pixel(&self) -> Vec2 {
-        let area = self.double_area as f64;
         let along = |pick: fn(&Edge) -> i64| {
             self.weighted(
                 self.edges
-                    .map(|edge| ((pick(&edge) * SUB) as f64 / area) as f32),
+                    .map(|edge| share(pick(&edge) * SUB, self.double_area)),
             )
             .0
         };
@@ -191,6 +188,15 @@ impl Interpolated {
             *channel += step;
         }
     }
+}
+
+/// A part of the whole.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "weights are used in single precision"
+)]
+fn share(part: i64, whole: i64) -> f32 {
+    (part as f64 / whole as f64) as f32
 }
 
 /// A pixel coordinate in sub-pixel steps, bounded so that edges cannot overflow.

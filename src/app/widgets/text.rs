@@ -15,25 +15,24 @@ pub(crate) fn section(ui: &mut Ui, title: &str) {
 }
 
 /// A row with a name on the left and whatever `content` adds on the right, right-aligned.
-pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> R {
+pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Response {
     let size = vec2(ui.available_width(), 20.0);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.label(name);
-        ui.with_layout(Layout::right_to_left(Align::Center), content)
-            .inner
+        ui.with_layout(Layout::right_to_left(Align::Center), content);
     })
-    .inner
+    .response
 }
 
 /// A row with a name and a number in fixed digits with its unit.
-pub(crate) fn pair(ui: &mut Ui, name: &str, value: &str, unit: &str) {
+pub(crate) fn pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
     row(ui, name, |ui| {
         let palette = Palette::in_ui(ui);
         if !unit.is_empty() {
             ui.label(RichText::new(unit).font(theme::small()).color(palette.dim));
         }
         ui.label(RichText::new(value).font(theme::number()));
-    });
+    })
 }
 
 /// A filled circle as wide as a letter: a lamp. Read out as `label`.

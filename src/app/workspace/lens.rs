@@ -4,7 +4,7 @@
 
 use eframe::egui::{self, Align2, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
-use super::{Trail, ViewTransform, paint_scene};
+use super::{Trail, ViewTransform, paint_cloths, paint_display};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
 use crate::quantity;
@@ -59,7 +59,9 @@ pub(super) fn show(ui: &Ui, column: Rect, scene: &SceneView, live: &Live, trail:
     painter.rect_filled(glass, 4, palette.panel);
     if let Some(centre) = live.centre {
         let view = ViewTransform::new(glass, centre, POINTS_PER_MM);
-        paint_scene(&ui.painter_at(glass), &view, scene, live, trail);
+        let painter = ui.painter_at(glass);
+        paint_cloths(&painter, &view, scene, live);
+        paint_display(&painter, &view, live, trail);
     } else {
         let words = "Move the pointer over a textile";
         painter.text(

@@ -17,7 +17,7 @@ use eframe::egui::{
     self, CursorIcon, Painter, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
-use super::theme::Palette;
+use super::theme::{self, Palette};
 use super::view::{Live, SceneView};
 use crate::geometry::Point;
 
@@ -43,8 +43,9 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -
     let view = ViewTransform::fitted(ground.shrink(MARGIN), scene.size_mm);
     let painter = ui.painter_at(inner);
     paint_extent(&painter, &view, scene.size_mm);
-    paint_scene(&painter, &view, scene, live, trail);
+    paint_cloths(&painter, &view, scene, live);
     paint_tags(&painter, &view, scene, live);
+    paint_display(&painter, &view, live, trail);
     ruler::paint(
         &ui.painter_at(frame),
         frame,
@@ -55,6 +56,9 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -
     if let Some(lens) = lens {
         lens::show(ui, lens, scene, live, trail);
     }
+    if live.is_stopped {
+        paint_all_off(&painter, ground);
+    }
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
     response.widget_info(|| {
         let words = format!("Workspace with {} textiles", scene.cloths.len());
@@ -63,14 +67,8 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -
     Shown { view, ground }
 }
 
-/// Draws textiles, trail and contactors through a view; the lens uses it too.
-fn paint_scene(
-    painter: &Painter,
-    view: &ViewTransform,
-    scene: &SceneView,
-    live: &Live,
-    trail: &Trail,
-) {
+/// Draws the textiles through a view; the lens uses it too.
+fn paint_cloths(painter: &Painter, view: &ViewTransform, scene: &SceneView, live: &Live) {
     let under = live.cloth_under_display();
     for (index, cloth) in scene.cloths.iter().enumerate() {
         cloth::paint(painter, view, cloth, under == Some(index));
@@ -78,6 +76,10 @@ fn paint_scene(
     if scene.cloths.is_empty() {
         cloth::paint_empty(painter, view.rect());
     }
+}
+
+/// Draws trail and contactors through a view; the lens uses it too.
+fn paint_display(painter: &Painter, view: &ViewTransform, live: &Live, trail: &Trail) {
     display::paint_trail(painter, view, &trail.aged());
     if live.centre.is_some() {
         display::paint(painter, view, &live.dots);
@@ -89,6 +91,23 @@ fn paint_tags(painter: &Painter, view: &ViewTransform, scene: &SceneView, live: 
     for (index, cloth) in scene.cloths.iter().enumerate() {
         cloth::paint_tag(painter, view, cloth, under == Some(index));
     }
+}
+
+/// Says that everything is off, and what ends that.
+fn paint_all_off(painter: &Painter, ground: Rect) {
+    let palette = Palette::of(painter.ctx().theme());
+    let words = "Everything is off. Arm to feel again.".to_owned();
+    let galley = painter.layout_no_wrap(words, theme::body(), palette.text);
+    let middle = ground.center_top() + vec2(0.0, 30.0);
+    let pill = Rect::from_center_size(middle, galley.size() + vec2(32.0, 14.0));
+    painter.rect_filled(pill, 15, palette.raised);
+    painter.rect_stroke(
+        pill,
+        15,
+        Stroke::new(1.0, palette.danger),
+        StrokeKind::Inside,
+    );
+    painter.galley(middle - 0.5 * galley.size(), galley, palette.text);
 }
 
 fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
