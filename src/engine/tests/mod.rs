@@ -244,7 +244,7 @@ proptest::proptest! {
     ) {
         // A day after the system's origin, so that every stamp exists.
         let mut now = Instant::now() + Duration::from_hours(24);
-        let mut engine = Engine::without_thread(config(Method::Table), now).unwrap();
+        let mut engine = Engine::without_thread(config(Method::Banded), now).unwrap();
         let mut pointer = engine.take_pointer().unwrap();
         let mut samples = samples.into_iter();
         for pause_ms in ticks {
