@@ -83,13 +83,13 @@ impl Structure {
                 if is_tuck {
                     Stitch {
                         lift: 0.6,
-                        length: 0.8,
+                        length: 0.95,
                         ..BACK
                     }
                 } else {
                     Stitch {
                         lift: -0.4,
-                        length: 1.15,
+                        length: 1.03,
                         ..BACK
                     }
                 }

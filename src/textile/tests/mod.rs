@@ -1,0 +1,4 @@
+//! Tests of the floor as a whole.
+
+mod models;
+mod shipped;
