@@ -19,8 +19,8 @@ use super::view::BridgeView;
 use super::window::{Drive, Workbench};
 use crate::bridge::{ArrayProfile, Bridge, BridgeState, Target};
 
-/// Frames that are run before the picture is taken, 25 ms apart: 9 s.
-const N_FRAMES: u32 = 357;
+/// Frames that are run before the picture is taken, 25 ms apart: 11 s.
+const N_FRAMES: u32 = 425;
 
 /// Dark or light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,7 +1,7 @@
 //! A slider in one row: name, rail, number with unit.
 //!
-//! The rail shows where its resting value is and snaps softly to it; a double click goes back to
-//! it; Shift moves finely; the number can be clicked and typed over, unit and all.
+//! The rail shows where zero is and snaps softly to it; a double click goes back to the resting
+//! value; Shift moves finely; the number can be clicked and typed over, unit and all.
 
 use eframe::egui::{
     self, Align2, Color32, EventFilter, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo,
@@ -15,7 +15,7 @@ use crate::quantity;
 const NAME: f32 = 92.0;
 /// Width of the number with its unit, points.
 const NUMBER: f32 = 70.0;
-/// Within this distance the thumb snaps to the resting value, points.
+/// Within this distance the thumb snaps to zero, points.
 const SNAP: f32 = 4.0;
 /// How much finer Shift moves.
 const FINE: f64 = 0.1;
@@ -146,9 +146,9 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
     }
     if (response.dragged() || response.clicked() || response.is_pointer_button_down_on()) && !fine {
         let pointer = response.interact_pointer_pos()?;
-        let resting_x = x_of(rail, scale, scale.resting);
-        if (pointer.x - resting_x).abs() < SNAP {
-            return Some(scale.resting);
+        let zero_x = x_of(rail, scale, 0.0);
+        if (pointer.x - zero_x).abs() < SNAP {
+            return Some(0.0);
         }
         let share = f64::from((pointer.x - span(rail).left()) / span(rail).width());
         return Some(scale.stepped(scale.value_at(share)));
@@ -220,17 +220,13 @@ fn paint_rail(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f6
     let y = painter.round_to_pixel_center(rail.center().y);
     let track = span(rail);
     painter.hline(track.x_range(), y, Stroke::new(2.0, palette.hovered));
-    let (resting, here) = (x_of(rail, scale, scale.resting), x_of(rail, scale, value));
+    let (zero, here) = (x_of(rail, scale, 0.0), x_of(rail, scale, value));
     painter.vline(
-        painter.round_to_pixel_center(resting),
+        painter.round_to_pixel_center(zero),
         (y - 5.0)..=(y + 5.0),
         Stroke::new(1.0, palette.line),
     );
-    painter.hline(
-        resting.min(here)..=resting.max(here),
-        y,
-        Stroke::new(3.0, ink),
-    );
+    painter.hline(zero.min(here)..=zero.max(here), y, Stroke::new(3.0, ink));
     let is_held = response.hovered() || response.dragged();
     painter.circle_filled(pos2(here, y), if is_held { 7.0 } else { 6.0 }, ink);
     painter.circle_filled(
