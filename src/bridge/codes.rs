@@ -203,7 +203,7 @@ fn usable(amplitude_um: f32) -> bool {
     amplitude_um.is_finite() && amplitude_um >= 0.0
 }
 
-/// The code of one contactor limit, share full drive, round half up, never
+/// The code of one contactor: limit, share full drive, round half up, never
 /// more than 65535 in all.
 fn drive_code(amplitude_um: [f32; 2], gain: f64, scale: &Scale) -> ([u16; 2], Bite) {
     let mut bite = Bite::default();

@@ -199,7 +199,8 @@ fn check_rest(device: &Rows) {
     let last = device.len() - 1;
     assert_eq!(
         (device.text("state")[last], device.text("amp_sum")[last]),
-        ("READY", "0")
+        ("READY", "0"),
+        "the device's last word"
     );
 }
 

@@ -4,7 +4,6 @@
     clippy::expect_used,
     clippy::panic,
     clippy::float_cmp,
-    clippy::print_stderr,
     reason = "a test that fails says so by panicking, and compares exact results on purpose"
 )]
 
