@@ -6,6 +6,7 @@ use super::relief::{Axis, Relief, Window};
 use super::strand::Cloth;
 use super::variation::count;
 use crate::files::Rgb8Image;
+use crate::numerics::quantile;
 
 /// Pixels a millimetre of the finished picture.
 pub(crate) const PX_PER_MM: f64 = 10.0;
@@ -19,6 +20,8 @@ const RELIEF_SHARE: f64 = 0.55;
 const AMBIENT: f64 = 0.42;
 /// Steps that colours are rounded to: what the eye does not see, the file need not hold.
 const COLOUR_STEP: f64 = 7.0;
+/// Least range of heights that darkens its low places fully, µm: a thin cloth hides no light.
+const LEAST_DEPTH_UM: f64 = 110.0;
 /// Colour seen through the cloth.
 const BENEATH: [f64; 3] = [0.16, 0.15, 0.14];
 
@@ -97,11 +100,11 @@ struct Depth {
 impl Depth {
     fn of(relief: &Relief) -> Self {
         let mut heights = relief.height_um.values().to_vec();
-        let low_um = crate::numerics::quantile(&mut heights, 0.03);
-        let high_um = crate::numerics::quantile(&mut heights, 0.85);
+        let low_um = quantile(&mut heights, 0.03);
+        let high_um = quantile(&mut heights, 0.85);
         Self {
-            low_um,
-            high_um: high_um.max(low_um + 1.0),
+            low_um: low_um.min(high_um - LEAST_DEPTH_UM),
+            high_um,
         }
     }
 
