@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::{CliError, output, play, signals, terminal};
-use crate::bridge::{ArrayProfile, DeviceModel, Target, list_ports, self_test};
+use super::{CliError, output, play, terminal};
+use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
@@ -77,8 +77,8 @@ fn emulate(
     log: Option<&std::path::Path>,
     array: ArrayLayout,
 ) -> Result<(), CliError> {
-    let stop = signals::stop_flag()?;
-    let model = DeviceModel::for_array(&profile_of(array));
+    let stop = super::signals::stop_flag()?;
+    let model = crate::bridge::DeviceModel::for_array(&profile_of(array));
     let emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
     let ready = format!("{} -> {}\n", link.display(), emulator.device_path());
     // A reader that only wanted this line may be gone; the device runs on.

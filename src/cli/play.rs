@@ -4,7 +4,6 @@
 //! of the path, so that what is felt is what `selvedge render` computes, tick for tick. Whatever
 //! happens, the device is told to stop, and its answer is waited for.
 
-use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -97,13 +96,6 @@ pub(super) fn check_port(port: &Path) -> Result<(), CliError> {
     if port.is_dir() || port.is_file() {
         return Err(CliError::Input(format!("{name} is no serial port; {mend}")));
     }
-    if cfg!(unix)
-        && let Err(error) = File::options().read(true).write(true).open(port)
-    {
-        return Err(CliError::Input(format!(
-            "cannot open {name}: {error}; {mend}"
-        )));
-    }
     Ok(())
 }
 
@@ -153,8 +145,15 @@ impl Player {
                 Some(tick) if self.bridge.state().takes_frames() => self.answer(tick)?,
                 _ => thread::park_timeout(NAP),
             }
-            if self.bridge.state() == BridgeState::Ready && self.started.is_none() {
-                self.bridge.arm();
+            match self.bridge.state() {
+                BridgeState::Ready if self.started.is_none() => {
+                    self.bridge.arm();
+                }
+                BridgeState::Faulted => {
+                    let what = "the device has a fault and cannot be armed; switch it off and on";
+                    return Err(CliError::Failed(self.of_target(what)));
+                }
+                _ => {}
             }
         }
         Ok(())
@@ -163,25 +162,39 @@ impl Player {
     /// Takes all news, and gives the last device tick that began, if one did.
     fn hear(&mut self) -> Result<Option<u32>, CliError> {
         let mut newest = None;
-        while let Some(event) = self.bridge.poll() {
-            match event {
-                BridgeEvent::Tick { tick, .. } => newest = Some(tick),
-                other => self.heed(other)?,
+        loop {
+            let was_opening = self.bridge.state() == BridgeState::Opening;
+            match self.bridge.poll() {
+                Some(BridgeEvent::Tick { tick, .. }) => newest = Some(tick),
+                // A port that cannot even be opened is the wrong one.
+                Some(BridgeEvent::Lost(reason)) if was_opening => {
+                    return Err(CliError::Input(self.of_target(&reason)));
+                }
+                Some(other) => self.heed(other)?,
+                None => return Ok(newest),
             }
         }
-        Ok(newest)
+    }
+
+    /// A sentence of the device, with the port before it.
+    fn of_target(&self, what: &str) -> String {
+        let target = self.bridge.target();
+        if what.starts_with(target) {
+            what.to_owned()
+        } else {
+            format!("{target}: {what}")
+        }
     }
 
     fn heed(&mut self, event: BridgeEvent) -> Result<(), CliError> {
-        let target = self.bridge.target();
-        let failed = |what: &str| Err(CliError::Failed(format!("{target}: {what}")));
+        let tell = |what: &str| terminal::notice(&self.of_target(what));
         match event {
             BridgeEvent::Refused(reason)
             | BridgeEvent::Lost(reason)
             | BridgeEvent::Disarmed {
                 by: DisarmedBy::Device,
                 reason,
-            } => return failed(&reason),
+            } => return Err(CliError::Failed(self.of_target(&reason))),
             BridgeEvent::Connected(caps) => {
                 if let Some(log) = &mut self.log {
                     log.set_link_limit(caps.comp_limit);
@@ -189,12 +202,12 @@ impl Player {
             }
             BridgeEvent::Fault(fault) => {
                 let names = fault_bit::names(fault.faults);
-                terminal::notice(&format!("{target}: the device reports a fault: {names}"));
+                tell(&format!("the device reports a fault: {names}"));
             }
             BridgeEvent::DepthRaised(depth) => {
-                terminal::notice(&format!("frames came late: now sent {depth} ticks ahead"));
+                tell(&format!("frames came late: now sent {depth} ticks ahead"));
             }
-            BridgeEvent::Log(text) => terminal::notice(&format!("{target} says: {text}")),
+            BridgeEvent::Log(text) => tell(&format!("the device says: {text}")),
             BridgeEvent::Armed => self.started = Some(Instant::now()),
             _ => {}
         }

@@ -189,6 +189,11 @@ fn wrong_ports_are_refused_before_anything_moves() {
     }
     #[cfg(unix)]
     {
+        let line = lab.refuse(&[&play[..], &["/dev/null"]].concat());
+        assert!(
+            line.starts_with("/dev/null: ") && line.contains("not a serial port"),
+            "{line}"
+        );
         let line = lab.refuse(&["bridge", "emulate", "--link", "a.csv"]);
         assert!(
             line.starts_with("a.csv: ") && line.contains("choose another --link"),

@@ -113,10 +113,17 @@ impl Outcome {
     pub(crate) fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
         let code = output.status.code().unwrap_or(-1);
+        // On a machine that is busy any work may take the second from which on it shows progress.
+        let is_progress = |line: &&str| line.contains(" %, ");
+        let err = text(&output.stderr);
+        let err: String = err
+            .split_inclusive('\n')
+            .filter(|line| !is_progress(line))
+            .collect();
         Self {
             code,
             out: text(&output.stdout),
-            err: text(&output.stderr),
+            err,
         }
     }
 
