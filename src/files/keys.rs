@@ -25,8 +25,10 @@ pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, 
     })
 }
 
-/// The line, from 1, where a text states `key` in its `nth` (from 0) table called `table`, so that
-/// a value that is well spelt but wrong can be pointed at. An empty `table` is the file itself.
+/// The line, from 1, where a text states `key` in its `nth` (from 0) table called `table`.
+///
+/// So a value that is well spelt but wrong can be pointed at. An empty `table` is the file itself;
+/// `outer.inner` is a table within a table.
 ///
 /// A key that is not stated has the line of its table, and a table that is not there line 1.
 pub fn line_of_key(text: &str, table: &str, nth: usize, key: &str) -> usize {
@@ -45,6 +47,13 @@ fn offset_of_key(root: &DeTable<'_>, table: &str, nth: usize, key: &str) -> Opti
     };
     if table.is_empty() {
         return stated(root);
+    }
+    if let Some((outer, inner)) = table.split_once('.') {
+        let (_, value) = root.iter().find(|(name, _)| name.get_ref() == outer)?;
+        let DeValue::Table(within) = value.get_ref() else {
+            return None;
+        };
+        return offset_of_key(within, inner, nth, key);
     }
     let (name, value) = root.iter().find(|(name, _)| name.get_ref() == table)?;
     let entry = match value.get_ref() {

@@ -51,21 +51,24 @@ impl Index {
     /// Reads an index. `path` only names it in errors.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, TextileError> {
         let index: Self = keys_from_str(text, path)?;
-        let checker = Checker { text, path };
+        let checker = Checker { text, path, nth: 0 };
         let reference = index.compression_reference_db;
         checker.within("", "compression_reference_db", reference, -1000.0..=1000.0)?;
         if let Err(error) = index.tuning.check() {
             let what = error.to_string().replace(';', ",");
             return Err(checker.wrong("tuning", error.key(), what, "correct the key"));
         }
-        for (n, entry) in index.textiles.iter().enumerate() {
-            let is_twice = index.textiles[..n].iter().any(|other| other.id == entry.id);
+        for (nth, entry) in index.textiles.iter().enumerate() {
+            let checker = Checker { nth, ..checker };
+            let is_twice = index.textiles[..nth]
+                .iter()
+                .any(|other| other.id == entry.id);
             if is_twice {
                 let what = format!("textile \"{}\" twice", entry.id);
-                return Err(checker.wrong("[textile", "id", what, "remove one of them"));
+                return Err(checker.wrong("textile", "id", what, "remove one of them"));
             }
-            checker.within("[textile", "a40_um", entry.a40_um, 0.0..=1e12)?;
-            checker.within("[textile", "a320_um", entry.a320_um, 0.0..=1e12)?;
+            checker.within("textile", "a40_um", entry.a40_um, 0.0..=1e12)?;
+            checker.within("textile", "a320_um", entry.a320_um, 0.0..=1e12)?;
         }
         Ok(index)
     }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use crate::files::FileError;
+use crate::files::{FileError, line_of_key};
 use crate::textile::TextileError;
 
 /// The text of a manifest, to find lines in.
@@ -11,6 +11,8 @@ use crate::textile::TextileError;
 pub(crate) struct Checker<'a> {
     pub(crate) text: &'a str,
     pub(crate) path: &'a Path,
+    /// Which of several tables of a name is meant, from 0.
+    pub(crate) nth: usize,
 }
 
 impl Checker<'_> {
@@ -37,27 +39,12 @@ impl Checker<'_> {
         what: impl Into<String>,
         mend: impl Into<String>,
     ) -> TextileError {
-        FileError::content(self.path, line_of(self.text, table, key), what, mend).into()
+        FileError::content(
+            self.path,
+            line_of_key(self.text, table, self.nth, key),
+            what,
+            mend,
+        )
+        .into()
     }
-}
-
-/// The line of a key of a table; of the table's header where the key is not there.
-fn line_of(text: &str, table: &str, key: &str) -> usize {
-    let mut at_table = usize::from(table.is_empty());
-    let mut current = "";
-    for (index, line) in text.lines().enumerate() {
-        let line = line.trim();
-        if let Some(header) = line.strip_prefix('[') {
-            current = header.split(']').next().unwrap_or_default().trim();
-            if current == table {
-                at_table = index + 1;
-            }
-        } else if current == table
-            && let Some((name, _)) = line.split_once('=')
-            && name.trim() == key
-        {
-            return index + 1;
-        }
-    }
-    at_table.max(1)
 }

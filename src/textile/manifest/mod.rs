@@ -211,7 +211,7 @@ impl Manifest {
     /// Unknown or missing keys, values out of range: one line with file, line and mend.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, TextileError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let checker = Checker { text, path };
+        let checker = Checker { text, path, nth: 0 };
         let manifest = match kind_of(&checker)?.as_str() {
             "profiles" => read::<Profiles>(text, path)?.map(Source::Profiles),
             "weave" => read::<Box<Weave>>(text, path)?.map(Source::Weave),

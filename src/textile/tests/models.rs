@@ -311,6 +311,16 @@ fn a_wrong_index_names_its_line() {
             "db = inf",
             "library.toml:2: compression_reference_db is inf",
         ),
+        (
+            "2.0\n",
+            "2.0\n[[textile]]\nid = \"a\"\na40_um = 1.0\na320_um = 2.0\n",
+            "library.toml:10: textile \"a\" twice",
+        ),
+        (
+            "2.0\n",
+            "2.0\n[[textile]]\nid = \"b\"\na40_um = 1.0\na320_um = -2.0\n",
+            "library.toml:12: a320_um is -2",
+        ),
     ] {
         let error = read(&good.replace(from, to)).unwrap_err().to_string();
         assert!(error.starts_with(expected), "{error}");
