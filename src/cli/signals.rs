@@ -1,4 +1,6 @@
 //! SIGINT and SIGTERM: the work is asked to end, and ends cleanly.
+//!
+//! Every signal asks for the same, so that one that is sent twice does not cut a clean end short.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -8,16 +10,11 @@ use signal_hook::flag;
 
 use super::CliError;
 
-/// What a shell reports of a process that SIGINT ended.
-const INTERRUPTED: i32 = 130;
-
-/// A flag that SIGINT and SIGTERM raise. A second signal ends the process at once.
+/// A flag that SIGINT and SIGTERM raise.
 pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        let hooked = flag::register_conditional_shutdown(signal, INTERRUPTED, Arc::clone(&stop))
-            .and_then(|_| flag::register(signal, Arc::clone(&stop)));
-        hooked.map_err(|error| {
+        flag::register(signal, Arc::clone(&stop)).map_err(|error| {
             CliError::Failed(format!("cannot listen to signals: {error}; try again"))
         })?;
     }

@@ -261,6 +261,43 @@ fn a_reader_that_goes_away_is_no_failure() {
     assert_eq!((child.wait().unwrap().code(), err.as_str()), (Some(0), ""));
 }
 
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_nothing_behind() {
+    let lab = Lab::with_scene();
+    lab.write("long.csv", "t_s,x_mm,y_mm\n0,15,40\n900000,65,40\n");
+    let args = [
+        "render",
+        "a.scene.toml",
+        "--path",
+        "long.csv",
+        "--out",
+        "o.csv",
+    ];
+    let child = lab.command(&args).stderr(Stdio::piped()).spawn().unwrap();
+    let n_files = || std::fs::read_dir(lab.path("")).unwrap().count();
+    // Scene, two paths and the library; then the file that is being written.
+    while n_files() < 5 {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    for _ in 0..2 {
+        let kill = ["-INT".to_owned(), child.id().to_string()];
+        std::process::Command::new("kill")
+            .args(kill)
+            .status()
+            .unwrap();
+    }
+    let outcome = crate::program::Outcome::of(&child.wait_with_output().unwrap());
+    assert_eq!(outcome.code, 1, "{outcome:?}");
+    assert!(
+        outcome
+            .one_line()
+            .starts_with("stopped before the work was done"),
+        "{outcome:?}"
+    );
+    assert_eq!(n_files(), 4, "no part of a file is left");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_display_the_workbench_says_what_works_without_one() {
