@@ -61,7 +61,10 @@ pub enum TextileError {
         known: String,
     },
     /// A textile that is no model has nothing to be built from.
-    #[error("{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\" or \"knit\"", path.display())]
+    #[error(
+        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\" or \"knit\"",
+        path.display()
+    )]
     NoRecipe {
         /// The manifest.
         path: PathBuf,
