@@ -175,7 +175,7 @@ mod tests {
                 "{highest} {lowest}"
             );
             if curvature < 0.4 {
-                // The wire's own shape leans the flanks by ½ r slope²: a second harmonic, no less of
+                // The wire leans the flanks by ½ r slope²: a second harmonic, and no less of
                 // the first to this order.
                 let second = 0.25 * 250.0 * (a_um / 1000.0 * TAU * per_mm).powi(2);
                 assert!(
