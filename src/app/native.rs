@@ -14,6 +14,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
+use super::backlog::Backlog;
 use super::command::Command;
 use super::error::AppError;
 use super::pointer::PointerTap;
@@ -61,7 +62,12 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
         }),
         &event_loop,
     );
-    let outcome = event_loop.run_app(&mut Stamping { app, shared });
+    let backlog = Backlog::new(Instant::now());
+    let outcome = event_loop.run_app(&mut Stamping {
+        app,
+        shared,
+        backlog,
+    });
     if let Some(error) = failure.borrow_mut().take() {
         return Err(error);
     }
@@ -82,20 +88,22 @@ fn workbench(
 struct Stamping<'a> {
     app: EframeWinitApplication<'a>,
     shared: Shared,
+    backlog: Backlog,
 }
 
 impl Stamping<'_> {
-    fn listen(&self, event: &WindowEvent) {
-        let stamp = Instant::now();
+    fn listen(&mut self, event: &WindowEvent) {
+        if let WindowEvent::CursorMoved { position, .. } = event {
+            self.backlog.moved([position.x, position.y]);
+            return;
+        }
+        // Movements come in a row: another event ends it.
+        self.pass_on();
         let shared = self.shared.borrow();
-        let Some((tap, switch)) = &*shared else {
+        let Some((_, switch)) = &*shared else {
             return;
         };
         match event {
-            WindowEvent::CursorMoved { position, .. } => {
-                tap.borrow_mut()
-                    .moved_to_pixel(stamp, [position.x, position.y]);
-            }
             WindowEvent::KeyboardInput { event, .. } => {
                 let is_escape = event.logical_key == Key::Named(NamedKey::Escape);
                 if is_escape && event.state == ElementState::Pressed {
@@ -105,6 +113,17 @@ impl Stamping<'_> {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => switch.press(),
             _ => {}
         }
+    }
+
+    /// Hands what was heard of the pointer to the engine.
+    fn pass_on(&mut self) {
+        let shared = self.shared.borrow();
+        let mut tap = shared.as_ref().map(|(tap, _)| tap.borrow_mut());
+        self.backlog.pass_on(Instant::now(), |stamp, pixel| {
+            if let Some(tap) = &mut tap {
+                tap.moved_to_pixel(stamp, pixel);
+            }
+        });
     }
 }
 
@@ -119,6 +138,7 @@ impl ApplicationHandler<UserEvent> for Stamping<'_> {
     }
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
+        self.backlog.wakes(Instant::now());
         self.app.new_events(event_loop, cause);
     }
 
@@ -131,7 +151,12 @@ impl ApplicationHandler<UserEvent> for Stamping<'_> {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        // After a frame the queue is full again for all we know: only what was heard is passed on.
+        if self.backlog.is_waiting() {
+            self.pass_on();
+        }
         self.app.about_to_wait(event_loop);
+        self.backlog.falls_asleep(Instant::now());
     }
 
     fn suspended(&mut self, event_loop: &ActiveEventLoop) {

@@ -1,3 +1,5 @@
+//! Pixel by pixel: coverage, blending, clipping, textures.
+
 use eframe::egui::{
     ColorImage, ImageData, Mesh, Pos2, Rect, TextureFilter, TextureOptions, pos2, vec2,
 };

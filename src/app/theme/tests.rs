@@ -1,3 +1,5 @@
+//! Contrast of every colour, and lightness of every colour map, computed.
+
 use super::*;
 
 /// WCAG 2 relative luminance.
