@@ -249,7 +249,7 @@ impl IntervalMeter {
         match (before, status) {
             (Some((tick0, us0)), Some((tick1, us1))) if tick1 != tick0 => {
                 let n_ticks = f64::from(tick1.wrapping_sub(tick0));
-                self.interval_s = Some(f64::from(us1.wrapping_sub(us0)) * 1e-6 / n_ticks);
+                self.interval_s = Some(f64::from(us1.wrapping_sub(us0)) / (1e6 * n_ticks));
             }
             (_, None) => self.interval_s = None,
             _ => {}
