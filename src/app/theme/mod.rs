@@ -46,6 +46,10 @@ pub(crate) struct Palette {
     pub(crate) high: Color32,
     /// Contactors.
     pub(crate) contactor: Color32,
+    /// Contactors on cloth, which may be bright or dark: bright green with a rim of `rim`.
+    pub(crate) lit: Color32,
+    /// The rim around what is lit.
+    pub(crate) rim: Color32,
     /// Armed, fault, all off.
     pub(crate) danger: Color32,
     /// Text on `danger`.
@@ -71,6 +75,8 @@ const DARK: Palette = Palette {
     low: Color32::from_rgb(0xff, 0xb2, 0x3e),
     high: Color32::from_rgb(0x45, 0xcb, 0xe6),
     contactor: Color32::from_rgb(0x52, 0xe8, 0x8c),
+    lit: Color32::from_rgb(0x52, 0xe8, 0x8c),
+    rim: Color32::from_rgba_premultiplied(0, 0, 0, 160),
     danger: Color32::from_rgb(0xe5, 0x48, 0x3f),
     on_danger: Color32::from_rgb(0x0b, 0x04, 0x04),
     tag: Color32::from_rgb(0x14, 0x17, 0x1b),
@@ -91,6 +97,8 @@ const LIGHT: Palette = Palette {
     low: Color32::from_rgb(0xa3, 0x5f, 0x00),
     high: Color32::from_rgb(0x00, 0x75, 0x90),
     contactor: Color32::from_rgb(0x00, 0x7f, 0x3c),
+    lit: Color32::from_rgb(0x52, 0xe8, 0x8c),
+    rim: Color32::from_rgba_premultiplied(0, 0, 0, 160),
     danger: Color32::from_rgb(0xc4, 0x28, 0x20),
     on_danger: Color32::from_rgb(0xff, 0xff, 0xff),
     tag: Color32::from_rgb(0xf6, 0xf7, 0xf9),

@@ -78,6 +78,21 @@ fn graphics_stand_out_from_panel_and_floor() {
 }
 
 #[test]
+fn lit_contactors_stand_out_from_their_rim_on_any_cloth() {
+    for palette in both() {
+        for cloth in [0_u8, 64, 128, 192, 255] {
+            let dimmed = u16::from(cloth) * u16::from(255 - palette.rim.a()) / 255;
+            let rim = Color32::from_gray(u8::try_from(dimmed).unwrap());
+            assert!(
+                contrast(palette.lit, rim) >= 3.0,
+                "{}",
+                contrast(palette.lit, rim)
+            );
+        }
+    }
+}
+
+#[test]
 fn every_colour_map_only_gets_lighter() {
     for map in ColourMap::ALL {
         let lightness: Vec<f64> = (0..=200)

@@ -35,7 +35,7 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, dots: &[Dot]) {
         reason = "the screen is drawn in single precision"
     )]
     let scale = view.points_per_mm() as f32;
-    let glow = palette.contactor;
+    let glow = palette.lit;
     for dot in dots.iter().filter(|dot| dot.cloth.is_some()) {
         let strength = strength(dot.amplitude_um[1]);
         if strength > 0.0 {
@@ -51,8 +51,8 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, dots: &[Dot]) {
         let at = view.screen(dot.position);
         if dot.cloth.is_some() {
             let radius = (0.26 + 0.62 * strength(dot.amplitude_um[0])) * scale.max(2.4);
-            painter.circle_filled(at, radius + 0.75, Color32::BLACK.gamma_multiply(0.55));
-            painter.circle_filled(at, radius, palette.contactor);
+            painter.circle_filled(at, radius + 0.75, palette.rim);
+            painter.circle_filled(at, radius, palette.lit);
         } else {
             let ring = Stroke::new(1.0, palette.contactor);
             painter.circle_stroke(at, 0.34 * scale.max(2.4), ring);
@@ -66,10 +66,11 @@ pub(crate) fn paint_trail(painter: &Painter, view: &ViewTransform, trail: &[(f64
     for pair in trail.windows(2) {
         #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
         let freshness = (1.0 - pair[0].0 / TRAIL_S).clamp(0.0, 1.0) as f32;
-        let ink = palette
-            .contactor
-            .gamma_multiply(0.75 * freshness * freshness);
+        let fading = freshness * freshness;
+        let ink = palette.lit.gamma_multiply(0.85 * fading);
+        let rim = palette.rim.gamma_multiply(0.5 * fading);
         let ends = [view.screen(pair[0].1), view.screen(pair[1].1)];
+        painter.line_segment(ends, Stroke::new(2.5 + 2.0 * freshness, rim));
         painter.line_segment(ends, Stroke::new(1.0 + 2.0 * freshness, ink));
     }
 }
