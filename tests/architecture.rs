@@ -2,7 +2,11 @@
 //! third-party crate lives in, and how a source file opens and how long it may grow.
 //!
 //! Reads sources as text and uses nothing of the library.
-#![expect(clippy::panic, clippy::expect_used, reason = "a test that fails says so by panicking")]
+#![expect(
+    clippy::panic,
+    clippy::expect_used,
+    reason = "a test that fails says so by panicking"
+)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -79,7 +83,11 @@ impl Source {
     /// Lines of code with their numbers from 1; comments are left out.
     fn code(&self) -> impl Iterator<Item = (usize, &str)> {
         let is_code = |(_, line): &(usize, &str)| !line.trim_start().starts_with("//");
-        self.text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(is_code)
+        self.text
+            .lines()
+            .enumerate()
+            .map(|(index, line)| (index + 1, line))
+            .filter(is_code)
     }
 }
 
@@ -97,7 +105,10 @@ fn collect(folder: &Path, sources: &mut Vec<Source>) {
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             let relative = path.strip_prefix(root()).expect("it lies in the package");
             let text = fs::read_to_string(&path).expect("sources are text");
-            sources.push(Source { path: relative.display().to_string(), text });
+            sources.push(Source {
+                path: relative.display().to_string(),
+                text,
+            });
         }
     }
 }
@@ -144,7 +155,9 @@ fn crate_paths(line: &str) -> Vec<String> {
 fn floors_use_only_floors_below_them() {
     let mut faults = Vec::new();
     for source in sources(&["src"]) {
-        let Some(floor) = source.floor() else { continue };
+        let Some(floor) = source.floor() else {
+            continue;
+        };
         for (number, line) in source.code() {
             for used in crate_paths(line) {
                 let is_floor = FLOORS.iter().any(|names| names.contains(&used.as_str()));
@@ -218,11 +231,18 @@ fn every_file_says_what_it_is_and_stays_short() {
             faults.push(format!("{}:1: does not open with //!", source.path));
         }
         let n_lines = source.text.lines().count();
-        let without_tests = source.text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+        let without_tests = source
+            .text
+            .split("#[cfg(test)]\nmod ")
+            .next()
+            .unwrap_or_default();
         let n_without = without_tests.lines().count();
         let is_test = source.path.starts_with("tests/") || source.path.ends_with("tests.rs");
         if n_lines > MAX_LINES || (!is_test && n_without > MAX_LINES_WITHOUT_TESTS) {
-            faults.push(format!("{}: {n_lines} lines, {n_without} without tests", source.path));
+            faults.push(format!(
+                "{}: {n_lines} lines, {n_without} without tests",
+                source.path
+            ));
         }
         for (number, line) in source.text.lines().enumerate() {
             if line.chars().count() > 100 {
@@ -230,7 +250,10 @@ fn every_file_says_what_it_is_and_stays_short() {
             }
         }
     }
-    report("a file that does not say what it is, or is too long", &faults);
+    report(
+        "a file that does not say what it is, or is too long",
+        &faults,
+    );
 }
 
 #[test]
@@ -252,7 +275,10 @@ fn modules_have_names_that_say_something() {
     let faults: Vec<String> = sources(&["src", "tests"])
         .into_iter()
         .filter(|source| {
-            let mut names = source.path.split('/').map(|name| name.trim_end_matches(".rs"));
+            let mut names = source
+                .path
+                .split('/')
+                .map(|name| name.trim_end_matches(".rs"));
             names.any(|name| EMPTY_NAMES.contains(&name))
         })
         .map(|source| source.path)
