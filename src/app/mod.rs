@@ -38,7 +38,7 @@ mod window;
 mod workspace;
 
 pub use error::AppError;
-pub use native::run;
+pub use native::{EndSwitch, run};
 pub use raster::{Picture, Rasteriser};
 pub use screenshot::{Screenshot, Theme, screenshot};
 pub use window::{Drive, Workbench};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
 
-use eframe::egui::ViewportBuilder;
+use eframe::egui::{Context, ViewportBuilder, ViewportCommand};
 use eframe::{EframeWinitApplication, NativeOptions, Renderer, UserEvent};
 use winit::application::ApplicationHandler;
 use winit::event::{DeviceEvent, DeviceId, ElementState, StartCause, WindowEvent};
@@ -24,12 +24,33 @@ use crate::engine::StopSwitch;
 /// What the event handler shares with the workbench; both live on the window's thread.
 type Shared = Rc<RefCell<Option<(Rc<RefCell<PointerTap>>, StopSwitch)>>>;
 
+/// Ends the workbench from any thread: the device stops at once, the window closes.
+#[derive(Debug, Clone)]
+pub struct EndSwitch {
+    stop: StopSwitch,
+    ctx: Context,
+}
+
+impl EndSwitch {
+    /// Everything off; then the window closes as if its own button had been pressed.
+    pub fn press(&self) {
+        self.stop.press();
+        self.ctx.send_viewport_cmd(ViewportCommand::Close);
+        self.ctx.request_repaint();
+    }
+}
+
 /// Opens the workbench on the scene at `scene` (`None`: the one that the program ships), connected
-/// to the emulator in this process and disarmed. Returns when the window is closed.
+/// to the emulator in this process and disarmed.
+///
+/// Returns when the window is closed. Once it is open, `on_open` is given the switch that ends it.
 ///
 /// # Errors
 /// There is no display, or it cannot draw; the scene cannot be opened.
-pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
+pub fn run(
+    scene: Option<PathBuf>,
+    on_open: impl FnOnce(EndSwitch) + 'static,
+) -> Result<(), AppError> {
     let event_loop = EventLoop::<UserEvent>::with_user_event()
         .build()
         .map_err(|_no_display| AppError::NoDisplay)?;
@@ -51,7 +72,12 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), AppError> {
         options,
         Box::new(move |cc| match workbench(cc, scene.as_deref()) {
             Ok(workbench) => {
-                *for_app.borrow_mut() = Some((Rc::clone(&workbench.tap), workbench.switch.clone()));
+                let stop = workbench.switch.clone();
+                *for_app.borrow_mut() = Some((Rc::clone(&workbench.tap), stop.clone()));
+                on_open(EndSwitch {
+                    stop,
+                    ctx: cc.egui_ctx.clone(),
+                });
                 Ok(Box::new(workbench))
             }
             Err(error) => {

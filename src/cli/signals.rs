@@ -20,3 +20,21 @@ pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
     }
     Ok(stop)
 }
+
+/// Does `act` whenever SIGINT or SIGTERM arrives, on a thread of its own that ends with the
+/// process. Where signals cannot be listened to they end the program as they always did, and the
+/// device falls silent by its own rule.
+#[cfg(unix)]
+pub(super) fn on_signal(act: impl Fn() + Send + 'static) {
+    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else {
+        return;
+    };
+    let listen = move || signals.forever().for_each(|_signal| act());
+    let listener = std::thread::Builder::new().name("signals".to_owned());
+    // A system that has no thread left to give cannot run the engine either.
+    drop(listener.spawn(listen));
+}
+
+/// This system has no such signals.
+#[cfg(not(unix))]
+pub(super) fn on_signal(_act: impl Fn() + Send + 'static) {}

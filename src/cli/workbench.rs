@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::CliError;
+use super::{CliError, signals};
 use crate::app;
 use crate::scene::Scene;
 
@@ -18,5 +18,6 @@ pub(super) fn open(scene: Option<&Path>) -> Result<(), CliError> {
         }
         Scene::read(path)?;
     }
-    Ok(app::run(scene.map(Path::to_path_buf))?)
+    let listen = |end: app::EndSwitch| signals::on_signal(move || end.press());
+    Ok(app::run(scene.map(Path::to_path_buf), listen)?)
 }

@@ -2,13 +2,15 @@
 //!
 //! Frames are only made for a device that is armed. Nothing here arms by itself.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::{LinkView, Notice};
 use crate::bridge::{Bridge, BridgeEvent, SentFrame, StopHow, Timings};
 
 /// Ticks between two looks at the timings of the link: one second.
 const TIMINGS_EVERY: u64 = 40;
+/// Longest wait for the last STOP to be written.
+const LAST_WORD: Duration = Duration::from_millis(250);
 
 /// A device, or none.
 #[derive(Default)]
@@ -131,8 +133,21 @@ impl Link {
 }
 
 impl Drop for Link {
-    /// Also runs when the engine's thread panics.
+    /// Also runs when the engine's thread panics. The process may end right after: a live device
+    /// must have its STOP by then.
     fn drop(&mut self) {
-        self.stop(StopHow::Now);
+        let Some(bridge) = self
+            .bridge
+            .as_mut()
+            .filter(|bridge| bridge.state().is_live())
+        else {
+            return;
+        };
+        let handle = bridge.stop_handle();
+        bridge.stop(StopHow::Now);
+        if let Some(handle) = handle {
+            // If the port takes nothing the device's own silence rule is what is left.
+            handle.wait_written(LAST_WORD);
+        }
     }
 }
