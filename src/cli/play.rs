@@ -23,7 +23,7 @@ use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
 use crate::scene::{ExplorationPath, LoadedScene};
 
-/// How long to wait for the device before something is said of it. It is polled at least this often.
+/// How long to wait for the device before something is said of it: it is polled this often.
 const NAP: Duration = Duration::from_millis(20);
 /// The last STOP is sent again every 250 ms, eight times; then the session itself gives up.
 const STOP_PATIENCE: Duration = Duration::from_secs(4);

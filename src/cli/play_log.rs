@@ -48,7 +48,7 @@ impl PlayLog {
         self.coder.set_link_limit(comp_limit);
     }
 
-    /// Writes the row of a frame: amplitudes in µm after gains, before output limits and soft start.
+    /// Writes the row of a frame: amplitudes in µm after gains, before limits and soft start.
     pub(super) fn frame(
         &mut self,
         sent: &SentFrame,

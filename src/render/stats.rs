@@ -95,8 +95,8 @@ fn upper_edge(cell: usize) -> f64 {
 /// Error of a run against `reference` on the very same poses.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct LevelError {
-    /// Largest `|20 log₁₀(a/a_ref)|` where `a_ref` is at least a thousandth of its band's largest in
-    /// the run, dB.
+    /// Largest `|20 log₁₀(a/a_ref)|` where `a_ref` is at least a thousandth of its band's largest
+    /// in the run, dB.
     pub max_db: f64,
     /// 99th percentile of the same, dB.
     pub p99_db: f64,

@@ -124,7 +124,11 @@ proptest! {
     }
 
     #[test]
-    fn no_damage_makes_the_reader_panic(at in 0..GOOD.len(), end in 0..GOOD.len(), put in ".{0,8}") {
+    fn no_damage_makes_the_reader_panic(
+        at in 0..GOOD.len(),
+        end in 0..GOOD.len(),
+        put in ".{0,8}",
+    ) {
         let mut text = GOOD.to_owned();
         text.replace_range(at.min(end)..at.max(end), &put);
         if let Ok(scene) = read(&text) {

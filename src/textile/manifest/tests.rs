@@ -1,3 +1,5 @@
+//! Manifests: what is read back, and what is refused with line and mend.
+
 use std::path::Path;
 
 use super::*;

@@ -1,8 +1,8 @@
 //! How far linear interpolation over log speed can be off, whatever the spectrum.
 //!
 //! A tabulated power is a sum of the filter's power gain `H²` at the bins' frequencies, weighted
-//! with powers that are never negative, so its relative error is at most the largest relative error of
-//! interpolating `H²` itself over log frequency. That depends on the filter and on the distance of
+//! with powers that are never negative, so its relative error is at most the largest relative error
+//! of interpolating `H²` itself over log frequency. That depends on the filter and on the distance of
 //! the nodes only, and is known before any spectrum is.
 
 use crate::surface::BIN_SPACING_PER_MM;

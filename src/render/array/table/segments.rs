@@ -1,4 +1,5 @@
-//! Where powers are tabulated: nodes over log speed, in segments that end where a bin crosses 1 kHz.
+//! Where powers are tabulated: nodes over log speed, in segments that end where a bin
+//! crosses 1 kHz.
 //!
 //! Between the speeds 1000/(0.23 (k+1)) and 1000/(0.23 k) mm/s exactly k bins sound and powers are
 //! smooth; at the ends they jump, so both segments keep a value of their own there. Segments

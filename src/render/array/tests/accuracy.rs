@@ -1,5 +1,7 @@
 //! The fast methods against the reference: table, banded and auto within what they promise.
 
+use std::f64::consts::TAU;
+
 use proptest::prelude::*;
 
 use super::*;
@@ -65,7 +67,7 @@ proptest! {
         kind in 0..5_u8,
         seed in any::<u64>(),
         octaves in prop_oneof![Just(2.0), 1.0..4.0_f64],
-        logs in proptest::collection::vec((-2.0..3.64_f64, 0.0..std::f64::consts::TAU, 0.0..90.0_f64), 60),
+        logs in proptest::collection::vec((-2.0..3.64_f64, 0.0..TAU, 0.0..90.0_f64), 60),
         angular_rad_per_s in prop_oneof![Just(0.0), -3.0..3.0_f64],
     ) {
         let mut scene = alone(&cloth::of_kind(kind, seed));
