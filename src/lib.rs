@@ -18,7 +18,7 @@
 //!   [`render::array::ArrayRenderer`] feels it: a path becomes amplitudes without a clock or a
 //!   device.
 //! - [`engine::Engine`] does the same in real time and drives a [`bridge::Bridge`].
-//! - [`app::run`] opens the window, [`cli::run`] is the command line.
+//! - [`app::run`] opens the window, [`cli::main`] is the command line.
 //!
 //! The modules below are floors, lowest first: each uses only those above it in this list.
 #![cfg_attr(

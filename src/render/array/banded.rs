@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::reference::{amplitudes_of, bin_frequency_hz};
-use crate::render::plan::{Axis, Component, Contacts, Counters, ScenePlan};
+use crate::render::plan::{Axis, Contacts, Counters, ScenePlan};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
@@ -89,22 +89,13 @@ impl BandedEvaluator {
             }
             let mut sums = [0.0; 2];
             for axis in Axis::BOTH {
-                let component = contacts.component(axis, contactor);
-                let Component::Felt {
-                    speed_mm_per_s,
-                    is_reverse,
-                } = component
-                else {
-                    counters.left_out(component, 1);
+                let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
                     continue;
                 };
-                let d = axis.direction(is_reverse).index();
-                let place_mm = contacts.places_mm[axis as usize][contactor];
-                let point = textile.points[d].nearest(place_mm);
                 let row = &mut self.rows[axis as usize];
-                row.move_to(speed_mm_per_s, &self.filters);
-                let memo = &mut self.pool[textile.spectra[d]];
-                let own = memo.sums(point, (self.tick, row), counters);
+                row.move_to(feel.speed_mm_per_s, &self.filters);
+                let memo = &mut self.pool[feel.spectra];
+                let own = memo.sums(feel.point, (self.tick, row), counters);
                 (0..2).for_each(|b| sums[b] += own[b]);
             }
             *amplitudes = amplitudes_of(sums, factors);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::render::plan::{Axis, Component, Contacts, Counters, ScenePlan};
+use crate::render::plan::{Axis, Contacts, Counters, ScenePlan};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
@@ -37,20 +37,11 @@ impl ReferenceEvaluator {
             }
             let mut sums = [0.0; 2];
             for axis in Axis::BOTH {
-                let component = contacts.component(axis, contactor);
-                let Component::Felt {
-                    speed_mm_per_s,
-                    is_reverse,
-                } = component
-                else {
-                    counters.left_out(component, 1);
+                let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
                     continue;
                 };
-                let d = axis.direction(is_reverse).index();
-                let place_mm = contacts.places_mm[axis as usize][contactor];
-                let point = textile.points[d].nearest(place_mm);
-                let powers_um2 = self.pool[textile.spectra[d]].powers_um2(point);
-                let (own, n_audible) = band_sums(powers_um2, speed_mm_per_s, &self.filters);
+                let powers_um2 = self.pool[feel.spectra].powers_um2(feel.point);
+                let (own, n_audible) = band_sums(powers_um2, feel.speed_mm_per_s, &self.filters);
                 (0..2).for_each(|b| sums[b] += own[b]);
                 counters.directions_evaluated += 1;
                 counters.bins_evaluated += 2 * n_audible as u64;

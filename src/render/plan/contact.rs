@@ -1,6 +1,6 @@
 //! Where the contactors of a display touch which textile, and how they move over it.
 
-use super::{Axis, Component, OUTSIDE, PointIndex};
+use super::{Axis, Component, Counters, OUTSIDE, PointIndex};
 use crate::geometry::{Displacement, Point, Rotation, Velocity};
 use crate::render::{ContactorArray, PlacedSurface};
 use crate::scene::Pose;
@@ -54,7 +54,45 @@ pub(in crate::render) struct Contacts<'a> {
     pub(in crate::render) n_contactors: usize,
 }
 
+/// What a contactor feels along one axis.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::render) struct Feel {
+    /// Which spectra of the pool.
+    pub(in crate::render) spectra: usize,
+    /// The point of these spectra that it touches.
+    pub(in crate::render) point: usize,
+    /// How fast it moves along the axis, mm/s.
+    pub(in crate::render) speed_mm_per_s: f64,
+}
+
 impl Contacts<'_> {
+    /// What a contactor feels along an axis; `None`, counted, where it does not move along it or
+    /// too fast.
+    #[inline]
+    pub(in crate::render) fn feel(
+        &self,
+        textile: &TextilePlan,
+        axis: Axis,
+        contactor: usize,
+        counters: &mut Counters,
+    ) -> Option<Feel> {
+        let component = self.component(axis, contactor);
+        let Component::Felt {
+            speed_mm_per_s,
+            is_reverse,
+        } = component
+        else {
+            counters.left_out(component, 1);
+            return None;
+        };
+        let d = axis.direction(is_reverse).index();
+        Some(Feel {
+            spectra: textile.spectra[d],
+            point: textile.points[d].nearest(self.places_mm[axis as usize][contactor]),
+            speed_mm_per_s,
+        })
+    }
+
     /// Whether a contactor lies on this textile.
     #[inline]
     pub(in crate::render) fn owns(&self, contactor: usize) -> bool {

@@ -2,8 +2,8 @@
 //!
 //! A tabulated power is a sum of the filter's power gain `H²` at the bins' frequencies, weighted
 //! with powers that are never negative, so its relative error is at most the largest relative error
-//! of interpolating `H²` itself over log frequency. That depends on the filter and on the distance of
-//! the nodes only, and is known before any spectrum is.
+//! of interpolating `H²` itself over log frequency. That depends on the filter and on the distance
+//! of the nodes only, and is known before any spectrum is.
 
 use crate::surface::BIN_SPACING_PER_MM;
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};

@@ -181,19 +181,11 @@ impl TableEvaluator {
     ) {
         contacts.for_each_owned(powers, |contactor, power| {
             for axis in Axis::BOTH {
-                let component = contacts.component(axis, contactor);
-                let Component::Felt {
-                    speed_mm_per_s,
-                    is_reverse,
-                } = component
-                else {
-                    counters.left_out(component, 1);
+                let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
                     continue;
                 };
-                let d = axis.direction(is_reverse).index();
-                let point = textile.points[d].nearest(contacts.places_mm[axis as usize][contactor]);
-                let rows = self.tables[textile.spectra[d]].rows(self.segments.find(speed_mm_per_s));
-                add(power, rows.at(point));
+                let at = self.segments.find(feel.speed_mm_per_s);
+                add(power, self.tables[feel.spectra].rows(at).at(feel.point));
                 counters.directions_evaluated += 1;
             }
         });
