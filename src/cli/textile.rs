@@ -11,7 +11,7 @@ use super::{CliError, output};
 use crate::quantity::{factor_of_gain, fixed};
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
 use crate::tactile::{Band, Filters, Levels, Tuning};
-use crate::textile::{Library, Manifest, Textile};
+use crate::textile::{Library, Textile};
 
 /// What to do with textiles.
 #[derive(Debug, Subcommand)]
@@ -92,20 +92,21 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
 }
 
 fn list(library: &Library) -> Result<(), CliError> {
-    let mut lines = Vec::new();
-    let widest = library.ids().iter().map(String::len).max().unwrap_or(0);
+    let mut rows = Vec::new();
     for id in library.ids() {
-        let Manifest {
-            name,
-            construction,
-            fibre,
-            ..
-        } = library.manifest(id)?;
-        let construction = construction.word();
-        lines.push(format!(
-            "{id:widest$}  {construction:9}  {fibre:10}  {name}\n"
-        ));
+        let manifest = library.manifest(id)?;
+        let construction = manifest.construction.word().to_owned();
+        rows.push([id.clone(), construction, manifest.fibre, manifest.name]);
     }
+    let widths = [0, 1, 2].map(|column| {
+        let width = |row: &[String; 4]| row[column].chars().count();
+        rows.iter().map(width).max().unwrap_or(0)
+    });
+    let line = |[id, construction, fibre, name]: &[String; 4]| {
+        let [a, b, c] = widths;
+        format!("{id:a$}  {construction:b$}  {fibre:c$}  {name}\n")
+    };
+    let lines: Vec<String> = rows.iter().map(line).collect();
     output::print(&lines.concat())
 }
 

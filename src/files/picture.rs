@@ -157,4 +157,17 @@ mod tests {
             assert!(error.starts_with("b.png:1: "), "{error}");
         }
     }
+
+    proptest::proptest! {
+        #[test]
+        fn no_damage_makes_the_decoder_panic(at in 0..200_usize, byte in proptest::num::u8::ANY) {
+            let picture = Rgb8Image { width: 9, height: 7, pixels: vec![[7, 90, 200]; 63] };
+            let mut png = encode_png(&picture, Path::new("a.png")).unwrap();
+            let at = at % png.len();
+            png[at] = byte;
+            if let Ok(decoded) = decode_png(&png, Path::new("a.png")) {
+                proptest::prop_assert_eq!(decoded.pixels.len(), decoded.width * decoded.height);
+            }
+        }
+    }
 }

@@ -93,3 +93,31 @@ impl Index {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::textile::shipped;
+
+    proptest! {
+        #[test]
+        fn no_damage_makes_the_reader_panic(
+            at in 0..shipped::INDEX.len(),
+            length in 0..200_usize,
+            put in "[-0-9.a-z\"\n= \\[\\]]{0,12}",
+        ) {
+            let path = Path::new("library.toml");
+            let end = (at + length).min(shipped::INDEX.len());
+            let mut text = shipped::INDEX.to_owned();
+            if text.is_char_boundary(at) && text.is_char_boundary(end) {
+                text.replace_range(at..end, &put);
+            }
+            if let Ok(index) = Index::from_toml(&text, path) {
+                let written = index.to_toml(path).unwrap();
+                prop_assert_eq!(Index::from_toml(&written, path).unwrap(), index);
+            }
+        }
+    }
+}

@@ -102,4 +102,16 @@ mod tests {
             assert!(error.starts_with(expected), "{error}");
         }
     }
+
+    proptest::proptest! {
+        #[test]
+        fn no_rows_make_the_reader_panic(rows in "[-0-9.,enaif#\"\n]{0,80}") {
+            let path = Path::new("a.csv");
+            drop(read(&rows, path));
+            if let Ok(profile) = read(&format!("x_mm,height_um\n{rows}"), path) {
+                let is_finite = profile.heights_um().iter().all(|height| height.is_finite());
+                proptest::prop_assert!(is_finite && profile.step_mm() > 0.0);
+            }
+        }
+    }
 }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use proptest::prelude::*;
+
 use super::*;
 
 const PROFILES: &str = "name = \"A\"\nconstruction = \"other\"\nfibre = \"paper\"\n\
@@ -129,4 +131,25 @@ fn the_recipe_hash_ignores_the_files_and_nothing_else() {
     let with_files = WEAVE.replace("seed = 1\n", "seed = 1\nwarp_forward = \"w.csv\"\n");
     assert_eq!(hash(WEAVE), hash(&with_files));
     assert_ne!(hash(WEAVE), hash(&WEAVE.replace("seed = 1", "seed = 2")));
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(text in any::<String>()) {
+        drop(read_text(&text));
+    }
+
+    #[test]
+    fn no_damage_makes_the_reader_panic(
+        at in 0..WEAVE.len(),
+        end in 0..WEAVE.len(),
+        put in "[-0-9.a-z\"\n= \\[\\]]{0,12}",
+    ) {
+        let mut text = WEAVE.to_owned();
+        text.replace_range(at.min(end)..at.max(end), &put);
+        if let Ok(manifest) = read_text(&text) {
+            let written = manifest.to_toml(Path::new("t.toml")).unwrap();
+            prop_assert_eq!(read_text(&written).unwrap(), manifest);
+        }
+    }
 }
