@@ -57,6 +57,7 @@ const HOMES: &[(&str, &str)] = &[
     ("signal_hook", "src/cli/"),
     ("toml", "src/files/"),
     ("winit", "src/app/"),
+    ("x11rb", "src/app/"),
 ];
 
 /// Crates that are vocabulary and may appear anywhere.

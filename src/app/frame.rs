@@ -1,5 +1,7 @@
 //! The arrangement of the window: which pane stands where.
 
+use std::sync::PoisonError;
+
 use eframe::egui::{self, Align, CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
 
 use super::panes::{self, Wishes};
@@ -101,7 +103,7 @@ fn panel(ui: &Ui, across: i8, down: i8) -> Frame {
 /// Tells the tap where the workspace is, and feeds it when nobody else does.
 fn feel(bench: &Workbench, ctx: &egui::Context, ground: Ground) {
     let is_covered = bench.transient.ask.is_some();
-    let mut tap = bench.tap.borrow_mut();
+    let mut tap = bench.tap.lock().unwrap_or_else(PoisonError::into_inner);
     tap.set_ground((!is_covered).then_some(ground));
     if bench.is_stepped {
         let moved = ctx.input(|input| {

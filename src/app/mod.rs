@@ -27,6 +27,8 @@ mod native;
 mod opening;
 mod panes;
 mod pointer;
+#[cfg(target_os = "linux")]
+mod pointer_x11;
 mod query;
 mod raster;
 mod screenshot;

@@ -4,6 +4,7 @@
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use eframe::egui::{Context, ViewportBuilder, ViewportCommand};
@@ -22,7 +23,15 @@ use super::window::{Drive, Workbench};
 use crate::engine::StopSwitch;
 
 /// What the event handler shares with the workbench; both live on the window's thread.
-type Shared = Rc<RefCell<Option<(Rc<RefCell<PointerTap>>, StopSwitch)>>>;
+type Shared = Rc<RefCell<Option<Ears>>>;
+
+/// What the handler does with what it hears.
+struct Ears {
+    tap: Arc<Mutex<PointerTap>>,
+    stop: StopSwitch,
+    /// Movements without a button held reach the tap by a thread of their own.
+    has_listener: bool,
+}
 
 /// Ends the workbench from any thread: the device stops at once, the window closes.
 #[derive(Debug, Clone)]
@@ -73,7 +82,11 @@ pub fn run(
         Box::new(move |cc| match workbench(cc, scene.as_deref()) {
             Ok(workbench) => {
                 let stop = workbench.switch.clone();
-                *for_app.borrow_mut() = Some((Rc::clone(&workbench.tap), stop.clone()));
+                *for_app.borrow_mut() = Some(Ears {
+                    tap: Arc::clone(&workbench.tap),
+                    stop: stop.clone(),
+                    has_listener: has_listener(cc, &workbench.tap),
+                });
                 on_open(EndSwitch {
                     stop,
                     ctx: cc.egui_ctx.clone(),
@@ -93,6 +106,7 @@ pub fn run(
         app,
         shared,
         backlog,
+        n_held: 0,
     });
     if let Some(error) = failure.borrow_mut().take() {
         return Err(error);
@@ -110,33 +124,58 @@ fn workbench(
     Ok(workbench)
 }
 
+/// Lets a thread of its own listen to the pointer, where that can be had.
+#[cfg(target_os = "linux")]
+fn has_listener(cc: &eframe::CreationContext<'_>, tap: &Arc<Mutex<PointerTap>>) -> bool {
+    let tap = Arc::clone(tap);
+    super::pointer_x11::listen(cc, move |stamp, pixel| {
+        let mut tap = tap.lock().unwrap_or_else(PoisonError::into_inner);
+        tap.moved_to_pixel(stamp, pixel);
+    })
+}
+
+/// Here the window's own events are all there is.
+#[cfg(not(target_os = "linux"))]
+fn has_listener(_cc: &eframe::CreationContext<'_>, _tap: &Arc<Mutex<PointerTap>>) -> bool {
+    false
+}
+
 /// The toolkit's own handler, with an ear in front of it.
 struct Stamping<'a> {
     app: EframeWinitApplication<'a>,
     shared: Shared,
     backlog: Backlog,
+    /// Buttons of the pointer that are held.
+    n_held: u32,
 }
 
 impl Stamping<'_> {
     fn listen(&mut self, event: &WindowEvent) {
         if let WindowEvent::CursorMoved { position, .. } = event {
-            self.backlog.moved([position.x, position.y]);
+            let has_listener = |ears: &Ears| ears.has_listener;
+            if self.n_held > 0 || !self.shared.borrow().as_ref().is_some_and(has_listener) {
+                self.backlog.moved([position.x, position.y]);
+            }
             return;
         }
         // Movements come in a row: another event ends it.
         self.pass_on();
         let shared = self.shared.borrow();
-        let Some((_, switch)) = &*shared else {
+        let Some(Ears { stop, .. }) = &*shared else {
             return;
         };
         match event {
             WindowEvent::KeyboardInput { event, .. } => {
                 let is_escape = event.logical_key == Key::Named(NamedKey::Escape);
                 if is_escape && event.state == ElementState::Pressed {
-                    switch.press();
+                    stop.press();
                 }
             }
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => switch.press(),
+            WindowEvent::MouseInput { state, .. } => match state {
+                ElementState::Pressed => self.n_held += 1,
+                ElementState::Released => self.n_held = self.n_held.saturating_sub(1),
+            },
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => stop.press(),
             _ => {}
         }
     }
@@ -144,7 +183,8 @@ impl Stamping<'_> {
     /// Hands what was heard of the pointer to the engine.
     fn pass_on(&mut self) {
         let shared = self.shared.borrow();
-        let mut tap = shared.as_ref().map(|(tap, _)| tap.borrow_mut());
+        let tap = shared.as_ref().map(|ears| &ears.tap);
+        let mut tap = tap.map(|tap| tap.lock().unwrap_or_else(PoisonError::into_inner));
         self.backlog.pass_on(Instant::now(), |stamp, pixel| {
             if let Some(tap) = &mut tap {
                 tap.moved_to_pixel(stamp, pixel);

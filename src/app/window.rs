@@ -1,12 +1,10 @@
 //! The window's state and its frame: inboxes are emptied, then everything is drawn from views that
 //! do not change while they are drawn.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, ColorImage, TextureFilter, TextureHandle, TextureOptions, Vec2};
@@ -46,7 +44,7 @@ pub struct Workbench {
     pub(crate) engine: Engine,
     pub(crate) switch: StopSwitch,
     pub(crate) is_stepped: bool,
-    pub(crate) tap: Rc<RefCell<PointerTap>>,
+    pub(crate) tap: Arc<Mutex<PointerTap>>,
     loaded: LoadedScene,
     library: Vec<LibraryDot>,
     pictures: BTreeMap<String, (TextureHandle, ClothPicture)>,
@@ -135,7 +133,7 @@ impl Workbench {
             transient: Transient::default(),
             switch: engine.stop_switch(),
             is_stepped,
-            tap: Rc::new(RefCell::new(PointerTap::new(engine.take_pointer()))),
+            tap: Arc::new(Mutex::new(PointerTap::new(engine.take_pointer()))),
             engine,
             library: Vec::new(),
             pictures: BTreeMap::new(),

@@ -1,0 +1,70 @@
+//! The pointer on X11, heard on a connection and a thread of its own.
+//!
+//! The thread that draws hears of movements only between two frames, and where no graphics card
+//! helps a frame takes a tenth of a second. A second connection hears of them as they happen.
+//! While a button is held the server tells the window alone, so that its own events remain needed
+//! then; on Wayland a program has no second ear.
+
+use std::thread;
+use std::time::Instant;
+
+use winit::raw_window_handle::{HasWindowHandle, RawWindowHandle};
+use x11rb::connection::Connection as _;
+use x11rb::protocol::Event;
+use x11rb::protocol::xinput::{ConnectionExt as _, EventMask, XIEventMask};
+use x11rb::rust_connection::RustConnection;
+
+/// Every pointer that moves the cursor, as the server numbers it.
+const ALL_MASTER_DEVICES: u16 = 1;
+/// Places come in fixed point: so many units a pixel.
+const UNITS_PER_PIXEL: f64 = 65_536.0;
+
+/// Gives `take` every movement over the window: when it was heard, and the pixel. Returns whether
+/// there is somebody listening; the thread ends with the window's server or with the process.
+pub(super) fn listen(
+    window: &impl HasWindowHandle,
+    take: impl FnMut(Instant, [f64; 2]) + Send + 'static,
+) -> bool {
+    let Some(connection) = window_id(window).and_then(connect) else {
+        return false;
+    };
+    let listener = thread::Builder::new().name("pointer".to_owned());
+    listener.spawn(move || pass_on(&connection, take)).is_ok()
+}
+
+/// The window's number on an X server; `None` elsewhere.
+fn window_id(window: &impl HasWindowHandle) -> Option<u32> {
+    match window.window_handle().ok()?.as_raw() {
+        RawWindowHandle::Xlib(handle) => u32::try_from(handle.window).ok(),
+        RawWindowHandle::Xcb(handle) => Some(handle.window.get()),
+        _ => None,
+    }
+}
+
+/// A connection that hears of movements over the window. Whatever fails, there is none.
+fn connect(window: u32) -> Option<RustConnection> {
+    let (connection, _screen) = x11rb::connect(None).ok()?;
+    connection
+        .xinput_xi_query_version(2, 2)
+        .ok()?
+        .reply()
+        .ok()?;
+    let movements = EventMask {
+        deviceid: ALL_MASTER_DEVICES,
+        mask: vec![XIEventMask::MOTION],
+    };
+    let selected = connection
+        .xinput_xi_select_events(window, &[movements])
+        .ok()?;
+    selected.check().ok()?;
+    Some(connection)
+}
+
+fn pass_on(connection: &RustConnection, mut take: impl FnMut(Instant, [f64; 2])) {
+    while let Ok(event) = connection.wait_for_event() {
+        if let Event::XinputMotion(motion) = event {
+            let pixel = [motion.event_x, motion.event_y].map(|at| f64::from(at) / UNITS_PER_PIXEL);
+            take(Instant::now(), pixel);
+        }
+    }
+}
