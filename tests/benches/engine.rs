@@ -19,12 +19,10 @@ use selvedge::bridge::{ArrayProfile, BridgeState, Spread, Target};
 use selvedge::engine::{
     Command, Engine, EngineConfig, PointerSample, PointerSender, PreparedScene, Snapshot,
 };
-use selvedge::geometry::{Frame, Point, Rotation};
+use selvedge::geometry::Point;
 use selvedge::quantity::time_span;
 use selvedge::render::array::{Accuracy, Method};
-use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge::scene::Geometry;
-use selvedge::surface::{Profile, ProfileSet, Surface};
+use selvedge::scene::LoadedScene;
 
 /// Between two samples of the pointer.
 const MOUSE: Duration = Duration::from_millis(8);
@@ -162,32 +160,8 @@ fn print_spread(what: &str, spread: Spread) {
     );
 }
 
-/// One cloth of 100 mm under a 24-contactor display.
+/// The scene that the program ships.
 fn scene() -> PreparedScene {
-    let height = |i: u32| 4.0 * (f64::from(i) * 0.03).sin() + f64::from(i * 37 % 11);
-    let mut profiles = ProfileSet::default();
-    profiles[0] = Some(Profile::new(1.0 / 230.0, (0..4600).map(height).collect()).unwrap());
-    let textile = PlacedSurface {
-        workspace_from_textile: Frame {
-            origin: Point::default(),
-            rotation: Rotation::NONE,
-        },
-        size_mm: [100.0, 100.0],
-        manifest_gain_db: 0.0,
-        scene_gain_db: 0.0,
-        level: PlacedLevel::Known(0.0),
-        surface: Arc::new(Surface::from_profiles(profiles, 0.0).unwrap()),
-    };
-    let offsets = Geometry::default().contactors();
-    let scene = RenderScene {
-        textiles: vec![textile],
-        displays: vec![ContactorArray {
-            offsets,
-            rotation_deg: 0.0,
-        }],
-        ..RenderScene::default()
-    };
-    let how = (Method::Auto, &Accuracy::default());
-    let start = Point::new(50.0, 50.0);
-    PreparedScene::from_parts(&scene, ArrayProfile::default(), start, how).unwrap()
+    let loaded = LoadedScene::shipped().unwrap();
+    PreparedScene::prepare(&loaded, Method::Auto, &Accuracy::default()).unwrap()
 }

@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
-use super::reference::{amplitudes_of, bin_frequency_hz};
-use crate::render::plan::{Axis, Contacts, Counters, ScenePlan};
+use super::reference::{bin_frequency_hz, evaluate_each};
+use crate::render::plan::{Contacts, Counters, Feel, ScenePlan};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
@@ -82,24 +82,12 @@ impl BandedEvaluator {
         amplitudes_um: &mut [[f64; 2]],
         counters: &mut Counters,
     ) {
-        let textile = &plan.textiles[contacts.textile];
-        for (contactor, amplitudes) in amplitudes_um.iter_mut().enumerate() {
-            if !contacts.owns(contactor) {
-                continue;
-            }
-            let mut sums = [0.0; 2];
-            for axis in Axis::BOTH {
-                let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
-                    continue;
-                };
-                let row = &mut self.rows[axis as usize];
-                row.move_to(feel.speed_mm_per_s, &self.filters);
-                let memo = &mut self.pool[feel.spectra];
-                let own = memo.sums(feel.point, (self.tick, row), counters);
-                (0..2).for_each(|b| sums[b] += own[b]);
-            }
-            *amplitudes = amplitudes_of(sums, factors);
-        }
+        let sums_of = |axis, feel: Feel, counters: &mut Counters| {
+            let row = &mut self.rows[axis as usize];
+            row.move_to(feel.speed_mm_per_s, &self.filters);
+            self.pool[feel.spectra].sums(feel.point, (self.tick, row), counters)
+        };
+        evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::render::plan::{Axis, Contacts, Counters, ScenePlan};
+use crate::render::plan::{Axis, Contacts, Counters, Feel, ScenePlan};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
@@ -30,26 +30,38 @@ impl ReferenceEvaluator {
         amplitudes_um: &mut [[f64; 2]],
         counters: &mut Counters,
     ) {
-        let textile = &plan.textiles[contacts.textile];
-        for (contactor, amplitudes) in amplitudes_um.iter_mut().enumerate() {
-            if !contacts.owns(contactor) {
-                continue;
-            }
-            let mut sums = [0.0; 2];
-            for axis in Axis::BOTH {
-                let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
-                    continue;
-                };
-                let powers_um2 = self.pool[feel.spectra].powers_um2(feel.point);
-                let (own, n_audible) = band_sums(powers_um2, feel.speed_mm_per_s, &self.filters);
-                (0..2).for_each(|b| sums[b] += own[b]);
-                counters.directions_evaluated += 1;
-                counters.bins_evaluated += 2 * n_audible as u64;
-                counters.bins_above_1_khz += 2 * (N_BINS - n_audible) as u64;
-            }
-            *amplitudes = amplitudes_of(sums, factors);
-        }
+        let sums_of = |_, feel: Feel, counters: &mut Counters| {
+            let powers_um2 = self.pool[feel.spectra].powers_um2(feel.point);
+            let (sums, n_audible) = band_sums(powers_um2, feel.speed_mm_per_s, &self.filters);
+            counters.directions_evaluated += 1;
+            counters.bins_evaluated += 2 * n_audible as u64;
+            counters.bins_above_1_khz += 2 * (N_BINS - n_audible) as u64;
+            sums
+        };
+        evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
     }
+}
+
+/// Gives every contactor on one textile its amplitudes in µm, from the band sums that `sums_of`
+/// finds along each axis that it moves along.
+pub(super) fn evaluate_each(
+    (plan, contacts): (&ScenePlan, &Contacts<'_>),
+    factors: [f64; 2],
+    amplitudes_um: &mut [[f64; 2]],
+    counters: &mut Counters,
+    mut sums_of: impl FnMut(Axis, Feel, &mut Counters) -> [f64; 2],
+) {
+    let textile = &plan.textiles[contacts.textile];
+    contacts.for_each_owned(amplitudes_um, |contactor, amplitudes| {
+        let mut sums = [0.0; 2];
+        for axis in Axis::BOTH {
+            if let Some(feel) = contacts.feel(textile, axis, contactor, counters) {
+                let own = sums_of(axis, feel, counters);
+                (0..2).for_each(|b| sums[b] += own[b]);
+            }
+        }
+        *amplitudes = amplitudes_of(sums, factors);
+    });
 }
 
 /// `A_b = √(2 Σ)·g_b`.

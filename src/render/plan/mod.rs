@@ -9,7 +9,7 @@ mod contact;
 mod counters;
 mod point;
 
-pub(super) use contact::{Contacts, DisplayPlan, Motion, TextilePlan};
+pub(super) use contact::{Contacts, DisplayPlan, Feel, Motion, TextilePlan};
 pub use counters::Counters;
 pub(super) use point::{PointIndex, whole_part};
 
