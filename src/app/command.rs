@@ -7,56 +7,240 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
+use super::arrangement::Pane;
 use super::theme::ColourMap;
-use crate::tactile::Band;
+use crate::geometry::Point;
+use crate::tactile::{Band, Filters};
 
 /// Something that the user wants.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Command {
     /// Everything off, at once, from anywhere.
     AllOff,
-    /// Arm the device: high voltage on.
-    Arm,
-    /// End the silence of all off where there is no device to arm.
-    GoOn,
-    /// Ramp the device to silence.
-    Disarm,
-    /// Connect to the emulator in this process.
-    ConnectEmulator,
-    /// Connect to the device at this path.
-    ConnectPort(PathBuf),
-    /// Let go of the device.
-    Disconnect,
-    /// Let the display explore by itself, or give it back to the pointer.
-    ToggleStroke,
     /// Change the scene.
     Edit(Edit),
     /// Take the last change back.
     Undo,
     /// Bring it back again.
     Redo,
-    /// Show the field that asks which scene to open.
-    AskOpen,
-    /// Show the field that asks where to save.
-    AskSaveAs,
-    /// Open the scene at this path.
-    Open(PathBuf),
-    /// Save the scene where it came from, or ask where.
-    Save,
-    /// Save the scene at this path.
-    SaveAs(PathBuf),
-    /// Put away what asks.
+    /// Do something with the device.
+    Device(DeviceCommand),
+    /// Do something with files.
+    File(FileCommand),
+    /// Move, record and replay.
+    Play(PlayCommand),
+    /// Change what is shown how.
+    Show(ShowCommand),
+    /// Put away what asks: a field, a question, the calibration, the help.
     Dismiss,
     /// Put away a notice.
     DismissNotice(u64),
+}
+
+impl From<DeviceCommand> for Command {
+    fn from(command: DeviceCommand) -> Self {
+        Self::Device(command)
+    }
+}
+
+impl From<FileCommand> for Command {
+    fn from(command: FileCommand) -> Self {
+        Self::File(command)
+    }
+}
+
+impl From<PlayCommand> for Command {
+    fn from(command: PlayCommand) -> Self {
+        Self::Play(command)
+    }
+}
+
+impl From<ShowCommand> for Command {
+    fn from(command: ShowCommand) -> Self {
+        Self::Show(command)
+    }
+}
+
+impl From<Edit> for Command {
+    fn from(edit: Edit) -> Self {
+        Self::Edit(edit)
+    }
+}
+
+/// What can be done with the device.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum DeviceCommand {
+    /// Arm it: high voltage on.
+    Arm,
+    /// End the silence of all off where there is no device to arm.
+    GoOn,
+    /// Ramp it to silence.
+    Disarm,
+    /// Connect to the emulator in this process.
+    ConnectEmulator,
+    /// Connect to the device at this path.
+    ConnectPort(PathBuf),
+    /// Let go of it.
+    Disconnect,
+    /// Look anew which ports there are.
+    ListPorts,
+}
+
+/// What can be done with files.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FileCommand {
+    /// Ask for a path: by the desktop's dialog, or by a field where there is none.
+    Ask(Purpose),
+    /// Use this path for this purpose.
+    Use(Purpose, PathBuf),
+    /// Save the scene where it came from, or ask where.
+    Save,
+    /// Close the window; asks first when the scene is not saved.
+    Close,
+    /// Close the window and let the changes go.
+    CloseUnsaved,
+}
+
+/// What a path is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Purpose {
+    /// Open a scene.
+    OpenScene,
+    /// Save the scene.
+    SaveScene,
+    /// Open a recorded exploration to replay.
+    OpenRecording,
+    /// Save the recorded exploration.
+    SaveRecording,
+}
+
+/// What moves the display, and how that is recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum PlayCommand {
+    /// Play what can be played, or hold it; with the pointer as the source, explore by itself.
+    Toggle,
+    /// Take positions from here.
+    Source(PlaySource),
+    /// Play one tick, then hold.
+    Step,
+    /// Back to the first tick.
+    Rewind,
+    /// To this tick of the recording.
+    Seek(u64),
+    /// Whether a recording begins again at its end.
+    Loop(bool),
+    /// Begin or end a recording.
+    ToggleRecording,
+    /// Turn the display by this much, degrees counter-clockwise.
+    Turn(f64),
+    /// Turn the display back to the scene's own angle.
+    TurnBack,
+}
+
+/// What moves the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PlaySource {
+    /// The pointer.
+    Pointer,
+    /// The display by itself, along a stroke.
+    Stroke,
+    /// The recording at hand.
+    Recording,
+}
+
+/// What is shown how. Never undoable.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ShowCommand {
     /// Follow the system's theme, or choose one.
-    SetTheme(egui::ThemePreference),
+    Theme(egui::ThemePreference),
     /// Choose the colours that stand for numbers.
-    SetColourMap(ColourMap),
+    ColourMap(ColourMap),
+    /// Size of everything: 1 is 100 %.
+    Zoom(f32),
+    /// Decide what a drag in the workspace does.
+    Tool(Tool),
+    /// Look at another part of the workspace.
+    Look(Look),
+    /// Show or hide a pane; a pane behind others comes to the front.
+    Pane(Pane),
+    /// Put every pane back in its place.
+    DefaultArrangement,
+    /// Look closer at this contactor.
+    SelectContactor(usize),
+    /// Choose the textile at this place in the scene's list, or none.
+    SelectCloth(Option<usize>),
+    /// Do not feel this.
+    Mute(Part),
+    /// Feel only what is solo.
+    Solo(Part),
+    /// Feel everything again.
+    HearAll,
+    /// Write numbers into the heatmaps.
+    Numbers(bool),
+    /// Hold the scale of amplitudes, or let it follow them.
+    LockScale(bool),
+    /// The largest amplitude of the scale, µm; holds it.
+    ScaleTop(f64),
+    /// What the contactors' dots show by what.
+    DotStyle(DotStyle),
+    /// Begin to calibrate the screen to true size.
+    Calibrate,
+    /// The screen has this many pixels per millimetre.
+    Calibrated(f64),
+    /// Show or hide the list of keys.
+    Help,
+}
+
+/// What a drag in the workspace does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Tool {
+    /// It feels.
+    #[default]
+    Explore,
+    /// It moves textiles.
+    Arrange,
+}
+
+/// Which part of the workspace is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Look {
+    /// All of it.
+    Fit,
+    /// One millimetre is one millimetre on the screen.
+    TrueSize,
+    /// Closer by this factor, with this place of the workspace held where it is on the screen.
+    Zoom(f64, Point),
+    /// Closer by this factor around the middle.
+    ZoomBy(f64),
+    /// This place in the middle.
+    Centre(Point),
+}
+
+/// How a contactor's two amplitudes are drawn as a dot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub(crate) enum DotStyle {
+    /// A40 is its size, A320 its glow.
+    #[default]
+    SizeAndGlow,
+    /// Both by size: A40 the disc, A320 a ring around it.
+    Size,
+    /// Both by brightness: the larger of the two.
+    Brightness,
+}
+
+/// Something that can be muted or felt alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// A band.
+    Band(Band),
+    /// The textile at this place in the scene's list.
+    Cloth(usize),
+    /// A contactor.
+    Contactor(usize),
 }
 
 /// A change of the scene: undoable, saved.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Edit {
     /// Gain of everything, dB.
     MasterGain(f64),
@@ -66,6 +250,22 @@ pub(crate) enum Edit {
     Compression(f64),
     /// Gain of the textile at this place in the scene's list, dB.
     TextileGain(usize, f64),
+    /// Kind and width of the filters.
+    Filters(Filters),
+    /// Moves the textile at this place: its origin, mm.
+    MoveCloth(usize, Point),
+    /// Turns the textile at this place about its middle to this angle, degrees counter-clockwise.
+    TurnCloth(usize, f64),
+    /// Extent of the textile at this place along warp and weft, mm.
+    ResizeCloth(usize, [f64; 2]),
+    /// Places a textile of the library with its middle here.
+    AddCloth(String, Point),
+    /// Takes the textile at this place away.
+    RemoveCloth(usize),
+    /// Lays the textile at this place on top of the others.
+    RaiseCloth(usize),
+    /// What the scene calls the textile at this place.
+    Label(usize, String),
 }
 
 /// What an edit turns: edits of the same target in one gesture are one step of undo.
@@ -79,16 +279,40 @@ pub(crate) enum Target {
     Compression,
     /// Gain of the textile at this place.
     TextileGain(usize),
+    /// The filters.
+    Filters,
+    /// Where a textile lies.
+    Place(usize),
+    /// How a textile is turned.
+    Turn(usize),
+    /// How large a textile is.
+    Size(usize),
+    /// Which textiles there are; such edits are never joined.
+    Add,
+    /// The same.
+    Remove,
+    /// Which textile is on top.
+    Order,
+    /// What a textile is called.
+    Label(usize),
 }
 
 impl Edit {
     /// What it turns.
-    pub(crate) fn target(self) -> Target {
-        match self {
+    pub(crate) fn target(&self) -> Target {
+        match *self {
             Self::MasterGain(_) => Target::MasterGain,
             Self::BandGain(band, _) => Target::BandGain(band),
             Self::Compression(_) => Target::Compression,
             Self::TextileGain(index, _) => Target::TextileGain(index),
+            Self::Filters(_) => Target::Filters,
+            Self::MoveCloth(index, _) => Target::Place(index),
+            Self::TurnCloth(index, _) => Target::Turn(index),
+            Self::ResizeCloth(index, _) => Target::Size(index),
+            Self::AddCloth(..) => Target::Add,
+            Self::RemoveCloth(_) => Target::Remove,
+            Self::RaiseCloth(_) => Target::Order,
+            Self::Label(index, _) => Target::Label(index),
         }
     }
 }
@@ -102,6 +326,19 @@ impl Target {
             Self::BandGain(Band::High) => "320 Hz gain",
             Self::Compression => "compression",
             Self::TextileGain(_) => "textile gain",
+            Self::Filters => "filters",
+            Self::Place(_) => "moved textile",
+            Self::Turn(_) => "turned textile",
+            Self::Size(_) => "resized textile",
+            Self::Add => "added textile",
+            Self::Remove => "removed textile",
+            Self::Order => "raised textile",
+            Self::Label(_) => "label",
         }
+    }
+
+    /// Whether further edits of the same target may join the step.
+    pub(crate) fn joins(self) -> bool {
+        !matches!(self, Self::Add | Self::Remove | Self::Order)
     }
 }

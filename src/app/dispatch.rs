@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use super::command::{Command, Edit};
+use super::command::{
+    Command, DeviceCommand, Edit, FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand,
+};
 use super::opening::{Opened, Opening, open};
 use super::panes::Ask;
 use super::query;
@@ -23,39 +25,65 @@ impl Workbench {
     pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
         match command {
             Command::AllOff => self.all_off(),
-            Command::Arm => self.send(engine::Command::Arm),
-            Command::GoOn => {
+            Command::Edit(edit) => self.edit(&edit),
+            Command::Undo => self.step_history(super::document::Document::undo),
+            Command::Redo => self.step_history(super::document::Document::redo),
+            Command::Device(command) => self.dispatch_device(command),
+            Command::File(command) => self.dispatch_file(ctx, command),
+            Command::Play(command) => self.dispatch_play(command),
+            Command::Show(command) => self.dispatch_show(ctx, command),
+            Command::Dismiss => self.transient.ask = None,
+            Command::DismissNotice(number) => self.transient.notices.dismiss(number),
+        }
+    }
+
+    fn dispatch_device(&mut self, command: DeviceCommand) {
+        match command {
+            DeviceCommand::Arm => self.send(engine::Command::Arm),
+            DeviceCommand::GoOn => {
                 // The engine goes on and refuses to arm what is not there: no news to anybody.
                 self.transient.is_going_on = true;
                 self.send(engine::Command::Arm);
             }
-            Command::Disarm => self.send(engine::Command::Disarm),
-            Command::ConnectEmulator => self.connect(Target::Emulator),
-            Command::ConnectPort(path) => self.connect(Target::Port(path)),
-            Command::Disconnect => {
+            DeviceCommand::Disarm => self.send(engine::Command::Disarm),
+            DeviceCommand::ConnectEmulator => self.connect(Target::Emulator),
+            DeviceCommand::ConnectPort(path) => self.connect(Target::Port(path)),
+            DeviceCommand::Disconnect => {
                 self.transient.target = None;
                 self.send(engine::Command::Disconnect);
             }
-            Command::ToggleStroke => self.toggle_stroke(),
-            Command::Edit(edit) => self.edit(edit),
-            Command::Undo => self.step_history(super::document::Document::undo),
-            Command::Redo => self.step_history(super::document::Document::redo),
-            Command::AskOpen => {
-                self.transient.ask = Some(Ask::new(false, self.document.path()));
+            DeviceCommand::ListPorts => {}
+        }
+    }
+
+    fn dispatch_file(&mut self, ctx: &egui::Context, command: FileCommand) {
+        match command {
+            FileCommand::Ask(purpose) => {
+                let is_save = purpose == Purpose::SaveScene;
+                self.transient.ask = Some(Ask::new(is_save, self.document.path()));
             }
-            Command::AskSaveAs => {
-                self.transient.ask = Some(Ask::new(true, self.document.path()));
-            }
-            Command::Open(path) => self.open(ctx, path),
-            Command::Save => match self.document.path().cloned() {
+            FileCommand::Use(Purpose::OpenScene, path) => self.open(ctx, path),
+            FileCommand::Use(Purpose::SaveScene, path) => self.save_as(&path),
+            FileCommand::Save => match self.document.path().cloned() {
                 Some(path) => self.save_as(&path),
                 None => self.transient.ask = Some(Ask::new(true, None)),
             },
-            Command::SaveAs(path) => self.save_as(&path),
-            Command::Dismiss => self.transient.ask = None,
-            Command::DismissNotice(number) => self.transient.notices.dismiss(number),
-            Command::SetTheme(preference) => ctx.set_theme(preference),
-            Command::SetColourMap(map) => self.layout.colour_map = map,
+            _ => {}
+        }
+    }
+
+    fn dispatch_play(&mut self, command: PlayCommand) {
+        match command {
+            PlayCommand::Toggle | PlayCommand::Source(PlaySource::Stroke) => self.toggle_stroke(),
+            _ => {}
+        }
+    }
+
+    fn dispatch_show(&mut self, ctx: &egui::Context, command: ShowCommand) {
+        match command {
+            ShowCommand::Theme(preference) => ctx.set_theme(preference),
+            ShowCommand::ColourMap(map) => self.layout.colour_map = map,
+            _ => {}
         }
     }
 
@@ -91,7 +119,7 @@ impl Workbench {
         }
     }
 
-    fn edit(&mut self, edit: Edit) {
+    fn edit(&mut self, edit: &Edit) {
         let before = self.document.scene().clone();
         let now = self.transient.moment;
         if let Err(error) = self.document.edit(edit, now) {

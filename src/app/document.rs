@@ -58,10 +58,10 @@ impl Document {
     }
 
     /// Makes a change. One that makes no sense is refused and nothing happens.
-    pub(crate) fn edit(&mut self, edit: Edit, now: Moment) -> Result<(), SceneError> {
+    pub(crate) fn edit(&mut self, edit: &Edit, now: Moment) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
         let mut tuning = self.tuning();
-        match edit {
+        match *edit {
             Edit::MasterGain(db) => tuning.gain_db = db,
             Edit::BandGain(Band::Low, db) => tuning.gain_40_db = db,
             Edit::BandGain(Band::High, db) => tuning.gain_320_db = db,
@@ -72,6 +72,7 @@ impl Document {
                 };
                 textile.gain_db = db;
             }
+            _ => {}
         }
         if tuning != self.tuning() {
             scene.tuning = Some(tuning);
@@ -176,7 +177,7 @@ mod tests {
     #[test]
     fn an_edit_starts_from_the_librarys_tuning_and_undo_goes_back_to_none() {
         let mut document = document();
-        document.edit(Edit::Compression(0.5), at(1)).unwrap();
+        document.edit(&Edit::Compression(0.5), at(1)).unwrap();
         let tuning = document.tuning();
         assert_eq!((tuning.gain_db, tuning.compression), (-3.0, 0.5));
         assert!(document.is_edited(), "a changed tuning is an edit");
@@ -189,9 +190,9 @@ mod tests {
     fn a_change_that_makes_no_sense_changes_nothing() {
         let mut document = document();
         for edit in [Edit::MasterGain(f64::NAN), Edit::Compression(1.5)] {
-            assert!(document.edit(edit, at(1)).is_err(), "{edit:?}");
+            assert!(document.edit(&edit, at(1)).is_err(), "{edit:?}");
         }
-        document.edit(Edit::TextileGain(7, 3.0), at(2)).unwrap();
+        document.edit(&Edit::TextileGain(7, 3.0), at(2)).unwrap();
         assert!(!document.is_edited(), "nothing changed");
         assert_eq!(document.undo(), None);
     }
@@ -202,7 +203,7 @@ mod tests {
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join("a.scene.toml");
         let mut document = document();
-        document.edit(Edit::TextileGain(0, 2.5), at(1)).unwrap();
+        document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
         document.save_as(&path).unwrap();
         assert!(!document.is_edited(), "saved");
         assert_eq!(Scene::read(&path).unwrap(), *document.scene());
@@ -226,7 +227,7 @@ mod tests {
                     3 => Edit::Compression((value + 30.0) / 60.0),
                     _ => Edit::TextileGain(0, value),
                 };
-                document.edit(edit, at(press)).unwrap();
+                document.edit(&edit, at(press)).unwrap();
             }
             let last = document.scene().clone();
             while document.undo().is_some() {}

@@ -16,6 +16,7 @@
 //! - Esc, closing the window and a panic switch everything off without waiting for a frame
 
 mod amplitude;
+mod arrangement;
 mod backlog;
 mod command;
 mod dispatch;

@@ -16,7 +16,7 @@ use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
 use super::backlog::Backlog;
-use super::command::Command;
+use super::command::DeviceCommand;
 use super::error::AppError;
 use super::pointer::PointerTap;
 use super::window::{Drive, Workbench};
@@ -120,7 +120,7 @@ fn workbench(
 ) -> Result<Workbench, AppError> {
     let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
     workbench.switch.press_on_panic();
-    workbench.dispatch(&cc.egui_ctx, Command::ConnectEmulator);
+    workbench.dispatch(&cc.egui_ctx, DeviceCommand::ConnectEmulator.into());
     Ok(workbench)
 }
 

@@ -23,10 +23,13 @@ pub(crate) fn scene_view(
     let scene = document.scene();
     let placed = scene.textiles.iter().zip(loaded.textiles());
     let cloths = placed.map(|(placed, textile)| Cloth {
+        id: placed.id.clone(),
         label: placed.label.clone(),
         name: textile.manifest().name.clone(),
         workspace_from_textile: placed.workspace_from_textile(),
         size_mm: placed.size_mm,
+        rotation_deg: placed.rotation_deg,
+        is_muted: false,
         gain_db: placed.gain_db,
         picture: pictures.get(&placed.id).copied(),
     });
@@ -137,6 +140,7 @@ fn dot(contactor: &crate::engine::ContactorView) -> Dot {
         cloth: contactor.textile.map(usize::from),
         amplitude_um: contactor.amplitude_um.map(f64::from),
         is_limited: contactor.bite.any(),
+        is_muted: false,
     }
 }
 

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use eframe::App as _;
 use eframe::egui::{self, FullOutput, Pos2, RawInput, Rect, vec2};
 
-use super::command::Command;
+use super::command::{PlayCommand, PlaySource};
 use super::error::AppError;
 use super::query;
 use super::raster::{Picture, Rasteriser};
@@ -83,7 +83,7 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     ctx.set_theme(theme);
     let mut bench = Workbench::new(&ctx, wanted.scene.as_deref(), Drive::Stepped)?;
     let mut rasteriser = Rasteriser::default();
-    bench.dispatch(&ctx, Command::ToggleStroke);
+    bench.dispatch(&ctx, PlayCommand::Source(PlaySource::Stroke).into());
     bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
     bench.transient.target = bench
         .transient

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
-use super::command::Command;
+use super::command::{Command, FileCommand, PlayCommand, Purpose};
 
 /// A key and what it does.
 #[derive(Debug, Clone)]
@@ -33,10 +33,14 @@ pub(crate) fn table() -> Vec<Shortcut> {
         key(ctrl_shift, Key::Z, Command::Redo),
         key(ctrl, Key::Z, Command::Undo),
         key(ctrl, Key::Y, Command::Redo),
-        key(ctrl_shift, Key::S, Command::AskSaveAs),
-        key(ctrl, Key::S, Command::Save),
-        key(ctrl, Key::O, Command::AskOpen),
-        key(Modifiers::NONE, Key::Space, Command::ToggleStroke),
+        key(
+            ctrl_shift,
+            Key::S,
+            FileCommand::Ask(Purpose::SaveScene).into(),
+        ),
+        key(ctrl, Key::S, FileCommand::Save.into()),
+        key(ctrl, Key::O, FileCommand::Ask(Purpose::OpenScene).into()),
+        key(Modifiers::NONE, Key::Space, PlayCommand::Toggle.into()),
     ]
 }
 

@@ -44,6 +44,8 @@ pub(crate) struct SceneView {
 /// A textile that lies in the workspace.
 #[derive(Debug, Clone)]
 pub(crate) struct Cloth {
+    /// Its textile in the library.
+    pub(crate) id: String,
     /// The scene's name for it: a number or a letter.
     pub(crate) label: String,
     /// The textile's name.
@@ -52,6 +54,10 @@ pub(crate) struct Cloth {
     pub(crate) workspace_from_textile: Frame,
     /// Extent along warp and weft, mm.
     pub(crate) size_mm: [f64; 2],
+    /// How it is turned, degrees counter-clockwise.
+    pub(crate) rotation_deg: f64,
+    /// Whether it is silent because it was muted or another one is felt alone.
+    pub(crate) is_muted: bool,
     /// The scene's gain, dB.
     pub(crate) gain_db: f64,
     /// How it looks; `None` while it has no picture.
@@ -114,6 +120,8 @@ pub(crate) struct Dot {
     pub(crate) amplitude_um: [f64; 2],
     /// Whether an output limit bites.
     pub(crate) is_limited: bool,
+    /// Whether it is silent because it was muted or another one is felt alone.
+    pub(crate) is_muted: bool,
 }
 
 /// What moves the display.

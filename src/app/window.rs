@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{self, ColorImage, TextureFilter, TextureHandle, TextureOptions, Vec2};
 
-use super::command::Command;
+use super::command::{DeviceCommand, FileCommand, Purpose};
 use super::document::Document;
 use super::error::AppError;
 use super::history::Moment;
@@ -335,13 +335,13 @@ impl Workbench {
     /// Connects to the emulator in this process, as the window does when it starts.
     pub fn connect_emulator(&mut self) {
         let ctx = self.ctx.clone();
-        self.dispatch(&ctx, Command::ConnectEmulator);
+        self.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
     }
 
     /// Opens the scene at this path, as the field does that asks for one.
     pub fn open_scene(&mut self, path: PathBuf) {
         let ctx = self.ctx.clone();
-        self.dispatch(&ctx, Command::Open(path));
+        self.dispatch(&ctx, FileCommand::Use(Purpose::OpenScene, path).into());
     }
 }
 

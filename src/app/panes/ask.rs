@@ -11,7 +11,7 @@ use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 
 use super::Wishes;
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand, Purpose};
 use crate::app::theme::{self, Palette};
 use crate::app::widgets::button;
 
@@ -46,9 +46,9 @@ impl Ask {
         }
         let path = PathBuf::from(path);
         Some(if self.is_save {
-            Command::SaveAs(path)
+            FileCommand::Use(Purpose::SaveScene, path).into()
         } else {
-            Command::Open(path)
+            FileCommand::Use(Purpose::OpenScene, path).into()
         })
     }
 }
@@ -125,7 +125,7 @@ mod tests {
         ask.path = " a.scene.toml ".to_owned();
         assert_eq!(
             ask.answer(),
-            Some(Command::Open(PathBuf::from("a.scene.toml")))
+            Some(FileCommand::Use(Purpose::OpenScene, PathBuf::from("a.scene.toml")).into())
         );
     }
 }

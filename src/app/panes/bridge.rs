@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{self, Align, Button, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2};
 
 use super::Wishes;
-use crate::app::command::Command;
+use crate::app::command::DeviceCommand;
 use crate::app::theme::{self, Palette, ROW};
 use crate::app::view::{BridgePhase, BridgeView, Live};
 use crate::app::widgets::{button, mark, pair, row, section};
@@ -55,7 +55,7 @@ fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, is_stopped: bool, wishe
         let armed = Button::new(text).stroke(edge);
         let tip = "Ramp the device to silence; the window goes on";
         if ui.add_sized(size, armed).on_hover_text(tip).clicked() {
-            wishes.push(Command::Disarm);
+            wishes.push(DeviceCommand::Disarm.into());
         }
         return;
     }
@@ -66,7 +66,7 @@ fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, is_stopped: bool, wishe
             .on_hover_text(tip)
             .clicked()
         {
-            wishes.push(Command::GoOn);
+            wishes.push(DeviceCommand::GoOn.into());
         }
         return;
     }
@@ -85,7 +85,7 @@ fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, is_stopped: bool, wishe
         None => arm.on_hover_text(tip),
     };
     if arm.clicked() {
-        wishes.push(Command::Arm);
+        wishes.push(DeviceCommand::Arm.into());
     }
 }
 
@@ -93,7 +93,7 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
     ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
         if is_connected {
             if button(ui, "Disconnect", "Stop the device and let go of it", None) {
-                wishes.push(Command::Disconnect);
+                wishes.push(DeviceCommand::Disconnect.into());
             }
         } else if button(
             ui,
@@ -101,7 +101,7 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
             "Connect to the emulator in this program",
             None,
         ) {
-            wishes.push(Command::ConnectEmulator);
+            wishes.push(DeviceCommand::ConnectEmulator.into());
         }
         let path = port.trim();
         let missing = path.is_empty().then_some("Type the path of a port first");
@@ -118,7 +118,7 @@ fn show_target(ui: &mut Ui, is_connected: bool, port: &mut String, wishes: &mut 
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let path = port.trim();
         if (is_asked || is_entered) && !path.is_empty() {
-            wishes.push(Command::ConnectPort(PathBuf::from(path)));
+            wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
         }
     });
 }

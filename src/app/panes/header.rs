@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use super::Wishes;
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand, PlayCommand, Purpose, ShowCommand};
 use crate::app::shortcuts::hint;
 use crate::app::theme::{self, ColourMap, Palette, ROW, STEP};
 use crate::app::view::{Live, SceneView, Source, Status};
@@ -62,12 +62,14 @@ fn show_scene(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
     ui.add_space(STEP);
     let ctx = ui.ctx().clone();
     let tip = |what: &str, command: &Command| format!("{what} ({})", hint(&ctx, command));
-    if button(ui, "Open…", &tip("Open a scene", &Command::AskOpen), None) {
-        wishes.push(Command::AskOpen);
+    let open: Command = FileCommand::Ask(Purpose::OpenScene).into();
+    if button(ui, "Open…", &tip("Open a scene", &open), None) {
+        wishes.push(open);
     }
     let unedited = (!scene.is_edited && scene.path.is_some()).then_some("Nothing has changed");
-    if button(ui, "Save", &tip("Save the scene", &Command::Save), unedited) {
-        wishes.push(Command::Save);
+    let save: Command = FileCommand::Save.into();
+    if button(ui, "Save", &tip("Save the scene", &save), unedited) {
+        wishes.push(save);
     }
     let undo = scene
         .undo
@@ -96,9 +98,10 @@ fn show_stroke(ui: &mut Ui, source: Source, wishes: &mut Wishes) {
         ),
     };
     ui.add_space(STEP);
-    let tip = format!("{what} ({})", hint(ui.ctx(), &Command::ToggleStroke));
+    let toggle: Command = PlayCommand::Toggle.into();
+    let tip = format!("{what} ({})", hint(ui.ctx(), &toggle));
     if button(ui, text, &tip, None) {
-        wishes.push(Command::ToggleStroke);
+        wishes.push(toggle);
     }
 }
 
@@ -159,7 +162,7 @@ fn show_appearance(ui: &mut Ui, colour_map: ColourMap, wishes: &mut Wishes) {
         ];
         for (preference, label) in themes {
             if choice(ui, theme == preference, label) {
-                wishes.push(Command::SetTheme(preference));
+                wishes.push(ShowCommand::Theme(preference).into());
             }
         }
         ui.separator();
@@ -169,7 +172,7 @@ fn show_appearance(ui: &mut Ui, colour_map: ColourMap, wishes: &mut Wishes) {
                 map == colour_map,
                 &format!("Numbers in {}", map.label()),
             ) {
-                wishes.push(Command::SetColourMap(map));
+                wishes.push(ShowCommand::ColourMap(map).into());
             }
         }
     });
