@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Align2, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::app::amplitude;
+use crate::app::amplitude::AmplitudeScale;
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::{Dot, Live, SceneView};
 use crate::quantity;
@@ -95,7 +95,7 @@ impl Heatmap {
         for (index, dot) in dots.iter().enumerate() {
             let rect = self.cell(index);
             if dot.cloth.is_some() {
-                let share = amplitude::share(dot.amplitude_um[self.band.index()]);
+                let share = AmplitudeScale::default().share(dot.amplitude_um[self.band.index()]);
                 painter.rect_filled(rect, 2, map.colour(share));
                 if dot.is_limited {
                     let corner = rect.right_top() + vec2(-5.0, 5.0);
@@ -166,9 +166,9 @@ fn paint_bar(painter: &Painter, bar: Rect, map: ColourMap) {
             map.colour(f64::from(i) / f64::from(n_steps - 1)),
         );
     }
-    for amplitude_um in amplitude::MARKS_UM {
+    for amplitude_um in AmplitudeScale::default().marks_um() {
         #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = amplitude::share(amplitude_um) as f32;
+        let share = AmplitudeScale::default().share(amplitude_um) as f32;
         let y = bar.bottom() - bar.height() * share;
         let decimals = usize::from(amplitude_um < 1.0);
         let digits = quantity::fixed(amplitude_um, decimals);

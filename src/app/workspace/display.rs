@@ -6,7 +6,7 @@
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke, pos2};
 
 use super::ViewTransform;
-use crate::app::amplitude;
+use crate::app::amplitude::AmplitudeScale;
 use crate::app::theme::Palette;
 use crate::app::view::Dot;
 use crate::geometry::Point;
@@ -23,7 +23,7 @@ const GLOW_CORNERS: u32 = 20;
     reason = "between 0 and 1, for the screen"
 )]
 fn strength(amplitude_um: f64) -> f32 {
-    amplitude::share(amplitude_um) as f32
+    AmplitudeScale::default().share(amplitude_um) as f32
 }
 
 /// Draws every contactor.
