@@ -18,6 +18,9 @@ pub enum Command {
     /// Feel this scene from the next tick on. Ends a recording; disconnects the device if the
     /// number of contactors changed.
     SetScene(Box<PreparedScene>),
+    /// Feel the same scene after an edit. The source goes on where it is, and so do counters; a
+    /// recording goes on if every display has as many contactors as before.
+    UpdateScene(Box<PreparedScene>),
     /// Gains and compression from the next tick on. One that makes no sense is ignored with a
     /// notice.
     SetTuning(Tuning),
@@ -28,13 +31,17 @@ pub enum Command {
         /// Its gain on top of the manifest's, dB.
         gain_db: f64,
     },
+    /// Which contactors of the first display are felt, by index: the others do nothing anywhere.
+    /// Contactors beyond its end are felt, so an empty one feels all. It outlives scenes.
+    SetContactorMask(Vec<bool>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.
     SetSource(InputSource),
     /// How velocity is estimated from samples.
     SetVelocityMethod(VelocityMethod),
-    /// Turns the display to this angle, degrees counter-clockwise, added to the scene's.
+    /// Turns the display to this angle, degrees counter-clockwise, added to the scene's; a replay
+    /// has its own.
     SetAngle(f64),
     /// Turns the display by this much, degrees counter-clockwise.
     TurnBy(f64),
@@ -46,6 +53,9 @@ pub enum Command {
     Step,
     /// Back to the first tick of a replay or stroke.
     Rewind,
+    /// To this tick of a replay, at most its last, or of a stroke. While it is held that tick is
+    /// shown and felt like a step; while it plays it goes on from there. One that ended is held.
+    Seek(u64),
     /// Whether a replay or stroke begins again when it ends.
     SetLoop(bool),
     /// Opens a device; its shape is that of the scene's first display.
@@ -63,6 +73,10 @@ pub enum Command {
     StartRecording,
     /// Ends the recording; [`Engine::take_recording`](super::Engine::take_recording) has it.
     StopRecording,
+    /// Whether somebody takes [glimpses](super::Engine::next_glimpse); nobody does at first.
+    Glimpses(bool),
+    /// The contactor of the first display whose amplitudes glimpses tell, the first one at first.
+    Watch(usize),
     /// Ends the thread.
     Shutdown,
 }
@@ -154,8 +168,10 @@ impl fmt::Debug for Command {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::SetScene(_) => "SetScene",
+            Self::UpdateScene(_) => "UpdateScene",
             Self::SetTuning(_) => "SetTuning",
             Self::SetTextileGain { .. } => "SetTextileGain",
+            Self::SetContactorMask(_) => "SetContactorMask",
             Self::SetLevels(_) => "SetLevels",
             Self::SetSource(_) => "SetSource",
             Self::SetVelocityMethod(_) => "SetVelocityMethod",
@@ -165,6 +181,7 @@ impl fmt::Debug for Command {
             Self::Pause => "Pause",
             Self::Step => "Step",
             Self::Rewind => "Rewind",
+            Self::Seek(_) => "Seek",
             Self::SetLoop(_) => "SetLoop",
             Self::Connect(_) => "Connect",
             Self::Disconnect => "Disconnect",
@@ -173,6 +190,8 @@ impl fmt::Debug for Command {
             Self::StopAll => "StopAll",
             Self::StartRecording => "StartRecording",
             Self::StopRecording => "StopRecording",
+            Self::Glimpses(_) => "Glimpses",
+            Self::Watch(_) => "Watch",
             Self::Shutdown => "Shutdown",
         })
     }

@@ -16,7 +16,9 @@ use crate::tactile::Tuning;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Gist {
     scene_serial: u64,
+    revision: u64,
     pose: Pose,
+    turn_deg: f64,
     is_silent: bool,
     is_stopped: bool,
     tuning: Tuning,
@@ -41,11 +43,13 @@ impl Gist {
         };
         Self {
             scene_serial: snapshot.scene_serial,
+            revision: snapshot.revision,
             // The time of a pose that stands still is no news.
             pose: Pose {
                 t_s: 0.0,
                 ..snapshot.pose
             },
+            turn_deg: snapshot.turn_deg,
             is_silent: snapshot.is_silent,
             is_stopped: snapshot.is_stopped,
             tuning: snapshot.tuning,

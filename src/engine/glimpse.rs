@@ -4,7 +4,14 @@
 //! that moved or sounded, and the first that did not, leaves one glimpse in a bounded ring, if
 //! somebody asked for them. When the ring is full the newest is lost and counted.
 
+use rtrb::Producer;
+
+use super::EngineCore;
+use crate::geometry::Velocity;
 use crate::scene::Pose;
+
+/// Glimpses on the way: almost 13 s of movement.
+pub(super) const MOST_GLIMPSES: usize = 512;
 
 /// One tick, as histories keep it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,4 +29,99 @@ pub struct Glimpse {
     pub watched: u32,
     /// Its amplitudes [A40, A320] after gains and before output limits, µm.
     pub watched_um: [f32; 2],
+}
+
+impl Glimpse {
+    /// The tick that a core did last.
+    fn of(core: &EngineCore, watched: usize) -> Self {
+        let amplitudes_um = core.felt_um();
+        let frame = core.scene().renderer().frames().first();
+        let is_placed = |&(index, _): &(usize, &[f32; 2])| {
+            frame.is_some_and(|frame| frame.textile(index).is_some())
+        };
+        let (mut sum, mut n_placed) = ([0.0; 2], 0.0);
+        for (_, [low, high]) in amplitudes_um.iter().enumerate().filter(is_placed) {
+            sum = [sum[0] + low, sum[1] + high];
+            n_placed += 1.0;
+        }
+        Self {
+            tick: core.tick_count(),
+            pose: core.shown_pose(),
+            is_silent: core.is_silent(),
+            mean_um: sum.map(|sum| sum / f32::max(n_placed, 1.0)),
+            watched: u32::try_from(watched).unwrap_or(u32::MAX),
+            watched_um: amplitudes_um.get(watched).copied().unwrap_or_default(),
+        }
+    }
+}
+
+/// The engine's side of the ring: says which ticks leave a glimpse.
+#[derive(Debug)]
+pub(super) struct Glimpser {
+    ring: Producer<Glimpse>,
+    is_heard: bool,
+    watched: usize,
+    /// The pose of the last tick that was looked at, and whether that was still and silent.
+    last: Option<Pose>,
+    was_quiet: bool,
+    n_lost: u64,
+}
+
+impl Glimpser {
+    /// Nobody listens yet.
+    pub(super) fn new(ring: Producer<Glimpse>) -> Self {
+        Self {
+            ring,
+            is_heard: false,
+            watched: 0,
+            last: None,
+            was_quiet: false,
+            n_lost: 0,
+        }
+    }
+
+    /// Whether somebody listens from now on; the first tick leaves a glimpse.
+    pub(super) fn listen(&mut self, is_heard: bool) {
+        self.is_heard = is_heard;
+        self.last = None;
+        self.was_quiet = false;
+    }
+
+    /// Watches this contactor of the first display; one that is not there is silent.
+    pub(super) fn watch(&mut self, contactor: usize) {
+        self.watched = contactor;
+    }
+
+    /// Glimpses that found the ring full.
+    pub(super) fn n_lost(&self) -> u64 {
+        self.n_lost
+    }
+
+    /// Leaves a glimpse of the tick that was just done, if it moved, turned or sounded, or is the
+    /// first that did not. A tick that is held leaves none.
+    pub(super) fn look(&mut self, core: &EngineCore) {
+        if !self.is_heard {
+            return;
+        }
+        if core.is_held() {
+            // What follows is new, even if it stands still.
+            self.was_quiet = false;
+            return;
+        }
+        let pose = core.shown_pose();
+        let is_there = |last: &Pose| {
+            last.position == pose.position && last.angle_deg.to_bits() == pose.angle_deg.to_bits()
+        };
+        let is_still = self.last.as_ref().is_none_or(is_there)
+            && pose.velocity == Velocity::ZERO
+            && pose.angular_rad_per_s == 0.0;
+        let is_zero = |[low, high]: &[f32; 2]| *low == 0.0 && *high == 0.0;
+        let is_quiet = is_still && core.felt_um().iter().all(is_zero);
+        self.last = Some(pose);
+        let was_quiet = std::mem::replace(&mut self.was_quiet, is_quiet);
+        let is_left = !(is_quiet && was_quiet);
+        if is_left && self.ring.push(Glimpse::of(core, self.watched)).is_err() {
+            self.n_lost += 1;
+        }
+    }
 }

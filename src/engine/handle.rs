@@ -11,13 +11,14 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use triple_buffer::Output;
 
 use super::gist::Waker;
+use super::glimpse::{Glimpser, MOST_GLIMPSES};
 use super::input::{Control, LineInput, PointerInput, ReplayInput, StrokeInput};
-use super::order::{CoreOrder, MOST_RETIRED, Order, Retired};
+use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, Runner};
 use super::{
-    Command, EngineCore, EngineError, InputSource, Notice, PointerSender, PreparedScene, Recording,
-    Snapshot, StopSwitch,
+    Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
+    Recording, Snapshot, StopSwitch,
 };
 use crate::bridge::{ArrayProfile, Bridge, Target};
 
@@ -40,6 +41,7 @@ pub struct Engine {
     orders: Producer<Order>,
     retired: Consumer<Retired>,
     notices: Consumer<Notice>,
+    glimpses: Consumer<Glimpse>,
     snapshots: Output<Snapshot>,
     /// Channels of scenes that are on their way, oldest first.
     coming: Vec<Output<Snapshot>>,
@@ -91,11 +93,13 @@ impl Engine {
         // One more than an order needs, for a stop that comes right after it.
         let (retired_in, retired) = RingBuffer::new(2 * MOST_RETIRED);
         let (notices_in, notices) = RingBuffer::new(MOST_NOTICES);
+        let (glimpses_in, glimpses) = RingBuffer::new(MOST_GLIMPSES);
         let channels = Channels {
             orders: orders_out,
             retired: retired_in,
             notices: notices_in,
             snapshots: snapshots_in,
+            glimpser: Glimpser::new(glimpses_in),
         };
         let (waker, news) = match config.on_news {
             Some(listener) => {
@@ -112,6 +116,7 @@ impl Engine {
             orders,
             retired,
             notices,
+            glimpses,
             snapshots,
             coming: Vec::new(),
             switch,
@@ -167,23 +172,9 @@ impl Engine {
             return Err(EngineError::Busy);
         }
         let order = match command {
-            Command::SetScene(scene) => self.scene_order(scene),
-            Command::SetTuning(tuning) => Order::Core(CoreOrder::Tuning(tuning)),
-            Command::SetTextileGain { textile, gain_db } => {
-                Order::Core(CoreOrder::TextileGain { textile, gain_db })
-            }
-            Command::SetLevels(levels) => Order::Core(CoreOrder::Levels(levels)),
+            Command::SetScene(scene) => self.scene_order(NextScene::Other(scene)),
+            Command::UpdateScene(scene) => self.scene_order(NextScene::Edited(scene)),
             Command::SetSource(source) => Order::Core(CoreOrder::Source(playable(source)?)),
-            Command::SetVelocityMethod(method) => Order::Core(CoreOrder::Velocity(method)),
-            Command::SetAngle(angle_deg) => Order::Core(CoreOrder::Angle(angle_deg)),
-            Command::TurnBy(by_deg) => Order::Core(CoreOrder::Turn(by_deg)),
-            Command::Play => Order::Core(CoreOrder::Control(Control::Play)),
-            Command::Pause => Order::Core(CoreOrder::Control(Control::Pause)),
-            Command::Step => Order::Core(CoreOrder::Control(Control::Step)),
-            Command::Rewind => Order::Core(CoreOrder::Control(Control::Rewind)),
-            Command::SetLoop(does_loop) => {
-                Order::Core(CoreOrder::Control(Control::Loop(does_loop)))
-            }
             Command::Connect(target) => self.connect_order(target),
             Command::Disconnect => {
                 self.switch.set_device(None);
@@ -192,13 +183,30 @@ impl Engine {
             Command::Arm => Order::Arm {
                 presses: self.switch.presses(),
             },
-            Command::Disarm => Order::Disarm,
             Command::StopAll => {
                 self.switch.press();
                 return Ok(());
             }
             Command::StartRecording => self.recording_order(),
+            Command::SetTuning(tuning) => Order::Core(CoreOrder::Tuning(tuning)),
+            Command::SetTextileGain { textile, gain_db } => {
+                Order::Core(CoreOrder::TextileGain { textile, gain_db })
+            }
+            Command::SetLevels(levels) => Order::Core(CoreOrder::Levels(levels)),
+            Command::SetContactorMask(mask) => Order::Core(CoreOrder::Mask(mask)),
+            Command::SetVelocityMethod(method) => Order::Core(CoreOrder::Velocity(method)),
+            Command::SetAngle(angle_deg) => Order::Core(CoreOrder::Angle(angle_deg)),
+            Command::TurnBy(by_deg) => Order::Core(CoreOrder::Turn(by_deg)),
+            Command::Play => Order::control(Control::Play),
+            Command::Pause => Order::control(Control::Pause),
+            Command::Step => Order::control(Control::Step),
+            Command::Rewind => Order::control(Control::Rewind),
+            Command::Seek(tick) => Order::control(Control::Seek(tick)),
+            Command::SetLoop(does_loop) => Order::control(Control::Loop(does_loop)),
             Command::StopRecording => Order::Core(CoreOrder::EndRecording),
+            Command::Disarm => Order::Disarm,
+            Command::Glimpses(is_heard) => Order::Glimpses(is_heard),
+            Command::Watch(contactor) => Order::Watch(contactor),
             Command::Shutdown => Order::Shutdown,
         };
         self.push(order)
@@ -218,6 +226,12 @@ impl Engine {
     /// The oldest notice that was not taken yet.
     pub fn next_notice(&mut self) -> Option<Notice> {
         self.notices.pop().ok()
+    }
+
+    /// The oldest glimpse that was not taken yet, of those left since
+    /// [`Command::Glimpses`] asked for them.
+    pub fn next_glimpse(&mut self) -> Option<Glimpse> {
+        self.glimpses.pop().ok()
     }
 
     /// The end of the ring for live samples; there is one.
@@ -262,8 +276,9 @@ impl Engine {
         Ok(())
     }
 
-    fn scene_order(&mut self, scene: Box<PreparedScene>) -> Order {
-        let (input, output) = triple_buffer::triple_buffer(&Snapshot::of(&scene));
+    fn scene_order(&mut self, next: NextScene) -> Order {
+        let scene = next.scene();
+        let (input, output) = triple_buffer::triple_buffer(&Snapshot::of(scene));
         self.coming.push(output);
         if scene.n_felt() != self.n_felt {
             self.switch.set_device(None);
@@ -271,7 +286,7 @@ impl Engine {
         self.n_contactors = scene.n_contactors();
         self.n_felt = scene.n_felt();
         self.profile = scene.profile().clone();
-        Order::Scene(scene, input)
+        Order::Scene(next, input)
     }
 
     fn connect_order(&self, target: Target) -> Order {

@@ -108,6 +108,12 @@ impl Link {
         armed.map(|bridge| bridge.depth())
     }
 
+    /// The limits of the device, if one is connected.
+    pub(super) fn comp_limit(&self) -> Option<[u16; 2]> {
+        let caps = self.bridge.as_ref()?.caps();
+        caps.map(|caps| caps.comp_limit)
+    }
+
     /// Frames not made because no armed device listened.
     pub(super) fn n_unheard(&self) -> u64 {
         self.n_unheard

@@ -14,7 +14,7 @@ pub(super) enum Order {
     /// Something that the core does.
     Core(CoreOrder),
     /// A new scene, with a channel for snapshots of its size.
-    Scene(Box<PreparedScene>, Input<Snapshot>),
+    Scene(NextScene, Input<Snapshot>),
     /// A device that is being opened.
     Connect(Box<Bridge>),
     Disconnect,
@@ -23,18 +23,55 @@ pub(super) enum Order {
         presses: u64,
     },
     Disarm,
+    /// Whether somebody takes glimpses.
+    Glimpses(bool),
+    /// The contactor that glimpses watch.
+    Watch(usize),
     Shutdown,
+}
+
+/// The scene that is felt next.
+pub(super) enum NextScene {
+    /// Another one.
+    Other(Box<PreparedScene>),
+    /// The same one after an edit.
+    Edited(Box<PreparedScene>),
+}
+
+impl NextScene {
+    /// The scene, whichever it is.
+    pub(super) fn scene(&self) -> &PreparedScene {
+        match self {
+            Self::Other(scene) | Self::Edited(scene) => scene,
+        }
+    }
+
+    /// The scene, to be fitted to the device at hand.
+    pub(super) fn scene_mut(&mut self) -> &mut PreparedScene {
+        match self {
+            Self::Other(scene) | Self::Edited(scene) => scene,
+        }
+    }
+}
+
+impl Order {
+    /// Plays, holds or moves a source.
+    pub(super) fn control(control: Control) -> Self {
+        Self::Core(CoreOrder::Control(control))
+    }
 }
 
 /// What the core obeys.
 pub(super) enum CoreOrder {
-    Scene(Box<PreparedScene>),
+    Scene(NextScene),
     Tuning(Tuning),
     TextileGain {
         textile: usize,
         gain_db: f64,
     },
     Levels(Vec<PlacedLevel>),
+    /// Which contactors of the first display are felt.
+    Mask(Vec<bool>),
     /// `None`: live samples.
     Source(Option<Box<dyn PointerInput>>),
     Velocity(VelocityMethod),
@@ -52,6 +89,7 @@ pub(super) enum Retired {
     Snapshots(Input<Snapshot>),
     Source(Box<dyn PointerInput>),
     Levels(Vec<PlacedLevel>),
+    Mask(Vec<bool>),
     Bridge(Box<Bridge>),
     Recorder(Box<Recorder>),
 }

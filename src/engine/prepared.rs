@@ -7,7 +7,7 @@ use super::{ContactorView, DisplayView, EngineError};
 use crate::bridge::{ArrayProfile, Coder};
 use crate::geometry::Point;
 use crate::render::RenderScene;
-use crate::render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
+use crate::render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
 use crate::scene::{Display, LoadedScene, Pose};
 
 /// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
@@ -37,10 +37,36 @@ impl PreparedScene {
         method: Method,
         accuracy: &Accuracy,
     ) -> Result<Self, EngineError> {
-        let scene = loaded.scene();
-        let start = Point::new(scene.size_mm[0] / 2.0, scene.size_mm[1] / 2.0);
-        let profile = scene.displays.first().map(profile_of).unwrap_or_default();
+        let (profile, start) = place_of(loaded);
         Self::from_parts(&RenderScene::of(loaded), profile, start, (method, accuracy))
+    }
+
+    /// As [`prepare`](Self::prepare), but tables that the cache holds are taken from it, and those
+    /// that are computed are left in it: for a scene that is being edited.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn prepare_cached(
+        loaded: &LoadedScene,
+        method: Method,
+        accuracy: &Accuracy,
+        cache: &mut TableCache,
+    ) -> Result<Self, EngineError> {
+        let scene = RenderScene::of(loaded);
+        let renderer = ArrayRenderer::prepare_with_cache(&scene, method, accuracy, cache)?;
+        let (profile, start) = place_of(loaded);
+        Ok(Self::around(renderer, profile, start))
+    }
+
+    /// Whether [`prepare_cached`](Self::prepare_cached) would compute no table, so that it need not
+    /// be done on another thread.
+    pub fn is_cached(
+        loaded: &LoadedScene,
+        method: Method,
+        accuracy: &Accuracy,
+        cache: &TableCache,
+    ) -> bool {
+        cache.has_all(&RenderScene::of(loaded), method, accuracy)
     }
 
     /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer
@@ -54,21 +80,25 @@ impl PreparedScene {
         start: Point,
         (method, accuracy): (Method, &Accuracy),
     ) -> Result<Self, EngineError> {
-        static SERIAL: AtomicU64 = AtomicU64::new(1);
         let renderer = ArrayRenderer::prepare(scene, method, accuracy)?;
+        Ok(Self::around(renderer, profile, start))
+    }
+
+    fn around(renderer: ArrayRenderer, profile: ArrayProfile, start: Point) -> Self {
+        static SERIAL: AtomicU64 = AtomicU64::new(1);
         let output = |frame: &DisplayFrame| Output {
             coder: Coder::new(&profile, frame.n_contactors()),
             codes: vec![[0; 2]; frame.n_contactors()],
             silence: vec![[0.0; 2]; frame.n_contactors()],
         };
-        Ok(Self {
+        Self {
             serial: SERIAL.fetch_add(1, Ordering::Relaxed),
             start,
             poses: vec![Pose::default(); renderer.frames().len()],
             outputs: renderer.frames().iter().map(output).collect(),
             profile,
             renderer,
-        })
+        }
     }
 
     /// A number that no other prepared scene has; snapshots carry it.
@@ -91,6 +121,13 @@ impl PreparedScene {
         self.outputs.iter().map(|output| output.codes.len()).sum()
     }
 
+    /// Whether the displays of another scene have as many contactors, one by one.
+    pub(super) fn has_arrays_of(&self, other: &Self) -> bool {
+        let counts = |output: &Output| output.codes.len();
+        let others = other.outputs.iter().map(counts);
+        self.outputs.iter().map(counts).eq(others)
+    }
+
     /// The renderer, before the engine has it: its method, bound and levels.
     pub fn renderer(&self) -> &ArrayRenderer {
         &self.renderer
@@ -102,9 +139,11 @@ impl PreparedScene {
     }
 
     /// Renders every display at this pose and looks which output limits its amplitudes meet.
-    pub(super) fn render(&mut self, pose: Pose) {
+    /// Contactors of the first display that the mask says are not felt do nothing.
+    pub(super) fn render(&mut self, pose: Pose, mask: &[bool]) {
         self.poses.fill(pose);
         self.renderer.tick(&self.poses);
+        self.renderer.mask_display(0, mask);
         for (output, frame) in self.outputs.iter_mut().zip(self.renderer.frames()) {
             output
                 .coder
@@ -159,6 +198,14 @@ impl PreparedScene {
             }
         }
     }
+}
+
+/// The device that a scene needs, and its middle.
+fn place_of(loaded: &LoadedScene) -> (ArrayProfile, Point) {
+    let scene = loaded.scene();
+    let start = Point::new(scene.size_mm[0] / 2.0, scene.size_mm[1] / 2.0);
+    let profile = scene.displays.first().map(profile_of).unwrap_or_default();
+    (profile, start)
 }
 
 /// The array that a display is: its grid, or one row of its contactors.

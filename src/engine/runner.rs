@@ -10,9 +10,10 @@ use rtrb::{Consumer, Producer};
 use triple_buffer::Input;
 
 use super::gist::{Gist, Waker};
+use super::glimpse::Glimpser;
 use super::link::{Link, News};
 use super::meters::{Histogram, RecentMedian};
-use super::order::{CoreOrder, MOST_RETIRED, Order, Retired};
+use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch};
 use crate::bridge::StopHow;
@@ -46,6 +47,7 @@ pub(super) struct Channels {
     pub(super) retired: Producer<Retired>,
     pub(super) notices: Producer<Notice>,
     pub(super) snapshots: Input<Snapshot>,
+    pub(super) glimpser: Glimpser,
 }
 
 /// Everything that the engine's thread owns.
@@ -150,6 +152,7 @@ impl Runner {
         let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
         let ended = core.record(sent, &mut say);
         self.retire(ended);
+        self.channels.glimpser.look(&self.core);
         let done = self.clock.now();
         self.late += u64::from(started.saturating_duration_since(due) > LATE);
         self.lateness.add(done.saturating_duration_since(due));
@@ -206,11 +209,13 @@ impl Runner {
             };
             match order {
                 Order::Core(order) => self.obey_core(order),
-                Order::Scene(scene, snapshots) => self.set_scene(scene, snapshots),
+                Order::Scene(next, snapshots) => self.set_scene(next, snapshots),
                 Order::Connect(bridge) => self.connect(Some(bridge)),
                 Order::Disconnect => self.connect(None),
                 Order::Arm { presses } => self.arm(presses),
                 Order::Disarm => self.link.stop(StopHow::Ramp),
+                Order::Glimpses(is_heard) => self.channels.glimpser.listen(is_heard),
+                Order::Watch(contactor) => self.channels.glimpser.watch(contactor),
                 Order::Shutdown => {
                     self.link.stop(StopHow::Now);
                     self.is_over = true;
@@ -232,12 +237,15 @@ impl Runner {
         }
     }
 
-    fn set_scene(&mut self, scene: Box<super::PreparedScene>, snapshots: Input<Snapshot>) {
-        if self.link.is_some() && scene.n_felt() != self.core.scene().n_felt() {
+    fn set_scene(&mut self, mut next: NextScene, snapshots: Input<Snapshot>) {
+        if self.link.is_some() && next.scene().n_felt() != self.core.scene().n_felt() {
             self.connect(None);
             self.say(Notice::DisplayChanged);
         }
-        self.obey_core(CoreOrder::Scene(scene));
+        if let Some(comp_limit) = self.link.comp_limit() {
+            next.scene_mut().set_link_limit(comp_limit);
+        }
+        self.obey_core(CoreOrder::Scene(next));
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));
         self.publish();
@@ -265,9 +273,11 @@ impl Runner {
     /// Writes a snapshot and wakes the window if it shows something new.
     fn publish(&mut self) {
         let depth = self.link.depth();
+        let glimpses_lost = self.channels.glimpser.n_lost();
         let snapshot = self.channels.snapshots.input_buffer_mut();
         self.core.fill(snapshot, depth);
         snapshot.counters.notices_lost = self.notices_lost;
+        snapshot.counters.glimpses_lost = glimpses_lost;
         snapshot.counters.frames_unheard = self.link.n_unheard();
         snapshot.clock = ClockView {
             is_device_paced: self.pacer.is_device_paced(),

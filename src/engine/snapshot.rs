@@ -18,12 +18,18 @@ use crate::tactile::Tuning;
 pub struct Snapshot {
     /// Serial number of the scene that this shows, given by [`PreparedScene`].
     pub scene_serial: u64,
+    /// Changes of gains, levels and the contactor mask so far: a display that stands still may
+    /// show other amplitudes after one.
+    pub revision: u64,
     /// Ticks since the engine started.
     pub tick: u64,
     /// `tick / 40`, s.
     pub t_s: f64,
     /// Where the display is, how it is turned and how it moves. Its time is that of the source.
     pub pose: Pose,
+    /// The angle that the display was turned to by hand, degrees counter-clockwise, added to the
+    /// scene's; a replay has angles of its own instead.
+    pub turn_deg: f64,
     /// Every display of the scene in order.
     pub displays: Vec<DisplayView>,
     /// Whether everything was switched off and nothing has been armed since.
@@ -65,12 +71,14 @@ impl Snapshot {
         let renderer = scene.renderer();
         Self {
             scene_serial: scene.serial(),
+            revision: 0,
             tick: 0,
             t_s: 0.0,
             pose: Pose {
                 position: scene.start(),
                 ..Pose::default()
             },
+            turn_deg: 0.0,
             displays: scene.empty_views(),
             is_stopped: false,
             is_silent: false,
@@ -193,6 +201,8 @@ pub struct EngineCounters {
     pub notices_lost: u64,
     /// Tunings, gains and angles that made no sense and were ignored.
     pub ignored: u64,
+    /// Glimpses that the full ring had no room for.
+    pub glimpses_lost: u64,
     /// Frames not made because no armed device listened.
     pub frames_unheard: u64,
 }

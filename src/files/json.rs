@@ -1,8 +1,9 @@
-//! JSON text from plain data, for results that other programs read.
+//! JSON text from plain data, for results that other programs read; and back, for what we wrote.
 
 use std::path::Path;
 
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::FileError;
 
@@ -13,6 +14,14 @@ pub fn to_json_string<T: Serialize>(value: &T, path: &Path) -> Result<String, Fi
         .map_err(|e| FileError::content(path, 1, e.to_string(), "this cannot be saved as JSON"))?;
     text.push('\n');
     Ok(text)
+}
+
+/// A value from JSON text. `path` only names the file in errors.
+pub fn from_json_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, FileError> {
+    serde_json::from_str(text).map_err(|error| {
+        let mend = "mend it, or remove the file";
+        FileError::content(path, error.line(), error.to_string(), mend)
+    })
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ mod table;
 pub use atomic::{create, read, read_text, write_atomic};
 pub use digits::push_number;
 pub use hash::sha256_hex;
-pub use json::to_json_string;
+pub use json::{from_json_str, to_json_string};
 pub use keys::{keys_from_str, keys_to_string, line_of_key};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use table::{Table, TableWriter};

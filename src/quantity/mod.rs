@@ -57,6 +57,17 @@ pub fn time_span(seconds: f64) -> String {
     }
 }
 
+/// A time as a clock shows it: `00:12.350`, and from an hour on `1:00:12.350`.
+pub fn clock(time_ms: u64) -> String {
+    let (ms, s) = (time_ms % 1000, time_ms / 1000);
+    let (s, min, h) = (s % 60, s / 60 % 60, s / 3600);
+    if h > 0 {
+        format!("{h}:{min:02}:{s:02}.{ms:03}")
+    } else {
+        format!("{min:02}:{s:02}.{ms:03}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,5 +92,13 @@ mod tests {
     fn time_spans_choose_their_unit() {
         assert_eq!(time_span(2.5e-7), "250 ns");
         assert_eq!(time_span(0.0125), "12.50 ms");
+    }
+
+    #[test]
+    fn a_clock_shows_hours_only_when_there_are_any() {
+        assert_eq!(clock(0), "00:00.000");
+        assert_eq!(clock(12_350), "00:12.350");
+        assert_eq!(clock(3_599_975), "59:59.975");
+        assert_eq!(clock(3_612_350), "1:00:12.350");
     }
 }

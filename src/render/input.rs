@@ -96,7 +96,7 @@ impl RenderScene {
             manifest_gain_db: textile.manifest().gain_db,
             scene_gain_db: placed.gain_db,
             level: PlacedLevel::of(*level_db),
-            surface: Arc::new(textile.surface().clone()),
+            surface: Arc::clone(textile.surface()),
         });
         let displays = scene.displays.iter().map(|display| ContactorArray {
             offsets: display.geometry.contactors(),

@@ -151,6 +151,11 @@ impl LocalSpectra {
         self.powers_um2.len() / N_BINS
     }
 
+    /// Memory that the powers take, bytes.
+    pub fn n_bytes(&self) -> usize {
+        size_of_val(&self.powers_um2[..])
+    }
+
     /// The powers at a point, µm²: 500 values, bin k in slot k − 1.
     ///
     /// # Panics

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use super::index::Index;
-use super::loaded::{MANIFEST, Textile, read_manifest};
+use super::loaded::{Appearance, MANIFEST, Textile, read_appearance, read_manifest};
 use super::manifest::Manifest;
 use super::{TextileError, shipped};
 use crate::files::{FileError, read, read_text};
@@ -129,6 +129,12 @@ impl Library {
     pub fn manifest(&self, id: &str) -> Result<Manifest, TextileError> {
         self.check_id(id)?;
         read_manifest(&self.store, id)
+    }
+
+    /// What a textile looks like, without its surface; `None` if it has no picture.
+    pub fn appearance(&self, id: &str) -> Result<Option<Appearance>, TextileError> {
+        let manifest = self.manifest(id)?;
+        read_appearance(&self.store, id, &manifest)
     }
 
     /// A textile with its surface. Only its own files are read.

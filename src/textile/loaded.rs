@@ -1,5 +1,7 @@
 //! A textile that is loaded: its manifest and its surface; its picture on demand.
 
+use std::sync::Arc;
+
 use super::library::Store;
 use super::manifest::Manifest;
 use super::model::{Model, profiles_of_files};
@@ -12,7 +14,7 @@ use crate::surface::{Direction, ProfileSet, Surface};
 pub struct Textile {
     id: String,
     manifest: Manifest,
-    surface: Surface,
+    surface: Arc<Surface>,
     store: Store,
 }
 
@@ -48,7 +50,7 @@ impl Textile {
         Ok(Self {
             id: id.to_owned(),
             manifest,
-            surface,
+            surface: Arc::new(surface),
             store: store.clone(),
         })
     }
@@ -63,8 +65,8 @@ impl Textile {
         &self.manifest
     }
 
-    /// Its surface, noise floor taken off.
-    pub fn surface(&self) -> &Surface {
+    /// Its surface, noise floor taken off; shared by all that feel it.
+    pub fn surface(&self) -> &Arc<Surface> {
         &self.surface
     }
 
@@ -80,16 +82,25 @@ impl Textile {
 
     /// Its picture, decoded now; `None` if the manifest names none.
     pub fn appearance(&self) -> Result<Option<Appearance>, TextileError> {
-        let Some(keys) = &self.manifest.appearance else {
-            return Ok(None);
-        };
-        let bytes = self.store.read(&self.id, &keys.image)?;
-        let image = decode_png(&bytes, &self.store.path(&self.id, &keys.image))?;
-        Ok(Some(Appearance {
-            image,
-            px_per_mm: keys.px_per_mm,
-        }))
+        read_appearance(&self.store, &self.id, &self.manifest)
     }
+}
+
+/// Reads the picture that a manifest names; `None` if it names none.
+pub(crate) fn read_appearance(
+    store: &Store,
+    id: &str,
+    manifest: &Manifest,
+) -> Result<Option<Appearance>, TextileError> {
+    let Some(keys) = &manifest.appearance else {
+        return Ok(None);
+    };
+    let bytes = store.read(id, &keys.image)?;
+    let image = decode_png(&bytes, &store.path(id, &keys.image))?;
+    Ok(Some(Appearance {
+        image,
+        px_per_mm: keys.px_per_mm,
+    }))
 }
 
 /// The name of a manifest in its textile's folder.

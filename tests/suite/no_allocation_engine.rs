@@ -71,6 +71,7 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
     let start = Instant::now();
     let (mut engine, mut pointer) = engine(start);
     engine.send(Command::StartRecording).unwrap();
+    engine.send(Command::Glimpses(true)).unwrap();
     // Fewer than a block of the recording: collecting one is the window's affair.
     for n in 0..390_u32 {
         let gain_db = f64::from(n % 20);
@@ -81,12 +82,15 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
             }))
             .unwrap();
         engine.send(Command::TurnBy(0.7)).unwrap();
+        let is_felt = (0..24).map(|contactor| contactor != n % 24).collect();
+        engine.send(Command::SetContactorMask(is_felt)).unwrap();
         assert_no_alloc(|| {
             for k in 0..25 {
                 let stamp = start + TICK * n + Duration::from_millis(1) * k;
                 push(&mut pointer, stamp, (stamp - start).as_secs_f64());
             }
-            engine.advance(start + TICK * (n + 1));
+            engine.step_uncollected(start + TICK * (n + 1));
+            assert!(engine.next_glimpse().is_some(), "it moved");
         });
     }
     let snapshot = engine.snapshot();
@@ -117,6 +121,12 @@ fn a_replay_that_loops_allocates_nothing() {
         engine.advance_ticks(500);
     });
     assert!(engine.snapshot().playback.is_playing);
+    for tick in [30, 0, 7, 1_000_000] {
+        engine.send(Command::Seek(tick)).unwrap();
+        assert_no_alloc(|| {
+            engine.advance_ticks(3);
+        });
+    }
 }
 
 #[test]
@@ -135,6 +145,15 @@ fn a_new_scene_is_taken_over_without_allocating() {
         engine.step_uncollected(due);
     });
     assert_eq!(engine.snapshot().displays[0].contactors.len(), 100);
+    let edited = prepared(vec![Displacement::default(); 100]);
+    let serial = edited.serial();
+    let due = start + TICK * 3;
+    engine.send(Command::UpdateScene(Box::new(edited))).unwrap();
+    assert_no_alloc(|| {
+        push(&mut pointer, due, 0.2);
+        engine.step_uncollected(due);
+    });
+    assert_eq!(engine.snapshot().scene_serial, serial);
 }
 
 #[test]

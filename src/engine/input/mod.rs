@@ -42,6 +42,8 @@ pub enum Control {
     Step,
     /// Back to the first tick.
     Rewind,
+    /// To this tick, at most the last; shown at once if standing still.
+    Seek(u64),
     /// Whether to begin again at the end.
     Loop(bool),
 }

@@ -24,7 +24,9 @@ impl Motion {
             Control::Play => Self::Playing,
             Control::Pause => Self::Held,
             Control::Step => Self::Stepping,
-            Control::Rewind | Control::Loop(_) => self,
+            // Where it stands now is to be seen.
+            Control::Seek(_) if self == Self::Held => Self::Stepping,
+            Control::Seek(_) | Control::Rewind | Control::Loop(_) => self,
         }
     }
 
@@ -68,6 +70,12 @@ impl ReplayInput {
         self.tick = 0;
     }
 
+    fn seek(&mut self, tick: u64) {
+        self.cursor = PathCursor::at(&self.path, tick);
+        self.has_ended = false;
+        self.tick = tick.min(self.path.n_ticks() - 1);
+    }
+
     fn next(&mut self) -> Option<Pose> {
         let (tick, pose) = self.cursor.step(&self.path)?;
         self.tick = tick;
@@ -106,6 +114,7 @@ impl PointerInput for ReplayInput {
             Control::Loop(does_loop) => self.does_loop = does_loop,
             Control::Play | Control::Step if self.has_ended => self.rewind(),
             Control::Rewind => self.rewind(),
+            Control::Seek(tick) => self.seek(tick),
             Control::Play | Control::Step | Control::Pause => {}
         }
         self.motion = self.motion.after(control);
@@ -151,13 +160,15 @@ impl PointerInput for StrokeInput {
             return Reading::Held;
         }
         let t_s = self.next_tick as f64 / TICKS_PER_S;
-        self.next_tick += 1;
+        self.next_tick = self.next_tick.saturating_add(1);
         Reading::Pose(self.stroke.pose_at(t_s))
     }
 
     fn control(&mut self, control: Control) {
-        if control == Control::Rewind {
-            self.next_tick = 0;
+        match control {
+            Control::Rewind => self.next_tick = 0,
+            Control::Seek(tick) => self.next_tick = tick,
+            Control::Play | Control::Pause | Control::Step | Control::Loop(_) => {}
         }
         self.motion = self.motion.after(control);
     }

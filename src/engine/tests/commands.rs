@@ -150,6 +150,56 @@ fn limits_that_bite_are_shown_by_contactor() {
 }
 
 #[test]
+fn a_stroke_turns_as_it_is_told_and_a_replay_has_its_own_angles() {
+    let (mut engine, _) = engine(Method::Auto);
+    let stroke = Stroke::Circle {
+        centre: Point::new(50.0, 60.0),
+        radius_mm: 10.0,
+        speed_mm_per_s: 80.0,
+    };
+    let source = InputSource::Stroke(stroke);
+    engine.send(Command::SetSource(source)).unwrap();
+    engine.send(Command::Play).unwrap();
+    engine.advance_ticks(1);
+    let mut turns = Vec::new();
+    for _ in 0..3 {
+        engine.send(Command::TurnBy(5.0)).unwrap();
+        engine.advance_ticks(1);
+        let snapshot = engine.snapshot();
+        turns.push((snapshot.turn_deg, snapshot.pose.angle_deg));
+        let expected = 5.0_f64.to_radians() * 40.0;
+        assert!((snapshot.pose.angular_rad_per_s - expected).abs() < 1e-12);
+    }
+    assert_eq!(turns, [(5.0, 5.0), (10.0, 10.0), (15.0, 15.0)]);
+    engine.advance_ticks(1);
+    let expected = Pose {
+        angle_deg: 15.0,
+        ..stroke.pose_at(4.0 / 40.0)
+    };
+    assert_eq!(engine.snapshot().pose, expected, "it turned no further");
+    // Turned while it is held, it is shown turned and does not whirl when it goes on.
+    engine.send(Command::Pause).unwrap();
+    engine.send(Command::SetAngle(90.0)).unwrap();
+    engine.advance_ticks(2);
+    assert_eq!(engine.snapshot().pose.angle_deg, 90.0);
+    engine.send(Command::Play).unwrap();
+    engine.advance_ticks(1);
+    let pose = engine.snapshot().pose;
+    assert_eq!((pose.angle_deg, pose.angular_rad_per_s), (90.0, 0.0));
+
+    let path = path();
+    let source = InputSource::Replay(Arc::clone(&path));
+    engine.send(Command::SetSource(source)).unwrap();
+    engine.send(Command::Play).unwrap();
+    for (_, pose) in path.ticks().take(5) {
+        engine.send(Command::TurnBy(1.0)).unwrap();
+        engine.advance_ticks(1);
+        assert_eq!(engine.snapshot().pose, pose);
+    }
+    assert_eq!(engine.snapshot().turn_deg, 95.0);
+}
+
+#[test]
 fn a_full_queue_refuses_and_a_stop_does_not_wait_for_it() {
     let (mut engine, _) = engine(Method::Auto);
     let mut n_sent = 0;

@@ -210,6 +210,37 @@ fn a_device_that_vanishes_is_a_notice_and_the_own_clock_goes_on() {
     assert_eq!(engine.snapshot().link.unwrap().state, BridgeState::Lost);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_new_scene_keeps_to_the_limits_of_the_device_at_hand() {
+    let model = DeviceModel {
+        comp_limit: [100; 2],
+        ..DeviceModel::for_array(&ArrayProfile::default())
+    };
+    let n_limited = |engine: &mut Engine| {
+        let contactors = &engine.snapshot().displays[0].contactors;
+        contactors.iter().filter(|c| c.bite.limited[0]).count()
+    };
+    // Judged once the device is gone: its thread would outlive a failure in here.
+    let (counts, _) = with_device("limits", model, |link, _| {
+        let mut engine = start_streaming(Target::Port(link.to_owned()));
+        let mut counts = vec![n_limited(&mut engine)];
+        for order in [Command::SetScene, Command::UpdateScene] {
+            let scene = Box::new(prepared(exeter(), Method::Table));
+            let serial = scene.serial();
+            engine.send(order(scene)).unwrap();
+            wait(&mut engine, "a tick of the scene", |engine| {
+                let snapshot = engine.snapshot();
+                let is_felt = snapshot.scene_serial == serial && !is_silent(snapshot);
+                is_felt.then_some(())
+            });
+            counts.push(n_limited(&mut engine));
+        }
+        counts
+    });
+    assert_eq!(counts, [24; 3], "far below what the array could do");
+}
+
 /// A source that fails in a way that nobody foresaw.
 #[derive(Debug)]
 struct Panics;
@@ -228,11 +259,21 @@ impl PointerInput for Panics {
 /// ends it. Returns the work's result and the device's log.
 #[cfg(unix)]
 fn with_terminal<T>(name: &str, work: impl FnOnce(&Path, &AtomicBool) -> T) -> (T, String) {
+    let model = DeviceModel::for_array(&ArrayProfile::default());
+    with_device(name, model, work)
+}
+
+/// As [`with_terminal`] with a device of this model.
+#[cfg(unix)]
+fn with_device<T>(
+    name: &str,
+    model: DeviceModel,
+    work: impl FnOnce(&Path, &AtomicBool) -> T,
+) -> (T, String) {
     let name = format!("selvedge-{name}-{}", std::process::id());
     let folder = std::env::temp_dir().join(name);
     std::fs::create_dir_all(&folder).unwrap();
     let (link, log) = (folder.join("array"), folder.join("log.csv"));
-    let model = DeviceModel::for_array(&ArrayProfile::default());
     let emulator = PtyEmulator::new(model, &link, Some(&log)).unwrap();
     let is_over = AtomicBool::new(false);
     let done = thread::scope(|scope| {

@@ -3,6 +3,10 @@
 mod commands;
 mod device;
 mod exact;
+mod glimpses;
+mod mask;
+mod seek;
+mod update;
 
 use std::io::Cursor;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! Decided from bounds known before the first tick and from counts of operations, never from a
 //! clock: the choice, and so every result, depends on the scene and the budget alone.
 
-use super::table::{Density, MAX_TABLE_BYTES, table_bytes};
+use super::table::{Grid, MAX_TABLE_BYTES, table_bytes};
 use super::{Accuracy, ErrorBound, Method};
 use crate::render::RenderScene;
 use crate::render::plan::ScenePlan;
@@ -19,23 +19,22 @@ const TABLE_LOOK_UP: usize = 12;
 /// Operations to find a speed in a table.
 const TABLE_SPEED: usize = 40;
 
-/// The method that `method` stands for.
+/// The method that `method` stands for; without a grid there are no tables.
 pub(super) fn resolve(
     scene: &RenderScene,
     plan: &ScenePlan,
-    method: Method,
-    accuracy: &Accuracy,
+    (method, accuracy): (Method, &Accuracy),
+    grid: Option<&Grid>,
 ) -> Method {
     if method != Method::Auto {
         return method;
     }
     let costs = costs(scene, plan);
     let fits = |method: &Method| match method {
-        Method::Table => {
-            let density = Density::within(&scene.filters, accuracy.budget_db);
-            density.level_db <= accuracy.budget_db
-                && table_bytes(plan, density.per_octave) <= MAX_TABLE_BYTES
-        }
+        Method::Table => grid.is_some_and(|grid| {
+            grid.density.level_db <= accuracy.budget_db
+                && table_bytes(plan, grid) <= MAX_TABLE_BYTES
+        }),
         Method::Banded => {
             ErrorBound::of_floor(accuracy.banded_floor).level_db <= accuracy.budget_db
         }

@@ -76,6 +76,19 @@ impl DisplayFrame {
         self.owners.fill(OUTSIDE);
     }
 
+    /// Silences contactors whose place holds false; those beyond the mask's end are felt.
+    pub(super) fn mask(&mut self, is_felt: &[bool]) {
+        let masked = |&(_, is_felt): &(usize, &bool)| !is_felt;
+        for (contactor, _) in is_felt.iter().enumerate().filter(masked) {
+            if let Some(amplitudes) = self.amplitudes_um.get_mut(contactor) {
+                *amplitudes = [0.0; 2];
+            }
+            if let Some(exact) = self.exact_um.get_mut(contactor) {
+                *exact = [0.0; 2];
+            }
+        }
+    }
+
     /// Rounds the exact amplitudes into the stream.
     pub(super) fn round(&mut self) {
         for (rounded, exact) in self.amplitudes_um.iter_mut().zip(&self.exact_um) {

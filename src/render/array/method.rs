@@ -25,6 +25,11 @@ impl Method {
     /// All, `auto` last.
     pub const ALL: [Self; 4] = [Self::Reference, Self::Banded, Self::Table, Self::Auto];
 
+    /// Whether it tabulates, or may choose to.
+    pub(super) fn may_tabulate(self) -> bool {
+        matches!(self, Self::Table | Self::Auto)
+    }
+
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {

@@ -20,7 +20,8 @@ mod trace;
 pub use drive::DriveSynth;
 pub use frame::DisplayFrame;
 pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
-pub use trace::{BinTrace, ContactTrace, DirectionTrace, Touch};
+pub use table::TableCache;
+pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 
 use banded::BandedEvaluator;
 use reference::ReferenceEvaluator;
@@ -67,23 +68,40 @@ impl ArrayRenderer {
         method: Method,
         accuracy: &Accuracy,
     ) -> Result<Self, RenderError> {
+        Self::prepare_with_cache(scene, method, accuracy, &mut TableCache::default())
+    }
+
+    /// As [`prepare`](Self::prepare), but tables that the cache holds are taken from it, and those
+    /// that are computed are left in it. The result is the same.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn prepare_with_cache(
+        scene: &RenderScene,
+        method: Method,
+        accuracy: &Accuracy,
+        cache: &mut TableCache,
+    ) -> Result<Self, RenderError> {
         scene.check()?;
         accuracy.check()?;
         let plan = ScenePlan::of(scene);
-        let method = auto::resolve(scene, &plan, method, accuracy);
-        let (evaluator, bound) = match method {
-            Method::Banded => {
+        let grid = method
+            .may_tabulate()
+            .then(|| cache.grid(&scene.filters, accuracy.budget_db));
+        let method = auto::resolve(scene, &plan, (method, accuracy), grid.as_ref());
+        let (evaluator, bound) = match (method, &grid) {
+            (Method::Table, Some(grid)) => {
+                let (table, bound) = TableEvaluator::prepare(scene, &plan, grid, cache)?;
+                (Evaluator::Table(table), bound)
+            }
+            (Method::Banded, _) => {
                 let banded = BandedEvaluator::prepare(&plan, &scene.filters, accuracy.banded_floor);
                 (
                     Evaluator::Banded(banded),
                     ErrorBound::of_floor(accuracy.banded_floor),
                 )
             }
-            Method::Table => {
-                let (table, bound) = TableEvaluator::prepare(scene, &plan, accuracy)?;
-                (Evaluator::Table(table), bound)
-            }
-            Method::Reference | Method::Auto => {
+            _ => {
                 let reference = ReferenceEvaluator::prepare(&plan, &scene.filters);
                 (Evaluator::Reference(reference), ErrorBound::EXACT)
             }
@@ -100,6 +118,11 @@ impl ArrayRenderer {
             frames: scene.displays.iter().map(frame).collect(),
             counters: Counters::default(),
         })
+    }
+
+    /// Goes on counting where another renderer is.
+    pub fn go_on_from(&mut self, other: &Self) {
+        self.counters = other.counters;
     }
 
     /// Clears counters and frames; tuning and levels stay.
@@ -155,6 +178,14 @@ impl ArrayRenderer {
         frame.round();
         self.counters.contactors_inside += display.n_owned as u64;
         self.counters.contactors_outside += (n_contactors - display.n_owned) as u64;
+    }
+
+    /// Silences contactors of one display in the frames of the last tick: those whose place in
+    /// `is_felt` holds false.
+    pub fn mask_display(&mut self, display: usize, is_felt: &[bool]) {
+        if let Some(frame) = self.frames.get_mut(display) {
+            frame.mask(is_felt);
+        }
     }
 
     /// The frames of the last tick.

@@ -1,6 +1,7 @@
 //! Why a contactor does what it does: every number between its place and its amplitudes.
 //!
-//! For inspection, off the real-time path: it allocates, and computes as `reference` does.
+//! For inspection, off the real-time path: a trace allocates, and computes as `reference` does. Its
+//! contacts, points and components are those that the renderer finds.
 
 use serde::Serialize;
 
@@ -8,10 +9,32 @@ use super::reference::{amplitudes_of, bin_frequency_hz};
 use crate::geometry::Point;
 use crate::render::RenderScene;
 use crate::render::gains::{GainTerms, Gains};
-use crate::render::plan::{Axis, Component, Contacts, DisplayPlan, ScenePlan, TextilePlan};
+use crate::render::plan::{
+    Axis, Component, Contacts, Counters, DisplayPlan, ScenePlan, TextilePlan,
+};
 use crate::scene::Pose;
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
+
+/// Explains the contactors of a scene: prepared once, asked as often as one likes.
+#[derive(Debug, Clone)]
+pub struct ContactInspector {
+    plan: ScenePlan,
+    displays: Vec<DisplayPlan>,
+    gains: Gains,
+    filters: Filters,
+}
+
+/// One bin of the vibration that arrives at a contactor: surface heights, before filters and gains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VibrationBin {
+    /// Where it sounds, Hz; below 1 kHz.
+    pub frequency_hz: f64,
+    /// From one bin of its direction to the next, Hz: its power lies half that far to either side.
+    pub spacing_hz: f64,
+    /// Its power, µm²: a sinusoid's amplitude is `√(2 Σ P)`.
+    pub power_um2: f64,
+}
 
 /// One contactor at one tick.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +56,8 @@ pub struct Touch {
     pub place_mm: [f64; 2],
     /// Its velocity components along warp and weft, mm/s.
     pub velocity_mm_per_s: [f64; 2],
+    /// The nearest point of the profile of every direction, felt or not.
+    pub points: [usize; 4],
     /// What it feels along warp and weft; `None` where the component is not felt.
     pub directions: [Option<DirectionTrace>; 2],
     /// The terms of its gain, by band.
@@ -65,37 +90,99 @@ pub struct BinTrace {
     pub filter_gains: [f64; 2],
 }
 
+impl ContactInspector {
+    /// An inspector of a scene, with the gains of its tuning.
+    pub fn new(scene: &RenderScene) -> Self {
+        Self {
+            plan: ScenePlan::of(scene),
+            displays: scene.displays.iter().map(DisplayPlan::new).collect(),
+            gains: Gains::of(scene),
+            filters: scene.filters,
+        }
+    }
+
+    /// The trace of a contactor of a display at a pose; `None` when there is no such contactor or
+    /// the pose's place is not finite. A motion that is not finite counts as rest.
+    pub fn trace(&mut self, display: usize, contactor: usize, pose: &Pose) -> Option<ContactTrace> {
+        let array = self.displays.get_mut(display)?;
+        let offset = array.offset(contactor)?;
+        let pose = super::finite_pose(pose, &mut Counters::default())?;
+        let rotation = array.begin(pose.angle_deg);
+        let how = (&self.gains, &self.filters);
+        let touch = at_contact(&self.plan, array, contactor, &pose, |contacts| {
+            touch_of(&self.plan, contacts, contactor, how)
+        });
+        Some(ContactTrace {
+            position: pose.position + rotation.turn(offset),
+            amplitudes_um: touch.as_ref().map_or([0.0; 2], Touch::amplitudes_um),
+            touch,
+        })
+    }
+
+    /// Writes the bins below 1 kHz that arrive at a contactor of a display at a pose, those of the
+    /// warp before those of the weft, each rising in frequency. None when there is no such
+    /// contactor, it lies outside, or it does not move. Allocates nothing once `bins` has grown.
+    pub fn vibration_into(
+        &mut self,
+        display: usize,
+        contactor: usize,
+        pose: &Pose,
+        bins: &mut Vec<VibrationBin>,
+    ) {
+        bins.clear();
+        let mut counters = Counters::default();
+        let array = self.displays.get_mut(display);
+        let array = array.filter(|array| contactor < array.n_contactors());
+        let Some((array, pose)) = array.zip(super::finite_pose(pose, &mut counters)) else {
+            return;
+        };
+        array.begin(pose.angle_deg);
+        at_contact(&self.plan, array, contactor, &pose, |contacts| {
+            let textile = &self.plan.textiles[contacts.textile];
+            for axis in Axis::BOTH {
+                let felt = contacts.feel(textile, axis, contactor, &mut counters);
+                let Some(feel) = felt else { continue };
+                let powers_um2 = self.plan.pool[feel.spectra].powers_um2(feel.point);
+                let bin = |(k, &power_um2)| VibrationBin {
+                    frequency_hz: bin_frequency_hz(feel.speed_mm_per_s, k),
+                    spacing_hz: bin_frequency_hz(feel.speed_mm_per_s, 1),
+                    power_um2,
+                };
+                let is_heard = |bin: &VibrationBin| bin.frequency_hz < MAX_FREQUENCY_HZ;
+                bins.extend((1..).zip(powers_um2).map(bin).take_while(is_heard));
+            }
+        });
+    }
+}
+
+/// What `explain` makes of the contacts with the textile that a contactor touches; `None` outside
+/// every textile.
+fn at_contact<T>(
+    plan: &ScenePlan,
+    display: &mut DisplayPlan,
+    contactor: usize,
+    pose: &Pose,
+    explain: impl FnOnce(&Contacts<'_>) -> T,
+) -> Option<T> {
+    for (number, textile) in plan.textiles.iter().enumerate().rev() {
+        let Some(placing) = textile.placing(display, pose.position) else {
+            continue;
+        };
+        let contacts = display.claim((textile, number), &placing, pose);
+        if let Some(contacts) = contacts.filter(|contacts| contacts.owns(contactor)) {
+            return Some(explain(&contacts));
+        }
+    }
+    None
+}
+
 impl ContactTrace {
     /// The trace of a contactor of a display at a pose; `None` when there is no such contactor or
     /// the pose's place is not finite. The gains are those of the scene's tuning.
+    ///
+    /// For one question: who asks more often prepares a [`ContactInspector`].
     pub fn of(scene: &RenderScene, display: usize, contactor: usize, pose: &Pose) -> Option<Self> {
-        let array = scene.displays.get(display)?;
-        let offset = *array.offsets.get(contactor)?;
-        let mut counters = crate::render::Counters::default();
-        let pose = super::finite_pose(pose, &mut counters)?;
-        let plan = ScenePlan::of(scene);
-        let mut display = DisplayPlan::new(array);
-        let rotation = display.begin(pose.angle_deg);
-        let mut trace = Self {
-            position: pose.position + rotation.turn(offset),
-            touch: None,
-            amplitudes_um: [0.0; 2],
-        };
-        for (number, textile) in plan.textiles.iter().enumerate().rev() {
-            let Some(placing) = textile.placing(&display, pose.position) else {
-                continue;
-            };
-            let contacts = display.claim((textile, number), &placing, &pose);
-            let Some(contacts) = contacts.filter(|contacts| contacts.owns(contactor)) else {
-                continue;
-            };
-            let gains = Gains::of(scene);
-            let touch = touch_of(&plan, &contacts, contactor, (&gains, &scene.filters));
-            trace.amplitudes_um = touch.amplitudes_um();
-            trace.touch = Some(touch);
-            break;
-        }
-        Some(trace)
+        ContactInspector::new(scene).trace(display, contactor, pose)
     }
 }
 
@@ -132,6 +219,10 @@ fn touch_of(
         textile: contacts.textile,
         place_mm,
         velocity_mm_per_s: contacts.velocity_mm_per_s(contactor),
+        points: Direction::ALL.map(|direction| {
+            let along = Axis::BOTH[direction.index() / 2];
+            textile.points[direction.index()].nearest(place_mm[along as usize])
+        }),
         directions,
         gains: Band::ALL.map(|band| gains.terms(contacts.textile, band)),
     }

@@ -238,6 +238,12 @@ impl DisplayPlan {
         self.owners.len()
     }
 
+    /// Where a contactor sits in the display's own frame; `None` when there is no such contactor.
+    pub(in crate::render) fn offset(&self, contactor: usize) -> Option<Displacement> {
+        let (x_mm, y_mm) = (self.x_mm.get(contactor)?, self.y_mm.get(contactor)?);
+        Some(Displacement::new(*x_mm, *y_mm))
+    }
+
     /// Begins a tick: nobody owns a contactor yet. Returns how the display is turned.
     pub(in crate::render) fn begin(&mut self, path_angle_deg: f64) -> Rotation {
         self.owners.fill(OUTSIDE);

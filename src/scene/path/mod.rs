@@ -168,6 +168,11 @@ impl ExplorationPath {
         Self { rows, has_velocity }
     }
 
+    /// When a tick is, s.
+    fn tick_s(&self, tick: u64) -> f64 {
+        self.rows[0].t_s + tick as f64 / TICKS_PER_S
+    }
+
     /// The row at a time that lies at or after row `from`, interpolated, and the row to start from
     /// next time.
     fn row_at(&self, t_s: f64, from: usize) -> (PathRow, usize) {
@@ -256,13 +261,30 @@ pub struct PathCursor {
 }
 
 impl PathCursor {
+    /// A cursor whose next step is this tick of the path, or its last if it has none such. That
+    /// step gives the very pose that stepping through the path gives. Allocates nothing.
+    pub fn at(path: &ExplorationPath, tick: u64) -> Self {
+        let tick = tick.min(path.n_ticks() - 1);
+        let Some(before) = tick.checked_sub(1) else {
+            return Self::default();
+        };
+        let t_s = path.tick_s(before);
+        let n_past = path.rows.partition_point(|row| row.t_s <= t_s);
+        let (row, from) = path.row_at(t_s, n_past.saturating_sub(1));
+        Self {
+            tick,
+            row: from,
+            before: Some((row.position, row.angle_deg)),
+        }
+    }
+
     /// The next tick of the path and its pose; `None` past the end. Allocates nothing.
     pub fn step(&mut self, path: &ExplorationPath) -> Option<(u64, Pose)> {
         let tick = self.tick;
         if tick >= path.n_ticks() {
             return None;
         }
-        let t_s = path.rows[0].t_s + tick as f64 / TICKS_PER_S;
+        let t_s = path.tick_s(tick);
         let (row, from) = path.row_at(t_s, self.row);
         let (before_position, before_deg) = self.before.unwrap_or((row.position, row.angle_deg));
         let moved = || Pose::moving_mm_per_s(before_position, row.position);

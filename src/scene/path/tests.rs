@@ -74,6 +74,28 @@ fn one_row_is_one_tick_at_rest() {
 }
 
 #[test]
+fn going_to_a_tick_gives_the_pose_that_playing_through_gives() {
+    for text in [
+        "t_s,x_mm,y_mm\n5,1,2\n",
+        "t_s,x_mm,y_mm\n0,0,0\n0.0250000005,7,1\n0.0499999996,9,2\n0.9,4,4\n",
+        "t_s,x_mm,y_mm,angle_deg\n-1,0.1,0.2,3\n-0.99,1,1,7\n-0.985,2,3,9\n0,8,8,-40\n",
+        "t_s,x_mm,y_mm,vx_mm_per_s,vy_mm_per_s\n0,0,0,1,2\n1,0,0,3,4\n",
+    ] {
+        let path = read(text).unwrap();
+        let played: Vec<(u64, Pose)> = path.ticks().collect();
+        let last = path.n_ticks() - 1;
+        for tick in (0..=last).chain([last + 1, u64::MAX]) {
+            let mut cursor = PathCursor::at(&path, tick);
+            let from = usize::try_from(tick.min(last)).unwrap();
+            for expected in &played[from..] {
+                assert_eq!(cursor.step(&path), Some(*expected), "{text}");
+            }
+            assert_eq!(cursor.step(&path), None);
+        }
+    }
+}
+
+#[test]
 fn a_path_survives_writing_and_reading() {
     for text in [
         "t_s,x_mm,y_mm\n0,0.1,0.2\n0.033333333333333,1e-9,-4\n",

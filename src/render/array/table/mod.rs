@@ -6,16 +6,21 @@
 
 mod bound;
 mod build;
+mod cache;
 mod segments;
 
 pub(super) use bound::Density;
+pub(super) use cache::Grid;
+pub use cache::TableCache;
 
-use super::{Accuracy, ErrorBound};
+use std::sync::Arc;
+
+use super::ErrorBound;
 use crate::render::plan::{
     Axis, Component, Contacts, Counters, Motion, PointIndex, ScenePlan, TextilePlan,
 };
 use crate::render::{RenderError, RenderScene, single};
-use crate::surface::{Direction, LocalSpectra};
+use crate::surface::Direction;
 use segments::{Segments, Spot};
 
 /// Most bytes that the tables of a scene may take.
@@ -26,8 +31,8 @@ const BLEND_ALL: usize = 2;
 /// Looks powers up.
 #[derive(Debug, Clone)]
 pub(super) struct TableEvaluator {
-    segments: Segments,
-    tables: Vec<Table>,
+    segments: Arc<Segments>,
+    tables: Vec<Arc<Table>>,
     /// What each textile's powers are stored as a share of, as an amplitude, µm.
     unit_um: Vec<f64>,
     /// Both directions' powers of every point at the speed at hand.
@@ -51,8 +56,8 @@ struct Rows<'a> {
 }
 
 /// Roughly how many bytes the tables of a scene take.
-pub(super) fn table_bytes(plan: &ScenePlan, per_octave: u32) -> usize {
-    let n_nodes = Segments::new(per_octave).nodes().len();
+pub(super) fn table_bytes(plan: &ScenePlan, grid: &Grid) -> usize {
+    let n_nodes = grid.segments.nodes().len();
     let n_points: usize = plan.pool.iter().map(|spectra| spectra.n_points()).sum();
     n_points
         .saturating_mul(n_nodes)
@@ -63,44 +68,28 @@ impl TableEvaluator {
     pub(super) fn prepare(
         scene: &RenderScene,
         plan: &ScenePlan,
-        accuracy: &Accuracy,
+        grid: &Grid,
+        cache: &mut TableCache,
     ) -> Result<(Self, ErrorBound), RenderError> {
-        let density = Density::within(&scene.filters, accuracy.budget_db);
-        let n_bytes = table_bytes(plan, density.per_octave);
+        let n_bytes = table_bytes(plan, grid);
         if n_bytes > MAX_TABLE_BYTES {
             let megabytes = n_bytes / 1_000_000;
             return Err(RenderError::TableTooLarge { megabytes });
         }
-        let segments = Segments::new(density.per_octave);
-        let units_um2 = units_um2(plan);
-        let spectra: Vec<(&LocalSpectra, f64)> = plan
-            .pool
-            .iter()
-            .map(AsRef::as_ref)
-            .zip(units_um2.iter().copied())
-            .collect();
-        let powers = build::tables_of(segments.nodes(), &spectra, &scene.filters);
-        let table = |(spectra, powers): (&(&LocalSpectra, f64), _)| Table {
-            n_points: spectra.0.n_points(),
-            powers,
-        };
-        let tables: Vec<Table> = spectra.iter().zip(powers).map(table).collect();
+        let (tables, units_um2) = cache.tables(plan, &scene.filters, grid);
         let longest = tables.iter().map(|table| table.n_points).max().unwrap_or(1);
         let unit_um = |textile: &TextilePlan| units_um2[textile.spectra[0]].sqrt();
         let evaluator = Self {
-            segments,
+            segments: Arc::clone(&grid.segments),
             unit_um: plan.textiles.iter().map(unit_um).collect(),
             blended: [vec![[0.0; 2]; longest], vec![[0.0; 2]; longest]],
             tables,
         };
-        let floor = bound::LEAST_POWER_GAIN.sqrt();
-        Ok((
-            evaluator,
-            ErrorBound {
-                level_db: density.level_db,
-                floor,
-            },
-        ))
+        let bound = ErrorBound {
+            level_db: grid.density.level_db,
+            floor: bound::LEAST_POWER_GAIN.sqrt(),
+        };
+        Ok((evaluator, bound))
     }
 
     /// Amplitudes of the contactors on one textile, µm.
@@ -193,6 +182,10 @@ impl TableEvaluator {
 }
 
 impl Table {
+    fn n_bytes(&self) -> usize {
+        size_of_val(&self.powers[..])
+    }
+
     fn rows(&self, spot: Spot) -> Rows<'_> {
         let rows = &self.powers[spot.node * self.n_points..][..2 * self.n_points];
         let (before, after) = rows.split_at(self.n_points);
@@ -227,16 +220,9 @@ fn add(power: &mut [f32; 2], [low, high]: [f32; 2]) {
 
 /// What the powers of each set of spectra are stored as a share of, µm²: the largest power of any
 /// point of the surfaces that use it, so that very low and very high surfaces keep all digits.
-/// 0 for flat ones.
-fn units_um2(plan: &ScenePlan) -> Vec<f64> {
-    let total = |powers: &[f64]| powers.iter().sum::<f64>();
-    let largest = |spectra: &LocalSpectra| {
-        (0..spectra.n_points())
-            .map(|p| total(spectra.powers_um2(p)))
-            .fold(0.0, f64::max)
-    };
-    let own: Vec<f64> = plan.pool.iter().map(|spectra| largest(spectra)).collect();
-    let mut units = own.clone();
+/// 0 for flat ones. `own` is the largest power of each set of spectra by itself.
+fn units_um2(plan: &ScenePlan, own: &[f64]) -> Vec<f64> {
+    let mut units = own.to_vec();
     // A surface's four directions share a unit, because their powers are added.
     for textile in &plan.textiles {
         let unit = textile.spectra.iter().map(|&s| own[s]).fold(0.0, f64::max);

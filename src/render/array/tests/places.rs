@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::numerics::Random;
-use crate::render::array::ContactTrace;
+use crate::render::array::{ContactInspector, ContactTrace, VibrationBin};
+use crate::tactile::Band;
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
@@ -240,4 +241,62 @@ fn the_trace_explains_the_reference() {
     );
     let outside = ContactTrace::of(&scene, 0, 0, &pose([-50.0, 0.0], [60.0, 0.0])).unwrap();
     assert_eq!((outside.touch, outside.amplitudes_um), (None, [0.0; 2]));
+}
+
+#[test]
+fn the_vibration_at_a_contactor_is_what_the_renderer_filters() {
+    let cloth = cloth::uniform(cloth::weave(&mut Random::new(6), 4600));
+    let scene = scene_of(vec![placed(&cloth, [5.0, 7.0], 20.0)], exeter());
+    let at = pose([30.0, 60.0], [60.0, -30.0]);
+    let expected = amplitudes(&mut renderer(&scene, Method::Reference), &at);
+    let mut inspector = ContactInspector::new(&scene);
+    let mut bins = Vec::new();
+    for (contactor, expected) in expected.iter().enumerate() {
+        inspector.vibration_into(0, contactor, &at, &mut bins);
+        for band in Band::ALL {
+            let filtered = |bin: &VibrationBin| {
+                bin.power_um2 * scene.filters.power_gain(band, bin.frequency_hz)
+            };
+            let amplitude_um = (2.0 * bins.iter().map(filtered).sum::<f64>()).sqrt();
+            let ratio = amplitude_um / expected[band.index()];
+            assert!((ratio - 1.0).abs() < 1e-12, "{contactor} {band:?}: {ratio}");
+        }
+        assert!(
+            bins.iter().all(|bin| bin.frequency_hz < 1000.0),
+            "all heard"
+        );
+    }
+    let touch = inspector.trace(0, 3, &at).unwrap().touch.unwrap();
+    for felt in touch.directions.iter().flatten() {
+        assert_eq!(touch.points[felt.direction.index()], felt.point);
+    }
+}
+
+#[test]
+fn where_nothing_is_felt_no_vibration_arrives() {
+    let cloth = cloth::uniform(cloth::weave(&mut Random::new(6), 4600));
+    let mut inspector = ContactInspector::new(&alone(&cloth));
+    let mut bins = Vec::new();
+    let (on, moving) = ([30.0, 60.0], [60.0, 0.0]);
+    let cases = [
+        (0, 0, pose(on, [0.0, 0.0])),
+        (0, 0, pose([-9.0, 0.0], moving)),
+        (0, 0, pose([f64::NAN, 0.0], moving)),
+        (0, 0, pose(on, [f64::NAN, 0.0])),
+        (0, 1, pose(on, moving)),
+        (1, 0, pose(on, moving)),
+    ];
+    for (display, contactor, at) in cases {
+        inspector.vibration_into(0, 0, &pose(on, moving), &mut bins);
+        assert!(!bins.is_empty(), "it is felt there");
+        inspector.vibration_into(display, contactor, &at, &mut bins);
+        assert!(bins.is_empty(), "{display} {contactor} {at:?}");
+    }
+    ContactInspector::new(&RenderScene::default()).vibration_into(
+        0,
+        0,
+        &Pose::default(),
+        &mut bins,
+    );
+    assert!(bins.is_empty(), "an empty scene");
 }

@@ -2,13 +2,15 @@
 //!
 //! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
 
+mod obey;
+
 use std::time::Instant;
 
 use super::handle::playable;
 use super::input::{
     Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring,
 };
-use super::order::{CoreOrder, Retired};
+use super::order::Retired;
 use super::recording::{RecordedTick, Recorder};
 use super::track::Track;
 use super::{
@@ -40,6 +42,9 @@ pub struct EngineCore {
     has_ended: bool,
     recorder: Option<Box<Recorder>>,
     ignored: u64,
+    /// Which contactors of the first display are felt; those beyond its end are.
+    mask: Vec<bool>,
+    revision: u64,
 }
 
 impl EngineCore {
@@ -65,8 +70,10 @@ impl EngineCore {
             has_ended: false,
             recorder: None,
             ignored: 0,
+            mask: Vec::new(),
+            revision: 0,
         };
-        core.scene.render(pose);
+        core.scene.render(pose, &[]);
         (core, sender)
     }
 
@@ -103,8 +110,15 @@ impl EngineCore {
         self.is_held = false;
         match reading {
             Reading::Samples => self.follow(),
-            Reading::Pose(pose) => self.pose = pose,
-            Reading::Held => self.is_held = true,
+            Reading::Pose(pose) => self.pose = self.as_told(pose),
+            Reading::Held => {
+                self.is_held = true;
+                if self.is_turnable() {
+                    // Turned where it stands; that is no turning once it goes on.
+                    self.pose.angle_deg = self.angle_deg;
+                    self.last_angle_deg = Some(self.angle_deg);
+                }
+            }
             Reading::Ended => {
                 if !self.has_ended {
                     say(Notice::SourceEnded);
@@ -121,7 +135,7 @@ impl EngineCore {
         } else {
             self.pose
         };
-        self.scene.render(self.rendered);
+        self.scene.render(self.rendered, &self.mask);
         self.tick += 1;
     }
 
@@ -147,7 +161,22 @@ impl EngineCore {
     /// What the device plays now: amplitudes [A40, A320] of the first display after gains and
     /// before output limits, µm; zeros while stopped or held.
     pub fn felt_um(&self) -> &[[f32; 2]] {
-        self.scene.felt_um(self.is_stopped || self.is_held)
+        self.scene.felt_um(self.is_silent())
+    }
+
+    /// Whether the device plays silence: stopped or held.
+    pub(super) fn is_silent(&self) -> bool {
+        self.is_stopped || self.is_held
+    }
+
+    /// Whether the last tick stood still because its source is held.
+    pub(super) fn is_held(&self) -> bool {
+        self.is_held
+    }
+
+    /// Where the display is and how it moves, felt or not.
+    pub(super) fn shown_pose(&self) -> Pose {
+        self.pose
     }
 
     /// The stamp of the newest live sample, if it came for the last tick.
@@ -169,7 +198,7 @@ impl EngineCore {
     pub(super) fn stop(&mut self) -> Option<Retired> {
         self.is_stopped = true;
         self.control(Control::Pause);
-        self.scene.render(at_rest(self.pose));
+        self.scene.render(at_rest(self.pose), &self.mask);
         self.end_recording()
     }
 
@@ -183,62 +212,19 @@ impl EngineCore {
         self.scene.set_link_limit(comp_limit);
     }
 
-    /// Obeys, and hands back what was replaced: at most two things.
-    pub(super) fn obey(&mut self, order: CoreOrder, say: Say<'_>) -> [Option<Retired>; 2] {
-        let mut retired = [None, None];
-        match order {
-            CoreOrder::Scene(scene) => {
-                retired[0] = self.end_recording();
-                retired[1] = Some(Retired::Scene(self.set_scene(scene)));
-            }
-            CoreOrder::Tuning(tuning) => {
-                if let Err(error) = self.scene.renderer.set_tuning(&tuning) {
-                    self.ignored += 1;
-                    say(Notice::GainIgnored(error));
-                }
-            }
-            CoreOrder::TextileGain { textile, gain_db } => {
-                if let Err(error) = self.scene.renderer.set_scene_gain(textile, gain_db) {
-                    self.ignored += 1;
-                    say(Notice::GainIgnored(error));
-                }
-            }
-            CoreOrder::Levels(levels) => {
-                if let Err(error) = self.scene.renderer.set_levels(&levels) {
-                    self.ignored += 1;
-                    say(Notice::GainIgnored(error));
-                }
-                retired[0] = Some(Retired::Levels(levels));
-            }
-            CoreOrder::Source(source) => retired[0] = self.set_source(source),
-            CoreOrder::Velocity(method) => self.set_velocity_method(method, say),
-            CoreOrder::Angle(angle_deg) => self.set_angle(angle_deg, say),
-            CoreOrder::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
-            CoreOrder::Control(control) => self.control(control),
-            CoreOrder::Record(recorder) if self.is_stopped => {
-                say(Notice::Refused("everything is off: arm before recording"));
-                retired[0] = Some(Retired::Recorder(recorder));
-            }
-            CoreOrder::Record(recorder) => {
-                retired[0] = self.end_recording();
-                self.recorder = Some(recorder);
-            }
-            CoreOrder::EndRecording => retired[0] = self.end_recording(),
-        }
-        retired
-    }
-
     /// Writes the state into a snapshot that was made for this scene; clock and device are the
     /// caller's. `depth` is how many ticks ahead a device plays.
     pub(super) fn fill(&self, snapshot: &mut Snapshot, depth: Option<u8>) {
         let renderer = &self.scene.renderer;
         snapshot.scene_serial = self.scene.serial();
+        snapshot.revision = self.revision;
         snapshot.tick = self.tick;
         snapshot.t_s = self.tick as f64 / TICKS_PER_S;
         snapshot.pose = self.pose;
+        snapshot.turn_deg = self.angle_deg;
         self.scene.fill(&mut snapshot.displays);
         snapshot.is_stopped = self.is_stopped;
-        snapshot.is_silent = self.is_stopped || self.is_held;
+        snapshot.is_silent = self.is_silent();
         snapshot.method = renderer.method();
         snapshot.bound = renderer.bound();
         snapshot.render = *renderer.counters();
@@ -276,58 +262,38 @@ impl EngineCore {
     /// told.
     fn follow(&mut self) {
         let position = self.track.position().unwrap_or(self.pose.position);
-        let before_deg = self.last_angle_deg.unwrap_or(self.angle_deg);
-        self.last_angle_deg = Some(self.angle_deg);
         self.pose = Pose {
             t_s: self.tick as f64 / TICKS_PER_S,
             position,
             angle_deg: self.angle_deg,
             velocity: self.track.estimate().velocity,
-            angular_rad_per_s: Pose::turning_rad_per_s(before_deg, self.angle_deg),
+            angular_rad_per_s: self.turning_rad_per_s(),
         };
     }
 
-    /// The new scene is felt from the next tick on; its renderer already holds its tuning.
-    fn set_scene(&mut self, scene: Box<PreparedScene>) -> Box<PreparedScene> {
-        let retired = std::mem::replace(&mut self.scene, scene);
-        if self.track.position().is_none() && self.playable.is_none() {
-            self.pose = Pose {
-                position: self.scene.start(),
-                ..at_rest(self.pose)
-            };
+    /// The pose that a source states, turned as told if it has no angle of its own.
+    fn as_told(&mut self, pose: Pose) -> Pose {
+        if !self.is_turnable() {
+            return pose;
         }
-        self.scene.render(at_rest(self.pose));
-        retired
-    }
-
-    fn set_source(&mut self, source: Option<Box<dyn PointerInput>>) -> Option<Retired> {
-        self.track.forget();
-        self.last_angle_deg = None;
-        self.has_ended = false;
-        self.pose = at_rest(self.pose);
-        std::mem::replace(&mut self.playable, source).map(Retired::Source)
-    }
-
-    fn set_velocity_method(&mut self, method: VelocityMethod, say: Say<'_>) {
-        if method.is_sound() {
-            self.track.set_method(method);
-        } else {
-            self.ignored += 1;
-            say(Notice::Refused(
-                "the velocity method's numbers make no sense; it stays as it was",
-            ));
+        Pose {
+            angle_deg: self.angle_deg,
+            angular_rad_per_s: self.turning_rad_per_s(),
+            ..pose
         }
     }
 
-    fn set_angle(&mut self, angle_deg: f64, say: Say<'_>) {
-        if angle_deg.is_finite() {
-            self.angle_deg = angle_deg;
-        } else {
-            self.ignored += 1;
-            say(Notice::Refused(
-                "the display's angle is not finite; it stays as it was",
-            ));
-        }
+    /// Whether the source says nothing of angles: all but replays, which have their own.
+    fn is_turnable(&self) -> bool {
+        self.source()
+            .is_none_or(|source| source.kind() != SourceKind::Replay)
+    }
+
+    /// How fast the display was turned since the last tick, which this one follows.
+    fn turning_rad_per_s(&mut self) -> f64 {
+        let before_deg = self.last_angle_deg.unwrap_or(self.angle_deg);
+        self.last_angle_deg = Some(self.angle_deg);
+        Pose::turning_rad_per_s(before_deg, self.angle_deg)
     }
 
     fn control(&mut self, control: Control) {

@@ -1,0 +1,124 @@
+//! What orders do to the core: scenes, gains, masks, sources, angles, recordings.
+//!
+//! Everything takes effect at the next tick. What is replaced goes back to be dropped elsewhere.
+
+use super::{EngineCore, Say, at_rest};
+use crate::engine::input::PointerInput;
+use crate::engine::order::{CoreOrder, NextScene, Retired};
+use crate::engine::{Notice, VelocityMethod};
+use crate::render::RenderError;
+use crate::scene::Pose;
+
+impl EngineCore {
+    /// Obeys, and hands back what was replaced: at most two things.
+    pub(in crate::engine) fn obey(
+        &mut self,
+        order: CoreOrder,
+        say: Say<'_>,
+    ) -> [Option<Retired>; 2] {
+        let mut retired = [None, None];
+        match order {
+            CoreOrder::Scene(next) => retired = self.next_scene(next),
+            CoreOrder::Tuning(tuning) => {
+                let tuned = self.scene.renderer.set_tuning(&tuning);
+                self.revise(tuned, say);
+            }
+            CoreOrder::TextileGain { textile, gain_db } => {
+                let set = self.scene.renderer.set_scene_gain(textile, gain_db);
+                self.revise(set, say);
+            }
+            CoreOrder::Levels(levels) => {
+                let set = self.scene.renderer.set_levels(&levels);
+                self.revise(set, say);
+                retired[0] = Some(Retired::Levels(levels));
+            }
+            CoreOrder::Mask(mask) => {
+                retired[0] = Some(Retired::Mask(std::mem::replace(&mut self.mask, mask)));
+                self.revision += 1;
+            }
+            CoreOrder::Source(source) => retired[0] = self.set_source(source),
+            CoreOrder::Velocity(method) => self.set_velocity_method(method, say),
+            CoreOrder::Angle(angle_deg) => self.set_angle(angle_deg, say),
+            CoreOrder::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
+            CoreOrder::Control(control) => self.control(control),
+            CoreOrder::Record(recorder) if self.is_stopped => {
+                say(Notice::Refused("everything is off: arm before recording"));
+                retired[0] = Some(Retired::Recorder(recorder));
+            }
+            CoreOrder::Record(recorder) => {
+                retired[0] = self.end_recording();
+                self.recorder = Some(recorder);
+            }
+            CoreOrder::EndRecording => retired[0] = self.end_recording(),
+        }
+        retired
+    }
+
+    /// The next scene is felt from the next tick on; its renderer already holds its tuning.
+    fn next_scene(&mut self, next: NextScene) -> [Option<Retired>; 2] {
+        match next {
+            NextScene::Other(scene) => {
+                let recording = self.end_recording();
+                let retired = std::mem::replace(&mut self.scene, scene);
+                if self.track.position().is_none() && self.playable.is_none() {
+                    self.pose = Pose {
+                        position: self.scene.start(),
+                        ..at_rest(self.pose)
+                    };
+                }
+                self.scene.render(at_rest(self.pose), &self.mask);
+                [recording, Some(Retired::Scene(retired))]
+            }
+            NextScene::Edited(mut scene) => {
+                scene.renderer.go_on_from(&self.scene.renderer);
+                let goes_on = scene.has_arrays_of(&self.scene);
+                let recording = if goes_on { None } else { self.end_recording() };
+                let retired = std::mem::replace(&mut self.scene, scene);
+                // A device that asks before the next tick feels the last pose on the new scene.
+                self.scene.render(self.rendered, &self.mask);
+                [recording, Some(Retired::Scene(retired))]
+            }
+        }
+    }
+
+    /// Counts a change of what a display that stands still shows, or its refusal.
+    fn revise(&mut self, outcome: Result<(), RenderError>, say: Say<'_>) {
+        match outcome {
+            Ok(()) => self.revision += 1,
+            Err(error) => {
+                self.ignored += 1;
+                say(Notice::GainIgnored(error));
+            }
+        }
+    }
+
+    pub(super) fn set_source(&mut self, source: Option<Box<dyn PointerInput>>) -> Option<Retired> {
+        self.track.forget();
+        self.last_angle_deg = None;
+        self.has_ended = false;
+        self.pose = at_rest(self.pose);
+        std::mem::replace(&mut self.playable, source).map(Retired::Source)
+    }
+
+    fn set_velocity_method(&mut self, method: VelocityMethod, say: Say<'_>) {
+        if method.is_sound() {
+            self.track.set_method(method);
+        } else {
+            self.ignored += 1;
+            say(Notice::Refused(
+                "the velocity method's numbers make no sense; it stays as it was",
+            ));
+        }
+    }
+
+    fn set_angle(&mut self, angle_deg: f64, say: Say<'_>) {
+        if angle_deg.is_finite() {
+            self.angle_deg = angle_deg;
+        } else {
+            self.ignored += 1;
+            say(Notice::Refused(
+                "the display's angle is not finite; it stays as it was",
+            ));
+        }
+    }
+}
