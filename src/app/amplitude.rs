@@ -4,6 +4,8 @@
 //! means the same everywhere at once. It may be held, or follow the largest amplitude in steps
 //! of 1, 2, 5.
 
+use super::widgets::round_step;
+
 /// From the largest to the smallest amplitude on the scale.
 const SPAN: f64 = 100.0;
 /// The full scale of the output, where the scale begins and which it never exceeds by itself, µm.
@@ -96,13 +98,7 @@ impl AmplitudeScale {
 
 /// The least of 1, 2, 5 · 10ⁿ that is not below `um`, between the outermost upper ends.
 fn round_up(um: f64) -> f64 {
-    let um = um.clamp(LEAST_TOP_UM, MOST_TOP_UM);
-    let decade = 10.0_f64.powf(um.log10().floor());
-    let factors = [1.0, 2.0, 5.0, 10.0].map(|f| f * decade);
-    factors
-        .into_iter()
-        .find(|&round| round >= um * (1.0 - 1e-9))
-        .unwrap_or(um)
+    round_step(um.clamp(LEAST_TOP_UM, MOST_TOP_UM))
 }
 
 #[cfg(test)]

@@ -31,6 +31,8 @@ pub(crate) enum Command {
     Play(PlayCommand),
     /// Change what is shown how.
     Show(ShowCommand),
+    /// Do something with the chosen textile, if one is.
+    Chosen(Chosen),
     /// Put away what asks: a field, a question, the calibration, the help.
     Dismiss,
     /// Put away a notice.
@@ -67,6 +69,19 @@ impl From<Edit> for Command {
     }
 }
 
+/// What keys do with the chosen textile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// Take it away.
+    Remove,
+    /// Mute it, or feel it again.
+    Mute,
+    /// Feel it alone, or with the others again.
+    Solo,
+    /// Lay it on top of the others.
+    Raise,
+}
+
 /// What can be done with the device.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum DeviceCommand {
@@ -93,12 +108,16 @@ pub(crate) enum FileCommand {
     Ask(Purpose),
     /// Use this path for this purpose.
     Use(Purpose, PathBuf),
+    /// Begin a scene without textiles.
+    New,
+    /// Open the scene that the program ships.
+    OpenShipped,
     /// Save the scene where it came from, or ask where.
     Save,
     /// Close the window; asks first when the scene is not saved.
     Close,
-    /// Close the window and let the changes go.
-    CloseUnsaved,
+    /// Go on with what was asked for and let the changes go.
+    LetGo,
 }
 
 /// What a path is asked for.
@@ -129,6 +148,8 @@ pub(crate) enum PlayCommand {
     Seek(u64),
     /// Whether a recording begins again at its end.
     Loop(bool),
+    /// Begin again at its end if it did not, and the other way round.
+    ToggleLoop,
     /// Begin or end a recording.
     ToggleRecording,
     /// Turn the display by this much, degrees counter-clockwise.
@@ -175,8 +196,8 @@ pub(crate) enum ShowCommand {
     Solo(Part),
     /// Feel everything again.
     HearAll,
-    /// Write numbers into the heatmaps.
-    Numbers(bool),
+    /// Write numbers into the heatmaps, or no longer.
+    ToggleNumbers,
     /// Hold the scale of amplitudes, or let it follow them.
     LockScale(bool),
     /// The largest amplitude of the scale, µm; holds it.

@@ -6,9 +6,10 @@
 use std::path::{Path, PathBuf};
 
 use super::command::{Edit, Target};
+use super::editing;
 use super::history::{History, Moment};
 use crate::scene::{Scene, SceneError};
-use crate::tactile::{Band, Tuning};
+use crate::tactile::Tuning;
 
 /// A scene that is being edited.
 #[derive(Debug, Clone)]
@@ -60,26 +61,16 @@ impl Document {
     /// Makes a change. One that makes no sense is refused and nothing happens.
     pub(crate) fn edit(&mut self, edit: &Edit, now: Moment) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
-        let mut tuning = self.tuning();
-        match *edit {
-            Edit::MasterGain(db) => tuning.gain_db = db,
-            Edit::BandGain(Band::Low, db) => tuning.gain_40_db = db,
-            Edit::BandGain(Band::High, db) => tuning.gain_320_db = db,
-            Edit::Compression(share) => tuning.compression = share,
-            Edit::TextileGain(index, db) => {
-                let Some(textile) = scene.textiles.get_mut(index) else {
-                    return Ok(());
-                };
-                textile.gain_db = db;
-            }
-            _ => {}
-        }
-        if tuning != self.tuning() {
-            scene.tuning = Some(tuning);
+        editing::apply(edit, &mut scene, self.tuning());
+        if scene == self.scene {
+            return Ok(());
         }
         scene.check()?;
         let target = edit.target();
         self.history.begin(&self.scene, target, target.label(), now);
+        if !target.joins() {
+            self.history.settle();
+        }
         self.scene = scene;
         Ok(())
     }
@@ -87,6 +78,12 @@ impl Document {
     /// Takes the last step back.
     pub(crate) fn undo(&mut self) -> Option<&'static str> {
         self.history.undo(&mut self.scene)
+    }
+
+    /// Takes the last step back for good: it turned out to be impossible.
+    pub(crate) fn take_back(&mut self) {
+        self.history.undo(&mut self.scene);
+        self.history.forget_undone();
     }
 
     /// Brings the last undone step back.
@@ -131,6 +128,7 @@ mod tests {
 
     use super::*;
     use crate::scene::PlacedTextile;
+    use crate::tactile::Band;
 
     fn document() -> Document {
         let textile = PlacedTextile {

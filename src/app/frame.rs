@@ -1,97 +1,120 @@
-//! The arrangement of the window: which pane stands where.
+//! One frame of the window: header, panes in their tiles, timeline, and what lies over them.
 
 use std::sync::PoisonError;
 
-use eframe::egui::{self, Align, CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
+use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, Rect, Ui};
+use egui_tiles::Tree;
 
+use super::arrangement::{self, Pane};
+use super::command::PlaySource;
+use super::desk::Desk;
 use super::panes::{self, Wishes};
 use super::pointer::Ground;
-use super::theme::{Palette, STEP};
-use super::view::SceneView;
-use super::window::{Layout, Transient, Workbench};
+use super::state::After;
+use super::theme::Palette;
+use super::view::{SceneView, Source};
+use super::window::Workbench;
 use super::workspace;
 
 /// Height of the header, points.
 const HEADER: f32 = 44.0;
-/// Width of the controls, points.
-const CONTROLS: f32 = 336.0;
-/// Height of the live pictures in a high and in a low window, points.
-const PICTURES: [f32; 2] = [224.0, 196.0];
-/// A window lower than this is low, points.
-const LOW: f32 = 800.0;
 
 /// Shows one frame; says what the user wants.
 pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
     let mut wishes = Wishes::new();
     let scene = bench.scene_view();
-    let (transient, layout) = (&mut bench.transient, bench.layout);
-    show_controls(ui, &scene, transient, layout, &mut wishes);
-    show_pictures(ui, &scene, transient, layout);
+    show_header(bench, ui, &scene, &mut wishes);
+    show_transport(bench, ui, &mut wishes);
     let central = CentralPanel::default().frame(Frame::new());
-    let shown = central
-        .show(ui, |ui| {
-            workspace::show(ui, &scene, &transient.live, &transient.trail)
-        })
-        .inner;
-    panes::show_notices(ui, shown.ground, &transient.notices, &mut wishes);
-    if let Some(ask) = &mut transient.ask {
-        panes::show_ask(ui, shown.ground, ask, &mut wishes);
-    }
-    let ground = Ground {
-        view: shown.view,
-        rect: shown.ground,
-        size_mm: scene.size_mm,
-        pixels_per_point: ui.ctx().pixels_per_point(),
-    };
-    feel(bench, ui.ctx(), ground);
+    let desk = central.show(ui, |ui| {
+        let rect = ui.max_rect();
+        (show_desk(bench, ui, &scene, &mut wishes), rect)
+    });
+    let (shown, rect) = desk.inner;
+    let over = shown.map_or(rect, |shown| shown.ground);
+    show_overlays(bench, ui, over, &mut wishes);
+    feel(bench, ui.ctx(), &scene, shown);
     wishes
 }
 
-/// The header, and the controls on the right.
-fn show_controls(
-    ui: &mut Ui,
-    scene: &SceneView,
-    transient: &mut Transient,
-    layout: Layout,
-    wishes: &mut Wishes,
-) {
-    Panel::top("header")
-        .exact_size(HEADER)
-        .frame(panel(ui, 16, 0))
-        .show(ui, |ui| {
-            panes::show_header(ui, scene, &transient.live, layout.colour_map, wishes);
-        });
-    let controls = Panel::right("controls")
-        .exact_size(CONTROLS)
-        .resizable(false);
-    controls.frame(panel(ui, 0, 8)).show(ui, |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            Frame::new()
-                .inner_margin(Margin::symmetric(16, 0))
-                .show(ui, |ui| {
-                    panes::show_tuning(ui, scene, &transient.live, wishes);
-                    ui.add_space(2.0 * STEP);
-                    let target = transient.target.as_deref();
-                    panes::show_bridge(ui, &transient.live, target, &mut transient.port, wishes);
-                });
-        });
+fn show_header(bench: &Workbench, ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+    let header = Panel::top("header").exact_size(HEADER);
+    header.frame(panel(ui, 16, 0)).show(ui, |ui| {
+        panes::show_header(
+            ui,
+            scene,
+            &bench.transient.live,
+            &bench.appearance(),
+            wishes,
+        );
     });
 }
 
-/// The live pictures at the bottom.
-fn show_pictures(ui: &mut Ui, scene: &SceneView, transient: &Transient, layout: Layout) {
-    let is_low = ui.ctx().content_rect().height() < LOW;
-    let height = if is_low { PICTURES[1] } else { PICTURES[0] };
-    let pictures = Panel::bottom("pictures")
-        .exact_size(height)
-        .resizable(false);
-    pictures.frame(panel(ui, 16, 12)).show(ui, |ui| {
-        ui.with_layout(egui::Layout::left_to_right(Align::Min), |ui| {
-            panes::show_heatmaps(ui, scene, &transient.live, layout.colour_map);
-            ui.add_space(4.0 * STEP);
-            panes::show_strip(ui, &transient.levels);
-        });
+fn show_transport(bench: &mut Workbench, ui: &mut Ui, wishes: &mut Wishes) {
+    let bottom = Panel::bottom("transport").resizable(false);
+    bottom.frame(panel(ui, 12, 6)).show(ui, |ui| {
+        let transient = &mut bench.transient;
+        let live = &transient.live;
+        let view = panes::TransportView {
+            source: match live.play.source {
+                Source::Pointer | Source::Lines => PlaySource::Pointer,
+                Source::Stroke => PlaySource::Stroke,
+                Source::Recording => PlaySource::Recording,
+            },
+            is_playing: live.play.is_playing,
+            does_loop: transient.does_loop,
+            is_stopped: live.is_stopped,
+            recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
+            tick: live.play.tick,
+            speed_mm_per_s: live.speed_mm_per_s,
+            take: bench.take.as_ref(),
+            live: &transient.history,
+        };
+        panes::show_transport(ui, &view, &mut transient.transport, wishes);
     });
+}
+
+/// The panes in their tiles.
+fn show_desk(
+    bench: &mut Workbench,
+    ui: &mut Ui,
+    scene: &SceneView,
+    wishes: &mut Wishes,
+) -> Option<workspace::Shown> {
+    bench.arrange(ui.max_rect().size());
+    let mut tree = std::mem::replace(&mut bench.tree, Tree::empty(egui::Id::NULL));
+    let mut desk = Desk {
+        bench,
+        scene,
+        wishes,
+        shown: None,
+        is_rearranged: false,
+    };
+    tree.ui(&mut desk, ui);
+    let (shown, is_rearranged) = (desk.shown, desk.is_rearranged);
+    bench.tree = tree;
+    if is_rearranged {
+        bench.keep_arrangement();
+    }
+    shown
+}
+
+/// Notices, questions and help over the panes.
+fn show_overlays(bench: &mut Workbench, ui: &Ui, over: Rect, wishes: &mut Wishes) {
+    let whole = ui.ctx().content_rect();
+    panes::show_notices(ui, over, &bench.transient.notices, wishes);
+    let recent = &bench.settings.kept.recent_scenes;
+    if let Some(ask) = &mut bench.transient.ask {
+        panes::show_ask(ui, whole, ask, recent, wishes);
+    }
+    if let Some(after) = &bench.transient.question {
+        let name = &bench.document.scene().name;
+        let is_closing = *after == After::Close;
+        panes::show_question(ui, whole, name, is_closing, wishes);
+    }
+    if bench.transient.is_help_shown {
+        panes::show_help(ui, whole, wishes);
+    }
 }
 
 fn panel(ui: &Ui, across: i8, down: i8) -> Frame {
@@ -100,11 +123,58 @@ fn panel(ui: &Ui, across: i8, down: i8) -> Frame {
         .inner_margin(Margin::symmetric(across, down))
 }
 
+impl Workbench {
+    /// What the menus tick.
+    fn appearance(&self) -> panes::Appearance {
+        let kept = &self.settings.kept;
+        let shown = Pane::ALL.map(|pane| (pane, arrangement::is_shown(&self.tree, pane)));
+        panes::Appearance {
+            map: kept.colour_map,
+            zoom: kept.zoom,
+            dots: self.workspace.dot_style,
+            panes: shown.to_vec(),
+            recent: kept.recent_scenes.clone(),
+        }
+    }
+
+    /// Arranges the panes for a window of this size before they are shown first.
+    fn arrange(&mut self, size: egui::Vec2) {
+        let is_first = self.transient.desk_size == egui::Vec2::ZERO;
+        self.transient.desk_size = size;
+        if !is_first {
+            return;
+        }
+        let kept = self.settings.kept.arrangement.as_deref();
+        let tree = kept.map(arrangement::from_text);
+        if tree.as_ref().is_some_and(Option::is_none) {
+            let words = "The arrangement that was kept could not be used: the default one is shown";
+            self.transient.notices.give(words);
+        }
+        let default = || arrangement::default_tree(size);
+        self.tree = tree.flatten().unwrap_or_else(default);
+    }
+}
+
 /// Tells the tap where the workspace is, and feeds it when nobody else does.
-fn feel(bench: &Workbench, ctx: &egui::Context, ground: Ground) {
-    let is_covered = bench.transient.ask.is_some();
+fn feel(
+    bench: &mut Workbench,
+    ctx: &egui::Context,
+    scene: &SceneView,
+    shown: Option<workspace::Shown>,
+) {
+    let transient = &bench.transient;
+    let is_covered =
+        transient.ask.is_some() || transient.question.is_some() || transient.is_help_shown;
+    let ground = shown.filter(|shown| shown.feels && !is_covered);
+    let ground = ground.map(|shown| Ground {
+        view: shown.view,
+        rect: shown.ground,
+        size_mm: scene.size_mm,
+        pixels_per_point: ctx.pixels_per_point(),
+    });
+    bench.transient.ground = shown.map(|shown| shown.ground);
     let mut tap = bench.tap.lock().unwrap_or_else(PoisonError::into_inner);
-    tap.set_ground((!is_covered).then_some(ground));
+    tap.set_ground(ground);
     if bench.is_stepped {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));

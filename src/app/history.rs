@@ -74,6 +74,11 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
         }
     }
 
+    /// Ends the step: the next edit begins another, whatever it is.
+    pub(crate) fn settle(&mut self) {
+        self.open = None;
+    }
+
     /// Takes the last step back: `state` becomes what it was before. Says which step it was.
     pub(crate) fn undo(&mut self, state: &mut S) -> Option<&'static str> {
         self.open = None;
@@ -88,6 +93,11 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
         let after = std::mem::replace(state, before);
         self.future.push(Step { state: after, name });
         Some(name)
+    }
+
+    /// What was undone cannot be brought back any more.
+    pub(crate) fn forget_undone(&mut self) {
+        self.future.clear();
     }
 
     /// Brings the last undone step back. Says which step it was.

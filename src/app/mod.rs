@@ -2,11 +2,15 @@
 //!
 //! ```text
 //! keys, buttons, sliders ─▶ Command ─▶ dispatch ─┬▶ document (undoable, saved)
-//!                                               ├▶ layout, transient state
+//!                                               ├▶ settings (kept per user), transient state
 //!                                               └▶ engine
-//! document + engine's snapshot ─▶ query ─▶ views ─▶ panes ─▶ shapes ─▶ screen, or our rasteriser
+//! engine, jobs, desktop ─▶ inbox ─▶ state
+//! document + state ─▶ query ─▶ views ─▶ panes in tiles ─▶ shapes ─▶ screen or rasteriser
 //! pointer ─▶ own event handler (stamped on arrival) ─▶ engine, without waiting for a frame
 //! ```
+//!
+//! To read: `command` (what can be wanted), `dispatch` (what comes of it), `window` and `state`
+//! (what there is), `frame` and `desk` (where it is drawn), then any pane.
 //!
 //! # Invariants
 //! - the one home of the toolkit (`eframe`, `egui`) and of `winit`
@@ -17,23 +21,39 @@
 
 mod amplitude;
 mod arrangement;
+mod audition;
 mod backlog;
 mod command;
+mod completion;
+mod desk;
+mod dialogs;
 mod dispatch;
 mod document;
+mod editing;
 mod error;
+mod felt;
 mod frame;
 mod history;
+mod inbox;
+mod inspect;
+mod job;
 mod native;
 mod opening;
 mod panes;
 mod pointer;
 #[cfg(target_os = "linux")]
 mod pointer_x11;
+mod ports;
+mod preparing;
 mod query;
 mod raster;
 mod screenshot;
+mod settings;
+mod shelf;
 mod shortcuts;
+mod signals;
+mod state;
+mod take;
 mod theme;
 mod view;
 mod widgets;

@@ -1,21 +1,34 @@
 //! Opening a scene: everything that takes longer than a frame, done on a named thread.
 //!
-//! What comes back is complete (textiles, tables, pictures) or one line that says what is wrong;
-//! until then, and after a failure, the last scene stays.
+//! What comes back is complete (textiles, tables, the library's names) or one line that says what
+//! is wrong; until then, and after a failure, the last scene stays.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
-use std::thread;
 
-use eframe::egui::{self, Color32, ColorImage, Vec2, vec2};
+use eframe::egui;
 
 use super::error::AppError;
+use super::job::{Job, Polled};
+use super::shelf;
+use super::view::ShelfItem;
 use crate::engine::PreparedScene;
-use crate::render::array::{Accuracy, Method};
+use crate::render::array::{Accuracy, Method, TableCache};
 use crate::scene::LoadedScene;
-use crate::textile::Textile;
+
+/// A scene without textiles over the shipped library.
+const EMPTY: &str =
+    "name = \"New scene\"\nsize_mm = [260.0, 260.0]\n[[display]]\ngeometry = \"exeter-24\"\n";
+
+/// Where a scene comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// Nowhere: it has no textiles yet.
+    New,
+    /// The program.
+    Shipped,
+    /// A file.
+    File(PathBuf),
+}
 
 /// A scene that is ready to be shown and felt.
 #[derive(Debug)]
@@ -26,42 +39,34 @@ pub(crate) struct Opened {
     pub(crate) loaded: LoadedScene,
     /// The same, ready for the engine.
     pub(crate) prepared: PreparedScene,
-    /// How its textiles look, by id, and how much cloth one picture shows, mm.
-    pub(crate) pictures: BTreeMap<String, (Arc<ColorImage>, Vec2)>,
-    /// Pictures that could not be read, one line each: the scene is felt all the same.
-    pub(crate) flaws: Vec<String>,
+    /// The tables that were made for it.
+    pub(crate) cache: TableCache,
+    /// The textiles of its library.
+    pub(crate) shelf: Vec<ShelfItem>,
 }
 
 /// A scene on its way.
 #[derive(Debug)]
 pub(crate) struct Opening {
-    /// Where it comes from.
-    pub(crate) path: PathBuf,
-    result: Receiver<Result<Box<Opened>, AppError>>,
+    origin: Origin,
+    job: Job<Result<Box<Opened>, AppError>>,
 }
 
 impl Opening {
-    /// Begins to open the scene at `path`; `ctx` is woken when that is done.
-    pub(crate) fn start(path: PathBuf, ctx: &egui::Context) -> std::io::Result<Self> {
-        let (sender, result) = sync_channel(1);
-        let (from, ctx) = (path.clone(), ctx.clone());
-        thread::Builder::new()
-            .name("selvedge-open".to_owned())
-            .spawn(move || {
-                // Nobody waits any more when another scene was asked for meanwhile.
-                drop(sender.send(open(Some(&from)).map(Box::new)));
-                ctx.request_repaint();
-            })?;
-        Ok(Self { path, result })
+    /// Begins to open a scene; `ctx` is woken when that is done.
+    pub(crate) fn start(origin: Origin, ctx: &egui::Context) -> std::io::Result<Self> {
+        let from = origin.clone();
+        let job = Job::start("selvedge-open", ctx, move || open(from).map(Box::new))?;
+        Ok(Self { origin, job })
     }
 
     /// The outcome, once it is there.
     pub(crate) fn poll(&self) -> Option<Result<Box<Opened>, AppError>> {
-        match self.result.try_recv() {
-            Ok(result) => Some(result),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => {
-                let what = format!("{}: opening it broke off", self.path.display());
+        match self.job.poll() {
+            Polled::Done(result) => Some(result),
+            Polled::Working => None,
+            Polled::BrokeOff => {
+                let what = format!("{:?}: opening it broke off", self.origin);
                 let mend = "please report the scene".to_owned();
                 Some(Err(crate::scene::SceneError::Value { what, mend }.into()))
             }
@@ -69,51 +74,37 @@ impl Opening {
     }
 }
 
-/// Opens a scene on this thread; without a path the one that the program ships.
-pub(crate) fn open(path: Option<&Path>) -> Result<Opened, AppError> {
-    let loaded = match path {
-        Some(path) => LoadedScene::read(path)?,
-        None => LoadedScene::shipped()?,
+/// Opens a scene on this thread.
+pub(crate) fn open(origin: Origin) -> Result<Opened, AppError> {
+    let loaded = match &origin {
+        Origin::New => LoadedScene::from_toml(EMPTY, Path::new("new scene"))?,
+        Origin::Shipped => LoadedScene::shipped()?,
+        Origin::File(path) => LoadedScene::read(path)?,
     };
-    let prepared = PreparedScene::prepare(&loaded, Method::Auto, &Accuracy::default())?;
-    let mut pictures = BTreeMap::new();
-    let mut flaws = Vec::new();
-    for textile in loaded.textiles() {
-        if pictures.contains_key(textile.id()) {
-            continue;
-        }
-        match picture(textile) {
-            Ok(Some(picture)) => drop(pictures.insert(textile.id().to_owned(), picture)),
-            Ok(None) => {}
-            Err(error) => flaws.push(error.to_string()),
-        }
-    }
-    flaws.dedup();
+    let mut cache = TableCache::default();
+    let accuracy = Accuracy::default();
+    let prepared = PreparedScene::prepare_cached(&loaded, Method::Auto, &accuracy, &mut cache)?;
     Ok(Opened {
-        path: path.map(Path::to_owned),
-        loaded,
+        path: match origin {
+            Origin::File(path) => Some(path),
+            Origin::New | Origin::Shipped => None,
+        },
         prepared,
-        pictures,
-        flaws,
+        cache,
+        shelf: shelf::items_of(loaded.library()),
+        loaded,
     })
 }
 
-fn picture(textile: &Textile) -> Result<Option<(Arc<ColorImage>, Vec2)>, AppError> {
-    let Some(appearance) = textile.appearance()? else {
-        return Ok(None);
-    };
-    let image = &appearance.image;
-    let pixels = image
-        .pixels
-        .iter()
-        .map(|&[r, g, b]| Color32::from_rgb(r, g, b))
-        .collect();
-    let [width, height] = [image.width, image.height].map(|n| n as f32);
-    #[expect(clippy::cast_possible_truncation, reason = "a scale, for the screen")]
-    let px_per_mm = appearance.px_per_mm.max(1e-3) as f32;
-    let tile_mm = vec2(width, height) / px_per_mm;
-    Ok(Some((
-        Arc::new(ColorImage::new([image.width, image.height], pixels)),
-        tile_mm,
-    )))
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_scene_has_the_shipped_library_and_nothing_in_it() {
+        let opened = open(Origin::New).unwrap();
+        assert!(opened.loaded.scene().textiles.is_empty() && opened.path.is_none());
+        assert_eq!(opened.shelf.len(), 16);
+        assert_eq!(opened.prepared.n_contactors(), 24);
+    }
 }

@@ -1,38 +1,43 @@
 //! From document and snapshot to the views that panes draw: pure queries, and the words for what
 //! the engine has to say.
 
-use std::collections::BTreeMap;
-
+use super::audition::Audition;
+use super::command::Part;
 use super::document::Document;
+use super::shelf::Shelf;
 use super::view::{
-    BridgePhase, BridgeView, Cloth, ClothPicture, Dot, LibraryDot, Live, SceneView, Source, Status,
+    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, PlayView, SceneView, ShelfItem, Source,
+    Status,
 };
 use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
-use crate::scene::{LoadedScene, Scene};
+use crate::scene::LoadedScene;
 use crate::tactile::{Filters, Levels};
 
-/// The scene as panes draw it.
+/// The scene as panes draw it. A textile that is not ready yet is drawn already.
 pub(crate) fn scene_view(
     document: &Document,
-    loaded: &LoadedScene,
+    shelf: &Shelf,
     library: &[LibraryDot],
-    pictures: &BTreeMap<String, ClothPicture>,
+    audition: &Audition,
     reference_db: Option<f64>,
 ) -> SceneView {
     let scene = document.scene();
-    let placed = scene.textiles.iter().zip(loaded.textiles());
-    let cloths = placed.map(|(placed, textile)| Cloth {
+    let placed = scene.textiles.iter().enumerate();
+    let cloths = placed.map(|(index, placed)| Cloth {
         id: placed.id.clone(),
         label: placed.label.clone(),
-        name: textile.manifest().name.clone(),
+        name: shelf
+            .item(&placed.id)
+            .map_or_else(|| placed.id.clone(), |item| item.name.clone()),
         workspace_from_textile: placed.workspace_from_textile(),
         size_mm: placed.size_mm,
         rotation_deg: placed.rotation_deg,
-        is_muted: false,
+        is_muted: !audition.is_felt(Part::Cloth(index)),
         gain_db: placed.gain_db,
-        picture: pictures.get(&placed.id).copied(),
+        picture: shelf.picture(&placed.id),
     });
+    let display = scene.displays.first();
     SceneView {
         name: scene.name.clone(),
         path: document.path().cloned(),
@@ -43,10 +48,7 @@ pub(crate) fn scene_view(
         default_tuning: document.default_tuning(),
         reference_db,
         filters: scene.filters,
-        grid: scene
-            .displays
-            .first()
-            .and_then(|display| display.geometry.grid()),
+        grid: display.and_then(|display| display.geometry.grid()),
         library: library.to_vec(),
         undo: document.undo_name(),
         redo: document.redo_name(),
@@ -55,25 +57,21 @@ pub(crate) fn scene_view(
 
 /// The textiles of the scene's library that have a level: from the library's index where the
 /// scene's filters are those that the index was made with, else the placed ones alone.
-pub(crate) fn library_dots(loaded: &LoadedScene) -> Vec<LibraryDot> {
+pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDot> {
     let scene = loaded.scene();
     let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
-    let library = loaded.library();
-    let index = library
-        .index()
-        .filter(|_| scene.filters == Filters::default());
-    if let Some(index) = index {
-        let dot = |entry: &crate::textile::IndexEntry| {
-            let manifest = library.manifest(&entry.id).ok()?;
+    let has_index = loaded.library().index().is_some();
+    if has_index && scene.filters == Filters::default() {
+        let dot = |item: &ShelfItem| {
             Some(LibraryDot {
-                name: manifest.name,
-                mean_um: [entry.a40_um, entry.a320_um],
-                gain_db: manifest.gain_db,
-                level_db: entry.level_db()?,
-                is_placed: is_placed(&entry.id),
+                name: item.name.clone(),
+                mean_um: item.mean_um,
+                gain_db: item.gain_db,
+                level_db: item.level_db?,
+                is_placed: is_placed(&item.id),
             })
         };
-        return index.textiles.iter().filter_map(dot).collect();
+        return shelf.items().iter().filter_map(dot).collect();
     }
     let mut seen = Vec::new();
     let mut dots = Vec::new();
@@ -95,7 +93,11 @@ pub(crate) fn library_dots(loaded: &LoadedScene) -> Vec<LibraryDot> {
 }
 
 /// The engine as panes draw it.
-pub(crate) fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>) -> Live {
+pub(crate) fn live_view(
+    snapshot: &Snapshot,
+    frame_interval_s: Option<f64>,
+    audition: &Audition,
+) -> Live {
     let contactors = snapshot
         .displays
         .first()
@@ -104,20 +106,21 @@ pub(crate) fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>) -> L
     Live {
         tick: snapshot.tick,
         centre: is_placed.then_some(snapshot.pose.position),
+        pose: snapshot.pose,
         speed_mm_per_s: if snapshot.is_silent {
             0.0
         } else {
             snapshot.pose.velocity.speed_mm_per_s()
         },
-        dots: contactors.iter().map(dot).collect(),
+        dots: contactors
+            .iter()
+            .enumerate()
+            .map(|(index, contactor)| dot(contactor, !audition.is_felt(Part::Contactor(index))))
+            .collect(),
         is_stopped: snapshot.is_stopped,
-        source: match snapshot.source {
-            SourceKind::Pointer => Source::Pointer,
-            SourceKind::Stroke => Source::Stroke {
-                is_playing: snapshot.playback.is_playing,
-            },
-            SourceKind::Replay | SourceKind::Lines => Source::Other,
-        },
+        is_silent: snapshot.is_silent,
+        play: play_view(snapshot),
+        turn_deg: snapshot.turn_deg,
         status: Status {
             method: snapshot.method.name(),
             tick_cost_s: (snapshot.clock.cost_ns > 0)
@@ -134,13 +137,30 @@ pub(crate) fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>) -> L
     }
 }
 
-fn dot(contactor: &crate::engine::ContactorView) -> Dot {
+fn play_view(snapshot: &Snapshot) -> PlayView {
+    PlayView {
+        source: match snapshot.source {
+            SourceKind::Pointer => Source::Pointer,
+            SourceKind::Stroke => Source::Stroke,
+            SourceKind::Replay => Source::Recording,
+            SourceKind::Lines => Source::Lines,
+        },
+        is_playing: snapshot.playback.is_playing,
+        does_loop: snapshot.playback.does_loop,
+        tick: snapshot.playback.tick,
+        n_ticks: snapshot.playback.n_ticks,
+        is_recording: snapshot.recording.is_recording,
+        n_recorded: snapshot.recording.n_ticks,
+    }
+}
+
+fn dot(contactor: &crate::engine::ContactorView, is_muted: bool) -> Dot {
     Dot {
         position: contactor.position,
         cloth: contactor.textile.map(usize::from),
         amplitude_um: contactor.amplitude_um.map(f64::from),
         is_limited: contactor.bite.any(),
-        is_muted: false,
+        is_muted,
     }
 }
 
@@ -260,15 +280,6 @@ impl IntervalMeter {
         }
         self.interval_s
     }
-}
-
-/// The textiles whose scene gain differs between two scenes of the same textiles: place and gain.
-pub(crate) fn changed_gains(before: &Scene, after: &Scene) -> Vec<(usize, f64)> {
-    let pairs = before.textiles.iter().zip(&after.textiles).enumerate();
-    pairs
-        .filter(|(_, (old, new))| old.gain_db.total_cmp(&new.gain_db).is_ne())
-        .map(|(index, (_, new))| (index, new.gain_db))
-        .collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
-use super::command::{Command, FileCommand, PlayCommand, Purpose};
+use super::command::{
+    Chosen, Command, FileCommand, Look, PlayCommand, PlaySource, Purpose, ShowCommand, Tool,
+};
 
 /// A key and what it does.
 #[derive(Debug, Clone)]
@@ -11,38 +13,155 @@ pub(crate) struct Shortcut {
     pub(crate) key: KeyboardShortcut,
     /// What it does.
     pub(crate) command: Command,
+    /// The same for people; keys that do the same say the same.
+    pub(crate) what: &'static str,
     /// Whether it also works while text is being typed.
     pub(crate) while_typing: bool,
 }
 
 /// Every key of the window. Esc stands first: nothing may come before it.
 pub(crate) fn table() -> Vec<Shortcut> {
-    let key = |modifiers, key, command| Shortcut {
+    let mut table = scene_keys();
+    table.extend(file_keys());
+    table.extend(play_keys());
+    table.extend(show_keys());
+    table.extend(chosen_keys());
+    table
+}
+
+fn key(modifiers: Modifiers, key: Key, what: &'static str, command: Command) -> Shortcut {
+    Shortcut {
         key: KeyboardShortcut::new(modifiers, key),
         command,
+        what,
         while_typing: false,
-    };
-    let ctrl = Modifiers::COMMAND;
-    let ctrl_shift = Modifiers::COMMAND.plus(Modifiers::SHIFT);
-    let all_off = key(Modifiers::NONE, Key::Escape, Command::AllOff);
+    }
+}
+
+fn bare<C: Into<Command>>((at, what, command): (Key, &'static str, C)) -> Shortcut {
+    key(Modifiers::NONE, at, what, command.into())
+}
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
+fn scene_keys() -> Vec<Shortcut> {
+    let all_off = bare((Key::Escape, "Everything off", Command::AllOff));
     vec![
         Shortcut {
             while_typing: true,
             ..all_off
         },
-        key(ctrl_shift, Key::Z, Command::Redo),
-        key(ctrl, Key::Z, Command::Undo),
-        key(ctrl, Key::Y, Command::Redo),
-        key(
-            ctrl_shift,
-            Key::S,
-            FileCommand::Ask(Purpose::SaveScene).into(),
-        ),
-        key(ctrl, Key::S, FileCommand::Save.into()),
-        key(ctrl, Key::O, FileCommand::Ask(Purpose::OpenScene).into()),
-        key(Modifiers::NONE, Key::Space, PlayCommand::Toggle.into()),
+        key(CTRL_SHIFT, Key::Z, "Redo", Command::Redo),
+        key(CTRL, Key::Z, "Undo", Command::Undo),
+        key(CTRL, Key::Y, "Redo", Command::Redo),
     ]
 }
+
+fn chosen_keys() -> Vec<Shortcut> {
+    let chosen = |at, what, act| bare((at, what, Command::Chosen(act)));
+    vec![
+        chosen(Key::Delete, "Remove the chosen textile", Chosen::Remove),
+        chosen(Key::M, "Mute the chosen textile", Chosen::Mute),
+        chosen(Key::S, "Feel the chosen textile alone", Chosen::Solo),
+        chosen(Key::PageUp, "Lay the chosen textile on top", Chosen::Raise),
+    ]
+}
+
+fn file_keys() -> Vec<Shortcut> {
+    let file = |modifiers, at, what, command: FileCommand| key(modifiers, at, what, command.into());
+    let ask = FileCommand::Ask;
+    vec![
+        file(CTRL, Key::N, "New scene", FileCommand::New),
+        file(CTRL, Key::O, "Open a scene…", ask(Purpose::OpenScene)),
+        file(
+            CTRL_SHIFT,
+            Key::S,
+            "Save the scene as…",
+            ask(Purpose::SaveScene),
+        ),
+        file(CTRL, Key::S, "Save the scene", FileCommand::Save),
+        file(
+            CTRL,
+            Key::R,
+            "Open a recording…",
+            ask(Purpose::OpenRecording),
+        ),
+        file(
+            CTRL,
+            Key::E,
+            "Save the recording…",
+            ask(Purpose::SaveRecording),
+        ),
+        file(CTRL, Key::W, "Close the window", FileCommand::Close),
+    ]
+}
+
+fn play_keys() -> Vec<Shortcut> {
+    let pointer = PlayCommand::Source(PlaySource::Pointer);
+    let keys: [(Key, &str, PlayCommand); 9] = [
+        (Key::Space, "Play or hold", PlayCommand::Toggle),
+        (Key::Period, "Play one tick", PlayCommand::Step),
+        (Key::Home, "Back to the first tick", PlayCommand::Rewind),
+        (Key::L, "Loop or not", PlayCommand::ToggleLoop),
+        (
+            Key::R,
+            "Record, or end recording",
+            PlayCommand::ToggleRecording,
+        ),
+        (Key::P, "Follow the pointer", pointer),
+        (Key::Q, "Turn the display left", PlayCommand::Turn(TURN_DEG)),
+        (
+            Key::E,
+            "Turn the display right",
+            PlayCommand::Turn(-TURN_DEG),
+        ),
+        (
+            Key::Num0,
+            "Turn the display straight",
+            PlayCommand::TurnBack,
+        ),
+    ];
+    keys.into_iter().map(bare).collect()
+}
+
+fn show_keys() -> Vec<Shortcut> {
+    let closer = |factor| ShowCommand::Look(Look::ZoomBy(factor));
+    let keys: [(Key, &str, ShowCommand); 10] = [
+        (Key::X, "Explore", ShowCommand::Tool(Tool::Explore)),
+        (Key::A, "Arrange", ShowCommand::Tool(Tool::Arrange)),
+        (
+            Key::F,
+            "Show the whole workspace",
+            ShowCommand::Look(Look::Fit),
+        ),
+        (
+            Key::T,
+            "Show the true size",
+            ShowCommand::Look(Look::TrueSize),
+        ),
+        (Key::Plus, "Closer", closer(ZOOM)),
+        (Key::Minus, "Farther", closer(1.0 / ZOOM)),
+        (
+            Key::N,
+            "Numbers in the heatmaps",
+            ShowCommand::ToggleNumbers,
+        ),
+        (Key::H, "Feel everything again", ShowCommand::HearAll),
+        (Key::F1, "Keys", ShowCommand::Help),
+        (
+            Key::F9,
+            "Default arrangement",
+            ShowCommand::DefaultArrangement,
+        ),
+    ];
+    keys.into_iter().map(bare).collect()
+}
+
+/// How much closer a key looks.
+const ZOOM: f64 = 1.25;
+/// How far a key turns the display, degrees.
+const TURN_DEG: f64 = 5.0;
 
 /// The commands whose keys were pressed since the last frame; the keys are used up.
 ///
@@ -56,6 +175,7 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
         key,
         command,
         while_typing,
+        ..
     } in table()
     {
         if is_escape(key) {
@@ -117,6 +237,18 @@ mod tests {
                 let same_key = one.key.logical_key == later.key.logical_key;
                 let hides = same_key && !one.key.modifiers.shift && later.key.modifiers.shift;
                 assert!(!hides, "{:?} hides {:?}", one.command, later.command);
+            }
+        }
+    }
+
+    #[test]
+    fn keys_say_what_they_do_and_the_same_when_they_do_the_same() {
+        let table = table();
+        for one in &table {
+            assert!(!one.what.is_empty(), "{:?}", one.command);
+            for other in &table {
+                let does_same = one.command == other.command;
+                assert_eq!(does_same, one.what == other.what, "{one:?} and {other:?}");
             }
         }
     }

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use eframe::egui::{TextureId, Vec2};
 
 use crate::geometry::{Frame, Point};
+use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
 
 /// The scene as it is drawn.
@@ -73,6 +74,25 @@ pub(crate) struct ClothPicture {
     pub(crate) tile_mm: Vec2,
 }
 
+/// A textile of the library as the shelf shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ShelfItem {
+    /// What scenes call it.
+    pub(crate) id: String,
+    /// What people call it.
+    pub(crate) name: String,
+    /// How it is made and of what, in a few words.
+    pub(crate) kind: String,
+    /// The gain that its manifest states, dB.
+    pub(crate) gain_db: f64,
+    /// Its level by the library's index, dB re 1 µm.
+    pub(crate) level_db: Option<f64>,
+    /// Its mean amplitudes by the library's index, without any gain, µm.
+    pub(crate) mean_um: [f64; 2],
+    /// Why it cannot be used.
+    pub(crate) flaw: Option<String>,
+}
+
 /// A textile of the library as the compression curve shows it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LibraryDot {
@@ -95,14 +115,20 @@ pub(crate) struct Live {
     pub(crate) tick: u64,
     /// The middle of the display; `None` before the pointer was ever in the workspace.
     pub(crate) centre: Option<Point>,
+    /// Where the display is, how it is turned and how it moves.
+    pub(crate) pose: Pose,
     /// Speed of the display, mm/s.
     pub(crate) speed_mm_per_s: f64,
     /// Contactors in index order.
     pub(crate) dots: Vec<Dot>,
     /// Whether everything was switched off and nothing was armed since.
     pub(crate) is_stopped: bool,
-    /// What moves the display.
-    pub(crate) source: Source,
+    /// Whether the device plays silence, stopped or held; the screen keeps what it showed.
+    pub(crate) is_silent: bool,
+    /// What moves the display, and how far it is.
+    pub(crate) play: PlayView,
+    /// The display's turn on top of the scene's, degrees counter-clockwise.
+    pub(crate) turn_deg: f64,
     /// Rendering: method and cost.
     pub(crate) status: Status,
     /// The device.
@@ -131,12 +157,30 @@ pub(crate) enum Source {
     #[default]
     Pointer,
     /// The display by itself, along a stroke.
-    Stroke {
-        /// Whether it moves now.
-        is_playing: bool,
-    },
-    /// A recording or a stream.
-    Other,
+    Stroke,
+    /// A recorded exploration.
+    Recording,
+    /// A stream of lines.
+    Lines,
+}
+
+/// How far a stroke, a recording or its replay is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct PlayView {
+    /// What moves the display.
+    pub(crate) source: Source,
+    /// Whether it moves on at the next tick.
+    pub(crate) is_playing: bool,
+    /// Whether a recording begins again at its end.
+    pub(crate) does_loop: bool,
+    /// The tick that is shown of a stroke or a recording.
+    pub(crate) tick: u64,
+    /// Ticks of the recording that is replayed.
+    pub(crate) n_ticks: u64,
+    /// Whether the exploration is being recorded.
+    pub(crate) is_recording: bool,
+    /// Ticks recorded so far.
+    pub(crate) n_recorded: u64,
 }
 
 /// Rendering: method and cost.

@@ -1,57 +1,56 @@
 //! The line on top: the scene and what may be done with it, rendering, armed state, all off.
 
-use eframe::egui::{
-    self, Align, Button, Layout, RichText, Stroke, ThemePreference, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{self, Align, Button, Layout, RichText, Stroke, Ui, WidgetInfo, vec2};
 
 use super::Wishes;
-use crate::app::command::{Command, FileCommand, PlayCommand, Purpose, ShowCommand};
+use super::menu::{Appearance, show_scene_menu, show_view_menu};
+use crate::app::command::Command;
 use crate::app::shortcuts::hint;
-use crate::app::theme::{self, ColourMap, Palette, ROW, STEP};
-use crate::app::view::{Live, SceneView, Source, Status};
+use crate::app::theme::{self, Palette, ROW, STEP};
+use crate::app::view::{Live, SceneView, Status};
 use crate::app::widgets::{button, mark};
 use crate::quantity;
+
+/// A window narrower than this has no room for the status, points.
+const ROOM_FOR_STATUS: f32 = 1000.0;
 
 /// Shows the header.
 pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
     live: &Live,
-    colour_map: ColourMap,
+    appearance: &Appearance,
     wishes: &mut Wishes,
 ) {
     let width = ui.available_width();
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-        show_scene(ui, scene, wishes);
-        show_stroke(ui, live.source, wishes);
+        let palette = Palette::in_ui(ui);
+        let name = RichText::new("Selvedge").font(theme::title());
+        ui.label(name.color(palette.dim));
+        ui.add_space(STEP);
+        show_scene_menu(ui, scene, &appearance.recent, wishes);
+        show_view_menu(ui, appearance, wishes);
+        ui.add_space(STEP);
+        show_history(ui, scene, wishes);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             show_all_off(ui, wishes);
             show_armed(ui, live);
             ui.add_space(2.0 * STEP);
-            show_appearance(ui, colour_map, wishes);
-            ui.add_space(2.0 * STEP);
-            if width > 1000.0 {
+            if width > ROOM_FOR_STATUS {
                 show_status(ui, &live.status);
+                ui.add_space(2.0 * STEP);
             }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                show_name(ui, scene);
+            });
         });
     });
 }
 
-fn show_scene(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+/// The scene's name and whether it is saved.
+fn show_name(ui: &mut Ui, scene: &SceneView) {
     let palette = Palette::in_ui(ui);
-    ui.label(
-        RichText::new("Selvedge")
-            .font(theme::title())
-            .color(palette.dim),
-    );
     ui.add_space(STEP);
-    let name = ui.label(
-        RichText::new(&scene.name)
-            .font(theme::title())
-            .color(palette.text),
-    );
-    let place = scene.path.as_ref().map(|path| path.display().to_string());
-    name.on_hover_text(place.unwrap_or_else(|| "The scene shipped with the program".to_owned()));
     // The mark keeps its place when there is nothing to mark, so that nothing moves.
     let (ink, words) = if scene.is_edited {
         (palette.selection, "edited: not saved yet")
@@ -59,49 +58,25 @@ fn show_scene(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
         (egui::Color32::TRANSPARENT, "saved")
     };
     mark(ui, ink, words).on_hover_text(words);
-    ui.add_space(STEP);
-    let ctx = ui.ctx().clone();
-    let tip = |what: &str, command: &Command| format!("{what} ({})", hint(&ctx, command));
-    let open: Command = FileCommand::Ask(Purpose::OpenScene).into();
-    if button(ui, "Open…", &tip("Open a scene", &open), None) {
-        wishes.push(open);
-    }
-    let unedited = (!scene.is_edited && scene.path.is_some()).then_some("Nothing has changed");
-    let save: Command = FileCommand::Save.into();
-    if button(ui, "Save", &tip("Save the scene", &save), unedited) {
-        wishes.push(save);
-    }
-    let undo = scene
-        .undo
-        .map(|step| tip(&format!("Undo {step}"), &Command::Undo));
-    let nothing = undo.is_none().then_some("Nothing to undo");
-    if button(ui, "Undo", &undo.unwrap_or_default(), nothing) {
-        wishes.push(Command::Undo);
-    }
-    let redo = scene
-        .redo
-        .map(|step| tip(&format!("Redo {step}"), &Command::Redo));
-    let nothing = redo.is_none().then_some("Nothing to redo");
-    if button(ui, "Redo", &redo.unwrap_or_default(), nothing) {
-        wishes.push(Command::Redo);
-    }
+    let text = RichText::new(&scene.name).font(theme::title());
+    let name = ui.add(egui::Label::new(text.color(palette.text)).truncate());
+    let place = scene.path.as_ref().map(|path| path.display().to_string());
+    name.on_hover_text(place.unwrap_or_else(|| "Not in a file of yours yet".to_owned()));
 }
 
-fn show_stroke(ui: &mut Ui, source: Source, wishes: &mut Wishes) {
-    let (text, what) = match source {
-        Source::Stroke { is_playing: true } => {
-            ("Stop stroke", "Give the display back to the pointer")
+fn show_history(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+    let steps = [
+        ("Undo", scene.undo, Command::Undo),
+        ("Redo", scene.redo, Command::Redo),
+    ];
+    for (label, step, command) in steps {
+        let key = hint(ui.ctx(), &command);
+        let tip = step.map(|step| format!("{label} {step} ({key})"));
+        let nothing = format!("Nothing to {}", label.to_lowercase());
+        let refusal = tip.is_none().then_some(nothing.as_str());
+        if button(ui, label, &tip.clone().unwrap_or_default(), refusal) {
+            wishes.push(command);
         }
-        _ => (
-            "Play stroke",
-            "Let the display explore by itself, in a circle",
-        ),
-    };
-    ui.add_space(STEP);
-    let toggle: Command = PlayCommand::Toggle.into();
-    let tip = format!("{what} ({})", hint(ui.ctx(), &toggle));
-    if button(ui, text, &tip, None) {
-        wishes.push(toggle);
     }
 }
 
@@ -148,34 +123,6 @@ fn show_armed(ui: &mut Ui, live: &Live) {
     )
     .response
     .on_hover_text("Whether the device's high voltage is on");
-}
-
-fn show_appearance(ui: &mut Ui, colour_map: ColourMap, wishes: &mut Wishes) {
-    let choice =
-        |ui: &mut Ui, is_chosen: bool, label: &str| ui.selectable_label(is_chosen, label).clicked();
-    ui.menu_button("View", |ui| {
-        let theme = ui.ctx().options(|options| options.theme_preference);
-        let themes = [
-            (ThemePreference::System, "As the system"),
-            (ThemePreference::Dark, "Dark"),
-            (ThemePreference::Light, "Light"),
-        ];
-        for (preference, label) in themes {
-            if choice(ui, theme == preference, label) {
-                wishes.push(ShowCommand::Theme(preference).into());
-            }
-        }
-        ui.separator();
-        for map in ColourMap::ALL {
-            if choice(
-                ui,
-                map == colour_map,
-                &format!("Numbers in {}", map.label()),
-            ) {
-                wishes.push(ShowCommand::ColourMap(map).into());
-            }
-        }
-    });
 }
 
 fn show_status(ui: &mut Ui, status: &Status) {

@@ -1,12 +1,17 @@
 //! Both bands of every contactor as two heatmaps on one scale, with its colour bar.
 
 use eframe::egui::{
-    self, Align2, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
+use super::Wishes;
 use crate::app::amplitude::AmplitudeScale;
+use crate::app::audition::Audition;
+use crate::app::command::{Part, ShowCommand};
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::{Dot, Live, SceneView};
+use crate::app::widgets::toggle;
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -15,188 +20,290 @@ const TITLE: f32 = 20.0;
 /// Space between cells, points.
 const GAP: f32 = 2.0;
 /// Width of the colour bar with its numbers, points.
-const BAR: f32 = 36.0;
-/// Largest cell, points.
-const MAX_CELL: f32 = 30.0;
+const BAR: f32 = 48.0;
+/// Space between the two heatmaps, points.
+const BETWEEN: f32 = 16.0;
+/// A cell narrower than this has no room for a number, points.
+const NUMBER_WIDTH: f32 = 20.0;
 
-/// How wide the heatmaps and their colour bar are at this height, points.
-pub(crate) fn width_at(height: f32, (n_rows, n_columns): (usize, usize)) -> f32 {
-    let cell = cell_size(height, n_rows);
-    2.0 * n_columns as f32 * cell + 28.0 + BAR
+/// How the heatmaps are drawn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HeatmapStyle {
+    /// The colours.
+    pub(crate) map: ColourMap,
+    /// The scale.
+    pub(crate) scale: AmplitudeScale,
+    /// Whether numbers are written into the cells.
+    pub(crate) has_numbers: bool,
+    /// The contactor that is looked at closer.
+    pub(crate) selected: usize,
 }
 
-fn cell_size(height: f32, n_rows: usize) -> f32 {
-    ((height - TITLE) / n_rows.max(1) as f32)
-        .floor()
-        .clamp(4.0, MAX_CELL)
+/// Where the cells of both bands are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Places {
+    /// The upper left corner of either heatmap.
+    corners: [Pos2; 2],
+    /// Width and height of a cell with its gap.
+    cell: egui::Vec2,
+    n_columns: usize,
+}
+
+impl Places {
+    /// As large as fits, in the middle of `rect`; cells are at most half as wide again as high.
+    fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
+        let height = ((rect.height() - TITLE) / n_rows.max(1) as f32).max(2.0);
+        let room = (rect.width() - BAR - BETWEEN) / 2.0;
+        let width = (room / n_columns.max(1) as f32).clamp(2.0, 1.9 * height);
+        let height = height.min(1.4 * width);
+        let cell = vec2(width, height).floor().max(vec2(2.0, 2.0));
+        let map_width = n_columns as f32 * cell.x;
+        let left = rect.center().x - 0.5 * (2.0 * map_width + BETWEEN + BAR);
+        let top = rect.top() + TITLE;
+        let corner = |band: usize| pos2(left + band as f32 * (map_width + BETWEEN), top).round();
+        Self {
+            corners: [corner(0), corner(1)],
+            cell,
+            n_columns: n_columns.max(1),
+        }
+    }
+
+    fn cell(&self, band: usize, index: usize) -> Rect {
+        let (row, column) = (index / self.n_columns, index % self.n_columns);
+        let corner = self.corners[band] + vec2(column as f32, row as f32) * self.cell;
+        Rect::from_min_size(corner, self.cell - vec2(GAP, GAP))
+    }
+
+    /// The contactor and band whose cell is at a place.
+    fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
+        let cells = (0..2).flat_map(|band| (0..n_contactors).map(move |index| (band, index)));
+        cells
+            .into_iter()
+            .find(|&(band, index)| self.cell(band, index).expand(0.5 * GAP).contains(place))
+    }
 }
 
 /// Shows both heatmaps and the colour bar.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, map: ColourMap) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    style: HeatmapStyle,
+    wishes: &mut Wishes,
+) {
     let palette = Palette::in_ui(ui);
     let Some(grid) = scene.grid else {
         ui.label("The contactors of this display form no grid: the workspace shows them");
         return;
     };
-    let height = ui.available_height();
-    let (rect, response) =
-        ui.allocate_exact_size(vec2(width_at(height, grid), height), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     response.widget_info(|| {
-        WidgetInfo::labeled(
-            egui::Role::Canvas,
-            true,
-            "Heatmaps of both bands, 0.5 to 50 µm",
-        )
+        let [least, most] = [style.scale.least_um(), style.scale.most_um()];
+        let words = format!("Heatmaps of both bands, {least} to {most} µm");
+        WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
-    let cell = cell_size(height, grid.0);
-    let size = vec2(grid.1 as f32 * cell, grid.0 as f32 * cell);
+    let places = Places::new(rect, grid);
+    let painter = ui.painter_at(rect.expand(2.0));
     for band in Band::ALL {
-        let left = rect.left() + band.index() as f32 * (size.x + 16.0);
-        let cells = Rect::from_min_size(pos2(left, rect.top() + TITLE), size);
-        let title_at = pos2(left, rect.top() + 0.5 * TITLE - 1.0);
+        let corner = places.corners[band.index()];
         let title = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-        ui.painter().text(
-            title_at,
-            Align2::LEFT_CENTER,
-            title,
-            theme::body(),
-            palette.band(band),
-        );
-        let map_of = Heatmap {
-            cells,
-            cell,
-            n_columns: grid.1,
-            band,
-        };
-        map_of.paint(ui.painter(), &live.dots, map);
-        map_of.tell(ui, &response, &live.dots, scene);
-    }
-    let bar_left = rect.left() + 2.0 * size.x + 28.0;
-    let bar = Rect::from_min_size(pos2(bar_left, rect.top() + TITLE), vec2(8.0, size.y));
-    paint_bar(ui.painter(), bar, map);
-}
-
-struct Heatmap {
-    cells: Rect,
-    cell: f32,
-    n_columns: usize,
-    band: Band,
-}
-
-impl Heatmap {
-    fn cell(&self, index: usize) -> Rect {
-        let (row, column) = (index / self.n_columns, index % self.n_columns);
-        let corner = self.cells.min + vec2(column as f32, row as f32) * self.cell;
-        Rect::from_min_size(corner, vec2(self.cell - GAP, self.cell - GAP))
-    }
-
-    fn paint(&self, painter: &Painter, dots: &[Dot], map: ColourMap) {
-        let palette = Palette::of(painter.ctx().theme());
-        for (index, dot) in dots.iter().enumerate() {
-            let rect = self.cell(index);
-            if dot.cloth.is_some() {
-                let share = AmplitudeScale::default().share(dot.amplitude_um[self.band.index()]);
-                painter.rect_filled(rect, 2, map.colour(share));
-                if dot.is_limited {
-                    let corner = rect.right_top() + vec2(-5.0, 5.0);
-                    painter.circle(
-                        corner,
-                        2.0,
-                        palette.selection,
-                        Stroke::new(1.5, palette.panel),
-                    );
-                }
-            } else {
-                // Off every textile: an empty frame, which no amplitude looks like.
-                painter.rect_stroke(
-                    rect,
-                    2,
-                    Stroke::new(1.0, palette.hovered),
-                    StrokeKind::Inside,
-                );
-            }
+        let title_at = corner - vec2(0.0, 0.5 * TITLE + 1.0);
+        let ink = palette.band(band);
+        painter.text(title_at, Align2::LEFT_CENTER, title, theme::body(), ink);
+        for (index, dot) in live.dots.iter().enumerate() {
+            paint_cell(&painter, places.cell(band.index(), index), dot, band, style);
         }
     }
+    for band in 0..2 {
+        if style.selected < live.dots.len() {
+            let cell = places.cell(band, style.selected).expand(1.0);
+            let edge = Stroke::new(1.5, palette.selection);
+            painter.rect_stroke(cell, 3, edge, StrokeKind::Inside);
+        }
+    }
+    let right = places.corners[1].x + grid.1 as f32 * places.cell.x + 10.0;
+    let height = grid.0 as f32 * places.cell.y - GAP;
+    let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
+    paint_bar(&painter, bar, style);
+    answer(&response, &places, (scene, live), wishes);
+}
 
-    /// Says what is under the pointer.
-    fn tell(&self, ui: &Ui, response: &Response, dots: &[Dot], scene: &SceneView) {
-        let Some(at) = response.hover_pos().filter(|at| self.cells.contains(*at)) else {
-            return;
-        };
-        let hit = dots
-            .iter()
-            .enumerate()
-            .find(|(index, _)| self.cell(*index).contains(at));
-        let Some((index, dot)) = hit else { return };
-        let on = match dot.cloth.and_then(|cloth| scene.cloths.get(cloth)) {
-            Some(cloth) => format!("on {} {}", cloth.label, cloth.name),
-            None => "off every textile".to_owned(),
-        };
-        let [low, high] = dot.amplitude_um.map(|um| quantity::with_unit(um, 2, "µm"));
-        let limited = if dot.is_limited {
-            "\nan output limit bites"
-        } else {
-            ""
-        };
-        let words = format!(
-            "Contactor {index}, {on}\n40 Hz  {low}\n320 Hz  {high}\npeak, after gains, before \
-             output limits{limited}"
-        );
+/// What stands over the heatmaps: numbers, the scale's lock and its top.
+pub(crate) fn show_corner(
+    ui: &mut Ui,
+    scale: AmplitudeScale,
+    has_numbers: bool,
+    audition: &Audition,
+    wishes: &mut Wishes,
+) {
+    if toggle(ui, "0.0", has_numbers, "Numbers in the cells (N)") {
+        wishes.push(ShowCommand::ToggleNumbers.into());
+    }
+    let (word, tip) = if scale.is_locked() {
+        (
+            "held",
+            "The scale of amplitudes is held everywhere; click to let it follow them",
+        )
+    } else {
+        (
+            "auto",
+            "The scale of amplitudes follows them everywhere; click to hold it",
+        )
+    };
+    if toggle(ui, word, scale.is_locked(), tip) {
+        wishes.push(ShowCommand::LockScale(!scale.is_locked()).into());
+    }
+    let tops = [
+        ("−", 0.4, "A scale that ends lower, held"),
+        ("+", 2.0, "A scale that ends higher, held"),
+    ];
+    for (sign, factor, tip) in tops.into_iter().rev() {
+        if toggle(ui, sign, false, tip) {
+            wishes.push(ShowCommand::ScaleTop(scale.most_um() * factor).into());
+        }
+    }
+    let is_any = audition.is_any();
+    if is_any
+        && toggle(
+            ui,
+            "all",
+            false,
+            "Feel everything again: end every mute and solo (H)",
+        )
+    {
+        wishes.push(ShowCommand::HearAll.into());
+    }
+}
+
+fn paint_cell(painter: &Painter, rect: Rect, dot: &Dot, band: Band, style: HeatmapStyle) {
+    let palette = Palette::of(painter.ctx().theme());
+    if dot.cloth.is_none() || dot.is_muted {
+        // Off every textile: an empty frame, which no amplitude looks like. Muted: crossed out.
+        let edge = Stroke::new(1.0, palette.hovered);
+        painter.rect_stroke(rect, 2, edge, StrokeKind::Inside);
+        if dot.is_muted {
+            let stroke = Stroke::new(1.0, palette.line);
+            painter.line_segment([rect.left_bottom(), rect.right_top()], stroke);
+        }
+        return;
+    }
+    let amplitude_um = dot.amplitude_um[band.index()];
+    let share = style.scale.share(amplitude_um);
+    painter.rect_filled(rect, 2, style.map.colour(share));
+    if dot.is_limited {
+        let corner = rect.right_top() + vec2(-5.0, 5.0);
+        let rim = Stroke::new(1.5, palette.panel);
+        painter.circle(corner, 2.0, palette.selection, rim);
+    }
+    if style.has_numbers && rect.width() >= NUMBER_WIDTH {
+        // Three signs fit into the narrowest cell that holds numbers.
+        let decimals = usize::from(amplitude_um < 9.95);
+        let digits = quantity::fixed(amplitude_um, decimals);
+        let ink = style.map.ink(share);
+        let font = theme::small_number();
+        painter.text(rect.center(), Align2::CENTER_CENTER, digits, font, ink);
+    }
+}
+
+/// Says what is under the pointer, and takes clicks on it.
+fn answer(
+    response: &Response,
+    places: &Places,
+    (scene, live): (&SceneView, &Live),
+    wishes: &mut Wishes,
+) {
+    let at = response
+        .hover_pos()
+        .or_else(|| response.interact_pointer_pos());
+    let hit = at.and_then(|at| places.at(at, live.dots.len()));
+    if let (Some((_, index)), true) = (hit, response.clicked()) {
+        wishes.push(ShowCommand::SelectContactor(index).into());
+    }
+    if let (Some((_, index)), true) = (hit, response.secondary_clicked()) {
+        response
+            .ctx
+            .data_mut(|data| data.insert_temp(response.id, index));
+    }
+    let chosen: Option<usize> = response.ctx.data(|data| data.get_temp(response.id));
+    response.context_menu(|ui| {
+        if let Some(index) = chosen {
+            show_menu(ui, index, live, wishes);
+        }
+    });
+    let Some((index, dot)) = hit.and_then(|(_, i)| live.dots.get(i).map(|dot| (i, dot))) else {
+        return;
+    };
+    if response.hovered() && !response.context_menu_opened() {
+        let words = words(index, dot, scene);
         response.clone().on_hover_ui_at_pointer(|ui| {
             ui.label(words);
         });
-        let palette = Palette::in_ui(ui);
-        let edge = Stroke::new(1.5, palette.selection);
-        ui.painter()
-            .rect_stroke(self.cell(index), 2, edge, StrokeKind::Outside);
     }
 }
 
-fn paint_bar(painter: &Painter, bar: Rect, map: ColourMap) {
-    let palette = Palette::of(painter.ctx().theme());
-    let n_steps = 64_u8;
-    let step = bar.height() / f32::from(n_steps);
-    for i in 0..n_steps {
-        let y = bar.bottom() - f32::from(i + 1) * step;
-        // Half a point of overlap hides the seams.
-        let slice = Rect::from_min_size(pos2(bar.left(), y), vec2(bar.width(), step + 0.5));
-        painter.rect_filled(
-            slice.intersect(bar),
-            0,
-            map.colour(f64::from(i) / f64::from(n_steps - 1)),
-        );
+fn show_menu(ui: &mut Ui, index: usize, live: &Live, wishes: &mut Wishes) {
+    ui.label(format!("Contactor {index}"));
+    let part = Part::Contactor(index);
+    let is_muted = live.dots.get(index).is_some_and(|dot| dot.is_muted);
+    let mute = if is_muted { "Mute or unmute" } else { "Mute" };
+    let choices = [
+        (mute, ShowCommand::Mute(part)),
+        (
+            "Feel alone, or with the others again",
+            ShowCommand::Solo(part),
+        ),
+        ("Feel everything", ShowCommand::HearAll),
+        ("Look closer", ShowCommand::SelectContactor(index)),
+    ];
+    for (label, command) in choices {
+        if ui.button(label).clicked() {
+            wishes.push(command.into());
+            ui.close();
+        }
     }
-    for amplitude_um in AmplitudeScale::default().marks_um() {
+}
+
+fn words(index: usize, dot: &Dot, scene: &SceneView) -> String {
+    let on = match dot.cloth.and_then(|cloth| scene.cloths.get(cloth)) {
+        Some(cloth) => format!("on {} {}", cloth.label, cloth.name),
+        None => "off every textile".to_owned(),
+    };
+    let [low, high] = dot.amplitude_um.map(|um| quantity::with_unit(um, 2, "µm"));
+    let limited = if dot.is_limited {
+        "\nan output limit bites"
+    } else {
+        ""
+    };
+    let muted = if dot.is_muted { "\nmuted" } else { "" };
+    format!(
+        "Contactor {index}, {on}\n40 Hz  {low}\n320 Hz  {high}\npeak, after gains, before output \
+         limits{limited}{muted}\nclick to look closer"
+    )
+}
+
+fn paint_bar(painter: &Painter, bar: Rect, style: HeatmapStyle) {
+    let palette = Palette::of(painter.ctx().theme());
+    crate::app::widgets::colour_bar(painter, bar, style.map);
+    for amplitude_um in style.scale.marks_um() {
         #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = AmplitudeScale::default().share(amplitude_um) as f32;
+        let share = style.scale.share(amplitude_um) as f32;
         let y = bar.bottom() - bar.height() * share;
-        let decimals = usize::from(amplitude_um < 1.0);
+        let decimals = if amplitude_um < 0.1 {
+            2
+        } else {
+            usize::from(amplitude_um < 1.0)
+        };
         let digits = quantity::fixed(amplitude_um, decimals);
-        painter.hline(
-            bar.right()..=bar.right() + 3.0,
-            y,
-            Stroke::new(1.0, palette.line),
-        );
-        let at = pos2(
-            bar.right() + 7.0,
-            y.clamp(bar.top() + 4.0, bar.bottom() - 4.0),
-        );
-        painter.text(
-            at,
-            Align2::LEFT_CENTER,
-            digits,
-            theme::small_number(),
-            palette.dim,
-        );
+        let tick = Stroke::new(1.0, palette.line);
+        painter.hline(bar.right()..=bar.right() + 3.0, y, tick);
+        let y = y.clamp(bar.top() + 4.0, bar.bottom() - 4.0);
+        let at = pos2(bar.right() + 7.0, y);
+        let font = theme::small_number();
+        painter.text(at, Align2::LEFT_CENTER, digits, font, palette.dim);
     }
     let unit_at = pos2(bar.left(), bar.top() - 11.0);
-    painter.text(
-        unit_at,
-        Align2::LEFT_CENTER,
-        "µm",
-        theme::small(),
-        palette.dim,
-    );
+    let font = theme::small();
+    painter.text(unit_at, Align2::LEFT_CENTER, "µm", font, palette.dim);
 }
 
 #[cfg(test)]
@@ -204,8 +311,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_fit_the_height() {
-        let cell = cell_size(160.0, 6);
-        assert!(TITLE + 6.0 * cell <= 160.0, "{cell}");
+    fn cells_fit_the_pane_and_are_found_again() {
+        for size in [vec2(300.0, 200.0), vec2(500.0, 120.0), vec2(200.0, 600.0)] {
+            let rect = Rect::from_min_size(pos2(10.0, 20.0), size);
+            let places = Places::new(rect, (6, 4));
+            for (band, index) in [(0, 0), (0, 23), (1, 0), (1, 23), (1, 5)] {
+                let cell = places.cell(band, index);
+                assert!(rect.contains_rect(cell), "{size:?}: {cell:?}");
+                assert_eq!(places.at(cell.center(), 24), Some((band, index)));
+            }
+            assert_eq!(places.at(rect.min, 24), None);
+        }
+    }
+
+    #[test]
+    fn a_pane_without_room_and_a_display_without_contactors_are_harmless() {
+        let places = Places::new(Rect::ZERO, (0, 0));
+        assert_eq!(places.at(pos2(0.0, 0.0), 0), None);
+        assert!(places.cell(0, 7).is_finite());
     }
 }

@@ -5,22 +5,46 @@
 
 mod ask;
 mod bridge;
+mod contact_spectrum;
 mod curve;
+mod drive_spectrum;
+mod drive_wave;
 mod header;
 mod heatmap;
+mod help;
+mod library;
+mod menu;
 mod notices;
-mod strip;
+mod question;
+mod spatial;
+mod spectrogram;
+mod transport;
 mod tuning;
 
-pub(crate) use ask::{Ask, show as show_ask};
+pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
+pub(crate) use contact_spectrum::{
+    ContactSpectrogram, ContactSpectrumView, show as show_contact_spectrum,
+};
+pub(crate) use drive_spectrum::{DriveSpectrogram, DriveSpectrumView, show as show_drive_spectrum};
+pub(crate) use drive_wave::{DriveWaveView, WaveScale, show as show_drive_wave};
 pub(crate) use header::show as show_header;
-pub(crate) use heatmap::show as show_heatmaps;
+pub(crate) use heatmap::{HeatmapStyle, show as show_heatmaps, show_corner as show_heatmap_corner};
+pub(crate) use help::show as show_help;
+pub(crate) use library::show as show_library;
+pub(crate) use menu::Appearance;
 pub(crate) use notices::{Notices, show as show_notices};
-pub(crate) use strip::{Levels, show as show_strip};
+pub(crate) use question::show as show_question;
+pub(crate) use spatial::{SpatialSource, SpatialSpectra, show as show_spatial};
+pub(crate) use transport::{TransportState, TransportView, show as show_transport};
 pub(crate) use tuning::show as show_tuning;
 
 use super::command::Command;
 
 /// Where panes put what the user wants.
 pub(crate) type Wishes = Vec<Command>;
+
+#[cfg(test)]
+mod plot_tests;
+#[cfg(test)]
+mod tests;

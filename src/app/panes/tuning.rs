@@ -1,68 +1,90 @@
 //! Gains, compression and what it does to the library, and the filters in force.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::{ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 
 use super::{Wishes, curve};
-use crate::app::command::{Command, Edit};
+use crate::app::audition::Audition;
+use crate::app::command::{Edit, Part, ShowCommand};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
-use crate::app::widgets::{Scale, pair, row, section, slider_row};
+use crate::app::widgets::{Scale, row, slider_row, toggle};
 use crate::quantity;
-use crate::tactile::{Band, Filters};
+use crate::tactile::{Band, Filters, Tuning};
+
+/// What every slider can do.
+const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on the number types";
+/// Bounds of the filters' width, octaves.
+const OCTAVES: [f64; 2] = [0.5, 6.0];
 
 /// Shows the pane.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, wishes: &mut Wishes) {
-    let palette = Palette::in_ui(ui);
-    let (now, rest) = (scene.tuning, scene.default_tuning);
-    section(ui, "Tuning");
-    let mut gain = |ui: &mut Ui, name: &str, ink, resting, value, edit: &dyn Fn(f64) -> Edit| {
-        let (new, response) = slider_row(ui, name, ink, Scale::gain(resting), value);
-        response.on_hover_text("Double click goes back, Shift moves finely");
-        wishes.extend(new.map(|db| Command::Edit(edit(db))));
-    };
-    gain(
-        ui,
-        "Master",
-        palette.text,
-        rest.gain_db,
-        now.gain_db,
-        &Edit::MasterGain,
-    );
-    let low = |db| Edit::BandGain(Band::Low, db);
-    gain(
-        ui,
-        "40 Hz",
-        palette.low,
-        rest.gain_40_db,
-        now.gain_40_db,
-        &low,
-    );
-    let high = |db| Edit::BandGain(Band::High, db);
-    gain(
-        ui,
-        "320 Hz",
-        palette.high,
-        rest.gain_320_db,
-        now.gain_320_db,
-        &high,
-    );
-    show_textile(ui, scene, live, &mut gain);
-    let scale = Scale::share(rest.compression);
-    let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
-    response.on_hover_text("0 % leaves textiles as different as they are, 100 % makes all equal");
-    wishes.extend(new.map(|share| Command::Edit(Edit::Compression(share))));
-    curve::show(ui, scene);
-    show_ranges(ui, scene);
-    show_filters(ui, scene.filters);
-}
-
-/// The gain of the textile under the display; without one the row keeps its place.
-fn show_textile(
+pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
     live: &Live,
-    gain: &mut impl FnMut(&mut Ui, &str, eframe::egui::Color32, f64, f64, &dyn Fn(f64) -> Edit),
+    audition: &Audition,
+    wishes: &mut Wishes,
 ) {
+    let palette = Palette::in_ui(ui);
+    let (now, rest) = (scene.tuning, scene.default_tuning);
+    let scale = Scale::gain(rest.gain_db);
+    let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
+    response.on_hover_text(SLIDER_TIP);
+    wishes.extend(new.map(|db| Edit::MasterGain(db).into()));
+    for band in Band::ALL {
+        show_band(ui, band, scene, audition, wishes);
+    }
+    show_textile(ui, scene, live, wishes);
+    let scale = Scale::share(rest.compression);
+    let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
+    response.on_hover_text("0 % leaves textiles as different as they are, 100 % makes all equal");
+    wishes.extend(new.map(|share| Edit::Compression(share).into()));
+    curve::show(ui, scene);
+    show_ranges(ui, scene);
+    ui.add_space(theme::STEP);
+    show_filters(ui, scene.filters, wishes);
+}
+
+/// A band's own gain, without the master's, dB.
+fn own_gain_db(tuning: &Tuning, band: Band) -> f64 {
+    match band {
+        Band::Low => tuning.gain_40_db,
+        Band::High => tuning.gain_320_db,
+    }
+}
+
+/// A band's gain, with its mute and solo.
+fn show_band(ui: &mut Ui, band: Band, scene: &SceneView, audition: &Audition, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
+    let scale = Scale::gain(own_gain_db(&scene.default_tuning, band));
+    let ink = palette.band(band);
+    let value = own_gain_db(&scene.tuning, band);
+    let (new, response) = slider_row(ui, &name, ink, scale, value);
+    wishes.extend(new.map(|db| Edit::BandGain(band, db).into()));
+    // Mute and solo stand between the name and the rail.
+    let part = Part::Band(band);
+    let middle = response.rect.left_center();
+    let letters = [
+        ("M", -42.0, audition.is_muted(part), ShowCommand::Mute(part)),
+        ("S", -22.0, audition.is_solo(part), ShowCommand::Solo(part)),
+    ];
+    for (letter, left, is_on, command) in letters {
+        let corner = middle + vec2(left, -9.0);
+        let rect = Rect::from_min_size(corner, vec2(18.0, 18.0));
+        let label = match letter {
+            "M" => format!("Mute {name}"),
+            _ => format!("Feel {name} alone"),
+        };
+        let mut corner_ui = ui.new_child(UiBuilder::new().max_rect(rect));
+        if toggle(&mut corner_ui, letter, is_on, &label) {
+            wishes.push(command.into());
+        }
+    }
+    response.on_hover_text(SLIDER_TIP);
+}
+
+/// The gain of the textile under the display; without one the row keeps its place.
+fn show_textile(ui: &mut Ui, scene: &SceneView, live: &Live, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let under = live.cloth_under_display();
     let Some((index, cloth)) = under.and_then(|i| scene.cloths.get(i).map(|cloth| (i, cloth)))
@@ -74,38 +96,91 @@ fn show_textile(
         return;
     };
     let name = format!("Textile {}", cloth.label);
-    let edit = move |db| Edit::TextileGain(index, db);
-    gain(ui, name.trim_end(), palette.text, 0.0, cloth.gain_db, &edit);
+    let scale = Scale::gain(0.0);
+    let name = name.trim_end();
+    let (new, response) = slider_row(ui, name, palette.text, scale, cloth.gain_db);
+    response.on_hover_text(format!("Gain of {}\n{SLIDER_TIP}", cloth.name));
+    wishes.extend(new.map(|db| Edit::TextileGain(index, db).into()));
 }
 
 fn show_ranges(ui: &mut Ui, scene: &SceneView) {
     let Some(reference_db) = scene.reference_db else {
         return;
     };
-    let plain = crate::tactile::Tuning {
+    let plain = Tuning {
         compression: 0.0,
         ..scene.tuning
     };
     let before = curve::ranges_db(&scene.library, &plain, reference_db);
     let after = curve::ranges_db(&scene.library, &scene.tuning, reference_db);
-    for band in Band::ALL {
-        let name = format!(
-            "Library range at {} Hz",
-            quantity::fixed(band.carrier_hz(), 0)
-        );
-        let [from, to] = [before, after].map(|r| quantity::fixed(r[band.index()], 1));
-        pair(ui, &name, &format!("{from:>4} → {to:>4}"), "dB");
-    }
+    let response = row(ui, "Library range", |ui| {
+        let palette = Palette::in_ui(ui);
+        ui.spacing_mut().item_spacing.x = 2.0 * theme::STEP;
+        ui.label(RichText::new("dB").font(theme::small()).color(palette.dim));
+        for band in [Band::High, Band::Low] {
+            let [from, to] = [before, after].map(|r| quantity::fixed(r[band.index()], 1));
+            let words = RichText::new(format!("{from:>5} → {to:>4}"));
+            ui.label(words.font(theme::number()).color(palette.band(band)));
+        }
+    });
+    response.on_hover_text(
+        "From the weakest to the strongest textile of the library at 40 Hz and at 320 Hz, mean \
+         over all points and directions at 100 mm/s: without compression → with it",
+    );
 }
 
-fn show_filters(ui: &mut Ui, filters: Filters) {
-    let (kind, width) = match filters {
-        Filters::LogGaussian { octaves } => ("log-Gaussian", Some(octaves)),
-        Filters::Receptor => ("receptor thresholds", None),
+/// Kind and width of the filters.
+fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
+    let octaves = match filters {
+        Filters::LogGaussian { octaves } => octaves,
+        Filters::Receptor => 2.0,
     };
-    let (value, unit) = match width {
-        Some(octaves) => (format!("{kind}  {}", quantity::fixed(octaves, 1)), "oct"),
-        None => (kind.to_owned(), ""),
+    let kinds = [Filters::LogGaussian { octaves }, Filters::Receptor];
+    let is_gaussian = filters != Filters::Receptor;
+    let mut chosen = filters;
+    row(ui, "Filters", |ui| {
+        let combo = ComboBox::from_id_salt("filters").selected_text(kind(filters));
+        let response = combo.width(150.0).show_ui(ui, |ui| {
+            for choice in kinds {
+                ui.selectable_value(&mut chosen, choice, kind(choice));
+            }
+        });
+        let label = "Kind of the filters";
+        ui.ctx()
+            .accesskit_node_builder(response.response.id, |node| node.set_label(label));
+        response.response.on_hover_text(
+            "How much of each frequency a band takes in. The original's filters are not published: \
+             both kinds are ours",
+        );
+    });
+    if chosen != filters {
+        wishes.push(Edit::Filters(chosen).into());
+    }
+    let scale = Scale {
+        least: OCTAVES[0],
+        most: OCTAVES[1],
+        resting: 2.0,
+        step: 0.1,
+        decimals: 1,
+        unit: "oct",
+        factor: 1.0,
     };
-    pair(ui, "Filters", &value, unit);
+    ui.add_enabled_ui(is_gaussian, |ui| {
+        let ink = Palette::in_ui(ui).text;
+        let (new, response) = slider_row(ui, "Width", ink, scale, octaves);
+        if is_gaussian {
+            response.on_hover_text("Width of both filters at half power");
+            wishes
+                .extend(new.map(|octaves| Edit::Filters(Filters::LogGaussian { octaves }).into()));
+        } else {
+            response.on_disabled_hover_text("Receptor thresholds have the width that they have");
+        }
+    });
+}
+
+fn kind(filters: Filters) -> &'static str {
+    match filters {
+        Filters::LogGaussian { .. } => "log-Gaussian",
+        Filters::Receptor => "receptor thresholds",
+    }
 }

@@ -48,6 +48,17 @@ impl ColourMap {
     /// Every map, in the order in which they are offered.
     pub(crate) const ALL: [Self; 3] = [Self::Viridis, Self::Cividis, Self::Grey];
 
+    /// The colour of writing on that of a share 0…1 of the scale: black on bright, white on dark.
+    pub(crate) fn ink(self, share: f64) -> Color32 {
+        let [r, g, b, _] = self.colour(share).to_array().map(f64::from);
+        // Lightness as the eye weighs it, roughly.
+        if 0.3 * r + 0.6 * g + 0.1 * b > 115.0 {
+            Color32::BLACK
+        } else {
+            Color32::WHITE
+        }
+    }
+
     /// Its name.
     pub(crate) fn label(self) -> &'static str {
         match self {

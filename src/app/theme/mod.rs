@@ -117,7 +117,12 @@ impl Palette {
 
     /// The colours in force in `ui`.
     pub(crate) fn in_ui(ui: &egui::Ui) -> &'static Self {
-        Self::of(if ui.visuals().dark_mode {
+        Self::of_visuals(ui.visuals())
+    }
+
+    /// The colours that go with the toolkit's own.
+    pub(crate) fn of_visuals(visuals: &egui::Visuals) -> &'static Self {
+        Self::of(if visuals.dark_mode {
             egui::Theme::Dark
         } else {
             egui::Theme::Light

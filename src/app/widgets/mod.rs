@@ -1,9 +1,18 @@
-//! The controls that the toolkit does not have: a slider for gains, and small pieces of text.
+//! The controls that the toolkit does not have: a slider for gains, axes of plots, and small
+//! pieces of text.
 //!
 //! They draw and report; they change nothing themselves.
 
+mod axis;
+mod bar;
+mod card;
 mod slider;
 mod text;
 
+pub(crate) use axis::{
+    Axis, Side, Tick, paint_label, paint_outer_ticks, paint_ticks, paint_unit, round_step,
+};
+pub(crate) use bar::colour_bar;
+pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use slider::{Scale, slider_row};
-pub(crate) use text::{button, mark, pair, row, section};
+pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};

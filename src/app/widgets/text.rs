@@ -1,7 +1,8 @@
 //! Small pieces of text: titles of sections, rows of a name and a value, buttons.
 
 use eframe::egui::{
-    self, Align, Align2, Color32, Layout, Rect, Response, RichText, Sense, Ui, pos2, vec2,
+    self, Align, Align2, AtomExt as _, Color32, Layout, Pos2, Rect, Response, RichText, Sense, Ui,
+    pos2, vec2,
 };
 
 use crate::app::theme::{self, Palette, ROW, STEP};
@@ -24,15 +25,20 @@ pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R
     .response
 }
 
-/// A row with a name and a number in fixed digits with its unit.
-pub(crate) fn pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
-    row(ui, name, |ui| {
-        let palette = Palette::in_ui(ui);
-        if !unit.is_empty() {
+/// A number in fixed digits with its unit after a small, dim name.
+pub(crate) fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
+    let palette = Palette::in_ui(ui);
+    let name = RichText::new(name).font(theme::small()).color(palette.dim);
+    let size = vec2(ui.available_width(), 20.0);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.label(name);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.label(RichText::new(unit).font(theme::small()).color(palette.dim));
-        }
-        ui.label(RichText::new(value).font(theme::number()));
+            ui.label(RichText::new(value).font(theme::number()));
+        });
     })
+    .response
 }
 
 /// A filled circle as wide as a letter: a lamp. Read out as `label`.
@@ -52,6 +58,59 @@ pub(crate) fn button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) 
         None if tip.is_empty() => response.clicked(),
         None => response.on_hover_text(tip).clicked(),
     }
+}
+
+/// A small square button that is on or off: mute, solo. Read out as `label`, which is its tip.
+pub(crate) fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> bool {
+    let palette = Palette::in_ui(ui);
+    let font = theme::small();
+    let galley = ui
+        .painter()
+        .layout_no_wrap(letter.to_owned(), font.clone(), palette.text);
+    let size = vec2((galley.size().x + 8.0).max(18.0), 18.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::Role::CheckBox, ui.is_enabled(), is_on, label)
+    });
+    let (fill, ink) = match (is_on, response.hovered() || response.has_focus()) {
+        (true, _) => (palette.selection, palette.panel),
+        (false, true) => (palette.hovered, palette.text),
+        (false, false) => (palette.raised, palette.dim),
+    };
+    ui.painter().rect_filled(rect, 3, fill);
+    let at = rect.center();
+    ui.painter()
+        .text(at, Align2::CENTER_CENTER, letter, font, ink);
+    response.on_hover_text(label).clicked()
+}
+
+/// One of a list to choose from, as wide as the list: its name, and dimmer as much of `detail` as
+/// there is room for. Says whether it was chosen.
+pub(crate) fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {
+    let palette = Palette::in_ui(ui);
+    let detail = RichText::new(detail)
+        .font(theme::small())
+        .color(palette.dim);
+    let name = name.color(palette.text).atom_shrink(false);
+    let line = egui::Button::new((name, detail.atom_shrink(true)))
+        .gap(2.0 * STEP)
+        .frame_when_inactive(false)
+        .truncate()
+        .min_size(vec2(ui.available_width(), ROW));
+    ui.add(line).on_hover_text(tip).clicked()
+}
+
+/// Paints as much of a line as there is room for, and … where it breaks off; its left end is at
+/// `left`, halfway up.
+pub(crate) fn paint_line(ui: &Ui, left: Pos2, width: f32, text: RichText) {
+    let job = egui::WidgetText::from(text).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        width.max(1.0),
+        egui::TextStyle::Body,
+    );
+    let corner = left - vec2(0.0, 0.5 * job.size().y);
+    ui.painter().galley(corner, job, Palette::in_ui(ui).text);
 }
 
 /// Paints a number, right-aligned in `rect`, its unit dimmer behind it.

@@ -1,22 +1,33 @@
 //! Textiles drawn as cloth: their own picture, tiled from their origin and turned with them.
 
-use eframe::egui::{
-    Align2, Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2,
-};
+use eframe::egui::{Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use eframe::epaint::Vertex;
 
 use super::ViewTransform;
+use super::arrange::{screen_bounds, screen_corners};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Cloth, ClothPicture};
-use crate::geometry::Point;
 
-/// Draws a textile; one under the display is lifted a little.
-pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
+/// How far a shadow reaches beyond its textile, points.
+const SHADOW: f32 = 16.0;
+/// Height of a tag, points.
+const TAG: f32 = 20.0;
+/// How much is seen of a muted textile.
+const MUTED: f32 = 0.4;
+/// A tag on a textile narrower than this leaves the name out, points.
+const NAMED: f32 = 72.0;
+
+/// Draws a textile, if it is in sight; one under the display is lifted a little.
+pub(super) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
+    if !is_in_sight(painter, screen_bounds(view, cloth).expand(SHADOW)) {
+        return;
+    }
     let palette = Palette::of(painter.ctx().theme());
-    let corners = corners(view, cloth);
+    let corners = screen_corners(view, cloth);
+    let presence = if cloth.is_muted { MUTED } else { 1.0 };
     let drop = vec2(0.0, if is_lifted { 5.0 } else { 2.0 });
     for spread in [1.0_f32, 3.0, 5.0] {
-        let veil = palette.shadow.gamma_multiply(0.4);
+        let veil = palette.shadow.gamma_multiply(0.4 * presence);
         let shadow = corners.map(|corner| corner + drop).to_vec();
         painter.add(Shape::convex_polygon(
             shadow,
@@ -29,6 +40,7 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_l
     } else {
         palette.resting_cloth
     };
+    let tint = tint.gamma_multiply(presence);
     match cloth.picture {
         Some(picture) => {
             painter.add(Shape::mesh(textured(corners, cloth.size_mm, picture, tint)));
@@ -36,30 +48,54 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_l
         None => {
             painter.add(Shape::convex_polygon(
                 corners.to_vec(),
-                palette.raised,
+                palette.raised.gamma_multiply(presence),
                 Stroke::NONE,
             ));
         }
     }
     if is_lifted {
-        let edge = Stroke::new(1.5, palette.selection);
-        painter.add(Shape::closed_line(corners.to_vec(), edge));
+        paint_outline(painter, corners, Stroke::new(1.5, palette.selection));
+    } else if cloth.is_muted {
+        paint_outline(painter, corners, Stroke::new(1.0, palette.hairline));
     }
 }
 
-/// Draws the tag with the textile's label and name at its lower left corner on the screen.
-pub(crate) fn paint_tag(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
+/// Draws a line around a textile.
+pub(super) fn paint_outline(painter: &Painter, corners: [Pos2; 4], stroke: Stroke) {
+    painter.add(Shape::closed_line(corners.to_vec(), stroke));
+}
+
+/// Draws the tag with the textile's label and name at its lower left corner on the screen. Says
+/// where it is, if it is in sight.
+pub(super) fn paint_tag(
+    painter: &Painter,
+    view: &ViewTransform,
+    cloth: &Cloth,
+    is_lifted: bool,
+) -> Option<Rect> {
+    let corner = lower_left(&screen_corners(view, cloth));
+    // No text is laid out where no tag can be seen; none is wider than this.
+    let room = Rect::from_min_size(corner - vec2(0.0, TAG), vec2(400.0, TAG));
+    if !is_in_sight(painter, room) {
+        return None;
+    }
     let palette = Palette::of(painter.ctx().theme());
     let ink = if is_lifted { palette.text } else { palette.dim };
     let label = painter.layout_no_wrap(cloth.label.clone(), theme::body(), palette.text);
-    let name = painter.layout_no_wrap(cloth.name.clone(), theme::small(), ink);
+    let is_narrow = screen_bounds(view, cloth).width() < NAMED;
+    let name = match (is_narrow && !cloth.label.is_empty(), cloth.is_muted) {
+        (false, false) => cloth.name.clone(),
+        (false, true) => format!("{}  ·  muted", cloth.name),
+        (true, false) => String::new(),
+        (true, true) => "muted".to_owned(),
+    };
+    let name = painter.layout_no_wrap(name, theme::small(), ink);
     let label_width = if cloth.label.is_empty() {
         0.0
     } else {
-        label.size().x + 6.0
+        label.size().x + if name.is_empty() { 0.0 } else { 6.0 }
     };
-    let size = vec2(label_width + name.size().x + 14.0, 20.0);
-    let corner = lower_left(&corners(view, cloth));
+    let size = vec2(label_width + name.size().x + 14.0, TAG);
     let tag = Rect::from_min_size(pos2(corner.x, corner.y - size.y), size);
     let rounding = CornerRadius {
         ne: 5,
@@ -70,14 +106,11 @@ pub(crate) fn paint_tag(painter: &Painter, view: &ViewTransform, cloth: &Cloth, 
     let at = |x: f32, height: f32| pos2(tag.left() + 7.0 + x, middle - 0.5 * height);
     painter.galley(at(0.0, label.size().y), label, palette.text);
     painter.galley(at(label_width, name.size().y), name, ink);
+    Some(tag)
 }
 
-/// Where the four corners are on the screen: origin, end of warp, far corner, end of weft.
-fn corners(view: &ViewTransform, cloth: &Cloth) -> [Pos2; 4] {
-    let [width, height] = cloth.size_mm;
-    let frame = cloth.workspace_from_textile;
-    [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]]
-        .map(|[u, w]| view.screen(frame.point(Point::new(u, w))))
+fn is_in_sight(painter: &Painter, rect: Rect) -> bool {
+    painter.clip_rect().intersects(rect)
 }
 
 /// The corner that looks most like "lower left".
@@ -124,16 +157,15 @@ fn tiles(size_mm: [f64; 2], picture: ClothPicture) -> [f32; 2] {
 }
 
 /// Draws what the workspace says when no textile is placed.
-pub(crate) fn paint_empty(painter: &Painter, rect: Rect) {
+pub(super) fn paint_empty(painter: &Painter, ground: Rect) {
     let palette = Palette::of(painter.ctx().theme());
-    let words = "No textile is placed: open a scene with Ctrl+O";
-    painter.text(
-        rect.center(),
-        Align2::CENTER_CENTER,
-        words,
-        theme::body(),
-        palette.dim,
-    );
+    let words =
+        "No textile is placed. Drag one here from the library, or open a scene with Ctrl+O."
+            .to_owned();
+    let width = (ground.width() - 64.0).max(64.0);
+    let galley = painter.layout(words, theme::body(), palette.dim, width);
+    let corner = ground.center() - 0.5 * galley.size();
+    painter.galley(corner, galley, palette.dim);
 }
 
 #[cfg(test)]
@@ -168,5 +200,46 @@ mod tests {
             pos2(0.0, 100.0),
         ];
         assert_eq!(lower_left(&corners), pos2(0.0, 100.0));
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_not_drawn() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 100.0));
+        let cloth = Cloth {
+            id: String::new(),
+            label: "1".to_owned(),
+            name: "Felt".to_owned(),
+            workspace_from_textile: crate::geometry::Frame::default(),
+            size_mm: [50.0; 2],
+            rotation_deg: 0.0,
+            is_muted: false,
+            gain_db: 0.0,
+            picture: None,
+        };
+        let input = eframe::egui::RawInput {
+            screen_rect: Some(sight),
+            ..eframe::egui::RawInput::default()
+        };
+        let mut tags = Vec::new();
+        let mut output = ctx.run_ui(input, |ui| {
+            for x_mm in [-500.0, 25.0, 500.0] {
+                let centre = crate::geometry::Point::new(x_mm, 25.0);
+                let view = ViewTransform::new(sight, centre, 1.0);
+                let painter = ui.painter_at(sight);
+                paint(&painter, &view, &cloth, false);
+                tags.push(paint_tag(&painter, &view, &cloth, false).is_some());
+            }
+        });
+        output.textures_delta.clear();
+        tags.truncate(3);
+        assert_eq!(tags, [false, true, false]);
+        // Three shadows, the cloth, the tag and its two texts: once.
+        let n_shapes = output
+            .shapes
+            .iter()
+            .filter(|s| s.clip_rect == sight)
+            .count();
+        assert_eq!(n_shapes, 7);
     }
 }

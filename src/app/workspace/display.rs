@@ -1,12 +1,13 @@
 //! The display: its contactors as green dots at their true places, and the trail behind it.
 //!
-//! A dot's size is A40 and its glow is A320, both on the scale of the heatmaps; outside every
-//! textile a contactor is a ring.
+//! Dots show amplitudes on the scale of the heatmaps; outside every textile a contactor is a ring,
+//! and a muted one is hollow and struck through.
 
-use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke, pos2};
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-use super::ViewTransform;
+use super::{ViewTransform, WorkspaceState};
 use crate::app::amplitude::AmplitudeScale;
+use crate::app::command::DotStyle;
 use crate::app::theme::Palette;
 use crate::app::view::Dot;
 use crate::geometry::Point;
@@ -14,65 +15,170 @@ use crate::geometry::Point;
 /// How long the trail is, s.
 pub(crate) const TRAIL_S: f64 = 0.8;
 
+/// Dots closer together than this have no room for a ring, points per mm.
+const LEAST_FOR_RING: f32 = 4.0;
 /// Corners of a glow.
 const GLOW_CORNERS: u32 = 20;
+/// Half of what a contactor has for itself: their pitch is 2 mm.
+const HALF_PITCH_MM: f64 = 1.0;
+/// Dots are drawn as if a millimetre were at least this long, points.
+const LEAST_SCALE: f32 = 2.4;
 
-/// How strongly an amplitude is drawn, 0…1.
+/// Draws every contactor that is in sight.
+pub(super) fn paint(painter: &Painter, view: &ViewTransform, dots: &[Dot], state: &WorkspaceState) {
+    let brush = Brush {
+        painter,
+        palette: Palette::of(painter.ctx().theme()),
+        points_per_mm: view.length(1.0).max(LEAST_SCALE),
+        scale: state.scale,
+        style: state.dot_style,
+    };
+    let sight = painter.clip_rect().expand(2.5 * brush.points_per_mm);
+    let in_sight = |dot: &&Dot| sight.contains(view.screen(dot.position));
+    if brush.style == DotStyle::SizeAndGlow {
+        for dot in dots.iter().filter(in_sight) {
+            brush.glow(view.screen(dot.position), dot);
+        }
+    }
+    for dot in dots.iter().filter(in_sight) {
+        brush.dot(view.screen(dot.position), dot);
+    }
+    if let Some(dot) = state.contactor.and_then(|index| dots.get(index)) {
+        brush.selection(view.screen(dot.position));
+    }
+}
+
+/// The contactor at a place of the screen.
+pub(super) fn hit(view: &ViewTransform, dots: &[Dot], at: Pos2) -> Option<usize> {
+    let reach = view.length(HALF_PITCH_MM).max(4.0);
+    let distance = |dot: &Dot| view.screen(dot.position).distance(at);
+    let near = dots.iter().enumerate();
+    near.map(|(index, dot)| (index, distance(dot)))
+        .filter(|(_, distance)| *distance <= reach)
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(index, _)| index)
+}
+
+/// Draws where the display was: `(age in s, place)` from old to new.
+pub(super) fn paint_trail(
+    painter: &Painter,
+    view: &ViewTransform,
+    trail: impl Iterator<Item = (f64, Point)>,
+) {
+    let palette = Palette::of(painter.ctx().theme());
+    let sight = painter.clip_rect().expand(8.0);
+    let mut before = None;
+    for (age_s, place) in trail {
+        let end = view.screen(place);
+        if let Some((age_s, start)) = before.replace((age_s, end)) {
+            if !sight.intersects(Rect::from_two_pos(start, end)) {
+                continue;
+            }
+            let freshness = share(1.0 - age_s / TRAIL_S);
+            let fading = freshness * freshness;
+            let ink = palette.lit.gamma_multiply(0.85 * fading);
+            let rim = palette.rim.gamma_multiply(0.5 * fading);
+            let ends = [start, end];
+            painter.line_segment(ends, Stroke::new(2.5 + 2.0 * freshness, rim));
+            painter.line_segment(ends, Stroke::new(1.0 + 2.0 * freshness, ink));
+        }
+    }
+}
+
+/// What dots are drawn with.
+struct Brush<'a> {
+    painter: &'a Painter,
+    palette: &'static Palette,
+    points_per_mm: f32,
+    scale: AmplitudeScale,
+    style: DotStyle,
+}
+
+impl Brush<'_> {
+    /// How strongly both amplitudes of a dot are drawn, 0…1.
+    fn strengths(&self, dot: &Dot) -> [f32; 2] {
+        dot.amplitude_um.map(|um| share(self.scale.share(um)))
+    }
+
+    fn glow(&self, at: Pos2, dot: &Dot) {
+        let [_, strength] = self.strengths(dot);
+        if dot.cloth.is_none() || dot.is_muted || strength <= 0.0 {
+            return;
+        }
+        let radius = (1.0 + 1.3 * strength) * self.points_per_mm;
+        let ink = self.palette.lit.gamma_multiply(0.55 * strength);
+        self.painter.add(halo(at, radius, ink));
+    }
+
+    fn dot(&self, at: Pos2, dot: &Dot) {
+        if dot.cloth.is_none() {
+            let ring = Stroke::new(1.0, self.palette.contactor);
+            let radius = 0.34 * self.points_per_mm;
+            self.painter.circle_stroke(at, radius, ring);
+        } else if dot.is_muted {
+            self.muted(at);
+        } else {
+            self.felt(at, self.strengths(dot));
+        }
+    }
+
+    fn muted(&self, at: Pos2) {
+        let radius = 0.42 * self.points_per_mm;
+        let across = 1.5 * vec2(radius, -radius);
+        for (width, ink) in [(2.5, self.palette.rim), (1.0, self.palette.lit)] {
+            let stroke = Stroke::new(width, ink);
+            self.painter.circle_stroke(at, radius, stroke);
+            self.painter
+                .line_segment([at - across, at + across], stroke);
+        }
+    }
+
+    fn felt(&self, at: Pos2, [low, high]: [f32; 2]) {
+        let disc = |radius: f32, ink: Color32| {
+            self.painter
+                .circle_filled(at, radius + 0.75, self.palette.rim);
+            self.painter.circle_filled(at, radius, ink);
+        };
+        let radius_of = |strength: f32| (0.26 + 0.62 * strength) * self.points_per_mm;
+        match self.style {
+            DotStyle::SizeAndGlow => disc(radius_of(low), self.palette.lit),
+            DotStyle::Size => {
+                disc(0.8 * radius_of(low), self.palette.lit);
+                let width = (0.1 * self.points_per_mm).max(1.0);
+                let around = 0.8 * radius_of(high) + 1.5 * width;
+                let rim = Stroke::new(width + 1.5, self.palette.rim);
+                self.painter.circle_stroke(at, around, rim);
+                let ring = Stroke::new(width, self.palette.lit);
+                self.painter.circle_stroke(at, around, ring);
+            }
+            DotStyle::Brightness => {
+                let brightness = 0.12 + 0.88 * low.max(high);
+                let ink = Color32::BLACK.lerp_to_gamma(self.palette.lit, brightness);
+                disc(0.72 * self.points_per_mm, ink);
+            }
+        }
+    }
+
+    fn selection(&self, at: Pos2) {
+        if self.points_per_mm < LEAST_FOR_RING {
+            // It would hide its neighbours; the lens shows it.
+            return;
+        }
+        let radius = 1.05 * self.points_per_mm + 1.5;
+        // Told apart from cloth of any brightness, in both themes.
+        let rim = Stroke::new(3.5, self.palette.tag);
+        self.painter.circle_stroke(at, radius, rim);
+        let ring = Stroke::new(1.5, self.palette.selection);
+        self.painter.circle_stroke(at, radius, ring);
+    }
+}
+
 #[expect(
     clippy::cast_possible_truncation,
     reason = "between 0 and 1, for the screen"
 )]
-fn strength(amplitude_um: f64) -> f32 {
-    AmplitudeScale::default().share(amplitude_um) as f32
-}
-
-/// Draws every contactor.
-pub(crate) fn paint(painter: &Painter, view: &ViewTransform, dots: &[Dot]) {
-    let palette = Palette::of(painter.ctx().theme());
-    // A pitch is 2 mm; a dot of full size nearly touches its neighbours.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the screen is drawn in single precision"
-    )]
-    let scale = view.points_per_mm() as f32;
-    let glow = palette.lit;
-    for dot in dots.iter().filter(|dot| dot.cloth.is_some()) {
-        let strength = strength(dot.amplitude_um[1]);
-        if strength > 0.0 {
-            let radius = (1.0 + 1.3 * strength) * scale.max(2.4);
-            painter.add(halo(
-                view.screen(dot.position),
-                radius,
-                glow.gamma_multiply(0.55 * strength),
-            ));
-        }
-    }
-    for dot in dots {
-        let at = view.screen(dot.position);
-        if dot.cloth.is_some() {
-            let radius = (0.26 + 0.62 * strength(dot.amplitude_um[0])) * scale.max(2.4);
-            painter.circle_filled(at, radius + 0.75, palette.rim);
-            painter.circle_filled(at, radius, palette.lit);
-        } else {
-            let ring = Stroke::new(1.0, palette.contactor);
-            painter.circle_stroke(at, 0.34 * scale.max(2.4), ring);
-        }
-    }
-}
-
-/// Draws where the display was: `(age in s, place)` from old to new.
-pub(crate) fn paint_trail(painter: &Painter, view: &ViewTransform, trail: &[(f64, Point)]) {
-    let palette = Palette::of(painter.ctx().theme());
-    for pair in trail.windows(2) {
-        #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
-        let freshness = (1.0 - pair[0].0 / TRAIL_S).clamp(0.0, 1.0) as f32;
-        let fading = freshness * freshness;
-        let ink = palette.lit.gamma_multiply(0.85 * fading);
-        let rim = palette.rim.gamma_multiply(0.5 * fading);
-        let ends = [view.screen(pair[0].1), view.screen(pair[1].1)];
-        painter.line_segment(ends, Stroke::new(2.5 + 2.0 * freshness, rim));
-        painter.line_segment(ends, Stroke::new(1.0 + 2.0 * freshness, ink));
-    }
+fn share(value: f64) -> f32 {
+    value.clamp(0.0, 1.0) as f32
 }
 
 /// A disc that fades from `colour` in the middle to nothing at its rim.
@@ -88,4 +194,25 @@ fn halo(centre: Pos2, radius: f32, colour: Color32) -> Shape {
         mesh.add_triangle(0, 1 + i, 1 + (i + 1) % GLOW_CORNERS);
     }
     Shape::mesh(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_contactor_within_half_a_pitch_is_hit() {
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(200.0, 200.0));
+        let view = ViewTransform::new(rect, Point::default(), 10.0);
+        let dots: Vec<Dot> = (0..3_u8)
+            .map(|i| Dot {
+                position: Point::new(2.0 * f64::from(i), 0.0),
+                ..Dot::default()
+            })
+            .collect();
+        assert_eq!(hit(&view, &dots, pos2(121.0, 97.0)), Some(1));
+        assert_eq!(hit(&view, &dots, pos2(109.0, 100.0)), Some(0));
+        assert_eq!(hit(&view, &dots, pos2(120.0, 115.0)), None);
+        assert_eq!(hit(&view, &[], pos2(100.0, 100.0)), None);
+    }
 }

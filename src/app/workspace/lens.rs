@@ -2,9 +2,13 @@
 //!
 //! It stands beside the workspace where there is room, and is left out where there is none.
 
-use eframe::egui::{self, Align2, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{
+    self, Align2, CursorIcon, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
 
-use super::{Trail, ViewTransform, paint_cloths, paint_display};
+use super::{Stage, Trail, ViewTransform, display, paint_cloths, paint_display, tips};
+use crate::app::command::ShowCommand;
+use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
 use crate::quantity;
@@ -34,8 +38,8 @@ pub(super) fn split(inner: Rect, size_mm: [f64; 2]) -> (Rect, Option<Rect>) {
     )
 }
 
-/// Shows the lens and its readings in `column`.
-pub(super) fn show(ui: &Ui, column: Rect, scene: &SceneView, live: &Live, trail: &Trail) {
+/// Shows the lens and its readings in `column`; a click on a contactor looks closer at it.
+pub(super) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, trail: &Trail, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter_at(column);
     painter.vline(
@@ -54,14 +58,15 @@ pub(super) fn show(ui: &Ui, column: Rect, scene: &SceneView, live: &Live, trail:
     );
     let side = COLUMN - 2.0 * MARGIN;
     let glass = Rect::from_min_size(pos2(left, column.top() + MARGIN + 14.0), vec2(side, side));
-    let response = ui.interact(glass, ui.scope_id().with("lens"), Sense::hover());
+    let response = ui.interact(glass, ui.scope_id().with("lens"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Lens"));
     painter.rect_filled(glass, 4, palette.panel);
-    if let Some(centre) = live.centre {
+    if let Some(centre) = stage.live.centre {
         let view = ViewTransform::new(glass, centre, POINTS_PER_MM);
         let painter = ui.painter_at(glass);
-        paint_cloths(&painter, &view, scene, live);
-        paint_display(&painter, &view, live, trail);
+        paint_cloths(&painter, &view, stage);
+        paint_display(&painter, &view, stage, trail);
+        choose(&response, &view, stage, wishes);
     } else {
         let words = "Move the pointer over a textile";
         painter.text(
@@ -79,7 +84,26 @@ pub(super) fn show(ui: &Ui, column: Rect, scene: &SceneView, live: &Live, trail:
         StrokeKind::Outside,
     );
     paint_scale_bar(&painter, glass);
-    show_readings(ui, pos2(left, glass.bottom() + 20.0), side, scene, live);
+    show_readings(
+        ui,
+        pos2(left, glass.bottom() + 20.0),
+        side,
+        stage.scene,
+        stage.live,
+    );
+}
+
+/// Tells of the contactor under the pointer, and chooses the one that is clicked.
+fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, wishes: &mut Wishes) {
+    let at = response.hover_pos();
+    let Some(index) = at.and_then(|at| display::hit(view, &stage.live.dots, at)) else {
+        return;
+    };
+    response.ctx.set_cursor_icon(CursorIcon::PointingHand);
+    if response.clicked() {
+        wishes.push(ShowCommand::SelectContactor(index).into());
+    }
+    tips::tell_of_dot(response, stage, index);
 }
 
 fn paint_scale_bar(painter: &egui::Painter, glass: Rect) {

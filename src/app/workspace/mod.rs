@@ -1,28 +1,44 @@
 //! The workspace: the scene in mm from above, with the display moving over it, and a lens that
 //! shows what lies under the finger.
 //!
-//! Draws and says where the pointer is; what the pointer does is the engine's business.
+//! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
+//! Draws, says where the pointer feels, and wishes; what is done about it is decided elsewhere.
 
+mod access;
+mod arrange;
+mod calibration;
+mod camera;
 mod cloth;
 mod display;
+mod drag;
+mod drop;
 mod lens;
+mod menu;
+mod navigate;
 mod ruler;
+mod state;
+mod tips;
+mod tools;
 mod trail;
 mod transform;
 
+pub(crate) use camera::Camera;
+pub(crate) use drop::LibraryItem;
+pub(crate) use state::{Place, WorkspaceState};
+pub(crate) use tools::show as show_tools;
 pub(crate) use trail::Trail;
 pub(crate) use transform::ViewTransform;
 
 use eframe::egui::{
-    self, CursorIcon, Painter, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Response, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, vec2,
 };
 
+use super::command::Tool;
+use super::panes::Wishes;
 use super::theme::{self, Palette};
 use super::view::{Live, SceneView};
 use crate::geometry::Point;
-
-/// Space around the workspace, points.
-const MARGIN: f32 = 16.0;
 
 /// What came of showing the workspace.
 #[derive(Debug, Clone, Copy)]
@@ -31,66 +47,171 @@ pub(crate) struct Shown {
     pub(crate) view: ViewTransform,
     /// The part of the screen where the pointer feels.
     pub(crate) ground: Rect,
+    /// Whether the pointer feels there now: not while it arranges, pans, or handles a control.
+    pub(crate) feels: bool,
+}
+
+/// What the parts of the pane share during one frame.
+struct Stage<'a> {
+    scene: &'a SceneView,
+    live: &'a Live,
+    state: &'a WorkspaceState,
+    /// The part of the screen where mm are.
+    ground: Rect,
+    view: ViewTransform,
+    /// What the pointer does on the ground.
+    response: Response,
+}
+
+impl Stage<'_> {
+    /// Whether a drag moves textiles now.
+    fn arranges(&self) -> bool {
+        self.state.tool == Tool::Arrange && !self.state.is_calibrating
+    }
+
+    /// The chosen textile, if there still is one at its place.
+    fn selected(&self) -> Option<(usize, &super::view::Cloth)> {
+        let index = self.state.cloth?;
+        Some((index, self.scene.cloths.get(index)?))
+    }
 }
 
 /// Shows the workspace in all the space that is left.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView, live: &Live, trail: &Trail) -> Shown {
-    let palette = Palette::in_ui(ui);
-    let (frame, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    ui.painter().rect_filled(frame, 0, palette.floor);
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    trail: &Trail,
+    state: &WorkspaceState,
+    wishes: &mut Wishes,
+) -> Shown {
+    let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let inner = Rect::from_min_max(frame.min + vec2(ruler::LEFT, ruler::TOP), frame.max);
     let (ground, lens) = lens::split(inner, scene.size_mm);
-    let view = ViewTransform::fitted(ground.shrink(MARGIN), scene.size_mm);
-    let painter = ui.painter_at(inner);
-    paint_extent(&painter, &view, scene.size_mm);
-    paint_cloths(&painter, &view, scene, live);
-    paint_tags(&painter, &view, scene, live);
-    paint_display(&painter, &view, live, trail);
-    ruler::paint(
-        &ui.painter_at(frame),
-        frame,
-        &view,
-        scene.size_mm,
-        live.centre,
+    let response = ui.interact(
+        ground,
+        ui.scope_id().with("ground"),
+        Sense::click_and_drag(),
     );
-    if let Some(lens) = lens {
-        lens::show(ui, lens, scene, live, trail);
-    }
-    if live.is_stopped {
-        paint_all_off(&painter, ground);
-    }
-    let response = response.on_hover_cursor(CursorIcon::Crosshair);
     response.widget_info(|| {
         let words = format!("Workspace with {} textiles", scene.cloths.len());
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
-    Shown { view, ground }
+    let stage = Stage {
+        scene,
+        live,
+        state,
+        ground,
+        view: state.camera.view(ground, scene.size_mm),
+        response,
+    };
+    let tag = paint(ui, &stage, trail);
+    access::declare(ui, &stage);
+    paint_rulers(ui, frame, &stage);
+    let feels = handle(ui, &stage, tag, wishes);
+    if let Some(lens) = lens {
+        lens::show(ui, lens, &stage, trail, wishes);
+    }
+    if live.is_stopped {
+        paint_all_off(&ui.painter_at(ground), ground);
+    }
+    Shown {
+        view: stage.view,
+        ground,
+        feels,
+    }
+}
+
+/// Does what the pointer and the keys want, with the controls that lie on the ground. Says whether
+/// the pointer feels.
+fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, wishes: &mut Wishes) -> bool {
+    calibration::forget_unless(ui, stage);
+    if stage.state.is_calibrating {
+        calibration::show(ui, stage, wishes);
+        return false;
+    }
+    let is_panning = navigate::navigate(ui, stage, wishes);
+    if stage.arranges() {
+        drag::arrange(ui, stage, wishes);
+    } else {
+        drag::paint_choice(&ui.painter_at(stage.ground), stage);
+        if stage.response.hovered() {
+            ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+        }
+    }
+    drop::take(ui, stage, wishes);
+    menu::show(ui, stage, wishes);
+    tips::tell(ui, stage, tag);
+    let is_busy = Popup::is_any_open(ui.ctx()) || DragAndDrop::has_any_payload(ui.ctx());
+    stage.state.tool == Tool::Explore && !(is_panning || is_busy)
+}
+
+/// Draws what lies on the ground. Says whose tag is under the pointer.
+fn paint(ui: &Ui, stage: &Stage<'_>, trail: &Trail) -> Option<usize> {
+    let painter = ui.painter_at(stage.ground);
+    paint_extent(&painter, &stage.view, stage.scene.size_mm);
+    paint_cloths(&painter, &stage.view, stage);
+    let tag = paint_tags(&painter, stage);
+    if stage.scene.cloths.is_empty() {
+        cloth::paint_empty(&painter, stage.ground);
+    }
+    paint_display(&painter, &stage.view, stage, trail);
+    tag
 }
 
 /// Draws the textiles through a view; the lens uses it too.
-fn paint_cloths(painter: &Painter, view: &ViewTransform, scene: &SceneView, live: &Live) {
-    let under = live.cloth_under_display();
-    for (index, cloth) in scene.cloths.iter().enumerate() {
-        cloth::paint(painter, view, cloth, under == Some(index));
+fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+    let lifted = lifted(stage);
+    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
+        cloth::paint(painter, view, cloth, lifted == Some(index));
     }
-    if scene.cloths.is_empty() {
-        cloth::paint_empty(painter, view.rect());
+}
+
+/// The textile that is felt; where textiles are arranged, none is.
+fn lifted(stage: &Stage<'_>) -> Option<usize> {
+    match stage.state.tool {
+        Tool::Explore => stage.live.cloth_under_display(),
+        Tool::Arrange => None,
     }
 }
 
 /// Draws trail and contactors through a view; the lens uses it too.
-fn paint_display(painter: &Painter, view: &ViewTransform, live: &Live, trail: &Trail) {
-    display::paint_trail(painter, view, &trail.aged());
-    if live.centre.is_some() {
-        display::paint(painter, view, &live.dots);
+fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, trail: &Trail) {
+    display::paint_trail(painter, view, trail.aged());
+    if stage.live.centre.is_some() {
+        display::paint(painter, view, &stage.live.dots, stage.state);
     }
 }
 
-fn paint_tags(painter: &Painter, view: &ViewTransform, scene: &SceneView, live: &Live) {
-    let under = live.cloth_under_display();
-    for (index, cloth) in scene.cloths.iter().enumerate() {
-        cloth::paint_tag(painter, view, cloth, under == Some(index));
+fn paint_tags(painter: &Painter, stage: &Stage<'_>) -> Option<usize> {
+    let lifted = lifted(stage);
+    let pointer = stage.response.hover_pos();
+    let mut hovered = None;
+    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
+        let is_lit = lifted == Some(index) || stage.state.cloth == Some(index);
+        let tag = cloth::paint_tag(painter, &stage.view, cloth, is_lit);
+        if let (Some(tag), Some(at)) = (tag, pointer)
+            && tag.contains(at)
+        {
+            hovered = Some(index);
+        }
     }
+    hovered
+}
+
+fn paint_rulers(ui: &Ui, frame: Rect, stage: &Stage<'_>) {
+    let pointer = stage
+        .response
+        .hover_pos()
+        .or_else(|| stage.response.interact_pointer_pos())
+        .filter(|_| stage.arranges());
+    let pointed = ruler::Pointed {
+        display: stage.live.centre,
+        pointer: pointer.map(|at| stage.view.workspace(at)),
+    };
+    let painter = ui.painter_at(Rect::from_min_max(frame.min, stage.ground.max));
+    ruler::paint(&painter, frame, &stage.view, stage.scene.size_mm, pointed);
 }
 
 /// Says that everything is off, and what ends that.
@@ -129,3 +250,6 @@ pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
     let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
     within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])
 }
+
+#[cfg(test)]
+mod tests;

@@ -51,11 +51,9 @@ impl Trail {
     }
 
     /// `(age in s, place)`, old to new.
-    pub(crate) fn aged(&self) -> Vec<(f64, Point)> {
-        self.places
-            .iter()
-            .map(|&(tick, place)| (self.age_s(tick), place))
-            .collect()
+    pub(crate) fn aged(&self) -> impl Iterator<Item = (f64, Point)> {
+        let places = self.places.iter();
+        places.map(|&(tick, place)| (self.age_s(tick), place))
     }
 
     fn age_s(&self, tick: u64) -> f64 {
@@ -79,7 +77,7 @@ mod tests {
             changed += u32::from(trail.take(tick, rest));
         }
         assert!((30..=34).contains(&changed), "{changed} ticks of fading");
-        assert!(!trail.is_visible(), "{:?}", trail.aged());
+        assert!(!trail.is_visible(), "{trail:?}");
     }
 
     #[test]
@@ -87,6 +85,6 @@ mod tests {
         let mut trail = Trail::default();
         trail.take(1, Some(Point::new(0.0, 0.0)));
         trail.take(2, Some(Point::new(200.0, 0.0)));
-        assert_eq!(trail.aged().len(), 1);
+        assert_eq!(trail.aged().count(), 1);
     }
 }

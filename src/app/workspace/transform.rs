@@ -49,6 +49,16 @@ impl ViewTransform {
         self.rect
     }
 
+    /// The place in the workspace shown at the middle of the rectangle.
+    pub(crate) fn centre(&self) -> Point {
+        self.centre
+    }
+
+    /// How long a length in the workspace is on the screen, points.
+    pub(crate) fn length(&self, length_mm: f64) -> f32 {
+        narrow(length_mm * self.points_per_mm)
+    }
+
     /// The screen's place of a place in the workspace.
     pub(crate) fn screen(&self, place: Point) -> Pos2 {
         let off = place - self.centre;

@@ -1,0 +1,66 @@
+//! The one place where something changes: commands in, document, engine and transient state out.
+
+mod device;
+mod edit;
+mod file;
+mod play;
+mod show;
+
+use eframe::egui;
+
+use super::command::{Chosen, Command, Edit, Part, ShowCommand};
+use super::document::Document;
+use super::window::Workbench;
+use crate::engine;
+
+impl Workbench {
+    /// Does what the user wants.
+    pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
+        match command {
+            Command::AllOff => self.all_off(),
+            Command::Edit(edit) => self.edit(ctx, &edit),
+            Command::Undo => self.step_history(ctx, Document::undo),
+            Command::Redo => self.step_history(ctx, Document::redo),
+            Command::Device(command) => self.dispatch_device(ctx, command),
+            Command::File(command) => self.dispatch_file(ctx, command),
+            Command::Play(command) => self.dispatch_play(command),
+            Command::Show(command) => self.dispatch_show(ctx, &command),
+            Command::Chosen(act) => self.act_on_chosen(ctx, act),
+            Command::Dismiss => self.dismiss(),
+            Command::DismissNotice(number) => self.transient.notices.dismiss(number),
+        }
+    }
+
+    /// Everything off. The switch works at once, whatever waits in the engine's queue.
+    fn all_off(&mut self) {
+        self.switch.press();
+        self.dismiss();
+    }
+
+    fn act_on_chosen(&mut self, ctx: &egui::Context, act: Chosen) {
+        let Some(index) = self.workspace.cloth else {
+            return;
+        };
+        let part = Part::Cloth(index);
+        let command = match act {
+            Chosen::Remove => Edit::RemoveCloth(index).into(),
+            Chosen::Raise => Edit::RaiseCloth(index).into(),
+            Chosen::Mute => ShowCommand::Mute(part).into(),
+            Chosen::Solo => ShowCommand::Solo(part).into(),
+        };
+        self.dispatch(ctx, command);
+    }
+
+    fn dismiss(&mut self) {
+        self.transient.ask = None;
+        self.transient.question = None;
+        self.workspace.is_calibrating = false;
+        self.transient.is_help_shown = false;
+    }
+
+    pub(crate) fn send(&mut self, command: engine::Command) {
+        if let Err(error) = self.engine.send(command) {
+            self.transient.notices.give(error.to_string());
+        }
+    }
+}

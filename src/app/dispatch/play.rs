@@ -1,0 +1,84 @@
+//! What moves the display, and recording it.
+
+use crate::app::command::{PlayCommand, PlaySource};
+use crate::app::take::Take;
+use crate::app::view::Source;
+use crate::app::window::Workbench;
+use crate::engine::{self, InputSource};
+use crate::geometry::Point;
+use crate::scene::{Scene, Stroke};
+
+/// How fast the display explores by itself, mm/s.
+const STROKE_MM_PER_S: f64 = 120.0;
+
+impl Workbench {
+    pub(super) fn dispatch_play(&mut self, command: PlayCommand) {
+        match command {
+            PlayCommand::Toggle => self.toggle_play(),
+            PlayCommand::Source(PlaySource::Pointer) => {
+                self.send(engine::Command::SetSource(InputSource::Pointer));
+            }
+            PlayCommand::Source(PlaySource::Stroke) => self.explore_alone(),
+            PlayCommand::Source(PlaySource::Recording) => self.replay(),
+            PlayCommand::Step => self.send(engine::Command::Step),
+            PlayCommand::Rewind => self.send(engine::Command::Rewind),
+            PlayCommand::Seek(tick) => self.send(engine::Command::Seek(tick)),
+            PlayCommand::Loop(does_loop) => {
+                self.transient.does_loop = does_loop;
+                self.send(engine::Command::SetLoop(does_loop));
+            }
+            PlayCommand::ToggleLoop => {
+                self.dispatch_play(PlayCommand::Loop(!self.transient.does_loop));
+            }
+            PlayCommand::ToggleRecording => self.send(if self.transient.live.play.is_recording {
+                engine::Command::StopRecording
+            } else {
+                engine::Command::StartRecording
+            }),
+            PlayCommand::Turn(by_deg) => self.send(engine::Command::TurnBy(by_deg)),
+            PlayCommand::TurnBack => self.send(engine::Command::SetAngle(0.0)),
+        }
+    }
+
+    /// What can be played plays or is held; the pointer gives way to a stroke.
+    fn toggle_play(&mut self) {
+        match self.transient.live.play.source {
+            Source::Pointer | Source::Lines => self.explore_alone(),
+            Source::Stroke | Source::Recording => {
+                let play = if self.transient.live.play.is_playing {
+                    engine::Command::Pause
+                } else {
+                    engine::Command::Play
+                };
+                self.send(play);
+            }
+        }
+    }
+
+    fn explore_alone(&mut self) {
+        let stroke = resting_stroke(self.document.scene());
+        self.send(engine::Command::SetSource(InputSource::Stroke(stroke)));
+        self.send(engine::Command::Play);
+    }
+
+    /// Takes a recording that has ended: it can be replayed and saved.
+    pub(crate) fn take_recording(&mut self) {
+        let Some(recording) = self.engine.take_recording() else {
+            return;
+        };
+        // A recording that ended before its first tick is none.
+        if let Ok(take) = Take::from_recording(&recording) {
+            self.take = Some(take);
+        }
+    }
+}
+
+/// The stroke that the display explores a scene with: a circle around its middle.
+pub(crate) fn resting_stroke(scene: &Scene) -> Stroke {
+    let [width_mm, height_mm] = scene.size_mm;
+    Stroke::Circle {
+        centre: Point::new(width_mm / 2.0, height_mm / 2.0),
+        radius_mm: 0.25 * width_mm.min(height_mm),
+        speed_mm_per_s: STROKE_MM_PER_S,
+    }
+}

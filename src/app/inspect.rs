@@ -1,0 +1,122 @@
+//! What a test or another program may want to know of a workbench, and do with it.
+
+use std::path::PathBuf;
+
+use super::arrangement::Pane;
+use super::command::{DeviceCommand, FileCommand, Purpose};
+use super::view::{BridgePhase, Source};
+use super::window::Workbench;
+use crate::scene::Scene;
+use crate::tactile::Tuning;
+
+impl Workbench {
+    /// Peak amplitudes [A40, A320] of every contactor after gains, before output limits, µm.
+    pub fn amplitudes_um(&self) -> Vec<[f64; 2]> {
+        self.transient
+            .live
+            .dots
+            .iter()
+            .map(|dot| dot.amplitude_um)
+            .collect()
+    }
+
+    /// Gains and compression in force.
+    pub fn tuning(&self) -> Tuning {
+        self.document.tuning()
+    }
+
+    /// The scene as it is edited.
+    pub fn scene(&self) -> &Scene {
+        self.document.scene()
+    }
+
+    /// The display's turn on top of the scene's, degrees counter-clockwise.
+    pub fn turn_deg(&self) -> f64 {
+        self.transient.live.turn_deg
+    }
+
+    /// Whether the exploration is being recorded.
+    pub fn is_recording(&self) -> bool {
+        self.transient.live.play.is_recording
+    }
+
+    /// Ticks of the recording that can be replayed; `None` without one.
+    pub fn n_recorded_ticks(&self) -> Option<u64> {
+        self.take.as_ref().map(|take| take.path().n_ticks())
+    }
+
+    /// The tick of the recording that is replayed; `None` while something else moves the display.
+    pub fn replayed_tick(&self) -> Option<u64> {
+        let play = self.transient.live.play;
+        (play.source == Source::Recording).then_some(play.tick)
+    }
+
+    /// How often each pane was drawn, by its title.
+    pub fn panes_drawn(&self) -> Vec<(&'static str, u64)> {
+        let drawn = Pane::ALL.into_iter().zip(self.transient.n_drawn);
+        drawn
+            .map(|(pane, n_drawn)| (pane.title(), n_drawn))
+            .collect()
+    }
+
+    /// Columns computed for the contact spectrum and for the drive spectrum.
+    pub fn columns_computed(&self) -> [u64; 2] {
+        [
+            self.transient.contact_spectrogram.n_columns_computed(),
+            self.transient.drive_spectrogram.n_columns_computed(),
+        ]
+    }
+
+    /// The scene's name.
+    pub fn scene_name(&self) -> &str {
+        &self.document.scene().name
+    }
+
+    /// Whether the scene differs from its file.
+    pub fn is_edited(&self) -> bool {
+        self.document.is_edited()
+    }
+
+    /// Whether high voltage is on, or about to be.
+    pub fn is_armed(&self) -> bool {
+        self.transient.live.is_armed()
+    }
+
+    /// Whether the device is ready to be armed.
+    pub fn is_ready(&self) -> bool {
+        let bridge = self.transient.live.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Ready)
+    }
+
+    /// Whether a device would play silence: everything is off, or a replay or stroke is held.
+    pub fn is_silent(&self) -> bool {
+        self.transient.live.is_silent
+    }
+
+    /// Whether everything was switched off and nothing was armed since.
+    pub fn is_stopped(&self) -> bool {
+        self.transient.live.is_stopped
+    }
+
+    /// The sentences that are shown.
+    pub fn notices(&self) -> Vec<String> {
+        self.transient
+            .notices
+            .shown()
+            .iter()
+            .map(|notice| notice.text.clone())
+            .collect()
+    }
+
+    /// Connects to the emulator in this process, as the window does when it starts.
+    pub fn connect_emulator(&mut self) {
+        let ctx = self.ctx.clone();
+        self.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
+    }
+
+    /// Opens the scene at this path, as the field does that asks for one.
+    pub fn open_scene(&mut self, path: PathBuf) {
+        let ctx = self.ctx.clone();
+        self.dispatch(&ctx, FileCommand::Use(Purpose::OpenScene, path).into());
+    }
+}

@@ -1,0 +1,353 @@
+//! The library, to take textiles from, and the textiles of the scene, to mute, choose and remove.
+
+use eframe::egui::{
+    self, Align, Color32, CornerRadius, DragAndDrop, Layout, Mesh, Rect, Response, RichText,
+    ScrollArea, Sense, Shape, Stroke, TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
+use eframe::epaint::Vertex;
+
+use super::Wishes;
+use crate::app::audition::Audition;
+use crate::app::command::{Edit, Part, ShowCommand};
+use crate::app::shelf::Shelf;
+use crate::app::theme::{self, Palette, STEP};
+use crate::app::view::{Cloth, ClothPicture, SceneView, ShelfItem};
+use crate::app::widgets::{paint_line, row, toggle};
+use crate::app::workspace::LibraryItem;
+use crate::geometry::Point;
+use crate::quantity;
+
+/// Height of a row, points.
+const ROW: f32 = 36.0;
+/// Side of the piece of cloth that a row shows, points.
+const SWATCH: f32 = 28.0;
+/// How much cloth that piece shows, mm.
+const SWATCH_MM: f32 = 14.0;
+/// Most letters of a label.
+const MOST_LETTERS: usize = 3;
+/// Most rows of the scene that are in sight at once.
+const SCENE_ROWS: usize = 6;
+
+/// Shows the pane. `search` is what is typed in its field.
+pub(crate) fn show(
+    ui: &mut Ui,
+    shelf: &mut Shelf,
+    scene: &SceneView,
+    (audition, selected): (&Audition, Option<usize>),
+    search: &mut String,
+    wishes: &mut Wishes,
+) {
+    let n_rows = scene.cloths.len().clamp(2, SCENE_ROWS);
+    let lower = n_rows as f32 * (theme::ROW + STEP) + 28.0;
+    let whole = ui.max_rect();
+    let edge = (whole.bottom() - lower)
+        .max(whole.top() + 3.0 * ROW)
+        .round();
+    let (above, below) = whole.split_top_bottom_at_y(edge);
+    ui.scope_builder(UiBuilder::new().max_rect(above), |ui| {
+        show_shelf(ui, shelf, scene, search, wishes);
+    });
+    let line = Stroke::new(1.0, Palette::in_ui(ui).hairline);
+    ui.painter().hline(whole.x_range(), edge + 1.0, line);
+    let below = below.with_min_y(edge + STEP);
+    ui.scope_builder(UiBuilder::new().max_rect(below), |ui| {
+        show_placed(ui, scene, audition, selected, wishes);
+    });
+}
+
+/// The library, as much of it as matches the search.
+fn show_shelf(
+    ui: &mut Ui,
+    shelf: &mut Shelf,
+    scene: &SceneView,
+    search: &mut String,
+    wishes: &mut Wishes,
+) {
+    show_search(ui, search);
+    let sought = search.trim().to_lowercase();
+    let items = shelf.items().iter();
+    let matching: Vec<ShelfItem> = items
+        .filter(|item| matches(item, &sought))
+        .cloned()
+        .collect();
+    if matching.is_empty() {
+        let words = if shelf.items().is_empty() {
+            "This library holds no textiles: put some into its folder, then open the scene again"
+        } else {
+            "Nothing by that name: clear the field to see all"
+        };
+        ui.label(RichText::new(words).color(Palette::in_ui(ui).dim));
+    }
+    let rows = ScrollArea::vertical().id_salt("shelf").auto_shrink(false);
+    rows.show_rows(
+        ui,
+        ROW - ui.spacing().item_spacing.y,
+        matching.len(),
+        |ui, range| {
+            for item in &matching[range] {
+                shelf.want(&item.id);
+                let picture = shelf.picture(&item.id);
+                show_item(ui, item, picture, scene, wishes);
+            }
+        },
+    );
+}
+
+fn show_search(ui: &mut Ui, search: &mut String) {
+    let field = TextEdit::singleline(search)
+        .desired_width(f32::INFINITY)
+        .margin(egui::Margin::symmetric(6, 4))
+        .hint_text("Search");
+    let response = ui.add(field);
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label("Search the library"));
+}
+
+fn matches(item: &ShelfItem, sought: &str) -> bool {
+    let texts = [&item.name, &item.id, &item.kind];
+    sought
+        .split_whitespace()
+        .all(|word| texts.iter().any(|text| text.to_lowercase().contains(word)))
+}
+
+/// One textile of the library: dragged into the workspace, or added by a double click.
+fn show_item(
+    ui: &mut Ui,
+    item: &ShelfItem,
+    picture: Option<ClothPicture>,
+    scene: &SceneView,
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let size = vec2(ui.available_width(), ROW - ui.spacing().item_spacing.y);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let is_usable = item.flaw.is_none();
+    response.widget_info(|| {
+        WidgetInfo::labeled(
+            egui::Role::ListItem,
+            is_usable,
+            format!("Add {}", item.name),
+        )
+    });
+    if is_usable && (response.hovered() || response.has_focus()) {
+        ui.painter().rect_filled(rect, 4, palette.raised);
+    }
+    let side = SWATCH.min(rect.height());
+    let swatch = Rect::from_min_size(
+        pos2(rect.left() + 2.0, rect.center().y - 0.5 * side),
+        vec2(side, side),
+    );
+    paint_swatch(ui, swatch, picture);
+    let ink = if is_usable { palette.text } else { palette.dim };
+    let left = swatch.right() + 8.0;
+    let room = rect.right() - left;
+    let name = RichText::new(&item.name).font(theme::body()).color(ink);
+    paint_line(ui, pos2(left, rect.center().y - 7.0), room, name);
+    let second = if is_usable {
+        item.kind.as_str()
+    } else {
+        "cannot be read"
+    };
+    let second = RichText::new(second)
+        .font(theme::small())
+        .color(palette.dim);
+    paint_line(ui, pos2(left, rect.center().y + 8.0), room, second);
+    answer_item(ui, response, item, scene, wishes);
+}
+
+fn answer_item(
+    ui: &Ui,
+    response: Response,
+    item: &ShelfItem,
+    scene: &SceneView,
+    wishes: &mut Wishes,
+) {
+    if let Some(flaw) = &item.flaw {
+        response.on_hover_text(flaw);
+        return;
+    }
+    let is_entered = response.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+    if response.double_clicked() || is_entered {
+        let [width_mm, height_mm] = scene.size_mm;
+        let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
+        wishes.push(Edit::AddCloth(item.id.clone(), middle).into());
+    }
+    if response.drag_started() {
+        let id = item.id.clone();
+        DragAndDrop::set_payload(ui.ctx(), LibraryItem { id });
+    }
+    let level = item.level_db.map_or_else(String::new, |level_db| {
+        format!(
+            "\nlevel {}, mean of both bands at 100 mm/s, re 1 µm",
+            quantity::with_unit(level_db, 1, "dB")
+        )
+    });
+    response
+        .on_hover_cursor(egui::CursorIcon::Grab)
+        .on_hover_text(format!(
+            "{}\n{}{level}\nDrag it into the workspace, or double click",
+            item.name, item.kind
+        ));
+}
+
+/// A piece of the cloth itself.
+fn paint_swatch(ui: &Ui, rect: Rect, picture: Option<ClothPicture>) {
+    let palette = Palette::in_ui(ui);
+    let Some(picture) = picture else {
+        ui.painter().rect_filled(rect, 3, palette.raised);
+        return;
+    };
+    let share = vec2(
+        SWATCH_MM / picture.tile_mm.x.max(1e-3),
+        SWATCH_MM / picture.tile_mm.y.max(1e-3),
+    );
+    let corners = [
+        (rect.left_top(), pos2(0.0, 1.0 - share.y)),
+        (rect.right_top(), pos2(share.x, 1.0 - share.y)),
+        (rect.right_bottom(), pos2(share.x, 1.0)),
+        (rect.left_bottom(), pos2(0.0, 1.0)),
+    ];
+    let vertex = |(pos, uv)| Vertex {
+        pos,
+        uv,
+        color: Color32::WHITE,
+    };
+    let mesh = Mesh {
+        indices: vec![0, 1, 2, 0, 2, 3],
+        vertices: corners.map(vertex).to_vec(),
+        texture_id: picture.texture,
+    };
+    ui.painter().add(Shape::mesh(mesh));
+    let edge = Stroke::new(1.0, palette.hairline);
+    let inside = egui::StrokeKind::Inside;
+    ui.painter()
+        .rect_stroke(rect, CornerRadius::ZERO, edge, inside);
+}
+
+/// The textiles of the scene, topmost first as they lie.
+fn show_placed(
+    ui: &mut Ui,
+    scene: &SceneView,
+    audition: &Audition,
+    selected: Option<usize>,
+    wishes: &mut Wishes,
+) {
+    row(ui, "In the scene", |ui| {
+        if audition.is_any() && toggle(ui, "feel all", false, "End every mute and solo (H)") {
+            wishes.push(ShowCommand::HearAll.into());
+        }
+    });
+    if scene.cloths.is_empty() {
+        let words = "No textile yet: drag one from the library into the workspace";
+        ui.label(RichText::new(words).color(Palette::in_ui(ui).dim));
+        return;
+    }
+    let rows = ScrollArea::vertical().id_salt("placed").auto_shrink(false);
+    rows.show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
+        for index in range {
+            if let Some(cloth) = scene.cloths.get(index) {
+                let is_selected = selected == Some(index);
+                show_cloth(ui, (index, cloth), audition, is_selected, wishes);
+            }
+        }
+    });
+}
+
+fn show_cloth(
+    ui: &mut Ui,
+    (index, cloth): (usize, &Cloth),
+    audition: &Audition,
+    is_selected: bool,
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let part = Part::Cloth(index);
+    let width = ui.available_width();
+    ui.allocate_ui_with_layout(
+        vec2(width, theme::ROW),
+        Layout::right_to_left(Align::Center),
+        |ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            let name = format!("{} {}", cloth.label, cloth.name);
+            let solo = format!("Feel {name} alone");
+            if toggle(ui, "S", audition.is_solo(part), &solo) {
+                wishes.push(ShowCommand::Solo(part).into());
+            }
+            let mute = format!("Mute {name}");
+            if toggle(ui, "M", audition.is_muted(part), &mute) {
+                wishes.push(ShowCommand::Mute(part).into());
+            }
+            let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+            response.widget_info(|| {
+                WidgetInfo::selected(egui::Role::ListItem, true, is_selected, &name)
+            });
+            if is_selected {
+                ui.painter().rect_filled(rect, 4, palette.raised);
+            } else if response.hovered() {
+                ui.painter()
+                    .rect_filled(rect, 4, palette.raised.gamma_multiply(0.6));
+            }
+            let ink = if cloth.is_muted {
+                palette.dim
+            } else {
+                palette.text
+            };
+            let (left, middle) = (rect.left() + 6.0, rect.center().y);
+            if is_selected {
+                show_label_field(ui, rect, (index, cloth), wishes);
+            } else {
+                let label = RichText::new(&cloth.label).font(theme::number());
+                paint_line(ui, pos2(left, middle), 18.0, label.color(palette.dim));
+            }
+            let text = RichText::new(&cloth.name).font(theme::body()).color(ink);
+            paint_line(ui, pos2(left + 20.0, middle), rect.width() - 26.0, text);
+            if response.clicked() {
+                let choice = (!is_selected).then_some(index);
+                wishes.push(ShowCommand::SelectCloth(choice).into());
+            }
+            let gain = quantity::with_unit(cloth.gain_db, 1, "dB");
+            response.on_hover_text(format!("{name}\nscene gain {gain}\nClick to choose it"));
+        },
+    );
+}
+
+/// The label of the chosen textile, to be typed over.
+fn show_label_field(ui: &mut Ui, row: Rect, (index, cloth): (usize, &Cloth), wishes: &mut Wishes) {
+    let mut label = cloth.label.clone();
+    let place = Rect::from_min_size(row.min, vec2(24.0, row.height())).shrink2(vec2(0.0, 2.0));
+    let field = TextEdit::singleline(&mut label)
+        .font(theme::number())
+        .char_limit(MOST_LETTERS)
+        .margin(egui::Margin::symmetric(4, 2));
+    // A child of its own: the row is as high as the others.
+    let response = ui.new_child(UiBuilder::new().max_rect(place)).add(field);
+    let name = format!("Label of {}", cloth.name);
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    if response.changed() {
+        wishes.push(Edit::Label(index, label).into());
+    }
+    response.on_hover_text("What the scene calls it");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_finds_words_in_any_order_in_name_kind_or_id() {
+        let item = ShelfItem {
+            id: "silk-crepe".to_owned(),
+            name: "Silk crêpe de chine".to_owned(),
+            kind: "woven · silk".to_owned(),
+            gain_db: 0.0,
+            level_db: None,
+            mean_um: [0.0; 2],
+            flaw: None,
+        };
+        for sought in ["", "silk", "woven crêpe", "chine wov", "silk-cr"] {
+            assert!(matches(&item, sought), "{sought}");
+        }
+        assert!(!matches(&item, "silk knitted"));
+    }
+}

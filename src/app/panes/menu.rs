@@ -1,0 +1,177 @@
+//! The two menus of the header: what can be done with scenes, and what is shown how.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, Button, ThemePreference, Ui};
+
+use super::Wishes;
+use crate::app::arrangement::Pane;
+use crate::app::command::{Command, DotStyle, FileCommand, Purpose, ShowCommand};
+use crate::app::shortcuts::hint;
+use crate::app::theme::ColourMap;
+use crate::app::view::SceneView;
+use crate::quantity;
+
+/// Sizes that are offered, %.
+const ZOOMS: [u8; 5] = [100, 125, 150, 175, 200];
+
+/// What is shown how, as the menu ticks it.
+#[derive(Debug, Clone)]
+pub(crate) struct Appearance {
+    /// The colours that stand for numbers.
+    pub(crate) map: ColourMap,
+    /// Size of everything: 1 is 100 %.
+    pub(crate) zoom: f32,
+    /// How contactors are drawn.
+    pub(crate) dots: DotStyle,
+    /// The panes with whether each is in sight.
+    pub(crate) panes: Vec<(Pane, bool)>,
+    /// The scenes that were opened or saved last, newest first.
+    pub(crate) recent: Vec<PathBuf>,
+}
+
+/// What can be done with scenes.
+pub(crate) fn show_scene_menu(
+    ui: &mut Ui,
+    scene: &SceneView,
+    recent: &[PathBuf],
+    wishes: &mut Wishes,
+) {
+    ui.menu_button("Scene", |ui| {
+        ui.set_min_width(220.0);
+        entry(ui, "New", FileCommand::New.into(), None, wishes);
+        let open = FileCommand::Ask(Purpose::OpenScene);
+        entry(ui, "Open…", open.into(), None, wishes);
+        show_recent(ui, recent, wishes);
+        let shipped = FileCommand::OpenShipped;
+        entry(ui, "Open the shipped scene", shipped.into(), None, wishes);
+        ui.separator();
+        let unchanged = !scene.is_edited && scene.path.is_some();
+        let why = unchanged.then_some("Nothing has changed");
+        entry(ui, "Save", FileCommand::Save.into(), why, wishes);
+        let save_as = FileCommand::Ask(Purpose::SaveScene);
+        entry(ui, "Save as…", save_as.into(), None, wishes);
+        ui.separator();
+        let open = FileCommand::Ask(Purpose::OpenRecording);
+        entry(ui, "Open a recording…", open.into(), None, wishes);
+        ui.separator();
+        entry(ui, "Close", FileCommand::Close.into(), None, wishes);
+    });
+}
+
+fn show_recent(ui: &mut Ui, recent: &[PathBuf], wishes: &mut Wishes) {
+    ui.add_enabled_ui(!recent.is_empty(), |ui| {
+        let menu = ui.menu_button("Open recent", |ui| {
+            for path in recent {
+                let name = path.file_name().unwrap_or(path.as_os_str());
+                let response = ui.button(name.to_string_lossy());
+                if response.on_hover_text(path.display().to_string()).clicked() {
+                    let command = FileCommand::Use(Purpose::OpenScene, path.clone());
+                    wishes.push(command.into());
+                    ui.close();
+                }
+            }
+        });
+        menu.response
+            .on_disabled_hover_text("No scene was opened or saved yet");
+    });
+}
+
+/// What is shown how.
+pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut Wishes) {
+    ui.menu_button("View", |ui| {
+        ui.set_min_width(220.0);
+        ui.menu_button("Panes", |ui| {
+            for (pane, is_shown) in &appearance.panes {
+                let command = ShowCommand::Pane(*pane);
+                choice(ui, pane.title(), *is_shown, command, wishes);
+            }
+        });
+        let default = ShowCommand::DefaultArrangement;
+        entry(ui, "Default arrangement", default.into(), None, wishes);
+        ui.separator();
+        ui.menu_button("Theme", |ui| show_themes(ui, wishes));
+        ui.menu_button("Colours of numbers", |ui| {
+            for map in ColourMap::ALL {
+                let command = ShowCommand::ColourMap(map);
+                choice(ui, map.label(), map == appearance.map, command, wishes);
+            }
+        });
+        ui.menu_button("Size of everything", |ui| {
+            for percent in ZOOMS {
+                let zoom = f32::from(percent) / 100.0;
+                let is_chosen = (zoom - appearance.zoom).abs() < 0.01;
+                let label = quantity::with_unit(f64::from(percent), 0, "%");
+                choice(ui, &label, is_chosen, ShowCommand::Zoom(zoom), wishes);
+            }
+        });
+        ui.menu_button("Contactors", |ui| {
+            show_dot_styles(ui, appearance.dots, wishes);
+        });
+        ui.separator();
+        let calibrate = ShowCommand::Calibrate;
+        entry(
+            ui,
+            "Calibrate to true size…",
+            calibrate.into(),
+            None,
+            wishes,
+        );
+        entry(ui, "Keys", ShowCommand::Help.into(), None, wishes);
+    });
+}
+
+fn show_themes(ui: &mut Ui, wishes: &mut Wishes) {
+    let theme = ui.ctx().options(|options| options.theme_preference);
+    let themes = [
+        (ThemePreference::System, "As the system"),
+        (ThemePreference::Dark, "Dark"),
+        (ThemePreference::Light, "Light"),
+    ];
+    for (preference, label) in themes {
+        let command = ShowCommand::Theme(preference);
+        choice(ui, label, theme == preference, command, wishes);
+    }
+}
+
+fn show_dot_styles(ui: &mut Ui, chosen: DotStyle, wishes: &mut Wishes) {
+    let styles = [
+        (DotStyle::SizeAndGlow, "40 Hz by size, 320 Hz by glow"),
+        (DotStyle::Size, "Both by size"),
+        (DotStyle::Brightness, "Both by brightness"),
+    ];
+    for (style, label) in styles {
+        let command = ShowCommand::DotStyle(style);
+        choice(ui, label, style == chosen, command, wishes);
+    }
+}
+
+/// A line that does something, with its key; grey, with the reason, when it does nothing.
+fn entry(ui: &mut Ui, label: &str, command: Command, refusal: Option<&str>, wishes: &mut Wishes) {
+    let key = hint(ui.ctx(), &command);
+    let button = Button::new(label).shortcut_text(key);
+    let response = ui.add_enabled(refusal.is_none(), button);
+    let response = match refusal {
+        Some(why) => response.on_disabled_hover_text(why),
+        None => response,
+    };
+    if response.clicked() {
+        wishes.push(command);
+        ui.close();
+    }
+}
+
+/// A line that is ticked or not; the menu stays open.
+fn choice(ui: &mut Ui, label: &str, is_chosen: bool, command: ShowCommand, wishes: &mut Wishes) {
+    let key = hint(ui.ctx(), &command.clone().into());
+    let mut is_ticked = is_chosen;
+    ui.horizontal(|ui| {
+        let response = ui.add(egui::Checkbox::new(&mut is_ticked, label));
+        if response.clicked() {
+            wishes.push(command.into());
+        }
+        if !key.is_empty() {
+            ui.weak(key);
+        }
+    });
+}

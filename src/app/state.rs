@@ -1,0 +1,95 @@
+//! What the window knows for the moment: neither saved nor undoable.
+
+use eframe::egui::{Rect, Vec2};
+
+use super::audition::Audition;
+use super::dialogs::Dialogs;
+use super::history::Moment;
+use super::job::Job;
+use super::opening::{Opening, Origin};
+use super::panes::{
+    Ask, ContactSpectrogram, DriveSpectrogram, Notices, SpatialSpectra, TransportState, WaveScale,
+};
+use super::ports::Ports;
+use super::query::IntervalMeter;
+use super::signals::History;
+use super::take::Take;
+use super::view::{BridgeView, Live};
+use super::workspace::Trail;
+use crate::scene::SceneError;
+
+/// What is neither saved nor undoable.
+#[derive(Debug, Default)]
+pub(crate) struct Transient {
+    /// Sentences for the user.
+    pub(crate) notices: Notices,
+    /// A path that is asked for.
+    pub(crate) ask: Option<Ask>,
+    /// What waits for an answer to "save changes?".
+    pub(crate) question: Option<After>,
+    /// Whether the window may close without another question.
+    pub(crate) may_close: bool,
+    /// Whether the list of keys is shown.
+    pub(crate) is_help_shown: bool,
+    /// The desktop's dialogs.
+    pub(crate) dialogs: Dialogs,
+    /// The serial ports of this computer.
+    pub(crate) ports: Ports,
+    /// What is typed in the field for a port.
+    pub(crate) port: String,
+    /// What is typed in the field that searches the library.
+    pub(crate) search: String,
+    /// What the link was last opened to.
+    pub(crate) target: Option<String>,
+    /// A scene on its way.
+    pub(crate) opening: Option<Opening>,
+    /// A recorded exploration on its way.
+    pub(crate) reading: Option<Job<Result<Take, SceneError>>>,
+    /// A recorded exploration on its way into a file.
+    pub(crate) saving: Option<Job<Result<Take, SceneError>>>,
+    /// The engine as it was seen last.
+    pub(crate) live: Live,
+    /// Where the display was.
+    pub(crate) trail: Trail,
+    /// The last seconds.
+    pub(crate) history: History,
+    /// The spectrum that arrives, as far as it was drawn.
+    pub(crate) contact_spectrogram: ContactSpectrogram,
+    /// The spectrum that drives, as far as it was drawn.
+    pub(crate) drive_spectrogram: DriveSpectrogram,
+    /// The axis of the drive waveform.
+    pub(crate) wave_scale: WaveScale,
+    /// Spatial spectra as they were drawn last.
+    pub(crate) spatial: SpatialSpectra,
+    /// What the timeline remembers.
+    pub(crate) transport: TransportState,
+    /// What is muted and what is felt alone.
+    pub(crate) audition: Audition,
+    /// Whether recordings are replayed again and again.
+    pub(crate) does_loop: bool,
+    /// The gesture that edits belong to.
+    pub(crate) moment: Moment,
+    /// The part of the screen that showed the workspace last, points.
+    pub(crate) ground: Option<Rect>,
+    /// The size of everything between header and timeline, points.
+    pub(crate) desk_size: Vec2,
+    /// A device that is shown though the engine has none: in pictures.
+    pub(crate) pictured_bridge: Option<BridgeView>,
+    /// Refusals to arm that are expected, since there is no device.
+    pub(crate) n_expected_refusals: u32,
+    /// The device's measured interval between frames.
+    pub(crate) interval: IntervalMeter,
+    /// The level that compression leaves alone, dB re 1 µm.
+    pub(crate) reference_db: Option<f64>,
+    /// How often each pane was drawn.
+    pub(crate) n_drawn: [u64; super::arrangement::Pane::ALL.len()],
+}
+
+/// What was asked for when there was something to save first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum After {
+    /// Close the window.
+    Close,
+    /// Open a scene.
+    Open(Origin),
+}
