@@ -171,6 +171,9 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         phase: phase(link.state),
         depth: link.depth,
         frame_interval_s,
+        status_to_frame_s: Some(link.timings.status_to_write)
+            .filter(|spread| spread.n > 0)
+            .map(|spread| [spread.p99, spread.max].map(|span| span.as_secs_f64())),
         stamp_to_write_s: Some(link.timings.stamp_to_write)
             .filter(|spread| spread.n > 0)
             .map(|spread| spread.p99.as_secs_f64()),

@@ -213,6 +213,8 @@ pub(crate) struct BridgeView {
     pub(crate) frame_interval_s: Option<f64>,
     /// From a pointer event to the end of the write of its frame, 99th percentile, s.
     pub(crate) stamp_to_write_s: Option<f64>,
+    /// From the device's STATUS to the frame that answers it, 99th percentile and largest, s.
+    pub(crate) status_to_frame_s: Option<[f64; 2]>,
     /// Soft-start gain of the last frame, 0…1.
     pub(crate) gain: Option<f64>,
     /// Frames sent.

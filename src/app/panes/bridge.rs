@@ -223,13 +223,19 @@ fn show_counters(ui: &mut Ui, bridge: Option<&BridgeView>, felt_age_s: Option<f6
         "From the pointer's movement to the middle of the tick in which it is felt\nto the end of \
          the write to the port, 99 of 100: {written} ms"
     );
+    let answered = bridge.and_then(|bridge| bridge.status_to_frame_s);
+    let answered = answered.map_or_else(String::new, |[p99_s, most_s]| {
+        let [p99, most] = [p99_s, most_s].map(quantity::time_span);
+        format!("\nFrom its STATUS to our frame: 99 of 100 within {p99}, at most {most}")
+    });
+    let interval = format!("Measured on the device's clock{answered}");
     let rows = [
         [
             (
                 "Frame interval",
                 number(interval_s.map(ms)),
                 "ms",
-                "Measured on the device's clock",
+                interval.as_str(),
             ),
             ("Depth", depth, "ticks", "Ticks from a frame to its effect"),
         ],
