@@ -56,6 +56,7 @@ mod state;
 mod take;
 mod theme;
 mod view;
+mod why;
 mod widgets;
 mod window;
 mod workspace;

@@ -101,6 +101,11 @@ impl ContactInspector {
         }
     }
 
+    /// Takes the gains of a scene that is the same but for them.
+    pub fn set_gains(&mut self, scene: &RenderScene) {
+        self.gains = Gains::of(scene);
+    }
+
     /// The trace of a contactor of a display at a pose; `None` when there is no such contactor or
     /// the pose's place is not finite. A motion that is not finite counts as rest.
     pub fn trace(&mut self, display: usize, contactor: usize, pose: &Pose) -> Option<ContactTrace> {
