@@ -1,7 +1,5 @@
 //! The explanation as text to be copied, and as a table to be saved.
 
-use std::fmt::Write as _;
-
 use super::{FULL_CODE, Why};
 use crate::quantity::{fixed, with_unit};
 use crate::render::GainTerms;
@@ -115,8 +113,7 @@ pub(crate) fn to_text(why: &Why) -> String {
         why.contactor, why.tick
     );
     for (name, value) in lines(why) {
-        // Writing into a string cannot fail.
-        drop(writeln!(text, "{name:<13} {value}"));
+        text += &format!("{name:<13} {value}\n");
     }
     text
 }
@@ -126,7 +123,7 @@ pub(crate) fn to_text(why: &Why) -> String {
 pub(crate) fn to_csv(why: &Why) -> String {
     let mut csv = String::from("quantity,axis,bin,value_40,value_320,unit\n");
     let mut row = |quantity: &str, axis: &str, bin: String, [low, high]: [f64; 2], unit: &str| {
-        drop(writeln!(csv, "{quantity},{axis},{bin},{low},{high},{unit}"));
+        csv += &format!("{quantity},{axis},{bin},{low},{high},{unit}\n");
     };
     let at = why.trace.position;
     row("x", "", String::new(), [at.x_mm; 2], "mm");
