@@ -108,22 +108,21 @@ pub(crate) fn to_text(why: &Why) -> String {
     let cell = why.cell.map_or_else(String::new, |(row, column)| {
         format!(", row {row}, column {column}")
     });
-    let mut text = format!(
-        "Contactor {}{cell}, tick {} (40 Hz / 320 Hz)\n",
+    let head = format!(
+        "Contactor {}{cell}, tick {} (40 Hz / 320 Hz)",
         why.contactor, why.tick
     );
-    for (name, value) in lines(why) {
-        text += &format!("{name:<13} {value}\n");
-    }
-    text
+    let lines = lines(why).into_iter();
+    let lines = lines.map(|(name, value)| format!("{name:<13} {value}"));
+    joined([head].into_iter().chain(lines))
 }
 
 /// Every number and every bin as a table: `quantity,axis,bin,value_40,value_320,unit`, with all
 /// digits.
 pub(crate) fn to_csv(why: &Why) -> String {
-    let mut csv = String::from("quantity,axis,bin,value_40,value_320,unit\n");
+    let mut rows = vec!["quantity,axis,bin,value_40,value_320,unit".to_owned()];
     let mut row = |quantity: &str, axis: &str, bin: String, [low, high]: [f64; 2], unit: &str| {
-        csv += &format!("{quantity},{axis},{bin},{low},{high},{unit}\n");
+        rows.push(format!("{quantity},{axis},{bin},{low},{high},{unit}"));
     };
     let at = why.trace.position;
     row("x", "", String::new(), [at.x_mm; 2], "mm");
@@ -163,5 +162,10 @@ pub(crate) fn to_csv(why: &Why) -> String {
     );
     let codes = why.output.codes.map(f64::from);
     row("drive code", "", String::new(), codes, "1");
-    csv
+    joined(rows.into_iter())
+}
+
+/// Lines, each with its end.
+fn joined(lines: impl Iterator<Item = String>) -> String {
+    lines.map(|line| line + "\n").collect()
 }
