@@ -2,6 +2,7 @@
 
 use eframe::egui::{Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use eframe::epaint::Vertex;
+use eframe::epaint::text::{LayoutJob, TextWrapping};
 
 use super::ViewTransform;
 use super::arrange::{screen_bounds, screen_corners};
@@ -16,6 +17,8 @@ const TAG: f32 = 20.0;
 const MUTED: f32 = 0.4;
 /// A tag on a textile narrower than this leaves the name out, points.
 const NAMED: f32 = 72.0;
+/// No tag's name is cut shorter than this, points.
+const NARROWEST: f32 = 20.0;
 
 /// Draws a textile, if it is in sight; one under the display is lifted a little.
 pub(super) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
@@ -82,19 +85,23 @@ pub(super) fn paint_tag(
     let palette = Palette::of(painter.ctx().theme());
     let ink = if is_lifted { palette.text } else { palette.dim };
     let label = painter.layout_no_wrap(cloth.label.clone(), theme::body(), palette.text);
-    let is_narrow = screen_bounds(view, cloth).width() < NAMED;
+    let width = screen_bounds(view, cloth).width();
+    let is_narrow = width < NAMED;
     let name = match (is_narrow && !cloth.label.is_empty(), cloth.is_muted) {
         (false, false) => cloth.name.clone(),
         (false, true) => format!("{}  ·  muted", cloth.name),
         (true, false) => String::new(),
         (true, true) => "muted".to_owned(),
     };
-    let name = painter.layout_no_wrap(name, theme::small(), ink);
     let label_width = if cloth.label.is_empty() {
         0.0
     } else {
         label.size().x + if name.is_empty() { 0.0 } else { 6.0 }
     };
+    // A tag covers no neighbour: what does not fit on the textile is cut.
+    let mut job = LayoutJob::simple_singleline(name, theme::small(), ink);
+    job.wrap = TextWrapping::truncate_at_width((width - label_width - 14.0).max(NARROWEST));
+    let name = painter.layout_job(job);
     let size = vec2(label_width + name.size().x + 14.0, TAG);
     let tag = Rect::from_min_size(pos2(corner.x, corner.y - size.y), size);
     let rounding = CornerRadius {
