@@ -15,8 +15,8 @@ use crate::files;
 const LIBRARY: f32 = 200.0;
 const CONTROLS: f32 = 328.0;
 const PICTURES: f32 = 236.0;
-/// A window smaller than this stacks panes behind each other, points.
-const ROOMY: Vec2 = Vec2::new(1100.0, 600.0);
+/// Less room than this, without header and timeline, stacks panes behind each other, points.
+const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// A part of the window that can be moved, stacked and hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
