@@ -209,21 +209,45 @@ mod tests {
         assert_eq!(lower_left(&corners), pos2(0.0, 100.0));
     }
 
-    #[test]
-    fn what_is_out_of_sight_is_not_drawn() {
-        let ctx = eframe::egui::Context::default();
-        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 100.0));
-        let cloth = Cloth {
+    fn cloth(name: &str, side_mm: f64) -> Cloth {
+        Cloth {
             id: String::new(),
             label: "1".to_owned(),
-            name: "Felt".to_owned(),
+            name: name.to_owned(),
             workspace_from_textile: crate::geometry::Frame::default(),
-            size_mm: [50.0; 2],
+            size_mm: [side_mm; 2],
             rotation_deg: 0.0,
             is_muted: false,
             gain_db: 0.0,
             picture: None,
-        };
+        }
+    }
+
+    #[test]
+    fn no_tag_covers_the_neighbour_of_its_textile() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 400.0));
+        let mut widths = Vec::new();
+        let mut output = ctx.run_ui(eframe::egui::RawInput::default(), |ui| {
+            for side_mm in [40.0, 80.0, 300.0] {
+                let centre = crate::geometry::Point::new(100.0, 100.0);
+                let view = ViewTransform::new(sight, centre, 1.0);
+                let cloth = cloth("Cotton and polyester denim", side_mm);
+                let tag = paint_tag(&ui.painter_at(sight), &view, &cloth, false);
+                widths.push(tag.map_or(0.0, |tag| tag.width()));
+            }
+        });
+        output.textures_delta.clear();
+        assert!(widths[0] > 0.0 && widths[0] <= 40.0, "{widths:?}");
+        assert!(widths[1] > widths[0] && widths[1] <= 80.0, "{widths:?}");
+        assert!(widths[2] > 120.0, "the whole name: {widths:?}");
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_not_drawn() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 100.0));
+        let cloth = cloth("Felt", 50.0);
         let input = eframe::egui::RawInput {
             screen_rect: Some(sight),
             ..eframe::egui::RawInput::default()
