@@ -138,7 +138,7 @@ pub(crate) fn show_corner(
     audition: &Audition,
     wishes: &mut Wishes,
 ) {
-    if toggle(ui, "0.0", has_numbers, "Numbers in the cells (N)") {
+    if toggle(ui, "123", has_numbers, "Numbers in the cells (N)") {
         wishes.push(ShowCommand::ToggleNumbers.into());
     }
     let (word, tip) = if scale.is_locked() {
