@@ -15,8 +15,8 @@ use crate::files;
 const LIBRARY: f32 = 200.0;
 const CONTROLS: f32 = 328.0;
 const PICTURES: f32 = 236.0;
-/// A window smaller than this stacks panes behind each other, points.
-const ROOMY: Vec2 = Vec2::new(1100.0, 600.0);
+/// Less room than this, without header and timeline, stacks panes behind each other, points.
+const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// A part of the window that can be moved, stacked and hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -74,6 +74,19 @@ impl Pane {
         }
     }
 
+    /// Its title where there is little room.
+    pub(crate) fn short_title(self) -> &'static str {
+        match self {
+            Self::ContactSpectrum => "Contact",
+            Self::DriveSpectrum => "Drive",
+            Self::DriveWave => "Wave",
+            Self::SpatialSpectra => "Spatial",
+            Self::Workspace | Self::Library | Self::Tuning | Self::Bridge | Self::Heatmaps => {
+                self.title()
+            }
+        }
+    }
+
     /// Its place in [`Self::ALL`].
     pub(crate) fn index(self) -> usize {
         Self::ALL
@@ -86,12 +99,17 @@ impl Pane {
 /// The arrangement that a window of this size begins with, points.
 pub(crate) fn default_tree(size: Vec2) -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let root = if size.x >= ROOMY.x && size.y >= ROOMY.y {
+    let root = if is_roomy(size) {
         roomy(&mut tiles, size)
     } else {
         stacked(&mut tiles)
     };
     Tree::new(Id::unique("arrangement"), root, tiles)
+}
+
+/// Whether a window of this size has room for everything side by side, points.
+pub(crate) fn is_roomy(size: Vec2) -> bool {
+    size.x >= ROOMY.x && size.y >= ROOMY.y
 }
 
 /// Everything in sight: cloth on the left, controls on the right, pictures below the cloth.

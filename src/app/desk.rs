@@ -2,7 +2,9 @@
 //!
 //! A pane that is hidden, or behind another, is not drawn, and nothing is computed for it.
 
-use eframe::egui::{self, Color32, Frame, Margin, ScrollArea, Stroke, Ui, Visuals, WidgetText};
+use eframe::egui::{
+    self, Align, Color32, Frame, Layout, Margin, ScrollArea, Stroke, Ui, Visuals, WidgetText, vec2,
+};
 use egui_tiles::{
     Behavior, EditAction, ResizeState, SimplificationOptions, TabState, Tile, TileId, Tiles,
     UiResponse,
@@ -14,6 +16,7 @@ use super::panes::{
     Wishes,
 };
 use super::signals::drive_um;
+use super::tab_row::{TITLE_SPACING, TabRow, corner_width};
 use super::theme::{self, Palette};
 use super::view::SceneView;
 use super::window::Workbench;
@@ -34,6 +37,8 @@ pub(crate) struct Desk<'a> {
     pub(crate) shown: Option<workspace::Shown>,
     /// Whether panes were moved.
     pub(crate) is_rearranged: bool,
+    /// Where titles and the pane's corner have no room side by side, the corner stands in the pane.
+    pub(crate) row: TabRow,
 }
 
 impl Desk<'_> {
@@ -223,14 +228,24 @@ impl Behavior<Pane> for Desk<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let ground = Palette::in_ui(ui).panel;
         ui.painter().rect_filled(ui.max_rect(), 0, ground);
+        if std::mem::take(&mut self.row) != TabRow::Roomy && corner_width(*pane) > 0.0 {
+            let line = Layout::right_to_left(Align::Center);
+            let size = vec2(ui.available_width(), TABS);
+            ui.allocate_ui_with_layout(size, line, |ui| {
+                ui.add_space(8.0);
+                self.show_corner(ui, *pane);
+            });
+        }
         self.show(ui, *pane);
         UiResponse::None
     }
 
     fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
-        egui::RichText::new(pane.title())
-            .font(theme::small())
-            .into()
+        let title = match self.row {
+            TabRow::Roomy | TabRow::Titles => pane.title(),
+            TabRow::ShortTitles => pane.short_title(),
+        };
+        egui::RichText::new(title).font(theme::small()).into()
     }
 
     fn top_bar_right_ui(
@@ -241,10 +256,23 @@ impl Behavior<Pane> for Desk<'_> {
         tabs: &egui_tiles::Tabs,
         _scroll: &mut f32,
     ) {
-        let front = tabs.active.and_then(|active| tiles.get(active));
-        if let Some(Tile::Pane(pane)) = front {
+        let pane_of = |id| match tiles.get(id) {
+            Some(Tile::Pane(pane)) => Some(*pane),
+            _ => None,
+        };
+        let is_seen = |id: &TileId| tiles.is_visible(*id);
+        let titles: Vec<Pane> = tabs
+            .children
+            .iter()
+            .copied()
+            .filter(is_seen)
+            .filter_map(pane_of)
+            .collect();
+        let front = tabs.active.and_then(pane_of);
+        self.row = TabRow::of(ui, &titles, front.map_or(0.0, corner_width));
+        if let Some(pane) = front.filter(|_| self.row == TabRow::Roomy) {
             ui.add_space(8.0);
-            self.show_corner(ui, *pane);
+            self.show_corner(ui, pane);
         }
     }
 
@@ -257,6 +285,10 @@ impl Behavior<Pane> for Desk<'_> {
             all_panes_must_have_tabs: true,
             ..SimplificationOptions::default()
         }
+    }
+
+    fn tab_title_spacing(&self, _visuals: &Visuals) -> f32 {
+        TITLE_SPACING
     }
 
     fn tab_bar_height(&self, _style: &egui::Style) -> f32 {

@@ -11,6 +11,7 @@ use super::desk::Desk;
 use super::panes::{self, Wishes};
 use super::pointer::Ground;
 use super::state::After;
+use super::tab_row::TabRow;
 use super::theme::Palette;
 use super::view::{SceneView, Source};
 use super::window::Workbench;
@@ -89,6 +90,7 @@ fn show_desk(
         wishes,
         shown: None,
         is_rearranged: false,
+        row: TabRow::default(),
     };
     tree.ui(&mut desk, ui);
     let (shown, is_rearranged) = (desk.shown, desk.is_rearranged);
@@ -137,11 +139,15 @@ impl Workbench {
         }
     }
 
-    /// Arranges the panes for a window of this size before they are shown first.
+    /// Arranges the panes for a window of this size before they are shown first, and when the room
+    /// changes a lot; what was arranged by hand stays.
     fn arrange(&mut self, size: egui::Vec2) {
-        let is_first = self.transient.desk_size == egui::Vec2::ZERO;
-        self.transient.desk_size = size;
-        if !is_first {
+        let before = std::mem::replace(&mut self.transient.desk_size, size);
+        if before != egui::Vec2::ZERO {
+            let is_other = arrangement::is_roomy(before) != arrangement::is_roomy(size);
+            if is_other && self.settings.kept.arrangement.is_none() {
+                self.tree = arrangement::default_tree(size);
+            }
             return;
         }
         let kept = self.settings.kept.arrangement.as_deref();

@@ -53,6 +53,7 @@ mod shelf;
 mod shortcuts;
 mod signals;
 mod state;
+mod tab_row;
 mod take;
 mod theme;
 mod view;

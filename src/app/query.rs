@@ -103,11 +103,15 @@ pub(crate) fn live_view(
         .first()
         .map_or(&[][..], |display| &display.contactors);
     let is_placed = snapshot.source != SourceKind::Pointer || snapshot.pointer.is_known;
+    let play = play_view(snapshot);
+    // All off silences a display that goes on moving; one that is held stands still.
+    let goes_on = snapshot.source == SourceKind::Pointer || play.is_playing;
+    let is_held = snapshot.is_silent && !(snapshot.is_stopped && goes_on);
     Live {
         tick: snapshot.tick,
         centre: is_placed.then_some(snapshot.pose.position),
         pose: snapshot.pose,
-        speed_mm_per_s: if snapshot.is_silent {
+        speed_mm_per_s: if is_held {
             0.0
         } else {
             snapshot.pose.velocity.speed_mm_per_s()
@@ -119,7 +123,7 @@ pub(crate) fn live_view(
             .collect(),
         is_stopped: snapshot.is_stopped,
         is_silent: snapshot.is_silent,
-        play: play_view(snapshot),
+        play,
         turn_deg: snapshot.turn_deg,
         status: Status {
             method: snapshot.method.name(),

@@ -29,6 +29,10 @@ impl Workbench {
     }
 
     fn connect(&mut self, target: Target) {
+        // What was said of the last device is no news of this one.
+        if let Some(last) = &self.transient.target {
+            self.transient.notices.forget_about(last);
+        }
         self.transient.target = Some(query::device_name(&target));
         self.send(engine::Command::Connect(target));
     }

@@ -76,8 +76,8 @@ fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, is_stopped: bool, wishe
         }
         return;
     }
-    if phase.is_none() && is_stopped {
-        let tip = "End the silence of all off; no device is connected";
+    if matches!(phase, None | Some(BridgePhase::Broken)) && is_stopped {
+        let tip = "End the silence of all off; no device is connected that works";
         if ui
             .add_sized(size, Button::new("Go on without a device"))
             .on_hover_text(tip)

@@ -150,15 +150,17 @@ fn show_status(ui: &mut Ui, status: &Status) {
     ));
 }
 
-/// The status in fixed digits: `table ·   0.2 µs · ≤ 0.050 dB · 0 missed`; without the cost where
-/// nobody measures it.
+/// The status in fixed digits: `table ·   0.2 µs · ≤ 0.050 dB ·    0 missed`; without the cost
+/// where nobody measures it. Its width is that of the numbers of any day, not of the moment.
 fn status_line(status: &Status) -> String {
     let cost = status.tick_cost_s.map_or_else(String::new, |s| {
-        format!(" · {:>5} µs", quantity::fixed(s * 1e6, 1))
+        let us = s * 1e6;
+        let decimals = usize::from(us < 999.95);
+        format!(" · {:>5} µs", quantity::fixed(us, decimals))
     });
     let bound = quantity::fixed(status.bound_db, 3);
     format!(
-        "{}{cost} · ≤ {bound} dB · {} missed",
+        "{}{cost} · ≤ {bound} dB · {:>4} missed",
         status.method, status.missed
     )
 }
@@ -168,19 +170,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_status_keeps_its_width_while_the_cost_changes() {
-        let line = |tick_cost_s| {
+    fn the_status_keeps_its_width_while_its_numbers_change() {
+        let line = |cost_s, missed| {
             status_line(&Status {
                 method: "table",
-                tick_cost_s,
+                tick_cost_s: Some(cost_s),
+                missed,
                 ..Status::default()
             })
         };
         assert_eq!(
-            line(Some(2.1e-7)),
-            "table ·   0.2 µs · ≤ 0.000 dB · 0 missed"
+            line(2.1e-7, 0),
+            "table ·   0.2 µs · ≤ 0.000 dB ·    0 missed"
         );
-        let width = |cost_s| line(Some(cost_s)).chars().count();
-        assert_eq!(width(41.0e-6), width(2.1e-7));
+        let width = |cost_s, missed| line(cost_s, missed).chars().count();
+        for (cost_s, missed) in [(41.0e-6, 12), (999.96e-6, 345), (0.025, 9999)] {
+            assert_eq!(width(cost_s, missed), width(2.1e-7, 0), "{cost_s} {missed}");
+        }
     }
 }

@@ -19,6 +19,8 @@ use crate::tactile::Band;
 const TITLE: f32 = 20.0;
 /// Space between cells, points.
 const GAP: f32 = 2.0;
+/// Height of a number beside the colour bar, points.
+const BAR_LINE: f32 = 10.0;
 /// Width of the colour bar with its numbers, points.
 const BAR: f32 = 48.0;
 /// Space between the two heatmaps, points.
@@ -136,7 +138,7 @@ pub(crate) fn show_corner(
     audition: &Audition,
     wishes: &mut Wishes,
 ) {
-    if toggle(ui, "0.0", has_numbers, "Numbers in the cells (N)") {
+    if toggle(ui, "123", has_numbers, "Numbers in the cells (N)") {
         wishes.push(ShowCommand::ToggleNumbers.into());
     }
     let (word, tip) = if scale.is_locked() {
@@ -284,7 +286,14 @@ fn words(index: usize, dot: &Dot, scene: &SceneView) -> String {
 fn paint_bar(painter: &Painter, bar: Rect, style: HeatmapStyle) {
     let palette = Palette::of(painter.ctx().theme());
     crate::app::widgets::colour_bar(painter, bar, style.map);
-    for amplitude_um in style.scale.marks_um() {
+    let mut taken: Vec<f32> = Vec::new();
+    let mut marks: Vec<f64> = style.scale.marks_um().into_iter().collect();
+    // The ends of the scale are written before what lies between.
+    marks.sort_by(|a, b| b.total_cmp(a));
+    if let Some(least) = marks.pop() {
+        marks.insert(1.min(marks.len()), least);
+    }
+    for amplitude_um in marks {
         #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
         let share = style.scale.share(amplitude_um) as f32;
         let y = bar.bottom() - bar.height() * share;
@@ -297,6 +306,10 @@ fn paint_bar(painter: &Painter, bar: Rect, style: HeatmapStyle) {
         let tick = Stroke::new(1.0, palette.line);
         painter.hline(bar.right()..=bar.right() + 3.0, y, tick);
         let y = y.clamp(bar.top() + 4.0, bar.bottom() - 4.0);
+        if taken.iter().any(|other| (other - y).abs() < BAR_LINE) {
+            continue;
+        }
+        taken.push(y);
         let at = pos2(bar.right() + 7.0, y);
         let font = theme::small_number();
         painter.text(at, Align2::LEFT_CENTER, digits, font, palette.dim);

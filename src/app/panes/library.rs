@@ -132,6 +132,7 @@ fn show_item(
     if is_usable && (response.hovered() || response.has_focus()) {
         ui.painter().rect_filled(rect, 4, palette.raised);
     }
+    paint_focus(ui, &response);
     let side = SWATCH.min(rect.height());
     let swatch = Rect::from_min_size(
         pos2(rect.left() + 2.0, rect.center().y - 0.5 * side),
@@ -188,6 +189,15 @@ fn answer_item(
             "{}\n{}{level}\nDrag it into the workspace, or double click",
             item.name, item.kind
         ));
+}
+
+/// A line around the row that has the keyboard.
+fn paint_focus(ui: &Ui, response: &Response) {
+    if response.has_focus() {
+        let edge = Stroke::new(1.0, Palette::in_ui(ui).selection);
+        let inside = egui::StrokeKind::Inside;
+        ui.painter().rect_stroke(response.rect, 4, edge, inside);
+    }
 }
 
 /// A piece of the cloth itself.
@@ -287,6 +297,7 @@ fn show_cloth(
                 ui.painter()
                     .rect_filled(rect, 4, palette.raised.gamma_multiply(0.6));
             }
+            paint_focus(ui, &response);
             let ink = if cloth.is_muted {
                 palette.dim
             } else {

@@ -49,6 +49,11 @@ impl Notices {
         self.shown.retain(|notice| notice.number != number);
     }
 
+    /// Puts away those that begin with a name.
+    pub(crate) fn forget_about(&mut self, name: &str) {
+        self.shown.retain(|notice| !notice.text.starts_with(name));
+    }
+
     /// Those that are shown, old to new.
     pub(crate) fn shown(&self) -> &[Notice] {
         &self.shown
@@ -107,6 +112,9 @@ mod tests {
         }
         let texts: Vec<&str> = notices.shown().iter().map(|n| n.text.as_str()).collect();
         assert_eq!(texts, ["a", "c", "d"]);
+        notices.forget_about("c");
+        assert_eq!(notices.shown().len(), 2, "one began with it");
+        notices.give("e");
         notices.dismiss(notices.shown()[1].number);
         assert_eq!(notices.shown().len(), 2);
     }

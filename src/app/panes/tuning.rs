@@ -7,7 +7,7 @@ use crate::app::audition::Audition;
 use crate::app::command::{Edit, Part, ShowCommand};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
-use crate::app::widgets::{Scale, row, slider_row, toggle};
+use crate::app::widgets::{Scale, row, slider_row, tip_beside, toggle};
 use crate::quantity;
 use crate::tactile::{Band, Filters, Tuning};
 
@@ -28,7 +28,7 @@ pub(crate) fn show(
     let (now, rest) = (scene.tuning, scene.default_tuning);
     let scale = Scale::gain(rest.gain_db);
     let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
-    response.on_hover_text(SLIDER_TIP);
+    tip_beside(ui, &response, SLIDER_TIP);
     wishes.extend(new.map(|db| Edit::MasterGain(db).into()));
     for band in Band::ALL {
         show_band(ui, band, scene, audition, wishes);
@@ -36,7 +36,8 @@ pub(crate) fn show(
     show_textile(ui, scene, live, wishes);
     let scale = Scale::share(rest.compression);
     let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
-    response.on_hover_text("0 % leaves textiles as different as they are, 100 % makes all equal");
+    let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
+    tip_beside(ui, &response, tip);
     wishes.extend(new.map(|share| Edit::Compression(share).into()));
     curve::show(ui, scene);
     show_ranges(ui, scene);
@@ -80,7 +81,7 @@ fn show_band(ui: &mut Ui, band: Band, scene: &SceneView, audition: &Audition, wi
             wishes.push(command.into());
         }
     }
-    response.on_hover_text(SLIDER_TIP);
+    tip_beside(ui, &response, SLIDER_TIP);
 }
 
 /// The gain of the textile under the display; without one the row keeps its place.
@@ -99,7 +100,11 @@ fn show_textile(ui: &mut Ui, scene: &SceneView, live: &Live, wishes: &mut Wishes
     let scale = Scale::gain(0.0);
     let name = name.trim_end();
     let (new, response) = slider_row(ui, name, palette.text, scale, cloth.gain_db);
-    response.on_hover_text(format!("Gain of {}\n{SLIDER_TIP}", cloth.name));
+    tip_beside(
+        ui,
+        &response,
+        format!("Gain of {}\n{SLIDER_TIP}", cloth.name),
+    );
     wishes.extend(new.map(|db| Edit::TextileGain(index, db).into()));
 }
 
@@ -169,7 +174,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
         let ink = Palette::in_ui(ui).text;
         let (new, response) = slider_row(ui, "Width", ink, scale, octaves);
         if is_gaussian {
-            response.on_hover_text("Width of both filters at half power");
+            tip_beside(ui, &response, "Width of both filters at half power");
             wishes
                 .extend(new.map(|octaves| Edit::Filters(Filters::LogGaussian { octaves }).into()));
         } else {

@@ -4,8 +4,8 @@
 //! value; Shift moves finely; the number can be clicked and typed over, unit and all.
 
 use eframe::egui::{
-    self, Align2, Color32, EventFilter, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo,
-    accesskit, pos2, vec2,
+    self, Align2, Color32, EventFilter, Id, Key, Rect, RectAlign, Response, Sense, Stroke, Tooltip,
+    Ui, WidgetInfo, WidgetText, accesskit, pos2, vec2,
 };
 
 use crate::app::theme::{self, Palette, ROW};
@@ -132,6 +132,15 @@ pub(crate) fn slider_row(
     );
     let new = typed.or(slid).filter(|new| (new - value).abs() > 1e-9);
     (new, response)
+}
+
+/// Tells of a slider beside its pane: below it the tip would cover the next slider, which the hand
+/// may want next.
+pub(crate) fn tip_beside(ui: &Ui, response: &Response, words: impl Into<WidgetText>) {
+    let beside = Rect::from_x_y_ranges(ui.max_rect().x_range(), response.rect.y_range());
+    let mut tip = Tooltip::for_enabled(response);
+    tip.popup = tip.popup.anchor(beside).align(RectAlign::LEFT).gap(16.0);
+    tip.show(|ui| ui.label(words));
 }
 
 /// The value that pointer, keys or an assistive tool ask for.

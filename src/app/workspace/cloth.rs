@@ -2,6 +2,7 @@
 
 use eframe::egui::{Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use eframe::epaint::Vertex;
+use eframe::epaint::text::{LayoutJob, TextWrapping};
 
 use super::ViewTransform;
 use super::arrange::{screen_bounds, screen_corners};
@@ -16,6 +17,8 @@ const TAG: f32 = 20.0;
 const MUTED: f32 = 0.4;
 /// A tag on a textile narrower than this leaves the name out, points.
 const NAMED: f32 = 72.0;
+/// No tag's name is cut shorter than this, points.
+const NARROWEST: f32 = 20.0;
 
 /// Draws a textile, if it is in sight; one under the display is lifted a little.
 pub(super) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
@@ -82,19 +85,23 @@ pub(super) fn paint_tag(
     let palette = Palette::of(painter.ctx().theme());
     let ink = if is_lifted { palette.text } else { palette.dim };
     let label = painter.layout_no_wrap(cloth.label.clone(), theme::body(), palette.text);
-    let is_narrow = screen_bounds(view, cloth).width() < NAMED;
+    let width = screen_bounds(view, cloth).width();
+    let is_narrow = width < NAMED;
     let name = match (is_narrow && !cloth.label.is_empty(), cloth.is_muted) {
         (false, false) => cloth.name.clone(),
         (false, true) => format!("{}  ·  muted", cloth.name),
         (true, false) => String::new(),
         (true, true) => "muted".to_owned(),
     };
-    let name = painter.layout_no_wrap(name, theme::small(), ink);
     let label_width = if cloth.label.is_empty() {
         0.0
     } else {
         label.size().x + if name.is_empty() { 0.0 } else { 6.0 }
     };
+    // A tag covers no neighbour: what does not fit on the textile is cut.
+    let mut job = LayoutJob::simple_singleline(name, theme::small(), ink);
+    job.wrap = TextWrapping::truncate_at_width((width - label_width - 14.0).max(NARROWEST));
+    let name = painter.layout_job(job);
     let size = vec2(label_width + name.size().x + 14.0, TAG);
     let tag = Rect::from_min_size(pos2(corner.x, corner.y - size.y), size);
     let rounding = CornerRadius {
@@ -202,21 +209,45 @@ mod tests {
         assert_eq!(lower_left(&corners), pos2(0.0, 100.0));
     }
 
-    #[test]
-    fn what_is_out_of_sight_is_not_drawn() {
-        let ctx = eframe::egui::Context::default();
-        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 100.0));
-        let cloth = Cloth {
+    fn cloth(name: &str, side_mm: f64) -> Cloth {
+        Cloth {
             id: String::new(),
             label: "1".to_owned(),
-            name: "Felt".to_owned(),
+            name: name.to_owned(),
             workspace_from_textile: crate::geometry::Frame::default(),
-            size_mm: [50.0; 2],
+            size_mm: [side_mm; 2],
             rotation_deg: 0.0,
             is_muted: false,
             gain_db: 0.0,
             picture: None,
-        };
+        }
+    }
+
+    #[test]
+    fn no_tag_covers_the_neighbour_of_its_textile() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 400.0));
+        let mut widths = Vec::new();
+        let mut output = ctx.run_ui(eframe::egui::RawInput::default(), |ui| {
+            for side_mm in [40.0, 80.0, 300.0] {
+                let centre = crate::geometry::Point::new(100.0, 100.0);
+                let view = ViewTransform::new(sight, centre, 1.0);
+                let cloth = cloth("Cotton and polyester denim", side_mm);
+                let tag = paint_tag(&ui.painter_at(sight), &view, &cloth, false);
+                widths.push(tag.map_or(0.0, |tag| tag.width()));
+            }
+        });
+        output.textures_delta.clear();
+        assert!(widths[0] > 0.0 && widths[0] <= 40.0, "{widths:?}");
+        assert!(widths[1] > widths[0] && widths[1] <= 80.0, "{widths:?}");
+        assert!(widths[2] > 120.0, "the whole name: {widths:?}");
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_not_drawn() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 100.0));
+        let cloth = cloth("Felt", 50.0);
         let input = eframe::egui::RawInput {
             screen_rect: Some(sight),
             ..eframe::egui::RawInput::default()

@@ -47,7 +47,9 @@ pub(super) fn arrange(ui: &mut Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
             input.pointer.primary_down(),
         )
     });
-    if let Some(at) = pointer.filter(|_| is_pressed && stage.response.is_pointer_button_down_on()) {
+    // A tap may come and go within one frame: it chooses all the same.
+    let is_taken = stage.response.is_pointer_button_down_on() || stage.response.clicked();
+    if let Some(at) = pointer.filter(|_| is_pressed && is_taken) {
         let grab = take_hold(stage, at, wishes);
         ui.data_mut(|data| data.insert_temp(id, Some(grab)));
     }

@@ -142,7 +142,8 @@ fn show_readings(ui: &Ui, corner: egui::Pos2, width: f32, scene: &SceneView, liv
     let palette = Palette::in_ui(ui);
     let painter = ui.painter();
     let under = live
-        .cloth_under_display()
+        .centre
+        .and_then(|_| live.cloth_under_display())
         .and_then(|index| scene.cloths.get(index));
     let cloth = under.map_or_else(|| "no textile".to_owned(), |cloth| cloth.name.clone());
     let galley = painter.layout(cloth, theme::body(), palette.text, width);

@@ -1,6 +1,8 @@
 //! The real window under test: no display, no graphics card, simulated time, our own rasteriser.
 
 mod basics;
+#[cfg(unix)]
+mod ports;
 mod views;
 mod workbench;
 

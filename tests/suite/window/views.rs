@@ -142,3 +142,22 @@ fn the_window_is_drawn_at_every_size_and_scale() {
         }
     }
 }
+
+#[test]
+fn the_default_arrangement_follows_the_window_and_one_made_by_hand_stays() {
+    let folder = Folder::new("room");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    assert!(harness.query_by_label("Wave").is_none(), "side by side");
+    harness.set_size(vec2(700.0, 450.0));
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Wave").is_some(), "in tabs");
+    harness.set_size(vec2(1400.0, 900.0));
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Wave").is_none(), "and back");
+    harness.get_by_label("Drive spectrum").click();
+    harness.run_steps(3);
+    harness.set_size(vec2(700.0, 450.0));
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Library").is_some(), "kept");
+}

@@ -318,3 +318,28 @@ fn filters_are_chosen_and_felt() {
     press(&mut harness, Modifiers::COMMAND, Key::Z);
     assert!(!harness.state().is_edited(), "undone");
 }
+
+#[test]
+fn a_tap_that_comes_and_goes_within_a_frame_chooses_a_textile() {
+    let folder = Folder::with_size("tap", [60.0, 200.0]);
+    let mut harness = window(&folder.scene());
+    harness.run();
+    press(&mut harness, Modifiers::NONE, Key::A);
+    let cloth = harness.get_by_label("Textile 1 Ripple").rect().center();
+    harness.hover_at(cloth);
+    harness.step();
+    for pressed in [true, false] {
+        harness.event(eframe::egui::Event::PointerButton {
+            pos: cloth,
+            button: eframe::egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    harness.run_steps(3);
+    press(&mut harness, Modifiers::NONE, Key::Delete);
+    assert!(
+        harness.state().scene().textiles.is_empty(),
+        "chosen, then removed"
+    );
+}

@@ -31,15 +31,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
     );
     paint_title(ui, &plot, &title, true);
     plot.paint_axes(ui.painter(), true);
-    for (share, words) in [
+    let marks = [
         (0.0, "12 s before"),
-        (0.25, "9 s"),
-        (0.5, "6 s"),
-        (0.75, "3 s"),
         (1.0, "newest"),
-    ] {
-        plot.paint_time(ui.painter(), share, words);
-    }
+        (0.5, "6 s"),
+        (0.25, "9 s"),
+        (0.75, "3 s"),
+    ];
+    plot.paint_times(
+        ui.painter(),
+        &marks.map(|(share, words)| (share, words.to_owned())),
+    );
     if placed.is_empty() {
         let words = "Move over a textile, or let the display explore by itself";
         let middle = plot.area.center();

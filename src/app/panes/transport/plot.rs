@@ -5,7 +5,7 @@
 
 use eframe::egui::{
     Align2, Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, epaint::Vertex, epaint::WHITE_UV,
-    pos2,
+    pos2, vec2,
 };
 
 use crate::app::take::Extent;
@@ -26,6 +26,8 @@ const TIMES: f32 = 13.0;
 const HALF: f32 = 0.75;
 /// A time axis has a mark at most this often, points.
 const MARKS: f64 = 84.0;
+/// Words of a time axis stand at least this far apart, points.
+const APART: f32 = 4.0;
 /// Steps of a time axis, ms.
 const STEPS_MS: [u64; 18] = [
     100,
@@ -138,8 +140,16 @@ impl Plot {
         write(right, bottom, Align2::LEFT_CENTER, "0");
     }
 
-    /// A mark of the time axis with its words.
-    pub(super) fn paint_time(&self, painter: &Painter, share: f64, words: &str) {
+    /// The marks of the time axis with their words, by share of the width; the ends first, since
+    /// words that would touch others are left out.
+    pub(super) fn paint_times(&self, painter: &Painter, marks: &[(f64, String)]) {
+        let mut taken: Vec<Rect> = Vec::new();
+        for (share, words) in marks {
+            self.paint_time(painter, *share, words, &mut taken);
+        }
+    }
+
+    fn paint_time(&self, painter: &Painter, share: f64, words: &str, taken: &mut Vec<Rect>) {
         let palette = Palette::of(painter.ctx().theme());
         let x = painter.round_to_pixel_center(self.x_at(share));
         let area = self.area;
@@ -153,7 +163,14 @@ impl Plot {
         } else {
             Align2::CENTER_TOP
         };
-        painter.text(below, anchor, words, theme::small_number(), palette.dim);
+        let words = words.to_owned();
+        let galley = painter.layout_no_wrap(words, theme::small_number(), palette.dim);
+        let place = anchor.anchor_size(below, galley.size());
+        let room = place.expand2(vec2(APART, 0.0));
+        if !taken.iter().any(|other| other.intersects(room)) {
+            painter.galley(place.min, galley, palette.dim);
+            taken.push(place);
+        }
     }
 }
 
@@ -253,10 +270,7 @@ mod tests {
     use super::*;
 
     fn plot() -> Plot {
-        Plot::new(
-            Rect::from_min_size(Pos2::ZERO, eframe::egui::vec2(900.0, 68.0)),
-            130.0,
-        )
+        Plot::new(Rect::from_min_size(Pos2::ZERO, vec2(900.0, 68.0)), 130.0)
     }
 
     #[test]

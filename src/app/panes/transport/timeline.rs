@@ -215,9 +215,11 @@ pub(super) fn paint_title(ui: &Ui, plot: &Plot, title: &str, has_levels: bool) {
 fn paint_times(painter: &Painter, plot: &Plot, n_ticks: u64) {
     let last_ms = n_ticks.saturating_sub(1) * TICK_MS;
     let step = plot::step_ms(last_ms, plot.area.width());
-    for mark in 0..=last_ms / step.max(1) {
+    let mark = |mark: u64| {
         let time_ms = mark * step;
         let share = time_ms as f64 / last_ms.max(1) as f64;
-        plot.paint_time(painter, share, &plot::time_words(time_ms, step));
-    }
+        (share, plot::time_words(time_ms, step))
+    };
+    let marks: Vec<_> = (0..=last_ms / step.max(1)).map(mark).collect();
+    plot.paint_times(painter, &marks);
 }

@@ -1,0 +1,55 @@
+//! What a row of tabs has room for: a narrow one shortens its titles before it scrolls.
+
+use eframe::egui::{Color32, Ui};
+
+use super::arrangement::Pane;
+use super::theme;
+
+/// Space on both sides of a title, points.
+pub(crate) const TITLE_SPACING: f32 = 8.0;
+
+/// What a row of tabs has room for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum TabRow {
+    /// Titles, and beside them what belongs to the pane in front.
+    #[default]
+    Roomy,
+    /// Titles alone.
+    Titles,
+    /// Short titles alone.
+    ShortTitles,
+}
+
+impl TabRow {
+    /// For a row this wide, points.
+    pub(crate) fn of(ui: &Ui, titles: &[Pane], corner: f32) -> Self {
+        let width = |title: &str| {
+            let ink = Color32::PLACEHOLDER;
+            let galley = ui
+                .painter()
+                .layout_no_wrap(title.to_owned(), theme::small(), ink);
+            galley.size().x + 2.0 * TITLE_SPACING
+        };
+        let needed: f32 = titles.iter().map(|pane| width(pane.title())).sum();
+        let room = ui.available_width();
+        if needed + corner <= room {
+            Self::Roomy
+        } else if needed <= room {
+            Self::Titles
+        } else {
+            Self::ShortTitles
+        }
+    }
+}
+
+/// Width of what stands at the right end of a row of tabs, points.
+pub(crate) fn corner_width(pane: Pane) -> f32 {
+    match pane {
+        Pane::Heatmaps => 156.0,
+        Pane::ContactSpectrum | Pane::DriveSpectrum | Pane::DriveWave | Pane::SpatialSpectra => {
+            112.0
+        }
+        Pane::Workspace => 300.0,
+        Pane::Library | Pane::Tuning | Pane::Bridge => 0.0,
+    }
+}

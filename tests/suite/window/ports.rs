@@ -1,0 +1,116 @@
+//! Ports that are busy and devices that vanish: a notice with the mend, and the last state stays.
+
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Stdio};
+
+use eframe::egui::Event;
+use eframe::egui::accesskit::Role;
+use serialport::{SerialPort as _, TTYPort};
+
+use super::*;
+
+/// An emulated device in a process of its own, behind a pseudo-terminal.
+struct Device(Child);
+
+impl Device {
+    fn start(link: &Path) -> Self {
+        drop(fs::remove_file(link));
+        let mut child = Command::new(env!("CARGO_BIN_EXE_selvedge"))
+            .args(["bridge", "emulate", "--link"])
+            .arg(link)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        let out = child.stdout.take().unwrap();
+        BufReader::new(out).read_line(&mut line).unwrap();
+        assert!(line.contains(" -> /dev/"), "{line}");
+        Self(child)
+    }
+
+    /// As when the cable is pulled.
+    fn vanish(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        drop(self.0.kill());
+        drop(self.0.wait());
+    }
+}
+
+/// Types a port into the bridge pane and asks to connect.
+fn connect(harness: &mut Harness<'_, Workbench>, port: &str) {
+    harness.get_by_label("Port").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.step();
+    harness.event(Event::Text(port.to_owned()));
+    harness.step();
+    press(harness, Modifiers::NONE, Key::Enter);
+}
+
+fn has_notice(harness: &Harness<'_, Workbench>, words: &[&str]) -> bool {
+    let notices = harness.state().notices();
+    let says = |notice: &String| words.iter().all(|word| notice.contains(word));
+    notices.iter().any(says)
+}
+
+#[test]
+fn a_port_that_another_program_holds_is_a_notice_and_the_last_state_stays() {
+    let folder = Folder::new("busy");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    let (_master, mut held) = TTYPort::pair().unwrap();
+    // A shared lock on the terminal: nobody else gets one of their own.
+    held.set_exclusive(false).unwrap();
+    let port = held.name().unwrap();
+    connect(&mut harness, &port);
+    wait(&mut harness, |bench| !bench.notices().is_empty());
+    assert!(
+        has_notice(&harness, &[&port, "another program"]),
+        "{:?}",
+        harness.state().notices()
+    );
+    assert!(!harness.state().is_ready() && !harness.state().is_stopped());
+    stroke(&mut harness, 20);
+    assert!(loudest_um(&harness) > 0.1, "the scene is still felt");
+    harness.state_mut().connect_emulator();
+    wait(&mut harness, Workbench::is_ready);
+}
+
+#[test]
+fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
+    let folder = Folder::new("vanishing");
+    let link = folder.0.join("array");
+    let port = link.to_str().unwrap();
+    let mut device = Device::start(&link);
+    let mut harness = window(&folder.scene());
+    harness.run();
+    connect(&mut harness, port);
+    wait(&mut harness, Workbench::is_ready);
+    harness.get_by_role_and_label(Role::Button, "Arm").click();
+    wait(&mut harness, Workbench::is_armed);
+    device.vanish();
+    wait(&mut harness, |bench| !bench.is_armed());
+    wait(&mut harness, |bench| {
+        bench.notices().iter().any(|notice| notice.contains("gone"))
+    });
+    assert!(
+        has_notice(&harness, &[port, "gone"]),
+        "{:?}",
+        harness.state().notices()
+    );
+    stroke(&mut harness, 20);
+    assert!(loudest_um(&harness) > 0.1, "the scene is still felt");
+    assert!(!harness.state().is_ready(), "and arming is refused");
+    let _again = Device::start(&link);
+    connect(&mut harness, port);
+    wait(&mut harness, Workbench::is_ready);
+    harness.get_by_role_and_label(Role::Button, "Arm").click();
+    wait(&mut harness, Workbench::is_armed);
+}
