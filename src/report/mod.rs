@@ -16,9 +16,15 @@
 mod bench;
 mod error;
 mod findings;
+mod growth;
+mod left_out;
+mod rendering;
 mod study;
 
 pub use bench::{Bench, Effort, Timing};
 pub use error::ReportError;
 pub use findings::{Findings, Row};
+pub use growth::GrowthStudy;
+pub use left_out::{LeftOutStudy, SavingRule};
+pub use rendering::RenderingStudy;
 pub use study::Study;
