@@ -118,15 +118,15 @@ fn inner_repeats<T>(least_s: f64, work: &mut impl FnMut() -> T) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::{CancelFlag, unheard};
+    use crate::progress::CancelFlag;
 
     #[test]
     fn work_is_measured_for_each_unit_and_counted() {
         let mut n_calls = 0_u64;
-        let timing = unheard(|progress| {
-            let mut bench = Bench::new(Effort::Quick, 1, progress);
-            bench.time(1000, || n_calls += 1)
-        });
+        let mut report = |_: f64, _: &str| {};
+        let mut progress = Progress::new(&mut report, CancelFlag::new());
+        let mut bench = Bench::new(Effort::Quick, 1, &mut progress);
+        let timing = bench.time(1000, || n_calls += 1);
         assert_eq!(timing.n_repeats, 5);
         assert!(n_calls > 5 && timing.cpu_s >= 0.0, "{timing:?}");
         let [low, high] = timing.cpu_quartiles_s;

@@ -17,8 +17,10 @@ mod bench;
 mod error;
 mod findings;
 mod study;
+mod velocity;
 
 pub use bench::{Bench, Effort, Timing};
 pub use error::ReportError;
 pub use findings::{Findings, Row};
 pub use study::Study;
+pub use velocity::VelocityStudy;
