@@ -20,6 +20,7 @@ mod growth;
 mod left_out;
 mod rendering;
 mod study;
+mod velocity;
 
 pub use bench::{Bench, Effort, Timing};
 pub use error::ReportError;
@@ -28,3 +29,4 @@ pub use growth::GrowthStudy;
 pub use left_out::{LeftOutStudy, SavingRule};
 pub use rendering::RenderingStudy;
 pub use study::Study;
+pub use velocity::VelocityStudy;
