@@ -14,11 +14,31 @@
 //! - no GUI: the window's own studies are handed in by `app`
 
 mod bench;
+mod chart;
+mod columns;
 mod error;
 mod findings;
+mod index;
+mod listing;
+mod machine;
+mod pareto;
+mod readable;
+mod runner;
+mod stability;
 mod study;
+#[cfg(test)]
+mod tests;
+mod write;
 
 pub use bench::{Bench, Effort, Timing};
 pub use error::ReportError;
 pub use findings::{Findings, Row};
+pub use machine::Machine;
+pub use pareto::pareto;
+pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use study::Study;
+
+/// Every study of the floors below, in the order of the report.
+pub fn studies() -> Vec<Box<dyn Study>> {
+    vec![Box::new(stability::Stability)]
+}
