@@ -81,9 +81,12 @@ impl Pane {
             Self::DriveSpectrum => "Drive",
             Self::DriveWave => "Wave",
             Self::SpatialSpectra => "Spatial",
-            Self::Workspace | Self::Library | Self::Tuning | Self::Bridge | Self::Heatmaps => {
-                self.title()
-            }
+            Self::Workspace
+            | Self::Library
+            | Self::Tuning
+            | Self::Bridge
+            | Self::Heatmaps
+            | Self::Why => self.title(),
         }
     }
 

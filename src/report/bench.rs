@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::ReportError;
 use crate::numerics::{median, quantile};
-use crate::progress::{Progress, thread_cpu_seconds};
+use crate::progress::{Cancelled, Progress, thread_cpu_seconds};
 
 /// How much work a report may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -44,18 +44,37 @@ pub struct Timing {
 }
 
 /// What a study measures with, and how far it may go.
-#[derive(Debug)]
 pub struct Bench<'a> {
     /// How much work it may take.
     pub effort: Effort,
     /// What its random numbers begin with.
     pub seed: u64,
-    progress: &'a mut Progress<'a>,
+    progress: &'a mut (dyn Heard + 'a),
+}
+
+/// Who hears how far a study is; a [`Progress`] without its own lifetime.
+trait Heard {
+    fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled>;
+}
+
+impl Heard for Progress<'_> {
+    fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled> {
+        Progress::step(self, share, doing)
+    }
+}
+
+impl std::fmt::Debug for Bench<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Bench")
+            .field("effort", &self.effort)
+            .field("seed", &self.seed)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a> Bench<'a> {
     /// A bench that tells `progress` how far a study is.
-    pub fn new(effort: Effort, seed: u64, progress: &'a mut Progress<'a>) -> Self {
+    pub fn new(effort: Effort, seed: u64, progress: &'a mut Progress<'_>) -> Self {
         Self {
             effort,
             seed,

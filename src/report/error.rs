@@ -1,6 +1,7 @@
 //! What can go wrong with a report.
 
 use crate::engine::EngineError;
+use crate::figure::FigureError;
 use crate::files::FileError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
@@ -13,7 +14,7 @@ pub enum ReportError {
     #[error("the report was cancelled; what was finished is kept")]
     Cancelled,
     /// A study of that name is not known.
-    #[error("no study is called {name:?}; known are {known}")]
+    #[error("no study is called {name:?}; choose from {known}")]
     Unknown {
         /// What was asked for.
         name: String,
@@ -23,6 +24,9 @@ pub enum ReportError {
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A plot cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// A scene cannot be loaded.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -39,6 +39,18 @@ pub struct Row {
     pub more: Vec<(&'static str, String)>,
 }
 
+impl Findings {
+    /// The rows that do not keep their promise.
+    pub fn broken(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| row.is_kept() == Some(false))
+    }
+
+    /// How many those are.
+    pub fn n_broken(&self) -> usize {
+        self.broken().count()
+    }
+}
+
 impl Row {
     /// Whether the promise is kept; `None` without one. A missing or senseless error keeps none.
     pub fn is_kept(&self) -> Option<bool> {

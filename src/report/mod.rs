@@ -14,19 +14,45 @@
 //! - no GUI: the window's own studies are handed in by `app`
 
 mod bench;
+mod chart;
+mod columns;
 mod error;
 mod findings;
 mod growth;
+mod index;
 mod left_out;
+mod listing;
+mod machine;
+mod pareto;
+mod readable;
 mod rendering;
+mod runner;
+mod stability;
 mod study;
+#[cfg(test)]
+mod tests;
 mod velocity;
+mod write;
 
 pub use bench::{Bench, Effort, Timing};
 pub use error::ReportError;
 pub use findings::{Findings, Row};
 pub use growth::GrowthStudy;
 pub use left_out::{LeftOutStudy, SavingRule};
+pub use machine::Machine;
+pub use pareto::pareto;
 pub use rendering::RenderingStudy;
+pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use study::Study;
 pub use velocity::VelocityStudy;
+
+/// Every study of the floors below, in the order of the report.
+pub fn studies() -> Vec<Box<dyn Study>> {
+    vec![
+        Box::new(RenderingStudy),
+        Box::new(VelocityStudy),
+        Box::new(GrowthStudy),
+        Box::new(LeftOutStudy::default()),
+        Box::new(stability::Stability),
+    ]
+}
