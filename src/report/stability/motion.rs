@@ -15,21 +15,26 @@ use crate::tactile::{Filters, Levels, MAX_SPEED_MM_PER_S};
 /// Speeds, heights and scenes.
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    for speed in [0.0, 1e-300, 0.009_999, -0.009_999] {
-        let tried = format!("{speed} mm/s");
-        cases.push(Case::new("speed", tried, "silent", move || {
-            silent_at(moving(speed), false)
-        }));
+    let slow = [
+        ("0", 0.0),
+        ("1e−300", 1e-300),
+        ("0.0099", 0.0099),
+        ("−0.0099", -0.0099),
+    ];
+    for (spelt, speed) in slow {
+        let run = move || silent_at(moving(speed), false);
+        cases.push(Case::new("speed", format!("{spelt} mm/s"), "silent", run));
     }
-    for speed in [
-        MAX_SPEED_MM_PER_S,
-        1e6,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        f64::NAN,
-    ] {
-        let tried = format!("{speed} mm/s");
+    let fast = [
+        ("1000/0.23", MAX_SPEED_MM_PER_S),
+        ("1e6", 1e6),
+        ("∞", f64::INFINITY),
+        ("−∞", f64::NEG_INFINITY),
+        ("NaN", f64::NAN),
+    ];
+    for (spelt, speed) in fast {
         let run = move || silent_at(moving(speed), true);
+        let tried = format!("{spelt} mm/s");
         cases.push(Case::new("speed", tried, "silent and counted", run));
     }
     let nowhere = Pose {
