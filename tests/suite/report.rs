@@ -46,7 +46,7 @@ fn the_same_seed_gives_the_same_numbers_but_for_times() {
         quick(&lab, out, &[]);
         let rows = Rows::read(&lab.path(out).join("stability.csv"));
         let kept = |name: &&str| !name.ends_with("_s") && *name != "pareto";
-        let header = rows.header().to_owned();
+        let header = rows.header().clone();
         let names: Vec<&str> = header.split(',').filter(kept).collect();
         let of = |name: &&str| rows.text(name).iter().map(ToString::to_string).collect();
         names.iter().map(of).collect::<Vec<Vec<String>>>()

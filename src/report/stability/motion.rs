@@ -14,6 +14,39 @@ use crate::tactile::{Filters, Levels, MAX_SPEED_MM_PER_S};
 
 /// Speeds, heights and scenes.
 pub(super) fn cases() -> Vec<Case> {
+    let mut cases = speeds();
+    let heights = [
+        (
+            "heights all equal",
+            "silent, level none",
+            level_of_equal_heights as fn() -> Verdict,
+        ),
+        ("heights of 1e−12 µm", "computed", tiny_heights),
+        ("heights of 1e12 µm", "computed, then limited", huge_heights),
+    ];
+    let scenes = [
+        ("no textile", "silent", no_textile as fn() -> Verdict),
+        (
+            "a hundred textiles overlapping",
+            "the topmost wins",
+            hundred_overlapping,
+        ),
+        (
+            "a display half outside",
+            "contactors inside sound, the others do not",
+            half_outside,
+        ),
+    ];
+    let of = |area: &'static str| {
+        move |(tried, should, run): (&'static str, _, _)| Case::new(area, tried, should, run)
+    };
+    cases.extend(heights.map(of("heights")));
+    cases.extend(scenes.map(of("scene")));
+    cases
+}
+
+/// Speeds and places.
+fn speeds() -> Vec<Case> {
     let mut cases = Vec::new();
     let slow = [
         ("0", 0.0),
@@ -48,33 +81,6 @@ pub(super) fn cases() -> Vec<Case> {
         "silent and counted",
         run,
     ));
-    let heights = [
-        (
-            "heights all equal",
-            "silent, level none",
-            level_of_equal_heights as fn() -> Verdict,
-        ),
-        ("heights of 1e−12 µm", "computed", tiny_heights),
-        ("heights of 1e12 µm", "computed, then limited", huge_heights),
-    ];
-    let scenes = [
-        ("no textile", "silent", no_textile as fn() -> Verdict),
-        (
-            "a hundred textiles overlapping",
-            "the topmost wins",
-            hundred_overlapping,
-        ),
-        (
-            "a display half outside",
-            "contactors inside sound, the others do not",
-            half_outside,
-        ),
-    ];
-    let of = |area: &'static str| {
-        move |(tried, should, run): (&'static str, _, _)| Case::new(area, tried, should, run)
-    };
-    cases.extend(heights.map(of("heights")));
-    cases.extend(scenes.map(of("scene")));
     cases
 }
 
