@@ -163,7 +163,8 @@ fn a_wrong_method_shows_up_as_wrong() {
     );
     assert_eq!(table.text("setting").unwrap()[0], "f32, \"fast\"");
     let index = folder.read("index.md");
-    let broken = "## Broken promises: made-up\n\n- wrong, f32, \"fast\", silk\\|crêpe: 3.00 dB where \
+    let broken = "## Broken promises: made-up\n\n\
+                  - wrong, f32, \"fast\", silk\\|crêpe: 3.00 dB where \
                   0.0500 dB is promised";
     assert!(index.contains(broken), "{index}");
     let (top, rest) = index.split_once("## Made up").unwrap();
