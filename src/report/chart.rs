@@ -56,8 +56,8 @@ pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Opti
         y: axis(y_label),
         series,
         footnote: format!(
-            "Ringed: on its case nothing else is both cheaper and more exact. An error of exactly 0 \
-             has no place. Numbers: {}.csv.",
+            "Ringed: on its case nothing else is both cheaper and more exact. An error of \
+             exactly 0 has no place. Numbers: {}.csv.",
             study.name()
         ),
     })

@@ -4,9 +4,9 @@
 
 use super::columns::{further_cell, further_columns};
 use super::readable::{bytes, number, time};
-use super::{Findings, Row, Study, Timing, pareto};
+use super::{Findings, Row, Study, Timing, pareto, write};
 
-/// More rows than this are folded away below a heading.
+/// More rows than this are folded away below a plot.
 const ROWS_UNFOLDED: usize = 24;
 /// More rows than this are left to the CSV, but for broken promises and the Pareto front.
 const ROWS_LISTED: usize = 200;
@@ -36,7 +36,9 @@ pub(super) fn table(study: &dyn Study, findings: &Findings, out: &mut Vec<String
             "{n} of {n_all} rows: the Pareto front and broken promises.\n"
         ));
     }
-    let is_folded = rows.len() > ROWS_UNFOLDED;
+    // A table that no plot stands for is what the reader came for.
+    let has_plot = !write::plots(study, findings).is_empty();
+    let is_folded = has_plot && rows.len() > ROWS_UNFOLDED;
     if is_folded {
         out.push(format!("<details><summary>{} rows</summary>\n", rows.len()));
     }

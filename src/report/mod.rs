@@ -9,7 +9,7 @@
 //! ```
 //!
 //! # Invariants
-//! - studies measure only with [`Bench`]: warm-up, repeats, medians, thread CPU time beside wall time
+//! - studies measure only with [`Bench`]: warm-up, repeats, medians, CPU time beside wall time
 //! - a study's numbers depend on its seed, never on the machine; its times are the machine's
 //! - no GUI: the window's own studies are handed in by `app`
 

@@ -45,7 +45,7 @@ pub(super) fn cases() -> Vec<Case> {
             random_bytes,
         ),
         (
-            "a device of 25 contactors that are 24",
+            "a device of 25 contactors for a display of 24",
             "refused, with the reason",
             wrong_size,
         ),

@@ -24,6 +24,7 @@ use std::time::Duration;
 
 use super::runner::words_of;
 use super::{Bench, Findings, ReportError, Row, Study};
+use crate::quantity::time_span;
 
 /// A case that says nothing for longer hangs.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -136,7 +137,8 @@ fn alone(run: Box<dyn FnOnce() -> Verdict + Send>, patience: Duration) -> Verdic
     match told.recv_timeout(patience) {
         Ok(verdict) => verdict,
         Err(RecvTimeoutError::Timeout) => {
-            Err(format!("nothing came back within {} s", patience.as_secs()))
+            let waited = time_span(patience.as_secs_f64());
+            Err(format!("nothing came back within {waited}"))
         }
         Err(RecvTimeoutError::Disconnected) => match thread.join() {
             Err(panic) => Err(format!("it panicked: {}", words_of(panic.as_ref()))),

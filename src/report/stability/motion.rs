@@ -14,35 +14,7 @@ use crate::tactile::{Filters, Levels, MAX_SPEED_MM_PER_S};
 
 /// Speeds, heights and scenes.
 pub(super) fn cases() -> Vec<Case> {
-    let mut cases = Vec::new();
-    for speed in [0.0, 1e-300, 0.009_999, -0.009_999] {
-        let tried = format!("{speed} mm/s");
-        cases.push(Case::new("speed", tried, "silent", move || {
-            silent_at(moving(speed), false)
-        }));
-    }
-    for speed in [
-        MAX_SPEED_MM_PER_S,
-        1e6,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        f64::NAN,
-    ] {
-        let tried = format!("{speed} mm/s");
-        let run = move || silent_at(moving(speed), true);
-        cases.push(Case::new("speed", tried, "silent and counted", run));
-    }
-    let nowhere = Pose {
-        position: Point::new(f64::NAN, f64::INFINITY),
-        ..moving(100.0)
-    };
-    let run = move || silent_at(nowhere, true);
-    cases.push(Case::new(
-        "speed",
-        "a place of NaN and ∞ mm",
-        "silent and counted",
-        run,
-    ));
+    let mut cases = speeds();
     let heights = [
         (
             "heights all equal",
@@ -70,6 +42,45 @@ pub(super) fn cases() -> Vec<Case> {
     };
     cases.extend(heights.map(of("heights")));
     cases.extend(scenes.map(of("scene")));
+    cases
+}
+
+/// Speeds and places.
+fn speeds() -> Vec<Case> {
+    let mut cases = Vec::new();
+    let slow = [
+        ("0", 0.0),
+        ("1e−300", 1e-300),
+        ("0.0099", 0.0099),
+        ("−0.0099", -0.0099),
+    ];
+    for (spelt, speed) in slow {
+        let run = move || silent_at(moving(speed), false);
+        cases.push(Case::new("speed", format!("{spelt} mm/s"), "silent", run));
+    }
+    let fast = [
+        ("1000/0.23", MAX_SPEED_MM_PER_S),
+        ("1e6", 1e6),
+        ("∞", f64::INFINITY),
+        ("−∞", f64::NEG_INFINITY),
+        ("NaN", f64::NAN),
+    ];
+    for (spelt, speed) in fast {
+        let run = move || silent_at(moving(speed), true);
+        let tried = format!("{spelt} mm/s");
+        cases.push(Case::new("speed", tried, "silent and counted", run));
+    }
+    let nowhere = Pose {
+        position: Point::new(f64::NAN, f64::INFINITY),
+        ..moving(100.0)
+    };
+    let run = move || silent_at(nowhere, true);
+    cases.push(Case::new(
+        "speed",
+        "a place of NaN and ∞ mm",
+        "silent and counted",
+        run,
+    ));
     cases
 }
 
