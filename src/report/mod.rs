@@ -14,13 +14,17 @@
 //! - no GUI: the window's own studies are handed in by `app`
 
 mod bench;
+mod drive_updates;
 mod error;
 mod findings;
+mod spectral_model;
 mod study;
 mod velocity;
 
 pub use bench::{Bench, Effort, Timing};
+pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
+pub use spectral_model::SpectralModelStudy;
 pub use study::Study;
 pub use velocity::VelocityStudy;
