@@ -16,6 +16,7 @@
 mod bench;
 mod chart;
 mod columns;
+mod drive_updates;
 mod error;
 mod findings;
 mod growth;
@@ -28,6 +29,7 @@ mod readable;
 mod rendering;
 mod runner;
 mod stability;
+mod spectral_model;
 mod study;
 #[cfg(test)]
 mod tests;
@@ -35,6 +37,7 @@ mod velocity;
 mod write;
 
 pub use bench::{Bench, Effort, Timing};
+pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
 pub use growth::GrowthStudy;
@@ -43,6 +46,7 @@ pub use machine::Machine;
 pub use pareto::pareto;
 pub use rendering::RenderingStudy;
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
+pub use spectral_model::SpectralModelStudy;
 pub use study::Study;
 pub use velocity::VelocityStudy;
 
@@ -50,6 +54,8 @@ pub use velocity::VelocityStudy;
 pub fn studies() -> Vec<Box<dyn Study>> {
     vec![
         Box::new(RenderingStudy),
+        Box::new(SpectralModelStudy),
+        Box::new(DriveUpdatesStudy),
         Box::new(VelocityStudy),
         Box::new(GrowthStudy),
         Box::new(LeftOutStudy::default()),
