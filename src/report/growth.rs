@@ -112,7 +112,7 @@ impl Grown {
     fn sizes(self, effort: Effort) -> &'static [usize] {
         match (self, effort) {
             (Self::Contactors, Effort::Full) => &[24, 100, 300, 1000, 3000, 10_000],
-            (Self::Contactors, Effort::Quick) => &[24, 300, 10_000],
+            (Self::Contactors, Effort::Quick) => &[24, 100, 10_000],
             (Self::Textiles, Effort::Full) => &[1, 4, 10, 30, 100],
             (Self::Textiles, Effort::Quick) => &[1, 10, 100],
             (Self::Ticks, Effort::Full) => &[40, 100, 250, 500, 1000],
@@ -190,7 +190,7 @@ fn scene(surfaces: &[Arc<Surface>], n_contactors: usize, n_textiles: usize) -> R
 
 /// Contactors 0.1 mm apart, row by row in a square.
 pub(super) fn square(n_contactors: usize) -> ContactorArray {
-    let n_columns = (1..).find(|n| n * n >= n_contactors).unwrap_or(1);
+    let n_columns = n_contactors.saturating_sub(1).isqrt() + 1;
     let middle = (n_columns as f64 - 1.0) / 2.0;
     let offset = |n: usize| {
         let [column, row] = [n % n_columns, n / n_columns].map(|n| n as f64);

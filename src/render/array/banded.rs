@@ -122,26 +122,39 @@ impl BandedEvaluator {
 }
 
 impl SpectraMemo {
+    #[inline]
     fn sums(
         &mut self,
         point: usize,
         (tick, row): (u64, &GainRow),
         (rules, counters): (Rules, &mut Counters),
     ) -> [f64; 2] {
-        let memo = &mut self.points[point];
+        let memo = &self.points[point];
         let is_known =
             memo.tick == tick && memo.speed_mm_per_s.to_bits() == row.speed_mm_per_s.to_bits();
         if is_known && rules.has(Rule::SamePoint) {
             counters.directions_repeated += 1;
             return memo.sums;
         }
-        let powers_um2 = self.spectra.powers_um2(point);
-        let sums = row.sums(powers_um2, row.heard.clone());
-        *memo = Memo {
+        let sums = self.sums_anew(point, row, (rules, counters));
+        self.points[point] = Memo {
             tick,
             speed_mm_per_s: row.speed_mm_per_s,
             sums,
         };
+        sums
+    }
+
+    /// The sums of a point that was not yet evaluated in this tick.
+    #[inline(never)]
+    fn sums_anew(
+        &self,
+        point: usize,
+        row: &GainRow,
+        (rules, counters): (Rules, &mut Counters),
+    ) -> [f64; 2] {
+        let powers_um2 = self.spectra.powers_um2(point);
+        let sums = row.sums(powers_um2, row.heard.clone());
         let n_heard = row.heard[0].len() + row.heard[1].len();
         counters.directions_evaluated += 1;
         counters.bins_evaluated += n_heard as u64;
@@ -160,6 +173,7 @@ impl SpectraMemo {
 
 impl GainRow {
     /// Computes the gains at a speed, unless they are those at hand.
+    #[inline]
     fn move_to(
         &mut self,
         speed_mm_per_s: f64,
@@ -169,8 +183,13 @@ impl GainRow {
         let is_at_hand = self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits();
         if is_at_hand && rules.has(Rule::SameSpeed) {
             counters.speeds_repeated += 1;
-            return;
+        } else {
+            self.compute(speed_mm_per_s, filters, rules);
         }
+    }
+
+    #[inline(never)]
+    fn compute(&mut self, speed_mm_per_s: f64, filters: &Filters, rules: Rules) {
         self.speed_mm_per_s = speed_mm_per_s;
         self.n_audible = n_audible_bins(speed_mm_per_s);
         let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;

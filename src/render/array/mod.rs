@@ -40,7 +40,7 @@ use crate::tactile::Tuning;
 #[derive(Debug, Clone)]
 enum Evaluator {
     Reference(ReferenceEvaluator),
-    Banded(BandedEvaluator),
+    Banded(Box<BandedEvaluator>),
     Table(TableEvaluator),
 }
 
@@ -102,7 +102,7 @@ impl ArrayRenderer {
             (Method::Banded, _) => {
                 let banded = BandedEvaluator::prepare(&plan, &scene.filters, accuracy.banded_floor);
                 (
-                    Evaluator::Banded(banded),
+                    Evaluator::Banded(Box::new(banded)),
                     ErrorBound::of_floor(accuracy.banded_floor),
                 )
             }
@@ -213,13 +213,13 @@ impl ArrayRenderer {
                 self.evaluator
                     .evaluate(&self.plan, &contacts, factors, frame, counters);
             }
-            if let Some(discarded) = self.discarded.get_mut(index) {
-                if let Some(contacts) = display.claim_spare((textile, number), &placing, pose) {
-                    discarded.begin();
-                    self.evaluator
-                        .evaluate(&self.plan, &contacts, factors, discarded, counters);
-                    black_box(discarded);
-                }
+            if let Some(discarded) = self.discarded.get_mut(index)
+                && let Some(contacts) = display.claim_spare((textile, number), &placing, pose)
+            {
+                discarded.begin();
+                self.evaluator
+                    .evaluate(&self.plan, &contacts, factors, discarded, counters);
+                black_box(discarded);
             }
             if display.is_taken() {
                 counters.touches_beneath += (number * display.n_contactors()) as u64;

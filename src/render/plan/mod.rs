@@ -3,8 +3,8 @@
 //!
 //! All methods share this, so they differ in nothing but how powers are found. Left out are
 //! contactors outside, directions that cannot be felt, bins at or above 1 kHz or below a filter's
-//! floor, and everything that was already evaluated in the same tick. Each saving is a [`Rule`] that
-//! can be switched off; counters say how much it left out.
+//! floor, and everything that was already evaluated in the same tick. Each saving is a [`Rule`]
+//! that can be switched off; counters say how much it left out.
 
 mod contact;
 mod counters;

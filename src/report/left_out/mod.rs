@@ -93,8 +93,7 @@ fn applies(rule: Rule, method: Method) -> bool {
 
 /// The sets of savings to try, by name.
 fn sets(case: &Case, method: Method, effort: Effort) -> Vec<(Option<Rule>, Rules)> {
-    let n_contactors: usize = case.scene.displays.iter().map(|d| d.offsets.len()).sum();
-    let n_touches = n_contactors * case.scene.textiles.len();
+    let n_touches = n_touches(case);
     let is_banded = method == Method::Banded;
     let mut sets = vec![(None, Rules::ALL)];
     if is_banded && n_touches > effort.pick(HEAVY, usize::MAX) {
@@ -112,7 +111,7 @@ fn sets(case: &Case, method: Method, effort: Effort) -> Vec<(Option<Rule>, Rules
 /// A row for every set of savings.
 fn rows(bench: &mut Bench<'_>, case: &Case, method: Method) -> Result<Vec<Row>, ReportError> {
     let all = ArrayRenderer::prepare(&case.scene, method, &Accuracy::default())?;
-    let poses = timed(case, method);
+    let poses = &timed(case, method, bench.effort)[..];
     let mut with_all = all.clone();
     let expected = felt(&mut with_all, poses);
     let floor_um = all.bound().floor * unfiltered_um(&case.scene);
@@ -183,12 +182,21 @@ fn share_row(rows: &[Row], case: &Case, method: Method, is_promised: bool) -> Op
     })
 }
 
-/// The poses that a method is measured on: where a tick may take a second, few.
-fn timed(case: &Case, method: Method) -> &[Pose] {
+/// The poses that a method is measured on: all, or, where a tick without savings takes long, a few
+/// of them.
+fn timed(case: &Case, method: Method, effort: Effort) -> Vec<Pose> {
+    let n_wanted = match method {
+        Method::Table => case.poses.len(),
+        _ => (effort.pick(200, 2000) / n_touches(case).max(1)).max(1),
+    };
+    let n_step = case.poses.len().div_ceil(n_wanted).max(1);
+    case.poses.iter().step_by(n_step).copied().collect()
+}
+
+/// Contactors times textiles.
+fn n_touches(case: &Case) -> usize {
     let n_contactors: usize = case.scene.displays.iter().map(|d| d.offsets.len()).sum();
-    let is_heavy = n_contactors * case.scene.textiles.len() >= 2400 && method == Method::Banded;
-    let n_poses = if is_heavy { 2 } else { case.poses.len() };
-    &case.poses[..n_poses.min(case.poses.len())]
+    n_contactors * case.scene.textiles.len()
 }
 
 /// Amplitudes of every tick and contactor, µm.

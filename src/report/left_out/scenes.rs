@@ -102,7 +102,7 @@ fn step_s(n_ticks: usize) -> f64 {
     (SECONDS / n_ticks.max(1) as f64).max(1.0 / TICKS_PER_S)
 }
 
-/// Once around in two seconds, or as far as the ticks go.
+/// Once around in two seconds, or as far as the ticks go, from the upper right on.
 fn circle(middle_mm: f64, radius_mm: f64, n_ticks: usize) -> Vec<Pose> {
     let stroke = Stroke::Circle {
         centre: Point::new(middle_mm, middle_mm),
@@ -111,7 +111,7 @@ fn circle(middle_mm: f64, radius_mm: f64, n_ticks: usize) -> Vec<Pose> {
     };
     let step_s = step_s(n_ticks);
     let pose = |n: usize| {
-        let t_s = n as f64 * step_s;
+        let t_s = SECONDS / 8.0 + n as f64 * step_s;
         let (position, velocity) = stroke.at(t_s);
         Pose {
             t_s,

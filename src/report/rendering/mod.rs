@@ -73,7 +73,8 @@ impl Study for RenderingStudy {
         let [slow, fast] = SPEEDS_MM_PER_S.map(|v| quantity::with_unit(v, 0, "mm/s"));
         findings.notes = vec![
             format!(
-                "{} poses a textile, anywhere and heading anywhere, from {slow} to {fast}.",
+                "{} poses a textile, from {slow} to {fast}; a quarter of them just where a bin \
+                 crosses 1 kHz.",
                 cases.first().map_or(0, |case| case.poses.len())
             ),
             "Level errors are taken where the reference reaches a thousandth of its band's largest \

@@ -94,7 +94,7 @@ struct Segment {
 pub(super) struct Nodes {
     segments: Vec<Segment>,
     /// Speed, and how many bins count there.
-    nodes: Vec<(f64, usize)>,
+    places: Vec<(f64, usize)>,
     is_cut: bool,
 }
 
@@ -104,7 +104,7 @@ impl Nodes {
     pub(super) fn new(per_octave: usize, is_cut: bool) -> Self {
         let mut found = Self {
             segments: Vec::new(),
-            nodes: Vec::new(),
+            places: Vec::new(),
             is_cut,
         };
         if is_cut {
@@ -126,19 +126,22 @@ impl Nodes {
 
     fn add(&mut self, [low, high]: [f64; 2], per_octave: usize, n_bins: Option<usize>) {
         let octaves = (high / low).log2();
-        let wanted = octaves * per_octave as f64 - 1e-9;
-        let n_parts = (1..).find(|n| *n as f64 >= wanted);
-        let n_parts = n_parts.unwrap_or(1);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "twenty octaves at most"
+        )]
+        let n_parts = (octaves * per_octave as f64 - 1e-9).ceil().max(1.0) as usize;
         self.segments.push(Segment {
             start: low.log2(),
             parts_per_octave: n_parts as f64 / octaves,
             n_parts,
-            first_node: self.nodes.len(),
+            first_node: self.places.len(),
         });
         for part in 0..=n_parts {
             let speed = low * (octaves * part as f64 / n_parts as f64).exp2();
             let counted = n_bins.unwrap_or_else(|| n_audible_bins(speed.min(high)));
-            self.nodes.push((speed, counted));
+            self.places.push((speed, counted));
         }
     }
 
@@ -216,8 +219,8 @@ impl StudyTable<f64> {
 
 /// A squared amplitude of every point at every node, for both bands, µm².
 fn powers_at(nodes: &Nodes, spectra: &LocalSpectra, filters: &Filters) -> Vec<[f64; 2]> {
-    let mut powers = Vec::with_capacity(nodes.nodes.len() * spectra.n_points());
-    for &(speed_mm_per_s, n_bins) in &nodes.nodes {
+    let mut powers = Vec::with_capacity(nodes.places.len() * spectra.n_points());
+    for &(speed_mm_per_s, n_bins) in &nodes.places {
         // One bin more sounds just below a segment's end than at it.
         let just_below = speed_mm_per_s.min(MAX_SPEED_MM_PER_S) * (1.0 - 1e-12);
         let response = SpeedResponse::at(just_below.max(MIN_SPEED_MM_PER_S), filters);

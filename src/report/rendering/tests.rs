@@ -40,7 +40,7 @@ fn every_method_is_tried_on_every_textile_and_wrong_ones_show() {
     let coarse = errors_db("linear f32", "2 nodes an octave");
     assert!(coarse.iter().any(|e| *e > PROMISED_DB), "{coarse:?}");
     let uncut = errors_db("cubic f64, uncut", "48 nodes an octave");
-    assert!(largest(&uncut) > 1.0, "{uncut:?}");
+    assert!(largest(&uncut) > 10.0 * PROMISED_DB, "{uncut:?}");
 }
 
 #[test]

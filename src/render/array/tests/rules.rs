@@ -29,7 +29,7 @@ fn random_scene(random: &mut Random) -> RenderScene {
             ..placed(&cloths[random.index(3)], origin, turn)
         }
     };
-    let textiles = (0..1 + random.index(4)).map(|_| textile(random)).collect();
+    let textiles = (0..=random.index(4)).map(|_| textile(random)).collect();
     scene_of(textiles, exeter())
 }
 
