@@ -28,8 +28,8 @@ mod pareto;
 mod readable;
 mod rendering;
 mod runner;
-mod stability;
 mod spectral_model;
+mod stability;
 mod study;
 #[cfg(test)]
 mod tests;

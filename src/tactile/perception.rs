@@ -1,10 +1,11 @@
-//! A model of what amplitudes feel like: levels above threshold, intensity, balance, just noticeable
-//! differences.
+//! A model of what amplitudes feel like: levels above threshold, intensity, balance, differences
+//! that are just noticed.
 //!
 //! It is a model, read off published averages, not a measurement of anybody's finger: thresholds
-//! ±3 dB (after Verrillo and Gescheider), spatial summation of 3 dB a doubling of area in the Pacinian
-//! channel alone, exponents of loudness 0.95 and 0.58 (after Stevens), half the weaker channel added
-//! to the stronger (Hollins and Roy 1996), amplitude thresholds after Israr, Tan and Reed (2006).
+//! ±3 dB (after Verrillo and Gescheider), spatial summation of 3 dB a doubling of area in the
+//! Pacinian channel alone, exponents of loudness 0.95 and 0.58 (after Stevens), half the weaker
+//! channel added to the stronger (Hollins and Roy 1996), amplitude thresholds after Israr, Tan and
+//! Reed (2006).
 
 use super::Band;
 use super::filters::threshold_db;

@@ -109,10 +109,11 @@ fn show_line(ui: &mut Ui, name: &str, value: &str) {
             palette.text
         };
         let name = RichText::new(name).font(theme::small()).color(ink);
-        ui.add_sized(
-            vec2(NAMES, LINE),
-            egui::Label::new(name).halign(Align::LEFT),
-        );
+        let place = Layout::left_to_right(Align::Center);
+        ui.allocate_ui_with_layout(vec2(NAMES, LINE), place, |ui| {
+            ui.set_min_width(NAMES);
+            ui.label(name);
+        });
         let value = RichText::new(value).font(theme::small_number());
         let label = egui::Label::new(value.color(palette.text)).truncate();
         ui.add(label.selectable(true));

@@ -1,7 +1,8 @@
 //! Why a contactor does what it does: every number from its place to its drive code, in order.
 //!
 //! The numbers come from the functions that render and encode ([`ContactInspector`], [`Coder`]);
-//! nothing is computed a second time here. What is shown can be copied as text and saved as a table.
+//! nothing is computed a second time here. What is shown can be copied as text and saved as a
+//! table.
 //!
 //! [`ContactInspector`]: crate::render::array::ContactInspector
 
@@ -105,7 +106,7 @@ impl Why {
         [0, 1].map(|band| (2.0 * (warp[band] + weft[band])).sqrt())
     }
 
-    /// The bins that sound below 1 kHz: frequency, Hz, and what of their power each band takes, µm².
+    /// The bins that sound below 1 kHz: frequency, Hz, and what each band takes of it, µm².
     pub(crate) fn energies(&self) -> Vec<(f64, [f64; 2])> {
         let directions = self.touch().into_iter().flat_map(|touch| &touch.directions);
         let bins = directions.flatten().flat_map(|direction| &direction.bins);

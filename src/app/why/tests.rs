@@ -8,8 +8,8 @@ use crate::scene::Pose;
 use crate::surface::{Profile, Surface};
 use crate::tactile::{Filters, Tuning};
 
-/// One textile of 50 mm whose warp is a sine of 10 µm and 1 mm, whose weft is flat; one contactor in
-/// the middle of the display.
+/// One textile of 50 mm whose warp is a sine of 10 µm and 1 mm and whose weft is flat; a display of
+/// one contactor.
 fn scene() -> RenderScene {
     let step_mm = 1.0 / 230.0;
     let sine = |i: u32| 10.0 * (f64::from(i) * step_mm * std::f64::consts::TAU).sin();
@@ -67,8 +67,8 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Why {
 #[test]
 fn a_case_worked_by_hand_reads_as_it_was_worked() {
     // 40 mm/s along the warp over 1 cycle/mm sounds at 40 Hz, three octaves below 320 Hz, where the
-    // filter of two octaves passes 2^(−9/2); the power of a 10 µm sine is 50 µm². Gains: 6 + 2 + 1 −
-    // 3 − ½·4 = 4 dB at 40 Hz and 2 dB at 320 Hz. The window blurs the line a little.
+    // filter of two octaves passes 2^(−9/2); the power of a 10 µm sine is 50 µm². Gains:
+    // 6 + 2 + 1 − 3 − ½·4 = 4 dB at 40 Hz and 2 dB at 320 Hz. The window blurs the line a little.
     let explained = why([10.2, 20.0], [40.0, 0.0]);
     let [low, high] = explained.bare_um();
     assert!((low / 10.0 - 1.0).abs() < 0.02, "{low} µm at 40 Hz");
