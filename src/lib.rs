@@ -33,6 +33,7 @@ pub mod progress;
 
 pub mod numerics;
 
+pub mod figure;
 pub mod files;
 
 pub mod surface;
@@ -48,6 +49,8 @@ pub mod render;
 pub mod bridge;
 
 pub mod engine;
+
+pub mod report;
 
 pub mod app;
 

@@ -39,11 +39,13 @@ pub(crate) enum Pane {
     DriveWave,
     /// Spatial spectra of the textile under the selected contactor.
     SpatialSpectra,
+    /// Why the selected contactor does what it does.
+    Why,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -53,6 +55,7 @@ impl Pane {
         Self::DriveSpectrum,
         Self::SpatialSpectra,
         Self::DriveWave,
+        Self::Why,
     ];
 
     /// Its title.
@@ -67,6 +70,7 @@ impl Pane {
             Self::DriveSpectrum => "Drive spectrum",
             Self::DriveWave => "Drive waveform",
             Self::SpatialSpectra => "Spatial spectra",
+            Self::Why => "Why",
         }
     }
 
@@ -77,9 +81,12 @@ impl Pane {
             Self::DriveSpectrum => "Drive",
             Self::DriveWave => "Wave",
             Self::SpatialSpectra => "Spatial",
-            Self::Workspace | Self::Library | Self::Tuning | Self::Bridge | Self::Heatmaps => {
-                self.title()
-            }
+            Self::Workspace
+            | Self::Library
+            | Self::Tuning
+            | Self::Bridge
+            | Self::Heatmaps
+            | Self::Why => self.title(),
         }
     }
 
@@ -117,7 +124,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
     let spectra = tabs(tiles, &[Pane::ContactSpectrum, Pane::DriveSpectrum]);
-    let spatial = tabs(tiles, &[Pane::SpatialSpectra]);
+    let spatial = tabs(tiles, &[Pane::SpatialSpectra, Pane::Why]);
     let lower = [(heatmaps, 0.27), (spectra, 0.39), (spatial, 0.34)];
     let lower = linear(tiles, LinearDir::Horizontal, &lower);
     let height = (size.y - PICTURES).max(PICTURES);
@@ -143,6 +150,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
             Pane::ContactSpectrum,
             Pane::DriveSpectrum,
             Pane::SpatialSpectra,
+            Pane::Why,
             Pane::DriveWave,
         ],
     );

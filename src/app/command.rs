@@ -131,6 +131,8 @@ pub(crate) enum Purpose {
     OpenRecording,
     /// Save the recorded exploration.
     SaveRecording,
+    /// Save the explanation of the chosen contactor as a table.
+    SaveWhy,
 }
 
 /// What moves the display, and how that is recorded.
@@ -208,6 +210,10 @@ pub(crate) enum ShowCommand {
     Calibrate,
     /// The screen has this many pixels per millimetre.
     Calibrated(f64),
+    /// Hold the explanation of the chosen contactor, or let it follow again.
+    FreezeWhy,
+    /// Copy the explanation of the chosen contactor as text.
+    CopyWhy,
     /// Show or hide the list of keys.
     Help,
 }

@@ -65,6 +65,11 @@ impl Desk<'_> {
             Pane::DriveSpectrum => framed(ui, 8, |ui| self.show_drive_spectrum(ui)),
             Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
             Pane::SpatialSpectra => framed(ui, 8, |ui| self.show_spatial(ui)),
+            Pane::Why => framed(ui, 10, |ui| {
+                self.bench.explain();
+                let why = self.bench.transient.why.0.as_ref();
+                panes::show_why(ui, why, &self.scene.filters);
+            }),
         }
     }
 
@@ -183,6 +188,10 @@ impl Desk<'_> {
                 let ink = Palette::in_ui(ui).dim;
                 let label = ui.label(egui::RichText::new(words).font(theme::small()).color(ink));
                 label.on_hover_text("Click a cell of the heatmaps to choose another contactor");
+            }
+            Pane::Why => {
+                let (why, is_frozen) = &self.bench.transient.why;
+                panes::show_why_corner(ui, *is_frozen, why.as_ref(), self.wishes);
             }
             Pane::Workspace => {
                 let bench = &*self.bench;

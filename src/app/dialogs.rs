@@ -156,7 +156,10 @@ fn has_desktop(
 }
 
 fn is_save(purpose: Purpose) -> bool {
-    matches!(purpose, Purpose::SaveScene | Purpose::SaveRecording)
+    matches!(
+        purpose,
+        Purpose::SaveScene | Purpose::SaveRecording | Purpose::SaveWhy
+    )
 }
 
 /// The dialog for a purpose, in the folder of `start` and, when it saves, with its name.
@@ -170,6 +173,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::OpenRecording | Purpose::SaveRecording => {
             dialog.add_filter("Recordings", &["csv"])
         }
+        Purpose::SaveWhy => dialog.add_filter("Tables", &["csv"]),
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());

@@ -4,6 +4,7 @@
 
 use super::audition::Audition;
 use crate::engine::Command;
+use crate::render::RenderScene;
 use crate::scene::Scene;
 use crate::tactile::Tuning;
 
@@ -51,6 +52,14 @@ impl Felt {
             cloth.gain_db = *gain_db;
         }
         scene
+    }
+
+    /// Puts these gains into a scene as rendering sees it.
+    pub(crate) fn put_into(&self, scene: &mut RenderScene) {
+        scene.tuning = self.tuning;
+        for (textile, gain_db) in scene.textiles.iter_mut().zip(&self.cloth_gains_db) {
+            textile.scene_gain_db = *gain_db;
+        }
     }
 
     /// What the engine must be told when it knows `self` and `new` is to be felt; both are of the

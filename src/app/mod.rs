@@ -57,6 +57,7 @@ mod tab_row;
 mod take;
 mod theme;
 mod view;
+mod why;
 mod widgets;
 mod window;
 mod workspace;

@@ -15,6 +15,7 @@ use super::query::IntervalMeter;
 use super::signals::History;
 use super::take::Take;
 use super::view::{BridgeView, Live};
+use super::why::Why;
 use super::workspace::Trail;
 use crate::scene::SceneError;
 
@@ -61,6 +62,8 @@ pub(crate) struct Transient {
     pub(crate) wave_scale: WaveScale,
     /// Spatial spectra as they were drawn last.
     pub(crate) spatial: SpatialSpectra,
+    /// The explanation that is shown, and whether it is held.
+    pub(crate) why: (Option<Why>, bool),
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.

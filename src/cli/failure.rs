@@ -11,6 +11,7 @@ use crate::engine::EngineError;
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::render::RenderError;
+use crate::report::ReportError;
 use crate::scene::SceneError;
 use crate::textile::TextileError;
 
@@ -44,6 +45,9 @@ pub enum CliError {
     /// The real-time work.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// A report.
+    #[error(transparent)]
+    Report(#[from] ReportError),
     /// The window.
     #[error(transparent)]
     App(#[from] AppError),
@@ -61,6 +65,7 @@ impl CliError {
             Self::Scene(error) => code_of_scene(error),
             Self::Bridge(error) => code_of_bridge(error),
             Self::Engine(error) => code_of_engine(error),
+            Self::Report(error) => code_of_report(error),
             Self::App(error) => code_of_app(error),
         }
     }
@@ -121,6 +126,14 @@ fn code_of_engine(error: &EngineError) -> u8 {
         EngineError::Render(_) => 2,
         EngineError::Scene(error) => code_of_scene(error),
         EngineError::Busy | EngineError::Thread(_) => 1,
+    }
+}
+
+/// A name that is not known is wrong input; whatever a study ran into, it met while working.
+fn code_of_report(error: &ReportError) -> u8 {
+    match error {
+        ReportError::Unknown { .. } => 2,
+        _ => 1,
     }
 }
 

@@ -18,6 +18,7 @@ mod play_log;
 mod play_report;
 mod render;
 mod render_out;
+mod report;
 mod screenshot;
 mod signals;
 mod terminal;
@@ -63,6 +64,8 @@ enum Command {
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
+    /// Error against run time, stability, what is left out: tables and plots
+    Report(report::ReportArgs),
     /// The workbench as a picture, no display needed
     Screenshot(screenshot::ScreenshotArgs),
 }
@@ -92,6 +95,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Bridge(command)) => bridge::run(&command),
+        Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),
     }
 }

@@ -19,9 +19,9 @@ mod stats;
 
 pub use gains::{GainTerms, MAX_TOTAL_GAIN_DB};
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-pub use plan::Counters;
+pub use plan::{Counters, Rule, Rules};
 pub use replay::{FrameSink, Replay, replay};
-pub use stats::{Histogram, LevelError, RunStats};
+pub use stats::{ErrorMeter, Histogram, LevelError, RunStats};
 
 use crate::tactile::TuningError;
 

@@ -109,9 +109,9 @@ pub struct LevelError {
 /// Share of a band's largest amplitude from which on an error is a matter of level.
 const AUDIBLE_SHARE: f64 = 1e-3;
 
-/// Collects the level error of a run.
+/// Collects the level error of a run, amplitude by amplitude.
 #[derive(Debug, Clone)]
-pub(super) struct ErrorMeter {
+pub struct ErrorMeter {
     largest_um: [f64; 2],
     levels_db: Histogram,
     max_share_below: f64,
@@ -119,7 +119,7 @@ pub(super) struct ErrorMeter {
 
 impl ErrorMeter {
     /// A meter for a run in which these are the reference's largest amplitudes, by band.
-    pub(super) fn new(largest_um: [f64; 2]) -> Self {
+    pub fn new(largest_um: [f64; 2]) -> Self {
         Self {
             largest_um,
             levels_db: Histogram::default(),
@@ -127,7 +127,8 @@ impl ErrorMeter {
         }
     }
 
-    pub(super) fn add(&mut self, amplitudes_um: [f64; 2], reference_um: [f64; 2]) {
+    /// Adds the amplitudes of a contactor in a tick, µm, beside those of the reference.
+    pub fn add(&mut self, amplitudes_um: [f64; 2], reference_um: [f64; 2]) {
         for b in 0..2 {
             let (a, a_ref, largest) = (amplitudes_um[b], reference_um[b], self.largest_um[b]);
             if largest > 0.0 && a_ref >= AUDIBLE_SHARE * largest {
@@ -139,7 +140,8 @@ impl ErrorMeter {
         }
     }
 
-    pub(super) fn finish(&self) -> LevelError {
+    /// The error of all that was added.
+    pub fn finish(&self) -> LevelError {
         LevelError {
             max_db: self.levels_db.largest(),
             p99_db: self.levels_db.quantile(0.99),

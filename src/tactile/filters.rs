@@ -87,7 +87,7 @@ impl Filters {
 
 /// Detection threshold of the channel of a band, dB re 1 µm: linear over log₂ f between table
 /// entries, continued beyond them.
-fn threshold_db(band: Band, frequency_hz: f64) -> f64 {
+pub(super) fn threshold_db(band: Band, frequency_hz: f64) -> f64 {
     let (table, below_db, above_db): (&[_], _, _) = match band {
         Band::Low => (&NON_PACINIAN_DB, None, Some(NON_PACINIAN_ABOVE_DB)),
         Band::High => (&PACINIAN_DB, Some(PACINIAN_BELOW_DB), None),

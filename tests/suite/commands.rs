@@ -320,7 +320,14 @@ fn help_and_version_are_results() {
     let lab = Lab::new();
     assert!(lab.print(&["--help"]).contains("Usage: selvedge [SCENE]"));
     assert!(lab.print(&["--version"]).starts_with("selvedge "));
-    for command in ["render", "play", "textile", "bridge", "screenshot"] {
+    for command in [
+        "render",
+        "play",
+        "textile",
+        "bridge",
+        "report",
+        "screenshot",
+    ] {
         assert!(
             lab.print(&[command, "--help"])
                 .contains(&format!("selvedge {command}"))

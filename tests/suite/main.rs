@@ -13,6 +13,7 @@ mod commands;
 mod no_allocation;
 mod no_allocation_engine;
 mod program;
+mod report;
 mod window;
 
 /// Aborts when something allocates inside `assert_no_alloc`.

@@ -107,7 +107,12 @@ impl Workbench {
     /// Tells the engine which gains changed, if any.
     pub(crate) fn tell_gains(&mut self) {
         let new = self.felt_now(&self.document.scene().clone());
-        for command in self.felt.changes(&new) {
+        let changes = self.felt.changes(&new);
+        if !changes.is_empty() {
+            new.put_into(&mut self.eye.scene);
+            self.eye.inspector.set_gains(&self.eye.scene);
+        }
+        for command in changes {
             self.send(command);
         }
         self.felt = new;

@@ -5,6 +5,7 @@ use eframe::egui;
 use crate::app::arrangement;
 use crate::app::audition::Audition;
 use crate::app::command::ShowCommand;
+use crate::app::why::to_text;
 use crate::app::window::Workbench;
 use crate::app::workspace::Place;
 use crate::engine;
@@ -44,6 +45,12 @@ impl Workbench {
             ShowCommand::HearAll => self.transient.audition = Audition::default(),
             ShowCommand::ToggleNumbers => {
                 self.settings.kept.has_numbers = !self.settings.kept.has_numbers;
+            }
+            ShowCommand::FreezeWhy => self.transient.why.1 = !self.transient.why.1,
+            ShowCommand::CopyWhy => {
+                if let Some(why) = &self.transient.why.0 {
+                    ctx.copy_text(to_text(why));
+                }
             }
             ShowCommand::Help => {
                 self.transient.is_help_shown = !self.transient.is_help_shown;

@@ -66,6 +66,13 @@ impl AskWords {
                 verb: "Save",
                 ..recording
             },
+            Purpose::SaveWhy => Self {
+                title: "Save explanation as",
+                verb: "Save",
+                missing: "Type where to save the table first",
+                name: "why.csv",
+                ..recording
+            },
         }
     }
 }

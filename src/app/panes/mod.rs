@@ -20,6 +20,7 @@ mod spatial;
 mod spectrogram;
 mod transport;
 mod tuning;
+mod why;
 
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
@@ -38,6 +39,7 @@ pub(crate) use question::show as show_question;
 pub(crate) use spatial::{SpatialSource, SpatialSpectra, show as show_spatial};
 pub(crate) use transport::{TransportState, TransportView, show as show_transport};
 pub(crate) use tuning::show as show_tuning;
+pub(crate) use why::{show as show_why, show_corner as show_why_corner};
 
 use super::command::Command;
 

@@ -4,11 +4,14 @@
 //! for [`REST`] is at rest: a mouse says nothing while it lies still. Places are taken as they come
 //! and none is extrapolated, so at a tick the display is where the newest sample was.
 
+mod filter;
+
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::{PointerSample, VelocityMethod};
-use crate::geometry::{Displacement, Point, Velocity};
+use crate::geometry::{Displacement, Velocity};
+use filter::Tracked;
 
 /// A pointer that is silent for longer is at rest, and what it did before is forgotten.
 pub const REST: Duration = Duration::from_millis(50);
@@ -44,13 +47,6 @@ pub struct VelocityEstimator {
     samples: VecDeque<PointerSample>,
     tracked: Tracked,
     tracked_before: Tracked,
-}
-
-/// The state of the alpha–beta filter.
-#[derive(Debug, Clone, Copy, Default)]
-struct Tracked {
-    position: Point,
-    velocity: Velocity,
 }
 
 impl VelocityEstimator {
@@ -120,6 +116,10 @@ impl VelocityEstimator {
             VelocityMethod::AlphaBeta { alpha, beta } => Estimate {
                 velocity: self.tracked.velocity,
                 lag_s: (alpha / beta - 0.5) * self.last_step().1,
+            },
+            VelocityMethod::Kalman { .. } | VelocityMethod::OneEuro { .. } => Estimate {
+                velocity: self.tracked.velocity,
+                lag_s: self.tracked.lag_s,
             },
         };
         let Velocity {
@@ -204,41 +204,27 @@ impl VelocityEstimator {
         }
     }
 
-    /// `r = z − (x + T v)`, `x ← x + T v + α r`, `v ← v + (β/T) r`; the first two samples give the
-    /// first velocity.
+    /// Hands the newest sample to the filter, if the method is one; the first two samples give the
+    /// first velocity. A sample of the same time as the last says nothing of velocity.
     fn track(&mut self) {
-        let VelocityMethod::AlphaBeta { alpha, beta } = self.method else {
+        let method = self.method;
+        if matches!(
+            method,
+            VelocityMethod::FiniteDifference | VelocityMethod::LineFit { .. }
+        ) {
+            return;
+        }
+        let Some(position) = self.newest().map(|newest| newest.position) else {
             return;
         };
-        let Some(&newest) = self.newest() else { return };
         let (by, duration_s) = self.last_step();
-        if duration_s <= 0.0 {
-            self.tracked = Tracked {
-                position: newest.position,
-                velocity: Velocity::ZERO,
-            };
+        self.tracked = if duration_s <= 0.0 {
+            Tracked::at_rest(position)
         } else if self.samples.len() == 2 {
-            self.tracked = Tracked {
-                position: newest.position,
-                velocity: by.per(duration_s),
-            };
+            Tracked::begun(method, position, (by, duration_s))
         } else {
-            let Tracked { position, velocity } = self.tracked;
-            let moved = Displacement::new(
-                velocity.x_mm_per_s * duration_s,
-                velocity.y_mm_per_s * duration_s,
-            );
-            let predicted = position + moved;
-            let error = newest.position - predicted;
-            let gain = beta / duration_s;
-            self.tracked = Tracked {
-                position: predicted + Displacement::new(alpha * error.x_mm, alpha * error.y_mm),
-                velocity: Velocity::new(
-                    velocity.x_mm_per_s + gain * error.x_mm,
-                    velocity.y_mm_per_s + gain * error.y_mm,
-                ),
-            };
-        }
+            self.tracked.after(method, position, (by, duration_s))
+        };
     }
 }
 

@@ -1,13 +1,23 @@
 //! Closed forms of the velocity estimators: constant velocity, a ramp, rest.
 
 use super::*;
+use crate::geometry::Point;
 
-const METHODS: [VelocityMethod; 3] = [
+const METHODS: [VelocityMethod; 5] = [
     VelocityMethod::FiniteDifference,
     VelocityMethod::LineFit { window_s: 0.040 },
     VelocityMethod::AlphaBeta {
         alpha: 0.5,
         beta: 0.2,
+    },
+    VelocityMethod::Kalman {
+        acceleration_mm2_per_s3: 1e3,
+        noise_mm: 0.03,
+    },
+    VelocityMethod::OneEuro {
+        min_cutoff_hz: 3.0,
+        beta_per_mm: 0.05,
+        derivative_cutoff_hz: 5.0,
     },
 ];
 
@@ -60,8 +70,8 @@ fn the_stated_lag_is_the_lag_on_a_ramp() {
 }
 
 #[test]
-fn the_default_lags_by_half_its_window() {
-    let found = fed(VelocityMethod::default(), 100, 1, |t| Point::new(t, 0.0));
+fn a_line_fit_lags_by_half_its_window() {
+    let found = fed(METHODS[1], 100, 1, |t| Point::new(t, 0.0));
     assert!((found.lag_s - 0.020).abs() < 1e-12, "{found:?}");
 }
 
@@ -137,4 +147,141 @@ fn places_at_the_ends_of_the_number_range_give_a_finite_velocity() {
             );
         }
     }
+}
+
+#[test]
+fn constant_velocity_is_found_between_uneven_samples() {
+    // Gaps of 0.05, 1, 8 and 33 ms in turn, as when a queue is emptied in bursts.
+    let gaps_us = [50_u64, 1_000, 8_000, 33_000];
+    for method in METHODS.into_iter().filter(|m| !is_alpha_beta(*m)) {
+        let mut estimator = VelocityEstimator::new(method);
+        let start = Instant::now();
+        let mut now = start;
+        for k in 0..80 {
+            now += Duration::from_micros(gaps_us[k % 4]);
+            let t = (now - start).as_secs_f64();
+            estimator.push(PointerSample {
+                stamp: now,
+                position: Point::new(200.0 * t, 5.0 - 40.0 * t),
+            });
+        }
+        let Velocity {
+            x_mm_per_s,
+            y_mm_per_s,
+        } = estimator.estimate(now).velocity;
+        let off = (x_mm_per_s - 200.0).hypot(y_mm_per_s + 40.0);
+        assert!(off < 1e-7, "{method:?}: off by {off} mm/s");
+    }
+}
+
+#[test]
+fn the_lag_carried_along_is_exact_between_uneven_samples() {
+    let acceleration = 900.0;
+    for method in METHODS[3..].iter().copied() {
+        let mut estimator = VelocityEstimator::new(method);
+        let start = Instant::now();
+        let mut now = start;
+        for k in 0..90_u64 {
+            now += Duration::from_micros(300 + 7_000 * (k % 3));
+            let t = (now - start).as_secs_f64();
+            estimator.push(PointerSample {
+                stamp: now,
+                position: Point::new(0.0, 0.5 * acceleration * t * t),
+            });
+        }
+        let found = estimator.estimate(now);
+        let true_velocity = acceleration * (now - start).as_secs_f64();
+        let lag_s = (true_velocity - found.velocity.y_mm_per_s) / acceleration;
+        assert!((lag_s - found.lag_s).abs() < 1e-9, "{lag_s} s, {found:?}");
+    }
+}
+
+#[test]
+fn a_kalman_filters_lag_settles_where_its_closed_form_says() {
+    let method = VelocityMethod::Kalman {
+        acceleration_mm2_per_s3: 1e3,
+        noise_mm: 0.1,
+    };
+    let found = fed(method, 2000, 1, |t| Point::new(t, 0.0));
+    let expected = 2.0_f64.sqrt() * (0.1_f64.powi(2) * 1e-3 / 1e3).powf(0.25);
+    // Dense samples: 14 ms against steps of 1 ms.
+    assert!(
+        (found.lag_s / expected - 1.0).abs() < 0.06,
+        "{found:?} for {expected} s"
+    );
+}
+
+#[test]
+fn a_one_euro_filter_smooths_at_rest_and_hurries_at_speed() {
+    let lag_at = |speed: f64| fed(METHODS[4], 200, 8, |t| Point::new(speed * t, 0.0)).lag_s;
+    let settled_s = |speed: f64| 0.004 + 1.0 / (std::f64::consts::TAU * (3.0 + 0.05 * speed));
+    for speed in [0.0, 20.0, 400.0] {
+        assert!(
+            (lag_at(speed) - settled_s(speed)).abs() < 1e-4,
+            "{speed} mm/s"
+        );
+    }
+}
+
+#[test]
+fn a_pointer_that_trembles_in_its_place_moves_less_behind_every_filter() {
+    let tremble = |t: f64| {
+        Point::new(
+            if (t * 125.0).round() % 2.0 > 0.5 {
+                0.1
+            } else {
+                0.0
+            },
+            0.0,
+        )
+    };
+    let raw = fed(METHODS[0], 101, 8, tremble).velocity.speed_mm_per_s();
+    for method in &METHODS[1..] {
+        let found = fed(*method, 101, 8, tremble).velocity.speed_mm_per_s();
+        assert!(found < 0.6 * raw, "{method:?}: {found} of {raw} mm/s");
+    }
+}
+
+#[test]
+fn samples_of_the_same_time_leave_the_filters_finite() {
+    for method in METHODS {
+        let found = fed(method, 20, 0, |_| Point::new(3.0, 4.0));
+        assert!(
+            found.velocity.is_finite() && found.lag_s.is_finite(),
+            "{method:?}"
+        );
+    }
+}
+
+#[test]
+fn numbers_that_make_no_sense_are_unsound() {
+    assert!(
+        METHODS.iter().all(|method| method.is_sound()),
+        "all of these make sense"
+    );
+    let kalman = |acceleration_mm2_per_s3, noise_mm| VelocityMethod::Kalman {
+        acceleration_mm2_per_s3,
+        noise_mm,
+    };
+    let one_euro = |min_cutoff_hz, beta_per_mm, derivative_cutoff_hz| VelocityMethod::OneEuro {
+        min_cutoff_hz,
+        beta_per_mm,
+        derivative_cutoff_hz,
+    };
+    for senseless in [
+        kalman(0.0, 0.1),
+        kalman(1e5, 0.0),
+        kalman(f64::NAN, 0.1),
+        kalman(1e5, f64::INFINITY),
+        one_euro(0.0, 0.1, 1.0),
+        one_euro(1.0, -0.1, 1.0),
+        one_euro(1.0, 0.1, f64::NAN),
+        one_euro(f64::INFINITY, 0.1, 1.0),
+    ] {
+        assert!(!senseless.is_sound(), "{senseless:?}");
+    }
+}
+
+fn is_alpha_beta(method: VelocityMethod) -> bool {
+    matches!(method, VelocityMethod::AlphaBeta { .. })
 }

@@ -5,10 +5,12 @@
 //! least the share `floor` of an amplitude through are left out, which takes less than
 //! `floor²·2ΣP` off a squared amplitude. The filter's gains are computed once per speed.
 
+use std::hint::black_box;
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::reference::{bin_frequency_hz, evaluate_each};
-use crate::render::plan::{Contacts, Counters, Feel, ScenePlan};
+use crate::render::plan::{Contacts, Counters, Feel, Rule, Rules, ScenePlan};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
@@ -19,6 +21,7 @@ pub(super) struct BandedEvaluator {
     pool: Vec<SpectraMemo>,
     rows: [GainRow; 2],
     tick: u64,
+    floor: f64,
 }
 
 /// Spectra, and what was already evaluated of them.
@@ -41,7 +44,7 @@ struct GainRow {
     speed_mm_per_s: f64,
     n_audible: usize,
     /// Slots of the bins that each band hears.
-    heard: [std::ops::Range<usize>; 2],
+    heard: [Range<usize>; 2],
     gains: [Vec<f64>; 2],
     /// The frequencies that each band hears, Hz.
     heard_hz: [[f64; 2]; 2],
@@ -66,7 +69,29 @@ impl BandedEvaluator {
             pool: plan.pool.iter().map(memo).collect(),
             rows: [row(), row()],
             tick: 0,
+            floor,
         }
+    }
+
+    /// Takes other rules. Returns the floor in force.
+    pub(super) fn set_rules(&mut self, rules: Rules) -> f64 {
+        let floor = if rules.has(Rule::BelowFloor) {
+            self.floor
+        } else {
+            0.0
+        };
+        let heard_hz = Band::ALL.map(|band| heard_frequencies_hz(&self.filters, band, floor));
+        for row in &mut self.rows {
+            row.heard_hz = heard_hz;
+            row.speed_mm_per_s = 0.0;
+        }
+        floor
+    }
+
+    /// Bytes of what it remembers beside the spectra.
+    pub(super) fn n_bytes(&self) -> usize {
+        let n_points: usize = self.pool.iter().map(|memo| memo.points.len()).sum();
+        n_points * size_of::<Memo>() + 4 * N_BINS * size_of::<f64>()
     }
 
     pub(super) fn begin_tick(&mut self) {
@@ -84,46 +109,87 @@ impl BandedEvaluator {
     ) {
         let sums_of = |axis, feel: Feel, counters: &mut Counters| {
             let row = &mut self.rows[axis as usize];
-            row.move_to(feel.speed_mm_per_s, &self.filters);
-            self.pool[feel.spectra].sums(feel.point, (self.tick, row), counters)
+            row.move_to(
+                feel.speed_mm_per_s,
+                &self.filters,
+                (contacts.rules, counters),
+            );
+            let rules = contacts.rules;
+            self.pool[feel.spectra].sums(feel.point, (self.tick, row), (rules, counters))
         };
         evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
     }
 }
 
 impl SpectraMemo {
+    #[inline]
     fn sums(
         &mut self,
         point: usize,
         (tick, row): (u64, &GainRow),
-        counters: &mut Counters,
+        (rules, counters): (Rules, &mut Counters),
     ) -> [f64; 2] {
-        let memo = &mut self.points[point];
-        if memo.tick == tick && memo.speed_mm_per_s.to_bits() == row.speed_mm_per_s.to_bits() {
+        let memo = &self.points[point];
+        let is_known =
+            memo.tick == tick && memo.speed_mm_per_s.to_bits() == row.speed_mm_per_s.to_bits();
+        if is_known && rules.has(Rule::SamePoint) {
             counters.directions_repeated += 1;
             return memo.sums;
         }
-        let sums = row.sums(self.spectra.powers_um2(point));
-        *memo = Memo {
+        let sums = self.sums_anew(point, row, (rules, counters));
+        self.points[point] = Memo {
             tick,
             speed_mm_per_s: row.speed_mm_per_s,
             sums,
         };
+        sums
+    }
+
+    /// The sums of a point that was not yet evaluated in this tick.
+    #[inline(never)]
+    fn sums_anew(
+        &self,
+        point: usize,
+        row: &GainRow,
+        (rules, counters): (Rules, &mut Counters),
+    ) -> [f64; 2] {
+        let powers_um2 = self.spectra.powers_um2(point);
+        let sums = row.sums(powers_um2, row.heard.clone());
         let n_heard = row.heard[0].len() + row.heard[1].len();
         counters.directions_evaluated += 1;
         counters.bins_evaluated += n_heard as u64;
         counters.bins_below_floor += (2 * row.n_audible - n_heard) as u64;
-        counters.bins_above_1_khz += 2 * (N_BINS - row.n_audible) as u64;
+        let n_above = 2 * (N_BINS - row.n_audible) as u64;
+        if rules.has(Rule::AboveBand) {
+            counters.bins_above_1_khz += n_above;
+        } else {
+            let above = row.n_audible..N_BINS;
+            black_box(row.sums(powers_um2, [above.clone(), above]));
+            counters.bins_evaluated += n_above;
+        }
         sums
     }
 }
 
 impl GainRow {
     /// Computes the gains at a speed, unless they are those at hand.
-    fn move_to(&mut self, speed_mm_per_s: f64, filters: &Filters) {
-        if self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits() {
-            return;
+    #[inline]
+    fn move_to(
+        &mut self,
+        speed_mm_per_s: f64,
+        filters: &Filters,
+        (rules, counters): (Rules, &mut Counters),
+    ) {
+        let is_at_hand = self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits();
+        if is_at_hand && rules.has(Rule::SameSpeed) {
+            counters.speeds_repeated += 1;
+        } else {
+            self.compute(speed_mm_per_s, filters, rules);
         }
+    }
+
+    #[inline(never)]
+    fn compute(&mut self, speed_mm_per_s: f64, filters: &Filters, rules: Rules) {
         self.speed_mm_per_s = speed_mm_per_s;
         self.n_audible = n_audible_bins(speed_mm_per_s);
         let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
@@ -133,18 +199,24 @@ impl GainRow {
             let first = n_bins_below(low_hz / spacing_hz).min(self.n_audible);
             let end = n_bins_below(high_hz / spacing_hz + 1.0).clamp(first, self.n_audible);
             self.heard[b] = first..end;
-            for slot in first..end {
+            let above = if rules.has(Rule::AboveBand) {
+                0..0
+            } else {
+                self.n_audible..N_BINS
+            };
+            for slot in (first..end).chain(above) {
                 let frequency_hz = bin_frequency_hz(speed_mm_per_s, slot + 1);
                 self.gains[b][slot] = filters.power_gain(band, frequency_hz);
             }
         }
     }
 
-    fn sums(&self, powers_um2: &[f64]) -> [f64; 2] {
-        [0, 1].map(|b| {
-            let heard = self.heard[b].clone();
-            let gains = &self.gains[b][heard.clone()];
-            powers_um2[heard]
+    /// `Σ_k P_k H_b(f_k)²` over some slots for each band.
+    fn sums(&self, powers_um2: &[f64], slots: [Range<usize>; 2]) -> [f64; 2] {
+        let [low, high] = slots;
+        [(0, low), (1, high)].map(|(b, slots)| {
+            let gains = &self.gains[b][slots.clone()];
+            powers_um2[slots]
                 .iter()
                 .zip(gains)
                 .map(|(power, gain)| power * gain)

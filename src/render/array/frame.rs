@@ -69,6 +69,12 @@ impl DisplayFrame {
         self.position
     }
 
+    /// Begins a tick: no amplitudes yet.
+    pub(super) fn begin(&mut self) {
+        self.amplitudes_um.fill([0.0; 2]);
+        self.exact_um.fill([0.0; 2]);
+    }
+
     /// Silence at no place.
     pub(super) fn silence(&mut self) {
         self.amplitudes_um.fill([0.0; 2]);

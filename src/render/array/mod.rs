@@ -23,12 +23,14 @@ pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
 pub use table::TableCache;
 pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 
+use std::hint::black_box;
+
 use banded::BandedEvaluator;
 use reference::ReferenceEvaluator;
 use table::TableEvaluator;
 
 use super::gains::Gains;
-use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan};
+use super::plan::{Contacts, Counters, DisplayPlan, Rules, ScenePlan};
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::geometry::Velocity;
 use crate::scene::Pose;
@@ -38,7 +40,7 @@ use crate::tactile::Tuning;
 #[derive(Debug, Clone)]
 enum Evaluator {
     Reference(ReferenceEvaluator),
-    Banded(BandedEvaluator),
+    Banded(Box<BandedEvaluator>),
     Table(TableEvaluator),
 }
 
@@ -53,6 +55,9 @@ pub struct ArrayRenderer {
     displays: Vec<DisplayPlan>,
     frames: Vec<DisplayFrame>,
     counters: Counters,
+    rules: Rules,
+    /// What was evaluated for nothing; empty while each contactor is evaluated on its own textile.
+    discarded: Vec<DisplayFrame>,
 }
 
 impl ArrayRenderer {
@@ -97,7 +102,7 @@ impl ArrayRenderer {
             (Method::Banded, _) => {
                 let banded = BandedEvaluator::prepare(&plan, &scene.filters, accuracy.banded_floor);
                 (
-                    Evaluator::Banded(banded),
+                    Evaluator::Banded(Box::new(banded)),
                     ErrorBound::of_floor(accuracy.banded_floor),
                 )
             }
@@ -117,7 +122,33 @@ impl ArrayRenderer {
             displays: scene.displays.iter().map(DisplayPlan::new).collect(),
             frames: scene.displays.iter().map(frame).collect(),
             counters: Counters::default(),
+            rules: Rules::ALL,
+            discarded: Vec::new(),
         })
+    }
+
+    /// The same renderer with other savings in force; all are unless this is called. What a saving
+    /// that is off would leave out is evaluated, and its result thrown away. For reports: with the
+    /// bins below a filter's floor evaluated `banded` is exact, else amplitudes stay as they are.
+    /// Allocates.
+    #[must_use]
+    pub fn with_rules(mut self, rules: Rules) -> Self {
+        self.rules = rules;
+        self.displays.iter_mut().for_each(|d| d.set_rules(rules));
+        self.discarded = if rules.skip_spare_touches() {
+            Vec::new()
+        } else {
+            self.frames.clone()
+        };
+        if let Evaluator::Banded(banded) = &mut self.evaluator {
+            self.bound = ErrorBound::of_floor(banded.set_rules(rules));
+        }
+        self
+    }
+
+    /// The savings in force.
+    pub fn rules(&self) -> Rules {
+        self.rules
     }
 
     /// Goes on counting where another renderer is.
@@ -128,6 +159,7 @@ impl ArrayRenderer {
     /// Clears counters and frames; tuning and levels stay.
     pub fn reset(&mut self) {
         self.counters = Counters::default();
+        self.displays.iter_mut().for_each(DisplayPlan::forget);
         self.frames.iter_mut().for_each(DisplayFrame::silence);
     }
 
@@ -143,6 +175,7 @@ impl ArrayRenderer {
                 self.tick_display(index, pose);
             } else {
                 self.counters.poses_missing += 1;
+                self.displays[index].forget();
                 self.frames[index].silence();
             }
         }
@@ -151,33 +184,50 @@ impl ArrayRenderer {
 
     fn tick_display(&mut self, index: usize, pose: &Pose) {
         let (display, frame) = (&mut self.displays[index], &mut self.frames[index]);
-        frame.amplitudes_um.fill([0.0; 2]);
-        frame.exact_um.fill([0.0; 2]);
         let Some(pose) = finite_pose(pose, &mut self.counters) else {
+            display.forget();
             frame.silence();
             return;
         };
+        if !display.stands(&pose, &mut self.counters) {
+            self.render_display(index, &pose);
+        }
+        let display = &self.displays[index];
+        self.counters.contactors_inside += display.n_owned as u64;
+        self.counters.contactors_outside += (display.n_contactors() - display.n_owned) as u64;
+    }
+
+    fn render_display(&mut self, index: usize, pose: &Pose) {
+        let (display, frame) = (&mut self.displays[index], &mut self.frames[index]);
+        let counters = &mut self.counters;
+        frame.begin();
         frame.position = pose.position;
-        frame.rotation = display.begin(pose.angle_deg);
-        let n_contactors = display.n_contactors();
+        frame.rotation = display.begin(pose.angle_deg, counters);
         for (number, textile) in self.plan.textiles.iter().enumerate().rev() {
             let Some(placing) = textile.placing(display, pose.position) else {
+                counters.textiles_out_of_reach += 1;
                 continue;
             };
-            let claimed = display.claim((textile, number), &placing, &pose);
-            if let Some(contacts) = claimed {
-                let factors = self.gains.factors(number);
+            let factors = self.gains.factors(number);
+            if let Some(contacts) = display.claim((textile, number), &placing, pose, counters) {
                 self.evaluator
-                    .evaluate(&self.plan, &contacts, factors, frame, &mut self.counters);
+                    .evaluate(&self.plan, &contacts, factors, frame, counters);
             }
-            if display.n_owned == n_contactors {
+            if let Some(discarded) = self.discarded.get_mut(index)
+                && let Some(contacts) = display.claim_spare((textile, number), &placing, pose)
+            {
+                discarded.begin();
+                self.evaluator
+                    .evaluate(&self.plan, &contacts, factors, discarded, counters);
+                black_box(discarded);
+            }
+            if display.is_taken() {
+                counters.touches_beneath += (number * display.n_contactors()) as u64;
                 break;
             }
         }
         frame.owners.copy_from_slice(&display.owners);
         frame.round();
-        self.counters.contactors_inside += display.n_owned as u64;
-        self.counters.contactors_outside += (n_contactors - display.n_owned) as u64;
     }
 
     /// Silences contactors of one display in the frames of the last tick: those whose place in
@@ -241,6 +291,16 @@ impl ArrayRenderer {
     /// How far amplitudes may be from `reference`, known before the first tick.
     pub fn bound(&self) -> ErrorBound {
         self.bound
+    }
+
+    /// Bytes that powers are found from: spectra, or tables.
+    pub fn n_bytes(&self) -> usize {
+        let n_spectra: usize = self.plan.pool.iter().map(|spectra| spectra.n_bytes()).sum();
+        match &self.evaluator {
+            Evaluator::Reference(_) => n_spectra,
+            Evaluator::Banded(banded) => n_spectra + banded.n_bytes(),
+            Evaluator::Table(table) => table.n_bytes(),
+        }
     }
 
     /// What was evaluated and left out since the last reset.

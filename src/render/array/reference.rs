@@ -1,8 +1,9 @@
 //! The reference: f64, every bin, no shortcut. Every other method is measured against it.
 
+use std::hint::black_box;
 use std::sync::Arc;
 
-use crate::render::plan::{Axis, Contacts, Counters, Feel, ScenePlan};
+use crate::render::plan::{Axis, Contacts, Counters, Feel, Rule, ScenePlan};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
@@ -35,7 +36,14 @@ impl ReferenceEvaluator {
             let (sums, n_audible) = band_sums(powers_um2, feel.speed_mm_per_s, &self.filters);
             counters.directions_evaluated += 1;
             counters.bins_evaluated += 2 * n_audible as u64;
-            counters.bins_above_1_khz += 2 * (N_BINS - n_audible) as u64;
+            let n_above = 2 * (N_BINS - n_audible) as u64;
+            if contacts.rules.has(Rule::AboveBand) {
+                counters.bins_above_1_khz += n_above;
+            } else {
+                let above = (n_audible, &powers_um2[n_audible..]);
+                black_box(sums_from(above, feel.speed_mm_per_s, &self.filters));
+                counters.bins_evaluated += n_above;
+            }
             sums
         };
         evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
@@ -58,6 +66,8 @@ pub(super) fn evaluate_each(
             if let Some(feel) = contacts.feel(textile, axis, contactor, counters) {
                 let own = sums_of(axis, feel, counters);
                 (0..2).for_each(|b| sums[b] += own[b]);
+            } else if let Some(feel) = contacts.idle_feel(textile, axis, contactor) {
+                black_box(sums_of(axis, feel, counters));
             }
         }
         *amplitudes = amplitudes_of(sums, factors);
@@ -93,4 +103,20 @@ fn band_sums(powers_um2: &[f64], speed_mm_per_s: f64, filters: &Filters) -> ([f6
         }
     }
     (sums, n_audible)
+}
+
+/// `Σ_k P_k H_b(f_k)²` over powers that begin after the first `n_before` bins, wherever they sound.
+fn sums_from(
+    (n_before, powers_um2): (usize, &[f64]),
+    speed_mm_per_s: f64,
+    filters: &Filters,
+) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for (k, power) in (n_before + 1..).zip(powers_um2) {
+        let frequency_hz = bin_frequency_hz(speed_mm_per_s, k);
+        for band in Band::ALL {
+            sums[band.index()] += power * filters.power_gain(band, frequency_hz);
+        }
+    }
+    sums
 }

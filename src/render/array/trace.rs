@@ -101,13 +101,19 @@ impl ContactInspector {
         }
     }
 
+    /// Takes the gains of a scene that is the same but for them.
+    pub fn set_gains(&mut self, scene: &RenderScene) {
+        self.gains = Gains::of(scene);
+    }
+
     /// The trace of a contactor of a display at a pose; `None` when there is no such contactor or
     /// the pose's place is not finite. A motion that is not finite counts as rest.
     pub fn trace(&mut self, display: usize, contactor: usize, pose: &Pose) -> Option<ContactTrace> {
         let array = self.displays.get_mut(display)?;
         let offset = array.offset(contactor)?;
-        let pose = super::finite_pose(pose, &mut Counters::default())?;
-        let rotation = array.begin(pose.angle_deg);
+        let mut counters = Counters::default();
+        let pose = super::finite_pose(pose, &mut counters)?;
+        let rotation = array.begin(pose.angle_deg, &mut counters);
         let how = (&self.gains, &self.filters);
         let touch = at_contact(&self.plan, array, contactor, &pose, |contacts| {
             touch_of(&self.plan, contacts, contactor, how)
@@ -136,7 +142,7 @@ impl ContactInspector {
         let Some((array, pose)) = array.zip(super::finite_pose(pose, &mut counters)) else {
             return;
         };
-        array.begin(pose.angle_deg);
+        array.begin(pose.angle_deg, &mut counters);
         at_contact(&self.plan, array, contactor, &pose, |contacts| {
             let textile = &self.plan.textiles[contacts.textile];
             for axis in Axis::BOTH {
@@ -164,11 +170,12 @@ fn at_contact<T>(
     pose: &Pose,
     explain: impl FnOnce(&Contacts<'_>) -> T,
 ) -> Option<T> {
+    let mut counters = Counters::default();
     for (number, textile) in plan.textiles.iter().enumerate().rev() {
         let Some(placing) = textile.placing(display, pose.position) else {
             continue;
         };
-        let contacts = display.claim((textile, number), &placing, pose);
+        let contacts = display.claim((textile, number), &placing, pose, &mut counters);
         if let Some(contacts) = contacts.filter(|contacts| contacts.owns(contactor)) {
             return Some(explain(&contacts));
         }

@@ -1,9 +1,8 @@
 //! Where the contactors of a display touch which textile, and how they move over it.
 
-use super::{Axis, Component, Counters, OUTSIDE, PointIndex};
-use crate::geometry::{Displacement, Point, Rotation, Velocity};
-use crate::render::{ContactorArray, PlacedSurface};
-use crate::scene::Pose;
+use super::{Axis, Component, Counters, DisplayPlan, PointIndex, Rule, Rules};
+use crate::geometry::{Point, Rotation, Velocity};
+use crate::render::PlacedSurface;
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
 /// and upper edge no longer, mm.
@@ -13,7 +12,7 @@ const EDGE_MM: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(in crate::render) struct TextilePlan {
     origin: Point,
-    textile_from_workspace: Rotation,
+    pub(super) textile_from_workspace: Rotation,
     size_mm: [f64; 2],
     /// The spectra of each direction in the pool.
     pub(in crate::render) spectra: [usize; 4],
@@ -24,10 +23,10 @@ pub(in crate::render) struct TextilePlan {
 /// Where a display's centre is in a textile's frame, and how it lies there.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::render) struct Placing {
-    centre: Point,
-    textile_from_display: Rotation,
+    pub(super) centre: Point,
+    pub(super) textile_from_display: Rotation,
     /// Every contactor lies on the textile.
-    is_covered: bool,
+    pub(super) is_covered: bool,
 }
 
 /// How the contactors of a display move in a textile's frame.
@@ -52,6 +51,8 @@ pub(in crate::render) struct Contacts<'a> {
     pub(in crate::render) motion: Motion<'a>,
     /// How many contactors lie on this textile.
     pub(in crate::render) n_contactors: usize,
+    /// What may be left out.
+    pub(in crate::render) rules: Rules,
 }
 
 /// What a contactor feels along one axis.
@@ -82,15 +83,54 @@ impl Contacts<'_> {
             is_reverse,
         } = component
         else {
-            counters.left_out(component, 1);
+            self.count_left_out(component, 1, counters);
             return None;
         };
+        Some(self.feel_at(textile, (axis, is_reverse), contactor, speed_mm_per_s))
+    }
+
+    /// What a contactor that feels nothing along an axis would feel at the nearest speed that is
+    /// felt: to be evaluated for nothing. `None` where that is left out, as it should be.
+    pub(in crate::render) fn idle_feel(
+        &self,
+        textile: &TextilePlan,
+        axis: Axis,
+        contactor: usize,
+    ) -> Option<Feel> {
+        let component = self.component(axis, contactor);
+        let speed_mm_per_s = component.nearest_felt_mm_per_s();
+        (!self.rules.leave_out(component))
+            .then(|| self.feel_at(textile, (axis, false), contactor, speed_mm_per_s))
+    }
+
+    #[inline]
+    fn feel_at(
+        &self,
+        textile: &TextilePlan,
+        (axis, is_reverse): (Axis, bool),
+        contactor: usize,
+        speed_mm_per_s: f64,
+    ) -> Feel {
         let d = axis.direction(is_reverse).index();
-        Some(Feel {
+        Feel {
             spectra: textile.spectra[d],
             point: textile.points[d].nearest(self.places_mm[axis as usize][contactor]),
             speed_mm_per_s,
-        })
+        }
+    }
+
+    /// Counts `n` directions of a component that is not felt, unless they are evaluated for
+    /// nothing.
+    #[inline]
+    pub(in crate::render) fn count_left_out(
+        &self,
+        component: Component,
+        n: u64,
+        counters: &mut Counters,
+    ) {
+        if self.rules.leave_out(component) {
+            counters.left_out(component, n);
+        }
     }
 
     /// Whether a contactor lies on this textile.
@@ -157,22 +197,6 @@ impl Contacts<'_> {
     }
 }
 
-/// A display's contactors, their places on the textile at hand, and who owns each.
-#[derive(Debug, Clone)]
-pub(in crate::render) struct DisplayPlan {
-    x_mm: Vec<f64>,
-    y_mm: Vec<f64>,
-    radius_mm: f64,
-    rotation_deg: f64,
-    turned: (f64, Rotation),
-    u_mm: Vec<f64>,
-    w_mm: Vec<f64>,
-    velocity_u: Vec<f64>,
-    velocity_w: Vec<f64>,
-    pub(in crate::render) owners: Vec<u16>,
-    pub(in crate::render) n_owned: usize,
-}
-
 impl TextilePlan {
     pub(super) fn new(placed: &PlacedSurface, spectra: [usize; 4]) -> Self {
         let points = crate::surface::Direction::ALL
@@ -197,135 +221,17 @@ impl TextilePlan {
         };
         let [width, height] = self.size_mm;
         let is_near = reaches(centre.x_mm, width) && reaches(centre.y_mm, height);
-        is_near.then(|| Placing {
+        (is_near || !display.rules.has(Rule::OutOfReach)).then(|| Placing {
             centre,
             textile_from_display: self.textile_from_workspace.after(display.turned.1),
-            is_covered: covers(centre.x_mm, width) && covers(centre.y_mm, height),
+            is_covered: covers(centre.x_mm, width)
+                && covers(centre.y_mm, height)
+                && display.rules.has(Rule::Covered),
         })
     }
 
-    fn contains(&self, u_mm: f64, w_mm: f64) -> bool {
+    pub(super) fn contains(&self, u_mm: f64, w_mm: f64) -> bool {
         let within = |place: f64, extent: f64| -EDGE_MM <= place && place < extent - EDGE_MM;
         within(u_mm, self.size_mm[0]) && within(w_mm, self.size_mm[1])
-    }
-}
-
-impl DisplayPlan {
-    pub(in crate::render) fn new(array: &ContactorArray) -> Self {
-        let zeros = vec![0.0; array.offsets.len()];
-        let longest = |far: f64, by: &Displacement| far.max(by.length_mm());
-        // A hair more than the farthest contactor, for what turning rounds.
-        let radius_mm = array.offsets.iter().fold(0.0, longest) * (1.0 + 1e-12) + 1e-9;
-        Self {
-            x_mm: array.offsets.iter().map(|by| by.x_mm).collect(),
-            y_mm: array.offsets.iter().map(|by| by.y_mm).collect(),
-            radius_mm,
-            rotation_deg: array.rotation_deg,
-            turned: (
-                array.rotation_deg,
-                Rotation::from_degrees(array.rotation_deg),
-            ),
-            u_mm: zeros.clone(),
-            w_mm: zeros.clone(),
-            velocity_u: zeros.clone(),
-            velocity_w: zeros,
-            owners: vec![OUTSIDE; array.offsets.len()],
-            n_owned: 0,
-        }
-    }
-
-    pub(in crate::render) fn n_contactors(&self) -> usize {
-        self.owners.len()
-    }
-
-    /// Where a contactor sits in the display's own frame; `None` when there is no such contactor.
-    pub(in crate::render) fn offset(&self, contactor: usize) -> Option<Displacement> {
-        let (x_mm, y_mm) = (self.x_mm.get(contactor)?, self.y_mm.get(contactor)?);
-        Some(Displacement::new(*x_mm, *y_mm))
-    }
-
-    /// Begins a tick: nobody owns a contactor yet. Returns how the display is turned.
-    pub(in crate::render) fn begin(&mut self, path_angle_deg: f64) -> Rotation {
-        self.owners.fill(OUTSIDE);
-        self.n_owned = 0;
-        let angle_deg = self.rotation_deg + path_angle_deg;
-        // Sine and cosine only when the angle changed; most strokes do not turn.
-        if angle_deg.to_bits() != self.turned.0.to_bits() {
-            self.turned = (angle_deg, Rotation::from_degrees(angle_deg));
-        }
-        self.turned.1
-    }
-
-    /// Gives a textile the contactors that lie on it and that nobody above it took. `None` when
-    /// there are none.
-    pub(in crate::render) fn claim(
-        &mut self,
-        (textile, number): (&TextilePlan, usize),
-        placing: &Placing,
-        pose: &Pose,
-    ) -> Option<Contacts<'_>> {
-        self.place(placing);
-        let n_before = self.n_owned;
-        #[expect(clippy::cast_possible_truncation, reason = "at most 65,000 textiles")]
-        let owner = number as u16;
-        if placing.is_covered && n_before == 0 {
-            self.owners.fill(owner);
-            self.n_owned = self.owners.len();
-        } else {
-            self.claim_each(textile, owner);
-        }
-        let n_contactors = self.n_owned - n_before;
-        (n_contactors > 0).then(|| {
-            let velocity = textile.textile_from_workspace.turn_velocity(pose.velocity);
-            let is_turning = pose.angular_rad_per_s != 0.0;
-            if is_turning {
-                self.move_each(placing, velocity, pose.angular_rad_per_s);
-            }
-            Contacts {
-                textile: number,
-                owners: &self.owners,
-                places_mm: [&self.u_mm, &self.w_mm],
-                motion: if is_turning {
-                    Motion::Turning(&self.velocity_u, &self.velocity_w)
-                } else {
-                    Motion::Together(velocity)
-                },
-                n_contactors,
-            }
-        })
-    }
-
-    fn claim_each(&mut self, textile: &TextilePlan, owner: u16) {
-        let places = self.u_mm.iter().zip(&self.w_mm);
-        for (taken, (&u_mm, &w_mm)) in self.owners.iter_mut().zip(places) {
-            if *taken == OUTSIDE && textile.contains(u_mm, w_mm) {
-                *taken = owner;
-                self.n_owned += 1;
-            }
-        }
-    }
-
-    /// Places of all contactors in a textile's frame: `centre + R·offset`.
-    fn place(&mut self, placing: &Placing) {
-        let (cos, sin) = placing.textile_from_display.cos_sin();
-        let Point { x_mm: u0, y_mm: w0 } = placing.centre;
-        let offsets = self.x_mm.iter().zip(&self.y_mm);
-        let places = self.u_mm.iter_mut().zip(&mut self.w_mm);
-        for ((u, w), (x, y)) in places.zip(offsets) {
-            *u = u0 + (cos * x - sin * y);
-            *w = w0 + (sin * x + cos * y);
-        }
-    }
-
-    /// Velocities `v + ω × r` of all contactors in a textile's frame.
-    fn move_each(&mut self, placing: &Placing, velocity: Velocity, angular_rad_per_s: f64) {
-        let (cos, sin) = placing.textile_from_display.cos_sin();
-        let offsets = self.x_mm.iter().zip(&self.y_mm);
-        let velocities = self.velocity_u.iter_mut().zip(&mut self.velocity_w);
-        for ((along_u, along_w), (x, y)) in velocities.zip(offsets) {
-            let offset = Displacement::new(cos * x - sin * y, sin * x + cos * y);
-            let own = velocity.at_offset(offset, angular_rad_per_s);
-            (*along_u, *along_w) = (own.x_mm_per_s, own.y_mm_per_s);
-        }
     }
 }

@@ -25,6 +25,20 @@ pub struct Counters {
     pub bins_above_1_khz: u64,
     /// Bins left out because the filter lets less than its floor through.
     pub bins_below_floor: u64,
+    /// Displays that stayed silent for a tick because they rest where they rested before.
+    pub displays_standing: u64,
+    /// Angles whose sine and cosine were at hand.
+    pub angles_repeated: u64,
+    /// Textiles left out for a display and a tick because none of its contactors reaches them.
+    pub textiles_out_of_reach: u64,
+    /// Contactors not asked whether they lie on a textile because their whole display does.
+    pub touches_covered: u64,
+    /// Contactors not evaluated on a textile within reach because they lie beside it.
+    pub touches_outside: u64,
+    /// Contactors not evaluated on a textile because they lie on another above.
+    pub touches_beneath: u64,
+    /// Speeds that were looked up for another contactor of the same tick.
+    pub speeds_repeated: u64,
     /// Displays left silent for a tick because their pose held NaN or infinity.
     pub poses_not_finite: u64,
     /// Displays left silent for a tick because no pose was given.

@@ -3,15 +3,20 @@
 //!
 //! All methods share this, so they differ in nothing but how powers are found. Left out are
 //! contactors outside, directions that cannot be felt, bins at or above 1 kHz or below a filter's
-//! floor, and everything that was already evaluated in the same tick. Counters say how much.
+//! floor, and everything that was already evaluated in the same tick. Each saving is a [`Rule`]
+//! that can be switched off; counters say how much it left out.
 
 mod contact;
 mod counters;
+mod display;
 mod point;
+mod rules;
 
-pub(super) use contact::{Contacts, DisplayPlan, Feel, Motion, TextilePlan};
+pub(super) use contact::{Contacts, Feel, Motion, TextilePlan};
 pub use counters::Counters;
+pub(super) use display::DisplayPlan;
 pub(super) use point::{PointIndex, whole_part};
+pub use rules::{Rule, Rules};
 
 use std::sync::Arc;
 
@@ -49,6 +54,15 @@ impl Component {
             }
         } else {
             Self::TooFast
+        }
+    }
+
+    /// Its speed, or the nearest one that is felt, mm/s.
+    fn nearest_felt_mm_per_s(self) -> f64 {
+        match self {
+            Self::Felt { speed_mm_per_s, .. } => speed_mm_per_s,
+            Self::AtRest => MIN_SPEED_MM_PER_S,
+            Self::TooFast => MAX_SPEED_MM_PER_S.next_down(),
         }
     }
 }

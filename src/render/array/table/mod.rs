@@ -13,11 +13,12 @@ pub(super) use bound::Density;
 pub(super) use cache::Grid;
 pub use cache::TableCache;
 
+use std::hint::black_box;
 use std::sync::Arc;
 
 use super::ErrorBound;
 use crate::render::plan::{
-    Axis, Component, Contacts, Counters, Motion, PointIndex, ScenePlan, TextilePlan,
+    Axis, Component, Contacts, Counters, Feel, Motion, PointIndex, Rule, ScenePlan, TextilePlan,
 };
 use crate::render::{RenderError, RenderScene, single};
 use crate::surface::Direction;
@@ -92,6 +93,11 @@ impl TableEvaluator {
         Ok((evaluator, bound))
     }
 
+    /// Bytes of its tables.
+    pub(super) fn n_bytes(&self) -> usize {
+        self.tables.iter().map(|table| table.n_bytes()).sum()
+    }
+
     /// Amplitudes of the contactors on one textile, µm.
     pub(super) fn evaluate(
         &mut self,
@@ -126,22 +132,23 @@ impl TableEvaluator {
         let n = contacts.n_contactors;
         let mut points = [PointIndex::new(1); 2];
         for axis in Axis::BOTH {
-            let blended = &mut self.blended[axis as usize];
-            blended[0] = [0.0; 2];
+            self.blended[axis as usize][0] = [0.0; 2];
             let component = contacts.component(axis, 0);
             let Component::Felt {
                 speed_mm_per_s,
                 is_reverse,
             } = component
             else {
-                counters.left_out(component, n as u64);
+                contacts.count_left_out(component, n as u64, counters);
+                self.idle(textile, axis, contacts, counters);
                 continue;
             };
             let d = axis.direction(is_reverse).index();
+            let spot = self.find_for(n, speed_mm_per_s, contacts, counters);
             let table = &self.tables[textile.spectra[d]];
-            let rows = table.rows(self.segments.find(speed_mm_per_s));
-            if table.n_points <= BLEND_ALL * n {
-                rows.blend(blended);
+            let rows = table.rows(spot);
+            if table.n_points <= BLEND_ALL * n && contacts.rules.has(Rule::SamePoint) {
+                rows.blend(&mut self.blended[axis as usize]);
                 points[axis as usize] = textile.points[d];
                 counters.directions_evaluated += table.n_points.min(n) as u64;
                 counters.directions_repeated += n.saturating_sub(table.n_points) as u64;
@@ -160,6 +167,47 @@ impl TableEvaluator {
         });
     }
 
+    /// Where a speed that `n` contactors share lies.
+    #[inline]
+    fn find_for(
+        &self,
+        n: usize,
+        speed_mm_per_s: f64,
+        contacts: &Contacts<'_>,
+        counters: &mut Counters,
+    ) -> Spot {
+        if contacts.rules.has(Rule::SameSpeed) {
+            counters.speeds_repeated += n as u64 - 1;
+        } else {
+            for _ in 1..n {
+                black_box(self.segments.find(black_box(speed_mm_per_s)));
+            }
+        }
+        self.segments.find(speed_mm_per_s)
+    }
+
+    /// Looks up for nothing what contactors that share a velocity do not feel along an axis.
+    fn idle(
+        &self,
+        textile: &TextilePlan,
+        axis: Axis,
+        contacts: &Contacts<'_>,
+        counters: &mut Counters,
+    ) {
+        let owned = (0..contacts.owners.len()).filter(|&contactor| contacts.owns(contactor));
+        let mut n = 0;
+        for feel in owned.map_while(|contactor| contacts.idle_feel(textile, axis, contactor)) {
+            self.look_up_idle(feel);
+            n += 1;
+        }
+        counters.directions_evaluated += n;
+    }
+
+    fn look_up_idle(&self, feel: Feel) {
+        let at = self.segments.find(black_box(feel.speed_mm_per_s));
+        black_box(self.tables[feel.spectra].rows(at).at(feel.point));
+    }
+
     /// Powers of contactors that each move their own way.
     fn turning(
         &self,
@@ -171,6 +219,10 @@ impl TableEvaluator {
         contacts.for_each_owned(powers, |contactor, power| {
             for axis in Axis::BOTH {
                 let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
+                    if let Some(feel) = contacts.idle_feel(textile, axis, contactor) {
+                        self.look_up_idle(feel);
+                        counters.directions_evaluated += 1;
+                    }
                     continue;
                 };
                 let at = self.segments.find(feel.speed_mm_per_s);

@@ -9,6 +9,7 @@ mod extremes;
 mod invariances;
 mod naive;
 mod places;
+mod rules;
 
 use super::*;
 use crate::geometry::{Displacement, Frame, Point, Rotation};

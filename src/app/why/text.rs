@@ -1,0 +1,171 @@
+//! The explanation as text to be copied, and as a table to be saved.
+
+use super::{FULL_CODE, Why};
+use crate::quantity::{fixed, with_unit};
+use crate::render::GainTerms;
+use crate::render::array::DirectionTrace;
+use crate::surface::Direction;
+
+/// What a stroke in a direction is called.
+pub(crate) fn direction_words(direction: Direction) -> &'static str {
+    match direction {
+        Direction::WarpForward => "warp forward",
+        Direction::WarpReverse => "warp reverse",
+        Direction::WeftForward => "weft forward",
+        Direction::WeftReverse => "weft reverse",
+    }
+}
+
+/// The terms of a gain with their names, dB.
+pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
+    [
+        ("master", terms.master_db),
+        ("band", terms.band_db),
+        ("manifest", terms.manifest_db),
+        ("scene", terms.scene_db),
+        ("compression", terms.compression_db),
+    ]
+}
+
+/// The lines that explain: what, and what it is for 40 Hz and 320 Hz or as a whole.
+pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
+    let mut lines = vec![("Position".to_owned(), place(why))];
+    let Some(touch) = why.touch() else {
+        lines.push(("Textile".to_owned(), "none: silent".to_owned()));
+        lines.push(("Drive codes".to_owned(), codes(why)));
+        return lines;
+    };
+    let name = why.textile.clone().unwrap_or_default();
+    let [u, w] = touch.place_mm.map(|mm| fixed(mm, 1));
+    lines.push(("Textile".to_owned(), format!("{name}, at {u} / {w} mm")));
+    let [warp, weft] = touch.velocity_mm_per_s.map(|v| fixed(v, 1));
+    lines.push(("Warp / weft".to_owned(), format!("{warp} / {weft} mm/s")));
+    for direction in touch.directions.iter().flatten() {
+        lines.push(spectrum(direction));
+    }
+    if touch.directions.iter().all(Option::is_none) {
+        let words = "below 0.01 mm/s, or too fast: silent";
+        lines.push(("Spectra".to_owned(), words.to_owned()));
+    }
+    let both = |values: [f64; 2], decimals, unit: &str| {
+        let [low, high] = values.map(|value| fixed(value, decimals));
+        format!("{low} / {high} {unit}")
+    };
+    lines.push(("Without gain".to_owned(), both(why.bare_um(), 3, "µm")));
+    let [low, high] = touch.gains.map(|terms| gain_terms(&terms));
+    for ((name, low_db), (_, high_db)) in low.into_iter().zip(high) {
+        lines.push((format!("+ {name}"), both([low_db, high_db], 2, "dB")));
+    }
+    let totals = touch.gains.map(|terms| terms.total_db());
+    lines.push(("= gain".to_owned(), both(totals, 2, "dB")));
+    let amplitudes = both(why.trace.amplitudes_um, 3, "µm");
+    lines.push(("Amplitudes".to_owned(), amplitudes));
+    lines.push(("Limits".to_owned(), limits(why)));
+    lines.push(("Drive codes".to_owned(), codes(why)));
+    lines
+}
+
+fn place(why: &Why) -> String {
+    let at = why.trace.position;
+    format!("{} / {} mm", fixed(at.x_mm, 1), fixed(at.y_mm, 1))
+}
+
+fn spectrum(direction: &DirectionTrace) -> (String, String) {
+    let name = direction_words(direction.direction);
+    let [low, high] = direction.band_powers_um2.map(|um2| fixed(um2, 3));
+    let words = format!("point {}, {low} / {high} µm²", direction.point);
+    let mut letters = name.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    (first.into_iter().chain(letters).collect(), words)
+}
+
+fn limits(why: &Why) -> String {
+    let [low, high] = why.output.limit_um.map(|um| fixed(um, 1));
+    let bite = why.output.bite;
+    let words = match (bite.limited, bite.guarded) {
+        ([false, false], false) => "not met",
+        ([false, false], true) => "both scaled down to share full drive",
+        ([true, false], _) => "40 Hz is held",
+        ([false, true], _) => "320 Hz is held",
+        ([true, true], _) => "both are held",
+    };
+    format!("{low} / {high} µm, {words}")
+}
+
+fn codes(why: &Why) -> String {
+    let [low, high] = why.output.codes;
+    let state = match (why.output.is_silent, why.output.is_sent) {
+        _ if why.is_muted => "muted".to_owned(),
+        (true, _) => "silent now".to_owned(),
+        (false, true) => format!("sent at {}", with_unit(why.output.gain * 100.0, 0, "%")),
+        (false, false) => "no device is armed".to_owned(),
+    };
+    format!("{low} / {high} of {FULL_CODE}, {state}")
+}
+
+/// All of it as text.
+pub(crate) fn to_text(why: &Why) -> String {
+    let cell = why.cell.map_or_else(String::new, |(row, column)| {
+        format!(", row {row}, column {column}")
+    });
+    let head = format!(
+        "Contactor {}{cell}, tick {} (40 Hz / 320 Hz)",
+        why.contactor, why.tick
+    );
+    let lines = lines(why).into_iter();
+    let lines = lines.map(|(name, value)| format!("{name:<13} {value}"));
+    joined([head].into_iter().chain(lines))
+}
+
+/// Every number and every bin as a table: `quantity,axis,bin,value_40,value_320,unit`, with all
+/// digits.
+pub(crate) fn to_csv(why: &Why) -> String {
+    let mut rows = vec!["quantity,axis,bin,value_40,value_320,unit".to_owned()];
+    let mut row = |quantity: &str, axis: &str, bin: String, [low, high]: [f64; 2], unit: &str| {
+        rows.push(format!("{quantity},{axis},{bin},{low},{high},{unit}"));
+    };
+    let at = why.trace.position;
+    row("x", "", String::new(), [at.x_mm; 2], "mm");
+    row("y", "", String::new(), [at.y_mm; 2], "mm");
+    if let Some(touch) = why.touch() {
+        for (axis, name) in ["warp", "weft"].into_iter().enumerate() {
+            let [place, speed] = [touch.place_mm[axis], touch.velocity_mm_per_s[axis]];
+            row("place", name, String::new(), [place; 2], "mm");
+            row("velocity", name, String::new(), [speed; 2], "mm/s");
+        }
+        for direction in touch.directions.iter().flatten() {
+            let name = direction_words(direction.direction);
+            let none = String::new;
+            row("band power", name, none(), direction.band_powers_um2, "um2");
+            for (k, bin) in (1..).zip(&direction.bins) {
+                let k = || format!("{k}");
+                row("frequency", name, k(), [bin.frequency_hz; 2], "Hz");
+                row("power", name, k(), [bin.power_um2; 2], "um2");
+                row("filter gain", name, k(), bin.filter_gains, "1");
+            }
+        }
+        let [low, high] = touch.gains.map(|terms| gain_terms(&terms));
+        for ((name, low_db), (_, high_db)) in low.into_iter().zip(high) {
+            let quantity = format!("gain {name}");
+            row(&quantity, "", String::new(), [low_db, high_db], "dB");
+        }
+    }
+    let amplitudes = why.trace.amplitudes_um;
+    row("amplitude", "", String::new(), amplitudes, "um");
+    row("limit", "", String::new(), why.output.limit_um, "um");
+    row(
+        "soft-start gain",
+        "",
+        String::new(),
+        [why.output.gain; 2],
+        "1",
+    );
+    let codes = why.output.codes.map(f64::from);
+    row("drive code", "", String::new(), codes, "1");
+    joined(rows.into_iter())
+}
+
+/// Lines, each with its end.
+fn joined(lines: impl Iterator<Item = String>) -> String {
+    lines.map(|line| line + "\n").collect()
+}

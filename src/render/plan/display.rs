@@ -1,0 +1,276 @@
+//! A display's contactors in a tick: where they lie on the textile at hand, and who owns each.
+
+use super::contact::{Contacts, Motion, Placing, TextilePlan};
+use super::{Counters, OUTSIDE, Rule, Rules};
+use crate::geometry::{Displacement, Point, Rotation, Velocity};
+use crate::render::ContactorArray;
+use crate::scene::Pose;
+use crate::tactile::MIN_SPEED_MM_PER_S;
+
+/// A display's contactors, their places on the textile at hand, and who owns each.
+#[derive(Debug, Clone)]
+pub(in crate::render) struct DisplayPlan {
+    x_mm: Vec<f64>,
+    y_mm: Vec<f64>,
+    pub(super) radius_mm: f64,
+    rotation_deg: f64,
+    pub(super) turned: (f64, Rotation),
+    u_mm: Vec<f64>,
+    w_mm: Vec<f64>,
+    velocity_u: Vec<f64>,
+    velocity_w: Vec<f64>,
+    pub(in crate::render) owners: Vec<u16>,
+    pub(in crate::render) n_owned: usize,
+    /// What may be left out.
+    pub(super) rules: Rules,
+    /// Where and how turned it rested in the last tick; `None` if it moved.
+    rested: Option<(Point, f64)>,
+    /// Contactors that are evaluated on the textile at hand for nothing.
+    spare: Vec<u16>,
+}
+
+impl DisplayPlan {
+    pub(in crate::render) fn new(array: &ContactorArray) -> Self {
+        let zeros = vec![0.0; array.offsets.len()];
+        let longest = |far: f64, by: &Displacement| far.max(by.length_mm());
+        // A hair more than the farthest contactor, for what turning rounds.
+        let radius_mm = array.offsets.iter().fold(0.0, longest) * (1.0 + 1e-12) + 1e-9;
+        Self {
+            x_mm: array.offsets.iter().map(|by| by.x_mm).collect(),
+            y_mm: array.offsets.iter().map(|by| by.y_mm).collect(),
+            radius_mm,
+            rotation_deg: array.rotation_deg,
+            turned: (
+                array.rotation_deg,
+                Rotation::from_degrees(array.rotation_deg),
+            ),
+            u_mm: zeros.clone(),
+            w_mm: zeros.clone(),
+            velocity_u: zeros.clone(),
+            velocity_w: zeros,
+            owners: vec![OUTSIDE; array.offsets.len()],
+            n_owned: 0,
+            rules: Rules::ALL,
+            rested: None,
+            spare: Vec::new(),
+        }
+    }
+
+    /// Takes other rules.
+    pub(in crate::render) fn set_rules(&mut self, rules: Rules) {
+        self.rules = rules;
+        self.rested = None;
+        let n_spare = if rules.skip_spare_touches() {
+            0
+        } else {
+            self.owners.len()
+        };
+        self.spare = vec![OUTSIDE; n_spare];
+    }
+
+    pub(in crate::render) fn n_contactors(&self) -> usize {
+        self.owners.len()
+    }
+
+    /// Where a contactor sits in the display's own frame; `None` when there is no such contactor.
+    pub(in crate::render) fn offset(&self, contactor: usize) -> Option<Displacement> {
+        let (x_mm, y_mm) = (self.x_mm.get(contactor)?, self.y_mm.get(contactor)?);
+        Some(Displacement::new(*x_mm, *y_mm))
+    }
+
+    /// Whether the display rests where it rested the tick before: then its frame stands, silent as
+    /// it is, whatever became of gains. Counted.
+    pub(in crate::render) fn stands(&mut self, pose: &Pose, counters: &mut Counters) -> bool {
+        let rested = is_at_rest(pose).then_some((pose.position, pose.angle_deg));
+        let before = std::mem::replace(&mut self.rested, rested);
+        let (Some(before), Some(now)) = (before, rested) else {
+            return false;
+        };
+        let bits = |(at, angle_deg): (Point, f64)| [at.x_mm, at.y_mm, angle_deg].map(f64::to_bits);
+        let stands = self.rules.has(Rule::Standing) && bits(before) == bits(now);
+        if stands {
+            counters.displays_standing += 1;
+            let n_directions = if self.rules.has(Rule::AtRest) {
+                2 * self.n_owned as u64
+            } else {
+                0
+            };
+            counters.directions_at_rest += n_directions;
+        }
+        stands
+    }
+
+    /// Whether textiles beneath those that were claimed need not be asked.
+    pub(in crate::render) fn is_taken(&self) -> bool {
+        self.n_owned == self.owners.len() && self.rules.has(Rule::Beneath)
+    }
+
+    /// Forgets where it rested: its frame is no longer that of the last tick.
+    pub(in crate::render) fn forget(&mut self) {
+        self.rested = None;
+    }
+
+    /// Begins a tick: nobody owns a contactor yet. Returns how the display is turned.
+    pub(in crate::render) fn begin(
+        &mut self,
+        path_angle_deg: f64,
+        counters: &mut Counters,
+    ) -> Rotation {
+        self.owners.fill(OUTSIDE);
+        self.n_owned = 0;
+        let angle_deg = self.rotation_deg + path_angle_deg;
+        // Sine and cosine only when the angle changed; most strokes do not turn.
+        let is_same = angle_deg.to_bits() == self.turned.0.to_bits();
+        if is_same && self.rules.has(Rule::SameAngle) {
+            counters.angles_repeated += 1;
+        } else {
+            self.turned = (angle_deg, Rotation::from_degrees(angle_deg));
+        }
+        self.turned.1
+    }
+
+    /// Gives a textile the contactors that lie on it and that nobody above it took. `None` when
+    /// there are none.
+    pub(in crate::render) fn claim(
+        &mut self,
+        (textile, number): (&TextilePlan, usize),
+        placing: &Placing,
+        pose: &Pose,
+        counters: &mut Counters,
+    ) -> Option<Contacts<'_>> {
+        self.place(placing);
+        let n_before = self.n_owned;
+        let owner = owner_of(number);
+        if placing.is_covered && n_before == 0 {
+            self.owners.fill(owner);
+            self.n_owned = self.owners.len();
+            counters.touches_covered += self.n_owned as u64;
+        } else {
+            self.claim_each(textile, owner);
+        }
+        let n_contactors = self.n_owned - n_before;
+        self.count_spare(n_before, counters);
+        (n_contactors > 0).then(|| {
+            let motion = self.set_in_motion(textile, placing, pose);
+            self.contacts(number, motion, n_contactors, &self.owners)
+        })
+    }
+
+    /// The contactors, besides those just claimed, that are evaluated on a textile for nothing,
+    /// because a rule that would leave them out is off. `None` when there are none.
+    pub(in crate::render) fn claim_spare(
+        &mut self,
+        (textile, number): (&TextilePlan, usize),
+        placing: &Placing,
+        pose: &Pose,
+    ) -> Option<Contacts<'_>> {
+        let owner = owner_of(number);
+        let places = self.u_mm.iter().zip(&self.w_mm);
+        let mut n_spare = 0;
+        for (spare, (own, (&u_mm, &w_mm))) in
+            self.spare.iter_mut().zip(self.owners.iter().zip(places))
+        {
+            let is_wanted = *own != owner
+                && (*own == OUTSIDE || !self.rules.has(Rule::Beneath))
+                && (!self.rules.has(Rule::Outside) || textile.contains(u_mm, w_mm));
+            *spare = if is_wanted { owner } else { OUTSIDE };
+            n_spare += usize::from(is_wanted);
+        }
+        (n_spare > 0).then(|| {
+            let motion = self.set_in_motion(textile, placing, pose);
+            self.contacts(number, motion, n_spare, &self.spare)
+        })
+    }
+
+    /// Counts contactors that the textile at hand was not asked about, or that lie beside it.
+    fn count_spare(&self, n_before: usize, counters: &mut Counters) {
+        if self.rules.has(Rule::Beneath) {
+            counters.touches_beneath += n_before as u64;
+        }
+        if self.rules.has(Rule::Outside) {
+            counters.touches_outside += (self.owners.len() - self.n_owned) as u64;
+        }
+    }
+
+    /// How the contactors move in a textile's frame: together, or, with velocities computed for
+    /// each, `None`.
+    fn set_in_motion(
+        &mut self,
+        textile: &TextilePlan,
+        placing: &Placing,
+        pose: &Pose,
+    ) -> Option<Velocity> {
+        let velocity = textile.textile_from_workspace.turn_velocity(pose.velocity);
+        let is_turning = pose.angular_rad_per_s != 0.0;
+        if is_turning {
+            self.move_each(placing, velocity, pose.angular_rad_per_s);
+        }
+        (!is_turning).then_some(velocity)
+    }
+
+    fn contacts<'a>(
+        &'a self,
+        textile: usize,
+        together: Option<Velocity>,
+        n_contactors: usize,
+        owners: &'a [u16],
+    ) -> Contacts<'a> {
+        let each = Motion::Turning(&self.velocity_u, &self.velocity_w);
+        Contacts {
+            textile,
+            owners,
+            places_mm: [&self.u_mm, &self.w_mm],
+            motion: together.map_or(each, Motion::Together),
+            n_contactors,
+            rules: self.rules,
+        }
+    }
+
+    fn claim_each(&mut self, textile: &TextilePlan, owner: u16) {
+        let places = self.u_mm.iter().zip(&self.w_mm);
+        for (taken, (&u_mm, &w_mm)) in self.owners.iter_mut().zip(places) {
+            if *taken == OUTSIDE && textile.contains(u_mm, w_mm) {
+                *taken = owner;
+                self.n_owned += 1;
+            }
+        }
+    }
+
+    /// Places of all contactors in a textile's frame: `centre + R·offset`.
+    fn place(&mut self, placing: &Placing) {
+        let (cos, sin) = placing.textile_from_display.cos_sin();
+        let Point { x_mm: u0, y_mm: w0 } = placing.centre;
+        let offsets = self.x_mm.iter().zip(&self.y_mm);
+        let places = self.u_mm.iter_mut().zip(&mut self.w_mm);
+        for ((u, w), (x, y)) in places.zip(offsets) {
+            *u = u0 + (cos * x - sin * y);
+            *w = w0 + (sin * x + cos * y);
+        }
+    }
+
+    /// Velocities `v + ω × r` of all contactors in a textile's frame.
+    fn move_each(&mut self, placing: &Placing, velocity: Velocity, angular_rad_per_s: f64) {
+        let (cos, sin) = placing.textile_from_display.cos_sin();
+        let offsets = self.x_mm.iter().zip(&self.y_mm);
+        let velocities = self.velocity_u.iter_mut().zip(&mut self.velocity_w);
+        for ((along_u, along_w), (x, y)) in velocities.zip(offsets) {
+            let offset = Displacement::new(cos * x - sin * y, sin * x + cos * y);
+            let own = velocity.at_offset(offset, angular_rad_per_s);
+            (*along_u, *along_w) = (own.x_mm_per_s, own.y_mm_per_s);
+        }
+    }
+}
+
+/// A textile's place in the list, as contactors name their owner.
+#[expect(clippy::cast_possible_truncation, reason = "at most 65,000 textiles")]
+fn owner_of(textile: usize) -> u16 {
+    textile as u16
+}
+
+/// Whether no contactor of a display can feel anything: it does not turn, and whichever way a
+/// textile lies, both components stay below the speed of rest.
+fn is_at_rest(pose: &Pose) -> bool {
+    const LIMIT: f64 = MIN_SPEED_MM_PER_S * (1.0 - 1e-9);
+    let [x, y] = [pose.velocity.x_mm_per_s, pose.velocity.y_mm_per_s];
+    pose.angular_rad_per_s == 0.0 && x * x + y * y < LIMIT * LIMIT
+}

@@ -1,0 +1,42 @@
+//! What can go wrong with a report.
+
+use crate::engine::EngineError;
+use crate::figure::FigureError;
+use crate::files::FileError;
+use crate::render::RenderError;
+use crate::scene::SceneError;
+use crate::textile::TextileError;
+
+/// Why a report, or a study of it, was not made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// It was asked to stop; studies that were done before are kept.
+    #[error("the report was cancelled; what was finished is kept")]
+    Cancelled,
+    /// A study of that name is not known.
+    #[error("no study is called {name:?}; choose from {known}")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The names of all studies.
+        known: String,
+    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A plot cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// A scene cannot be loaded.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A textile cannot be loaded.
+    #[error(transparent)]
+    Textile(#[from] TextileError),
+    /// A scene cannot be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The engine cannot do what a study asks.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}

@@ -1,0 +1,151 @@
+//! `index.md`: what was asked, what was found, on which machine, and how to repeat it.
+
+use super::columns::further_cell;
+use super::listing::{cell, table};
+use super::readable::{number, time};
+use super::runner::{Options, Outcome, Report};
+use super::{Effort, Findings, Machine, Row, Study, chart, write};
+
+/// Where and how a report was made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct About<'a> {
+    /// The machine and the program.
+    pub(super) machine: &'a Machine,
+    /// What was asked for.
+    pub(super) options: &'a Options,
+    /// When.
+    pub(super) date: &'a str,
+}
+
+/// The whole text.
+pub(super) fn text(studies: &[Box<dyn Study>], report: &Report, about: &About<'_>) -> String {
+    let mut out = vec!["# Error against run time, stability, and what is left out\n".to_owned()];
+    if report.is_cancelled {
+        out.push("**Stopped before it was done.** What was finished is below.\n".to_owned());
+    }
+    let done = || {
+        studies
+            .iter()
+            .zip(&report.outcomes)
+            .filter_map(|(study, (_, outcome))| match outcome {
+                Outcome::Done { findings, took } => Some((study.as_ref(), findings, took)),
+                _ => None,
+            })
+    };
+    for (study, findings, _) in done() {
+        broken(study, findings, &mut out);
+    }
+    for (name, why) in report.failures() {
+        out.push(format!("**{name} failed**: {}\n", cell(why)));
+    }
+    about_text(about, &mut out);
+    for (study, findings, took) in done() {
+        study_text(study, findings, &time(took.as_secs_f64()), &mut out);
+    }
+    not_run(report, &mut out);
+    out.join("\n")
+}
+
+/// What promised too much, on top where nobody overlooks it.
+fn broken(study: &dyn Study, findings: &Findings, out: &mut Vec<String>) {
+    let rows: Vec<&Row> = findings.broken().collect();
+    if rows.is_empty() {
+        return;
+    }
+    out.push(format!("## Broken promises: {}\n", study.name()));
+    for row in rows {
+        let parts = [&row.method, &row.setting, &row.case].map(|part| cell(part));
+        let named: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        let unit = study.error_measure().1;
+        let error = row.error.map_or_else(|| "nothing".to_owned(), number);
+        let promised = row.promised.map(number).unwrap_or_default();
+        let came = match further_cell(row, "came_back") {
+            "" => format!("{error} {unit} where {promised} {unit} is promised"),
+            came => format!(
+                "{} where this should be: {}",
+                cell(came),
+                cell(further_cell(row, "should"))
+            ),
+        };
+        out.push(format!("- {}: {came}", named.join(", ")));
+    }
+    out.push(String::new());
+}
+
+fn about_text(about: &About<'_>, out: &mut Vec<String>) {
+    let (machine, options) = (about.machine, about.options);
+    let effort = match options.effort {
+        Effort::Quick => "quick: fewer cases and repeats",
+        Effort::Full => "full",
+    };
+    let build = if machine.is_debug {
+        "without optimisation: **times say little**"
+    } else {
+        "release"
+    };
+    out.push("| | |\n|---|---|".to_owned());
+    for (what, value) in [
+        (
+            "machine",
+            format!("{} cores, {}", machine.n_cores, cell(&machine.cpu)),
+        ),
+        ("system", cell(&machine.system)),
+        (
+            "program",
+            format!("{}, {}, {build}", machine.program, machine.compiler),
+        ),
+        ("seed", options.seed.to_string()),
+        ("effort", effort.to_owned()),
+        ("date", about.date.to_owned()),
+        (
+            "to repeat it",
+            format!("`{}`", options.command.replace('`', "'")),
+        ),
+    ] {
+        out.push(format!("| {what} | {value} |"));
+    }
+    out.push(
+        "\nErrors depend on the seed alone; times are this machine's: medians over repeats after a \
+         warm-up, CPU time of the thread, with quartiles. ● is on the Pareto front: on its case \
+         nothing else is both cheaper and more exact.\n"
+            .to_owned(),
+    );
+}
+
+fn study_text(study: &dyn Study, findings: &Findings, took: &str, out: &mut Vec<String>) {
+    let name = study.name();
+    out.push(format!("## {}\n", chart::titled(name)));
+    out.push(format!("{}\n", study.question()));
+    out.push(format!(
+        "Reference: {} Took {took}. Numbers: [{name}.csv]({name}.csv).\n",
+        study.reference()
+    ));
+    for (file, plot) in write::plots(study, findings) {
+        let title = cell(&plot.title).replace(['[', ']'], "");
+        out.push(format!("![{title}]({file}.png)\n\n[as SVG]({file}.svg)\n"));
+    }
+    for note in &findings.notes {
+        out.push(format!("- {note}"));
+    }
+    if !findings.notes.is_empty() {
+        out.push(String::new());
+    }
+    table(study, findings, out);
+}
+
+/// What did not run, and why.
+fn not_run(report: &Report, out: &mut Vec<String>) {
+    let named = |wanted: fn(&Outcome) -> bool| {
+        let is_it = |(_, outcome): &&(&'static str, Outcome)| wanted(outcome);
+        let names = report.outcomes.iter().filter(is_it).map(|(name, _)| *name);
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let long = named(|outcome| matches!(outcome, Outcome::Long));
+    if !long.is_empty() {
+        out.push(format!("Not run without `--long`: {long}.\n"));
+    }
+    let stopped = named(|outcome| matches!(outcome, Outcome::Stopped));
+    if report.is_cancelled && !stopped.is_empty() {
+        out.push(format!("Not finished: {stopped}.\n"));
+    }
+}

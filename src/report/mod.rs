@@ -1,0 +1,64 @@
+//! Error against run time, stability, and what is left out: studies of any floor, one runner.
+//!
+//! A [`Study`] asks a question and answers it with rows: which method, on which case, how large the
+//! error, how long it took. The runner measures all of them alike, marks what nothing else beats in
+//! both, and writes tables and plots.
+//!
+//! ```text
+//! Study::run(Bench) ─▶ Findings (rows, plots, notes) ─▶ runner ─▶ CSV, SVG, PNG, index.md
+//! ```
+//!
+//! # Invariants
+//! - studies measure only with [`Bench`]: warm-up, repeats, medians, CPU time beside wall time
+//! - a study's numbers depend on its seed, never on the machine; its times are the machine's
+//! - no GUI: the window's own studies are handed in by `app`
+
+mod bench;
+mod chart;
+mod columns;
+mod drive_updates;
+mod error;
+mod findings;
+mod growth;
+mod index;
+mod left_out;
+mod listing;
+mod machine;
+mod pareto;
+mod readable;
+mod rendering;
+mod runner;
+mod spectral_model;
+mod stability;
+mod study;
+#[cfg(test)]
+mod tests;
+mod velocity;
+mod write;
+
+pub use bench::{Bench, Effort, Timing};
+pub use drive_updates::DriveUpdatesStudy;
+pub use error::ReportError;
+pub use findings::{Findings, Row};
+pub use growth::GrowthStudy;
+pub use left_out::{LeftOutStudy, SavingRule};
+pub use machine::Machine;
+pub use pareto::pareto;
+pub use rendering::RenderingStudy;
+pub use runner::{Options, Outcome, Report, Standing, choose, run};
+pub use spectral_model::SpectralModelStudy;
+pub use study::Study;
+pub use velocity::VelocityStudy;
+
+/// Every study of the floors below, in the order of the report.
+pub fn studies() -> Vec<Box<dyn Study>> {
+    vec![
+        Box::new(RenderingStudy),
+        Box::new(SpectralModelStudy),
+        Box::new(DriveUpdatesStudy),
+        Box::new(VelocityStudy),
+        Box::new(GrowthStudy),
+        Box::new(LeftOutStudy::default()),
+        Box::new(stability::Stability),
+    ]
+}
