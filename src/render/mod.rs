@@ -94,6 +94,6 @@ pub enum RenderError {
     clippy::cast_possible_truncation,
     reason = "design in f64, stream in f32"
 )]
-fn single(x: f64) -> f32 {
+pub(crate) fn single(x: f64) -> f32 {
     x as f32
 }

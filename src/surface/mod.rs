@@ -49,6 +49,16 @@ impl Direction {
         matches!(self, Self::WarpReverse | Self::WeftReverse)
     }
 
+    /// The name of the direction for people.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::WarpForward => "warp forward",
+            Self::WarpReverse => "warp reverse",
+            Self::WeftForward => "weft forward",
+            Self::WeftReverse => "weft reverse",
+        }
+    }
+
     /// The name of the direction as files spell it.
     pub fn key(self) -> &'static str {
         match self {

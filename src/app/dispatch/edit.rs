@@ -106,7 +106,7 @@ impl Workbench {
 
     /// Tells the engine which gains changed, if any.
     pub(crate) fn tell_gains(&mut self) {
-        let new = self.felt_now(&self.document.scene().clone());
+        let new = self.felt_now(self.document.scene());
         let changes = self.felt.changes(&new);
         if !changes.is_empty() {
             new.put_into(&mut self.eye.scene);

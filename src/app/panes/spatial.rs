@@ -130,16 +130,6 @@ fn density_db(density_um2_mm: f64) -> f64 {
     10.0 * density_um2_mm.log10()
 }
 
-/// What a direction is called.
-fn name_of(direction: Direction) -> &'static str {
-    match direction {
-        Direction::WarpForward => "warp forward",
-        Direction::WarpReverse => "warp reverse",
-        Direction::WeftForward => "weft forward",
-        Direction::WeftReverse => "weft reverse",
-    }
-}
-
 fn is_weft(direction: Direction) -> bool {
     direction.index() >= 2
 }
@@ -166,11 +156,11 @@ fn words_of(view: &SpatialView, k: usize) -> String {
 fn curve_words(view: &SpatialView, curve: &SpatialCurve, k: usize) -> String {
     let density = curve.density_um2_mm.get(k - 1).copied().unwrap_or(0.0);
     let level = quantity::with_unit(density_db(density), 1, "dB");
-    let (name, point) = (name_of(curve.direction), curve.point);
+    let (name, point) = (curve.direction.label(), curve.point);
     let source = if curve.taken_from == curve.direction {
         String::new()
     } else {
-        format!(", taken from {}", name_of(curve.taken_from))
+        format!(", taken from {}", curve.taken_from.label())
     };
     let sounds = view.felt_in(curve.direction).map(|felt| {
         let frequency_hz = wavenumber_per_mm(k) * felt.speed_mm_per_s;

@@ -4,17 +4,6 @@ use super::{FULL_CODE, Why};
 use crate::quantity::{fixed, with_unit};
 use crate::render::GainTerms;
 use crate::render::array::DirectionTrace;
-use crate::surface::Direction;
-
-/// What a stroke in a direction is called.
-pub(crate) fn direction_words(direction: Direction) -> &'static str {
-    match direction {
-        Direction::WarpForward => "warp forward",
-        Direction::WarpReverse => "warp reverse",
-        Direction::WeftForward => "weft forward",
-        Direction::WeftReverse => "weft reverse",
-    }
-}
 
 /// The terms of a gain with their names, dB.
 pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
@@ -71,7 +60,7 @@ fn place(why: &Why) -> String {
 }
 
 fn spectrum(direction: &DirectionTrace) -> (String, String) {
-    let name = direction_words(direction.direction);
+    let name = direction.direction.label();
     let [low, high] = direction.band_powers_um2.map(|um2| fixed(um2, 3));
     let words = format!("point {}, {low} / {high} µm²", direction.point);
     let mut letters = name.chars();
@@ -134,7 +123,7 @@ pub(crate) fn to_csv(why: &Why) -> String {
             row("velocity", name, String::new(), [speed; 2], "mm/s");
         }
         for direction in touch.directions.iter().flatten() {
-            let name = direction_words(direction.direction);
+            let name = direction.direction.label();
             let none = String::new;
             row("band power", name, none(), direction.band_powers_um2, "um2");
             for (k, bin) in (1..).zip(&direction.bins) {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{Displacement, Point};
 use crate::numerics::Random;
-use crate::render::RenderScene;
 use crate::render::array::{Accuracy, ArrayRenderer, Method};
+use crate::render::{RenderScene, single};
 use crate::report::ReportError;
 use crate::scene::{ExplorationPath, LoadedScene, PathRow};
 
@@ -79,15 +79,6 @@ fn felt(scene: &RenderScene, path: &ExplorationPath) -> Result<Vec<[f32; 2]>, Re
         amplitudes.push(of_contactor.copied().unwrap_or_default());
     }
     Ok(amplitudes)
-}
-
-/// A number as the stream holds it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "design in f64, stream in f32"
-)]
-fn single(x: f64) -> f32 {
-    x as f32
 }
 
 #[cfg(test)]

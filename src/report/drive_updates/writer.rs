@@ -3,6 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::render::single;
+
 /// Samples a second.
 pub(super) const RATE_HZ: usize = 48_000;
 /// Samples of a tick of 1/40 s.
@@ -96,15 +98,6 @@ fn write_changing(
             *sample = *low * c_low + *high * c_high;
         }
     }
-}
-
-/// A number as the stream holds it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "design in f64, stream in f32"
-)]
-fn single(x: f64) -> f32 {
-    x as f32
 }
 
 #[cfg(test)]

@@ -198,13 +198,7 @@ fn a_port_that_is_missing_is_named_in_a_notice() {
     let folder = Folder::new("port");
     let mut harness = window(&folder.scene());
     harness.run();
-    harness.get_by_label("Port").click();
-    harness.run();
-    harness.get_by_label("Port").type_text("/nowhere/port");
-    harness.run();
-    harness
-        .get_by_role_and_label(Role::Button, "Connect")
-        .click();
+    connect_to(&mut harness, "/nowhere/port");
     wait(&mut harness, |bench| {
         bench.notices().iter().any(|n| n.contains("/nowhere/port"))
     });

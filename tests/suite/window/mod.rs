@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{
     Color32, Context, FullOutput, Key, Modifiers, Pos2, TexturesDelta, ViewportId, vec2,
 };
@@ -179,4 +180,15 @@ fn type_path(harness: &mut Harness<'_, Workbench>, path: &str) {
     harness.event(eframe::egui::Event::Text(path.to_owned()));
     harness.step();
     press(harness, Modifiers::NONE, Key::Enter);
+}
+
+/// Types the path of a port and connects to it.
+fn connect_to(harness: &mut Harness<'_, Workbench>, path: &str) {
+    harness.get_by_label("Port").click();
+    harness.run();
+    harness.get_by_label("Port").type_text(path);
+    harness.run();
+    harness
+        .get_by_role_and_label(Role::Button, "Connect")
+        .click();
 }

@@ -58,13 +58,7 @@ fn every_pane_is_drawn_with_a_device_that_is_gone() {
     let folder = Folder::new("gone");
     let mut harness = window(&folder.scene());
     harness.run();
-    harness.get_by_label("Port").click();
-    harness.run();
-    harness.get_by_label("Port").type_text("/nowhere/port");
-    harness.run();
-    harness
-        .get_by_role_and_label(Role::Button, "Connect")
-        .click();
+    connect_to(&mut harness, "/nowhere/port");
     wait(&mut harness, |bench| !bench.notices().is_empty());
     press(&mut harness, Modifiers::NONE, Key::Space);
     harness.run_steps(40);
