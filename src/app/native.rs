@@ -2,6 +2,7 @@
 //! frame (a movement of the pointer, and Esc).
 
 use std::cell::RefCell;
+use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -60,6 +61,7 @@ pub fn run(
     scene: Option<PathBuf>,
     on_open: impl FnOnce(EndSwitch) + 'static,
 ) -> Result<(), AppError> {
+    keep_freed_memory();
     let event_loop = EventLoop::<UserEvent>::with_user_event()
         .build()
         .map_err(|_no_display| AppError::NoDisplay)?;
@@ -112,6 +114,17 @@ pub fn run(
         return Err(error);
     }
     outcome.map_err(|error| AppError::NoGraphics(error.to_string()))
+}
+
+/// Lets the C library keep what a frame frees for the next one.
+///
+/// glibc gives the upper end of the heap back to the system from 128 kB on, and a driver that draws
+/// in software frees and wants more than that many times in a frame: half of the time of the thread
+/// that draws went into pages that came and went. A large block that is freed raises that bound to
+/// twice its size (`mallopt(3)`, dynamic thresholds); it is never touched, so it costs nothing.
+/// Elsewhere this does nothing.
+fn keep_freed_memory() {
+    drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
 }
 
 fn workbench(

@@ -7,16 +7,15 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::App as _;
-use eframe::egui::{self, FullOutput, Pos2, RawInput, Rect, vec2};
+use eframe::egui::{self, vec2};
 
 use super::command::{PlayCommand, PlaySource};
 use super::error::AppError;
 use super::query;
 use super::raster::{Picture, Rasteriser};
+use super::stage::Stage;
 use super::theme::Palette;
 use super::view::BridgeView;
-use super::window::{Drive, Workbench};
 use crate::bridge::{ArrayProfile, Bridge, BridgeState, Target};
 
 /// Frames that are run before the picture is taken, 25 ms apart: 11 s.
@@ -75,43 +74,30 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         1.0
     };
     let scale = scale.clamp(0.5, 4.0);
-    let ctx = egui::Context::default();
     let theme = match wanted.theme {
         Theme::Dark => egui::Theme::Dark,
         Theme::Light => egui::Theme::Light,
     };
-    ctx.set_theme(theme);
-    let mut bench = Workbench::new(&ctx, wanted.scene.as_deref(), Drive::Stepped)?;
-    let mut rasteriser = Rasteriser::default();
-    bench.dispatch(&ctx, PlayCommand::Source(PlaySource::Stroke).into());
+    let size = vec2(width as f32, height as f32) / scale;
+    let mut stage = Stage::new(wanted.scene.as_deref(), size, scale)?;
+    stage.ctx.set_theme(theme);
+    stage.dispatch(PlayCommand::Source(PlaySource::Stroke));
+    let bench = &mut stage.bench;
     bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
     bench.transient.target = bench
         .transient
         .pictured_bridge
         .as_ref()
         .map(|_| query::device_name(&Target::Emulator));
-    let size = vec2(width as f32, height as f32) / scale;
-    let mut frame = eframe::Frame::_new_kittest();
-    let mut run = |index: u32| {
-        let input = raw_input(size, scale, f64::from(index) / 40.0);
-        let mut output = ctx.run_ui(input, |ui| {
-            bench.logic(&ctx, &mut frame);
-            bench.ui(ui, &mut frame);
-        });
-        rasteriser.apply(&mut output.textures_delta);
-        output
-    };
-    for index in 1..N_FRAMES {
-        run(index);
+    let mut rasteriser = Rasteriser::default();
+    for _ in 1..N_FRAMES {
+        rasteriser.apply(&mut stage.run().textures_delta);
     }
-    let FullOutput {
-        shapes,
-        pixels_per_point,
-        ..
-    } = run(N_FRAMES);
-    let primitives = ctx.tessellate(shapes, pixels_per_point);
+    let mut last = stage.run();
+    rasteriser.apply(&mut last.textures_delta);
+    let primitives = stage.ctx.tessellate(last.shapes, last.pixels_per_point);
     let floor = Palette::of(theme).floor;
-    Ok(rasteriser.draw(&primitives, [width, height], pixels_per_point, floor))
+    Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
 }
 
 /// How the emulator shows once it is ready, as in a window that has just been opened. It lives in
@@ -135,20 +121,4 @@ fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
         depth: bridge.depth(),
         ..BridgeView::default()
     })
-}
-
-fn raw_input(size: egui::Vec2, scale: f32, time_s: f64) -> RawInput {
-    let mut input = RawInput {
-        screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
-        time: Some(time_s),
-        predicted_dt: 0.025,
-        focused: true,
-        ..RawInput::default()
-    };
-    input
-        .viewports
-        .entry(input.viewport_id)
-        .or_default()
-        .native_pixels_per_point = Some(scale);
-    input
 }

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::terminal::{Meter, notice};
 use super::{CliError, output, signals};
+use crate::app;
 use crate::progress::CancelFlag;
 use crate::quantity;
 use crate::report::{self, Effort, Options, Report, Standing, Study};
@@ -36,7 +37,9 @@ pub(super) struct ReportArgs {
 
 /// Lists the studies, or runs them and writes what they found.
 pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
-    let studies = report::choose(report::studies(), &args.only)?;
+    let mut studies = report::studies();
+    studies.extend(app::studies());
+    let studies = report::choose(studies, &args.only)?;
     match &args.out {
         Some(out) if !args.list => make(args, &studies, out),
         _ => list(&studies),

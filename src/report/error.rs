@@ -39,4 +39,10 @@ pub enum ReportError {
     /// The engine cannot do what a study asks.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// A study of a floor above cannot do its work.
+    #[error("{0}")]
+    Study(String),
+    /// The emulated device in this process did not get ready.
+    #[error("the emulated device was not armed within ten seconds; is the machine very busy?")]
+    Device,
 }

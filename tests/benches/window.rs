@@ -12,10 +12,12 @@
     reason = "a bench that cannot run says so by panicking"
 )]
 
+use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::time::Instant;
 
-use eframe::egui::{Key, pos2, vec2};
+use eframe::egui::epaint::{ClippedPrimitive, Primitive};
+use eframe::egui::{Key, Shape, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use selvedge::app::{Drive, Workbench};
@@ -69,6 +71,44 @@ fn measure(harness: &mut Harness<'_, Workbench>) {
     show("  logic and layout", &mut logic_and_layout_s);
     show("  tessellation", &mut tessellation_s);
     show("  together", &mut frame_s);
+    count(harness);
+}
+
+/// What the graphics card is given in a frame: where software stands in for it, every vertex costs
+/// time of the thread that draws.
+fn count(harness: &Harness<'_, Workbench>) {
+    let output = harness.output();
+    let scale = output.pixels_per_point;
+    let drawn = harness.ctx.tessellate(output.shapes.clone(), scale);
+    let mut by_kind: BTreeMap<&str, usize> = BTreeMap::new();
+    for shape in &output.shapes {
+        let alone = harness.ctx.tessellate(vec![shape.clone()], scale);
+        *by_kind.entry(kind(&shape.shape)).or_default() += n_vertices(&alone);
+    }
+    let parts = by_kind.iter().map(|(kind, n)| format!("{n} {kind}"));
+    println!(
+        "  a frame: {} draw calls, {} vertices ({})",
+        drawn.len(),
+        n_vertices(&drawn),
+        parts.collect::<Vec<_>>().join(", ")
+    );
+}
+
+fn n_vertices(drawn: &[ClippedPrimitive]) -> usize {
+    let in_mesh = drawn.iter().map(|part| match &part.primitive {
+        Primitive::Mesh(mesh) => mesh.vertices.len(),
+        Primitive::Callback(_) => 0,
+    });
+    in_mesh.sum()
+}
+
+fn kind(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Text(_) => "in text",
+        Shape::Path(_) | Shape::LineSegment { .. } | Shape::Vec(_) => "in lines",
+        Shape::Mesh(_) => "in pictures",
+        _ => "in plain shapes",
+    }
 }
 
 fn show(what: &str, times_s: &mut [f64]) {

@@ -200,27 +200,28 @@ impl Axes {
         let palette = Palette::of(painter.ctx().theme());
         let inks = Band::ALL.map(|band| palette.band(band).gamma_multiply(0.55));
         let clip = painter.with_clip_rect(plot.expand(1.0));
-        let line = |pick: &dyn Fn([f64; 2]) -> f64, ink: Color32, width: f32| {
-            let points = sample_times_ms(plot.width()).map(|t_ms| {
+        let line = |pick: &dyn Fn([f64; 2]) -> f64, fastest: Band, ink: Color32, width: f32| {
+            let points = sample_times_ms(fastest).map(|t_ms| {
                 let y = self.height_um.y(plot.y_range(), pick(view.waves_um(t_ms)));
                 pos2(self.t_ms.x(plot.x_range(), t_ms), y)
             });
             clip.add(Shape::line(points.collect(), Stroke::new(width, ink)));
         };
-        line(&|waves| waves[0], inks[0], 1.0);
-        line(&|waves| waves[1], inks[1], 1.0);
-        line(&|waves| waves[0] + waves[1], palette.text, 1.25);
+        line(&|waves| waves[0], Band::Low, inks[0], 1.0);
+        line(&|waves| waves[1], Band::High, inks[1], 1.0);
+        let sum = |waves: [f64; 2]| waves[0] + waves[1];
+        line(&sum, Band::High, palette.text, 1.25);
     }
 }
 
-/// Times at which waves are drawn: at least two a point of width and 24 a cycle of 320 Hz.
-fn sample_times_ms(width: f32) -> impl Iterator<Item = f64> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to a few thousand"
-    )]
-    let n_steps = (2.0 * width).clamp(384.0, 4096.0) as u32;
+/// Times at which a wave is drawn: 24 in a cycle of the fastest band in it, which misses its peaks
+/// by less than a hundredth.
+fn sample_times_ms(fastest: Band) -> impl Iterator<Item = f64> {
+    let n_cycles: u32 = match fastest {
+        Band::Low => 2,
+        Band::High => 16,
+    };
+    let n_steps = 24 * n_cycles;
     (0..=n_steps).map(move |i| 2.0 * TICK_MS * f64::from(i) / f64::from(n_steps))
 }
 
@@ -248,6 +249,23 @@ mod tests {
             assert!(sum.abs() < 1e-9, "{t_ms} ms: {sum}");
         }
         assert_eq!(view.reach_um(), 3.0);
+    }
+
+    #[test]
+    fn waves_are_drawn_in_steps_that_miss_their_peaks_by_less_than_a_hundredth() {
+        for (band, other) in [(Band::Low, Band::High), (Band::High, Band::Low)] {
+            let mut now_um = [0.0; 2];
+            now_um[band.index()] = 1.0;
+            let view = DriveWaveView {
+                before_um: now_um,
+                now_um,
+                ..DriveWaveView::default()
+            };
+            let waves = |fastest| sample_times_ms(fastest).map(|t_ms| view.waves_um(t_ms));
+            let most = waves(band).map(|um| um[band.index()]).fold(0.0, f64::max);
+            assert!(most > 0.99 && most <= 1.0, "{band:?}: {most}");
+            assert!(waves(band).all(|um| um[other.index()] == 0.0));
+        }
     }
 
     #[test]

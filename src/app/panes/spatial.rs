@@ -11,7 +11,7 @@ use eframe::egui::{
 use super::spectrogram::paint_sentence;
 use crate::app::signals::{Felt, LEAST_HZ, MOST_HZ, SpatialCurve, SpatialView};
 use crate::app::theme::{self, Palette};
-use crate::app::widgets::{Axis, Side, Tick, paint_label, paint_ticks, paint_unit};
+use crate::app::widgets::{Axis, Side, Tick, corners, paint_label, paint_ticks, paint_unit};
 use crate::quantity;
 use crate::render::RenderScene;
 use crate::render::array::ContactInspector;
@@ -362,7 +362,7 @@ fn add_line(painter: &Painter, points: &[Pos2], stroke: Stroke, is_dashed: bool)
     if is_dashed {
         painter.extend(Shape::dashed_line(points, stroke, 4.0, 3.0));
     } else {
-        painter.add(Shape::line(points.to_vec(), stroke));
+        painter.add(Shape::line(corners(points), stroke));
     }
 }
 

@@ -6,6 +6,7 @@
 mod axis;
 mod bar;
 mod card;
+mod polyline;
 mod slider;
 mod text;
 
@@ -14,5 +15,6 @@ pub(crate) use axis::{
 };
 pub(crate) use bar::colour_bar;
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
+pub(crate) use polyline::corners;
 pub(crate) use slider::{Scale, slider_row, tip_beside};
 pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};

@@ -6,10 +6,12 @@
 
 mod saving;
 mod scenes;
+mod sinks;
 
 pub use saving::SavingRule;
 use saving::{NeverPlaced, OfRendering};
 use scenes::Case;
+use sinks::Unheard;
 
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use crate::render::array::{Accuracy, ArrayRenderer, Method};
@@ -77,6 +79,7 @@ impl Study for LeftOutStudy {
             }
         }
         findings.rows.extend(library_rows(bench)?);
+        findings.rows.extend(sinks::rows(bench)?);
         findings
             .rows
             .extend(self.others.iter().map(|saving| row_of(saving.as_ref())));
@@ -305,7 +308,11 @@ fn notes(study: &LeftOutStudy) -> Vec<String> {
         n_known: 0,
         n_placed: 0,
     };
-    let beside = [note(&never_placed)].into_iter();
+    let beside = [
+        note(&never_placed),
+        note(&Unheard::glimpses(0)),
+        note(&Unheard::frames(0)),
+    ];
     let others = study.others.iter().map(|saving| note(saving.as_ref()));
     of_rendering
         .into_iter()

@@ -67,7 +67,18 @@ fn every_saving_is_tried_on_six_scenes_and_changes_nothing() {
         .iter()
         .filter(|row| is_share(row) && row.promised.is_some());
     assert_eq!(promised.count(), METHODS.len());
-    assert_eq!(findings.notes.len(), Rule::ALL.len() + 2);
+    assert_eq!(findings.notes.len(), Rule::ALL.len() + 4);
+    let engine = findings.rows.iter().filter(|row| row.method == "engine");
+    let left_out: Vec<(&str, Option<&str>)> = engine
+        .map(|row| (&row.setting[..], row.more.first().map(|(_, n)| &n[..])))
+        .collect();
+    let expected = [
+        ("all", None),
+        ("none", None),
+        ("only unheard frames", Some("100")),
+        ("only unasked glimpses", Some("100")),
+    ];
+    assert_eq!(left_out, expected, "as many as there were ticks");
     let hidden = findings.rows.last().unwrap();
     assert_eq!(hidden.more[0].1, "41");
 }

@@ -1,6 +1,6 @@
 //! The timeline without a take: the last seconds of what was felt.
 
-use eframe::egui::{self, Align2, Rect, Response, Sense, Shape, Ui, WidgetInfo, pos2};
+use eframe::egui::{self, Align2, Pos2, Rect, Response, Sense, Shape, Ui, WidgetInfo, pos2};
 
 use super::live::{self, N_TICKS, Placed};
 use super::picture::speed_shapes;
@@ -67,7 +67,8 @@ fn live_shapes(plot: &Plot, placed: &[Placed], palette: &Palette) -> Vec<Shape> 
             .map(|one| (live_x(plot, one), one.felt()))
             .collect();
         let top = |(x, felt): &(f32, Felt)| pos2(*x, plot.y_of_speed(felt.speed_mm_per_s));
-        shapes.extend(speed_shapes(plot, felt.iter().map(top).collect(), palette));
+        let speeds: Vec<Pos2> = felt.iter().map(top).collect();
+        shapes.extend(speed_shapes(plot, &speeds, palette));
         for band in Band::ALL {
             let point = |(x, felt): &(f32, Felt)| {
                 let um = felt.mean_um?[band.index()];

@@ -10,6 +10,7 @@ use super::TransportState;
 use super::plot::{self, Plot};
 use crate::app::take::{Column, Extent, Strips};
 use crate::app::theme::Palette;
+use crate::app::widgets::corners;
 use crate::tactile::Band;
 
 /// How solid columns are: where the bands overlap, both show.
@@ -69,7 +70,7 @@ fn strip_shapes(plot: &Plot, strips: &Strips, palette: &Palette, ppp: f32) -> Ve
         pos2(x_of(index), plot.y_of_speed(column.speed_mm_per_s.most))
     };
     let speeds: Vec<Pos2> = columns.iter().enumerate().map(top).collect();
-    let mut shapes = speed_shapes(plot, speeds, palette);
+    let mut shapes = speed_shapes(plot, &speeds, palette);
     for band in Band::ALL {
         let ink = palette.band(band);
         let level = |column: &Column| column.level_db[band.index()];
@@ -99,7 +100,8 @@ fn strip_shapes(plot: &Plot, strips: &Strips, palette: &Palette, ppp: f32) -> Ve
 }
 
 /// The speed: a quiet ground with its edge.
-pub(super) fn speed_shapes(plot: &Plot, points: Vec<Pos2>, palette: &Palette) -> Vec<Shape> {
+pub(super) fn speed_shapes(plot: &Plot, points: &[Pos2], palette: &Palette) -> Vec<Shape> {
+    let points = corners(points);
     let ink = palette.line.gamma_multiply(GROUND);
     let ground = plot::ground_mesh(&points, plot.area.bottom(), ink);
     let edge = Stroke::new(1.0, palette.line.gamma_multiply(0.7));

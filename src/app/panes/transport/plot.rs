@@ -10,6 +10,7 @@ use eframe::egui::{
 
 use crate::app::take::Extent;
 use crate::app::theme::{self, Palette};
+use crate::app::widgets::corners;
 use crate::quantity;
 
 /// Ends of the level axis, dB re 1 µm.
@@ -251,8 +252,8 @@ pub(super) fn lines(points: &[Option<Pos2>], ink: Color32) -> Vec<Shape> {
         // A single tick is a dot.
         [Some(alone)] => Some(Shape::circle_filled(alone, 1.5 * HALF, ink)),
         _ => {
-            let points = stroke.iter().flatten().copied().collect();
-            Some(Shape::line(points, Stroke::new(2.0 * HALF, ink)))
+            let points: Vec<Pos2> = stroke.iter().flatten().copied().collect();
+            Some(Shape::line(corners(&points), Stroke::new(2.0 * HALF, ink)))
         }
     };
     points.split(Option::is_none).filter_map(line).collect()

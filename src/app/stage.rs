@@ -1,0 +1,85 @@
+//! A window without a display: frames are run when told, 25 ms apart, and nothing depends on a
+//! clock.
+
+use std::path::Path;
+
+use eframe::App as _;
+use eframe::egui::{Context, FullOutput, Pos2, RawInput, Rect, Vec2};
+
+use super::command::Command;
+use super::error::AppError;
+use super::window::{Drive, Workbench};
+
+/// A workbench, the toolkit around it, and no display.
+pub(super) struct Stage {
+    pub(super) ctx: Context,
+    pub(super) bench: Workbench,
+    frame: eframe::Frame,
+    size: Vec2,
+    pixels_per_point: f32,
+    n_frames: u32,
+}
+
+impl Stage {
+    /// A workbench on a scene (`None`: the one that the program ships) in a window of this size in
+    /// points, before its first frame.
+    ///
+    /// # Errors
+    /// As [`Workbench::new`].
+    pub(super) fn new(
+        scene: Option<&Path>,
+        size: Vec2,
+        pixels_per_point: f32,
+    ) -> Result<Self, AppError> {
+        let ctx = Context::default();
+        Ok(Self {
+            bench: Workbench::new(&ctx, scene, Drive::Stepped)?,
+            frame: eframe::Frame::_new_kittest(),
+            ctx,
+            size,
+            pixels_per_point,
+            n_frames: 0,
+        })
+    }
+
+    /// Does what a user could want.
+    pub(super) fn dispatch(&mut self, command: impl Into<Command>) {
+        self.bench.dispatch(&self.ctx, command.into());
+    }
+
+    /// Runs the next frame.
+    pub(super) fn run(&mut self) -> FullOutput {
+        self.n_frames += 1;
+        let input = self.input();
+        let Self {
+            ctx, bench, frame, ..
+        } = self;
+        ctx.run_ui(input, |ui| {
+            bench.logic(ui.ctx(), frame);
+            bench.ui(ui, frame);
+        })
+    }
+
+    /// Runs so many frames that nobody looks at.
+    pub(super) fn pass(&mut self, n_frames: u32) {
+        for _ in 0..n_frames {
+            self.run().textures_delta.clear();
+        }
+    }
+
+    fn input(&self) -> RawInput {
+        let mut input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
+            time: Some(f64::from(self.n_frames) / 40.0),
+            predicted_dt: 0.025,
+            focused: true,
+            ..RawInput::default()
+        };
+        input
+            .viewports
+            .entry(input.viewport_id)
+            .or_default()
+            .native_pixels_per_point = Some(self.pixels_per_point);
+        input
+    }
+}
