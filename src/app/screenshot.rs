@@ -11,9 +11,9 @@ use eframe::egui::{self, vec2};
 
 use super::command::{PlayCommand, PlaySource};
 use super::error::AppError;
+use super::headless::Headless;
 use super::query;
 use super::raster::{Picture, Rasteriser};
-use super::stage::Stage;
 use super::theme::Palette;
 use super::view::BridgeView;
 use crate::bridge::{ArrayProfile, Bridge, BridgeState, Target};
@@ -79,10 +79,10 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         Theme::Light => egui::Theme::Light,
     };
     let size = vec2(width as f32, height as f32) / scale;
-    let mut stage = Stage::new(wanted.scene.as_deref(), size, scale)?;
-    stage.ctx.set_theme(theme);
-    stage.dispatch(PlayCommand::Source(PlaySource::Stroke));
-    let bench = &mut stage.bench;
+    let mut window = Headless::new(wanted.scene.as_deref(), size, scale)?;
+    window.ctx.set_theme(theme);
+    window.dispatch(PlayCommand::Source(PlaySource::Stroke));
+    let bench = &mut window.bench;
     bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
     bench.transient.target = bench
         .transient
@@ -91,11 +91,11 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         .map(|_| query::device_name(&Target::Emulator));
     let mut rasteriser = Rasteriser::default();
     for _ in 1..N_FRAMES {
-        rasteriser.apply(&mut stage.run().textures_delta);
+        rasteriser.apply(&mut window.run().textures_delta);
     }
-    let mut last = stage.run();
+    let mut last = window.run();
     rasteriser.apply(&mut last.textures_delta);
-    let primitives = stage.ctx.tessellate(last.shapes, last.pixels_per_point);
+    let primitives = window.ctx.tessellate(last.shapes, last.pixels_per_point);
     let floor = Palette::of(theme).floor;
     Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
 }

@@ -10,7 +10,7 @@ use eframe::egui::{FullOutput, vec2};
 use super::arrangement::{self, Pane};
 use super::command::{PlayCommand, PlaySource, ShowCommand};
 use super::error::AppError;
-use super::stage::Stage;
+use super::headless::Headless;
 use crate::report::{Bench, Findings, ReportError, Row, Study};
 
 /// Width and height of the window, points.
@@ -100,40 +100,40 @@ impl Setting {
 }
 
 /// A window that explores by itself, with some views in sight.
-fn moving(setting: Setting) -> Result<Stage, ReportError> {
-    let mut stage = stage()?;
-    stage.dispatch(PlayCommand::Source(PlaySource::Stroke));
-    stage.pass(1);
+fn moving(setting: Setting) -> Result<Headless, ReportError> {
+    let mut window = window()?;
+    window.dispatch(PlayCommand::Source(PlaySource::Stroke));
+    window.pass(1);
     if setting != Setting::Default {
         // What stood behind a view that is hidden comes to the front in the next frame.
         for _ in Pane::ALL {
-            show_only(&mut stage, setting);
-            stage.pass(1);
+            show_only(&mut window, setting);
+            window.pass(1);
         }
     }
-    stage.pass(N_SETTLING);
-    Ok(stage)
+    window.pass(N_SETTLING);
+    Ok(window)
 }
 
-fn show_only(stage: &mut Stage, setting: Setting) {
+fn show_only(window: &mut Headless, setting: Setting) {
     for pane in Pane::ALL {
-        if arrangement::is_shown(&stage.bench.tree, pane) != setting.shows(pane) {
-            stage.dispatch(ShowCommand::Pane(pane));
+        if arrangement::is_shown(&window.bench.tree, pane) != setting.shows(pane) {
+            window.dispatch(ShowCommand::Pane(pane));
         }
     }
 }
 
-fn stage() -> Result<Stage, ReportError> {
+fn window() -> Result<Headless, ReportError> {
     let [width, height] = SIZE;
     let of_window = |error: AppError| ReportError::Study(error.to_string());
-    Stage::new(None, vec2(width, height), 1.0).map_err(of_window)
+    Headless::new(None, vec2(width, height), 1.0).map_err(of_window)
 }
 
 /// Logic, layout and tessellation of a frame that shows something new.
 fn moving_row(bench: &mut Bench<'_>, setting: Setting) -> Result<Row, ReportError> {
-    let mut stage = moving(setting)?;
-    let drawn = tessellated(&mut stage);
-    let cost = bench.time(1, || black_box(tessellated(&mut stage)));
+    let mut window = moving(setting)?;
+    let drawn = tessellated(&mut window);
+    let cost = bench.time(1, || black_box(tessellated(&mut window)));
     Ok(Row {
         method: "window".to_owned(),
         setting: setting.name(),
@@ -154,15 +154,15 @@ struct Drawn {
     n_vertices: usize,
 }
 
-fn tessellated(stage: &mut Stage) -> Drawn {
+fn tessellated(window: &mut Headless) -> Drawn {
     let FullOutput {
         shapes,
         mut textures_delta,
         pixels_per_point,
         ..
-    } = stage.run();
+    } = window.run();
     textures_delta.clear();
-    let primitives = stage.ctx.tessellate(shapes, pixels_per_point);
+    let primitives = window.ctx.tessellate(shapes, pixels_per_point);
     let n_vertices = |primitive: &ClippedPrimitive| match &primitive.primitive {
         Primitive::Mesh(mesh) => mesh.vertices.len(),
         Primitive::Callback(_) => 0,
@@ -175,11 +175,11 @@ fn tessellated(stage: &mut Stage) -> Drawn {
 
 /// What a window does in which nothing moves: it ought to be nothing.
 fn still_rows() -> Result<[Row; 2], ReportError> {
-    let mut stage = stage()?;
-    stage.pass(N_SETTLING);
+    let mut window = window()?;
+    window.pass(N_SETTLING);
     let (mut n_asked, mut n_uploaded) = (0_u32, 0_usize);
     for _ in 0..N_STILL {
-        let mut output = stage.run();
+        let mut output = window.run();
         let is_asked = |delay: Duration| delay < Duration::from_secs(1);
         let mut delays = output.viewport_output.values();
         n_asked += u32::from(delays.any(|viewport| is_asked(viewport.repaint_delay)));
@@ -223,8 +223,8 @@ mod tests {
 
     #[test]
     fn every_view_has_a_row_and_only_it_was_in_sight() {
-        let stage = moving(Setting::Only(Pane::Heatmaps)).unwrap();
-        let in_sight = Pane::ALL.map(|pane| arrangement::is_shown(&stage.bench.tree, pane));
+        let window = moving(Setting::Only(Pane::Heatmaps)).unwrap();
+        let in_sight = Pane::ALL.map(|pane| arrangement::is_shown(&window.bench.tree, pane));
         let n_in_sight = in_sight.into_iter().filter(|is| *is).count();
         assert_eq!((n_in_sight, in_sight[Pane::Heatmaps.index()]), (1, true));
         let mut report = |_: f64, _: &str| {};

@@ -11,7 +11,7 @@ use super::error::AppError;
 use super::window::{Drive, Workbench};
 
 /// A workbench, the toolkit around it, and no display.
-pub(super) struct Stage {
+pub(super) struct Headless {
     pub(super) ctx: Context,
     pub(super) bench: Workbench,
     frame: eframe::Frame,
@@ -20,7 +20,7 @@ pub(super) struct Stage {
     n_frames: u32,
 }
 
-impl Stage {
+impl Headless {
     /// A workbench on a scene (`None`: the one that the program ships) in a window of this size in
     /// points, before its first frame.
     ///
