@@ -1,4 +1,5 @@
-//! What a surface is: measured height profiles in four directions, and their local spectra.
+//! What a surface is: height maps, measured height profiles in four directions, and their local
+//! spectra.
 //!
 //! Knows nothing of where a surface came from, of fingers, or of vibrations.
 //!
@@ -7,10 +8,12 @@
 //! - spectra are one-sided powers in µm², bins 0.23 cycles/mm apart, bin k in slot k − 1
 //! - a [`Surface`] has spectra in all four directions: fall-backs are applied once, and named
 
+mod height_map;
 mod probe;
 mod profile;
 mod spectra;
 
+pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
 pub use profile::Profile;
 pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, SpectralPlan, WINDOW_LENGTH_MM};
@@ -115,6 +118,9 @@ pub enum SurfaceError {
         /// How many one window takes.
         n_window: usize,
     },
+    /// A height map without a single height.
+    #[error("every height is missing; there is no surface to feel")]
+    AllMissing,
     /// Neither warp profile is there.
     #[error("no warp profile; give warp_forward or warp_reverse")]
     NoWarp,
