@@ -200,6 +200,8 @@ pub(crate) enum ShowCommand {
     HearAll,
     /// Write numbers into the heatmaps, or no longer.
     ToggleNumbers,
+    /// Grey what is too weak to be felt by the model, or no longer.
+    ToggleThreshold,
     /// Hold the scale of amplitudes, or let it follow them.
     LockScale(bool),
     /// The largest amplitude of the scale, µm; holds it.

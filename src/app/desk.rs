@@ -95,15 +95,21 @@ impl Desk<'_> {
         );
     }
 
-    fn show_heatmaps(&mut self, ui: &mut Ui) {
+    fn heatmap_style(&self) -> HeatmapStyle {
         let bench = &*self.bench;
-        let style = HeatmapStyle {
+        HeatmapStyle {
             map: bench.settings.kept.colour_map,
             scale: bench.workspace.scale,
             has_numbers: bench.settings.kept.has_numbers,
+            greys_below: bench.workspace.greys_below,
             selected: bench.workspace.contactor.unwrap_or(usize::MAX),
-        };
-        panes::show_heatmaps(ui, self.scene, &bench.transient.live, style, self.wishes);
+        }
+    }
+
+    fn show_heatmaps(&mut self, ui: &mut Ui) {
+        let style = self.heatmap_style();
+        let live = &self.bench.transient.live;
+        panes::show_heatmaps(ui, self.scene, live, style, self.wishes);
     }
 }
 
@@ -171,10 +177,9 @@ impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
         match pane {
             Pane::Heatmaps => {
-                let has_numbers = self.bench.settings.kept.has_numbers;
-                let scale = self.bench.workspace.scale;
+                let style = self.heatmap_style();
                 let audition = &self.bench.transient.audition;
-                panes::show_heatmap_corner(ui, scale, has_numbers, audition, self.wishes);
+                panes::show_heatmap_corner(ui, style, audition, self.wishes);
             }
             Pane::ContactSpectrum
             | Pane::DriveSpectrum

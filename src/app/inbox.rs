@@ -156,6 +156,7 @@ impl Workbench {
         let kept = &mut self.settings.kept;
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
+        kept.greys_below = self.workspace.greys_below;
         kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
     }
 }

@@ -48,6 +48,7 @@ mod preparing;
 mod query;
 mod raster;
 mod screenshot;
+mod sensation;
 mod settings;
 mod shelf;
 mod shortcuts;

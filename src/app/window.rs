@@ -159,6 +159,7 @@ impl Workbench {
         }
         self.workspace.scale = kept.amplitude;
         self.workspace.dot_style = kept.dots;
+        self.workspace.greys_below = kept.greys_below;
         self.workspace.true_pixels_per_mm = kept.pixels_per_mm;
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));

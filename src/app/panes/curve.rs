@@ -192,6 +192,7 @@ mod tests {
 
     fn library() -> Vec<LibraryDot> {
         let dot = |low_um: f64, high_um: f64| LibraryDot {
+            id: String::new(),
             name: String::new(),
             mean_um: [low_um, high_um],
             gain_db: 0.0,
