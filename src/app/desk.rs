@@ -12,13 +12,14 @@ use egui_tiles::{
 
 use super::arrangement::Pane;
 use super::panes::{
-    self, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle, SpatialSource,
-    Wishes,
+    self, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle,
+    SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::{TITLE_SPACING, TabRow, corner_width};
+use super::take::Take;
 use super::theme::{self, Palette};
-use super::view::SceneView;
+use super::view::{SceneView, Source};
 use super::window::Workbench;
 use super::workspace;
 
@@ -70,6 +71,7 @@ impl Desk<'_> {
                 let why = self.bench.transient.why.0.as_ref();
                 panes::show_why(ui, why, &self.scene.filters);
             }),
+            Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
         }
     }
 
@@ -172,6 +174,29 @@ impl Desk<'_> {
     }
 }
 
+/// Tunings, textiles and methods against each other.
+impl Desk<'_> {
+    fn show_compare(&mut self, ui: &mut Ui) {
+        let standing = self.bench.follow_comparison(ui.ctx());
+        let bench = &mut *self.bench;
+        let play = bench.transient.live.play;
+        let route = bench.route();
+        let place = bench.compared_place(&route);
+        let is_replayed = play.source == Source::Recording;
+        let view = CompareView {
+            scene: self.scene,
+            shelf: bench.shelf.items(),
+            place,
+            route,
+            take: bench.take.as_ref().map(Take::name),
+            standing,
+            contactor: bench.workspace.contactor,
+            tick: is_replayed.then_some(play.tick),
+        };
+        panes::show_compare(ui, &mut bench.transient.comparison, &view, self.wishes);
+    }
+}
+
 /// The right end of a row of tabs: what belongs to the pane in front.
 impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
@@ -197,6 +222,10 @@ impl Desk<'_> {
             Pane::Why => {
                 let (why, is_frozen) = &self.bench.transient.why;
                 panes::show_why_corner(ui, *is_frozen, why.as_ref(), self.wishes);
+            }
+            Pane::Compare => {
+                let standing = self.bench.comparison_standing();
+                panes::show_compare_corner(ui, &standing, self.wishes);
             }
             Pane::Workspace => {
                 let bench = &*self.bench;

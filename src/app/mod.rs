@@ -24,6 +24,7 @@ mod arrangement;
 mod audition;
 mod backlog;
 mod command;
+mod compare;
 mod completion;
 mod desk;
 mod dialogs;

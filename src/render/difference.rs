@@ -64,6 +64,14 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Of one difference alone.
+    pub fn of_one(only: Largest) -> Self {
+        let mut tally = Self::default();
+        let contrast = Contrast::Both(only.difference_db);
+        tally.add(contrast, only.tick, only.contactor);
+        tally
+    }
+
     fn add(&mut self, contrast: Contrast, tick: u64, contactor: usize) {
         match contrast {
             Contrast::Silent => {}

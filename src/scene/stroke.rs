@@ -91,6 +91,28 @@ impl Stroke {
         Ok(())
     }
 
+    /// How long it takes until the stroke begins again, s; infinite for one that stands still.
+    pub fn period_s(&self) -> f64 {
+        match *self {
+            Self::Line {
+                start,
+                end,
+                speed_mm_per_s,
+            } => 2.0 * (end - start).length_mm() / speed_mm_per_s,
+            Self::Circle {
+                radius_mm,
+                speed_mm_per_s,
+                ..
+            } => std::f64::consts::TAU * radius_mm / speed_mm_per_s,
+            Self::Raster {
+                size_mm,
+                spacing_mm,
+                speed_mm_per_s,
+                ..
+            } => 2.0 * raster_length_mm(size_mm, spacing_mm) / speed_mm_per_s,
+        }
+    }
+
     /// Place and velocity at `t_s` seconds after the start.
     pub fn at(&self, t_s: f64) -> (Point, Velocity) {
         match *self {

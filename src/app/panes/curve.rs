@@ -8,7 +8,7 @@ use crate::quantity;
 use crate::tactile::{Band, Tuning};
 
 /// Height of the plot, points.
-const HEIGHT: f32 = 108.0;
+const HEIGHT: f32 = 90.0;
 
 /// The spread of a library's mean amplitudes, by band, dB.
 pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f64) -> [f64; 2] {

@@ -17,9 +17,9 @@ use crate::quantity;
 use crate::tactile::Band;
 
 /// Height of a title, points.
-const TITLE: f32 = 20.0;
+pub(super) const TITLE: f32 = 20.0;
 /// Space between cells, points.
-const GAP: f32 = 2.0;
+pub(super) const GAP: f32 = 2.0;
 /// Height of a number beside the colour bar, points.
 const BAR_LINE: f32 = 10.0;
 /// Width of the colour bar with its numbers, points.
@@ -27,7 +27,7 @@ const BAR: f32 = 48.0;
 /// Space between the two heatmaps, points.
 const BETWEEN: f32 = 16.0;
 /// A cell narrower than this has no room for a number, points.
-const NUMBER_WIDTH: f32 = 20.0;
+pub(super) const NUMBER_WIDTH: f32 = 20.0;
 
 /// How the heatmaps are drawn.
 #[derive(Debug, Clone, Copy)]
@@ -46,17 +46,17 @@ pub(crate) struct HeatmapStyle {
 
 /// Where the cells of both bands are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Places {
+pub(super) struct Places {
     /// The upper left corner of either heatmap.
-    corners: [Pos2; 2],
+    pub(super) corners: [Pos2; 2],
     /// Width and height of a cell with its gap.
-    cell: egui::Vec2,
+    pub(super) cell: egui::Vec2,
     n_columns: usize,
 }
 
 impl Places {
     /// As large as fits, in the middle of `rect`; cells are at most half as wide again as high.
-    fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
+    pub(super) fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
         let height = ((rect.height() - TITLE) / n_rows.max(1) as f32).max(2.0);
         let room = (rect.width() - BAR - BETWEEN) / 2.0;
         let width = (room / n_columns.max(1) as f32).clamp(2.0, 1.9 * height);
@@ -73,14 +73,14 @@ impl Places {
         }
     }
 
-    fn cell(&self, band: usize, index: usize) -> Rect {
+    pub(super) fn cell(&self, band: usize, index: usize) -> Rect {
         let (row, column) = (index / self.n_columns, index % self.n_columns);
         let corner = self.corners[band] + vec2(column as f32, row as f32) * self.cell;
         Rect::from_min_size(corner, self.cell - vec2(GAP, GAP))
     }
 
     /// The contactor and band whose cell is at a place.
-    fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
+    pub(super) fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
         let cells = (0..2).flat_map(|band| (0..n_contactors).map(move |index| (band, index)));
         cells
             .into_iter()
@@ -328,7 +328,8 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> S
 
 fn paint_bar(painter: &Painter, bar: Rect, style: HeatmapStyle) {
     let palette = Palette::of(painter.ctx().theme());
-    crate::app::widgets::colour_bar(painter, bar, style.map);
+    let colour = |share| style.map.colour(share);
+    crate::app::widgets::colour_bar(painter, bar, colour);
     let mut taken: Vec<f32> = Vec::new();
     let mut marks: Vec<f64> = style.scale.marks_um().into_iter().collect();
     // The ends of the scale are written before what lies between.

@@ -126,7 +126,8 @@ fn show_felt(ui: &mut Ui, felt: Option<&Perception>) {
         ui.label(small("%"));
         ui.label(number(format!("{balance:>3}")));
         let intensity = quantity::fixed(felt.intensity(), 1);
-        ui.label(number(format!("{intensity:>5}")));
+        ui.label(number(format!("{intensity:>4}")));
+        ui.label(small("int."));
         ui.label(small("dB SL"));
         for band in [Band::High, Band::Low] {
             let above_db = quantity::fixed(felt.sensation_db[band.index()], 1);

@@ -7,7 +7,7 @@
 mod colour_map;
 mod style;
 
-pub(crate) use colour_map::ColourMap;
+pub(crate) use colour_map::{ColourMap, Diverging};
 pub(crate) use style::install;
 
 use eframe::egui::{self, Color32, FontId};
@@ -131,6 +131,15 @@ impl Palette {
         } else {
             egui::Theme::Light
         })
+    }
+
+    /// The colours of differences, whose middle is this theme's ground.
+    pub(crate) fn differences(&self) -> Diverging {
+        if self == &DARK {
+            Diverging::DARK
+        } else {
+            Diverging::LIGHT
+        }
     }
 
     /// The colour of a band.
