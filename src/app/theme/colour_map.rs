@@ -101,7 +101,7 @@ impl Diverging {
     pub(super) const LIGHT: Self = Self {
         below: 0x0051_2fb8,
         none: 0x00ee_eff1,
-        above: 0x0070_5600,
+        above: 0x0061_4a00,
     };
 
     /// The colour of a share −1…1 of the scale; outside it the nearest end, for NaN the middle.
