@@ -2,7 +2,8 @@
 //!
 //! `array` renders a display's contactors (reference, banded, table), writes the drive waveform
 //! and explains single contactors; `plan` decides what a tick has to evaluate; `replay` runs a
-//! whole path and measures cost and error; `difference` says by how much two runs differ. Knows nothing of files, devices, threads or screens.
+//! whole path and measures cost and error; `difference` says by how much two runs differ. Knows
+//! nothing of files, devices, threads or screens.
 //!
 //! # Invariants
 //! - `tick` neither allocates, locks, logs, reads a clock nor fails; preparing allocates

@@ -29,18 +29,18 @@ pub(crate) fn show(
     let (now, rest) = (scene.tuning, scene.default_tuning);
     let under = live.cloth_under_display();
     let felt = under.and_then(|cloth| of_textile(scene, cloth, live.dots.len()));
-    let felt = felt.as_ref();
-    let noticed = felt.and_then(|felt| noticed_db(felt, None));
+    let marked = last_felt(ui, felt);
+    let noticed = marked.and_then(|felt| noticed_db(&felt, None));
     let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
     let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
     tip_beside(ui, &response, slider_tip(noticed));
     wishes.extend(new.map(|db| Edit::MasterGain(db).into()));
     for band in Band::ALL {
-        let noticed = felt.and_then(|felt| noticed_db(felt, Some(band)));
+        let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
         show_band(ui, band, noticed, (scene, audition), wishes);
     }
     show_textile(ui, scene, (under, noticed), wishes);
-    show_felt(ui, felt);
+    show_felt(ui, felt.as_ref());
     let scale = Scale::share(rest.compression);
     let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
     let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
@@ -95,6 +95,17 @@ fn show_band(
         }
     }
     tip_beside(ui, &response, slider_tip(noticed));
+}
+
+/// How the textile felt that is under the display or was last, so that marks do not come and go
+/// while the display moves over gaps.
+fn last_felt(ui: &Ui, felt: Option<Perception>) -> Option<Perception> {
+    let id = ui.scope_id().with("last felt");
+    let Some(felt) = felt else {
+        return ui.data(|data| data.get_temp(id));
+    };
+    ui.data_mut(|data| data.insert_temp(id, felt));
+    Some(felt)
 }
 
 /// What a gain's slider can do, and what its marks are.

@@ -1,5 +1,5 @@
-//! Colours for numbers: viridis, cividis and grey, all of rising lightness; and one with two arms for
-//! differences.
+//! Colours for numbers: viridis, cividis and grey, all of rising lightness; and one with two arms
+//! for differences.
 //!
 //! Each map is a short table of evenly spaced sRGB colours, mixed linearly in between. Smith and
 //! van der Walt 2015 (viridis); Nuñez, Anderton and Renslow 2018 (cividis, for any colour vision).

@@ -112,7 +112,10 @@ fn what_it_feels_like_is_told_and_marked_as_a_model() {
     assert!((low_db - 16.0).abs() < 0.2, "{low_db} dB SL");
     assert!(high_db < low_db, "{high_db} dB SL");
     let text = to_text(&explained);
-    assert!(text.contains("Sensation     15.9 / −9.7 dB SL (model)"), "{text}");
+    assert!(
+        text.contains("Sensation     15.9 / −9.7 dB SL (model)"),
+        "{text}"
+    );
     assert!(text.contains("dB SL (model)"), "{text}");
     assert!(text.contains("Display feels intensity "), "{text}");
     let csv = to_csv(&explained);

@@ -208,11 +208,16 @@ fn combo(ui: &mut Ui, name: &str, width: f32, text: &str, content: impl FnOnce(&
     let at = cell.left_center();
     ui.painter()
         .text(at, centre, name, theme::small(), palette.dim);
-    let list = ComboBox::from_id_salt(("compare", name))
-        .width(width)
-        .truncate();
     let text = RichText::new(text).font(theme::small());
-    let response = list.selected_text(text).show_ui(ui, content).response;
+    let line = Layout::left_to_right(Align::Center);
+    // The list is as wide as its room, however long the name in it.
+    let room = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+        ui.set_max_width(width);
+        let list = ComboBox::from_id_salt(("compare", name));
+        let list = list.width(width).truncate();
+        list.selected_text(text).show_ui(ui, content).response
+    });
+    let response = room.inner;
     let label = match name {
         "at" => "Which textile is exchanged".to_owned(),
         side => format!("{side} of the comparison"),

@@ -5,12 +5,12 @@ use eframe::egui::{
 };
 
 use super::controls::signed_db;
-use super::{CompareView, alone_words, band_name, scale_db, told};
+use super::{CompareView, alone_words, band_name, decimals_of, scale_db, told, unit_of};
 use crate::app::command::ShowCommand;
 use crate::app::panes::Wishes;
 use crate::app::panes::heatmap::{GAP, NUMBER_WIDTH, Places, TITLE};
 use crate::app::theme::{self, Palette};
-use crate::app::widgets::colour_bar;
+use crate::app::widgets::{Tick, colour_bar};
 use crate::quantity::fixed;
 use crate::render::{LevelDifference, Tally};
 use crate::tactile::Band;
@@ -122,15 +122,12 @@ fn paint_bar(painter: &Painter, bar: Rect, most_db: f64) {
     let palette = Palette::of(painter.ctx().theme());
     let colours = palette.differences();
     colour_bar(painter, bar, |share| colours.colour(2.0 * share - 1.0));
-    let decimals = if most_db < 0.1 {
-        2
-    } else {
-        usize::from(most_db < 1.0)
-    };
+    let (unit, factor) = unit_of(most_db);
+    let most = Tick::number(most_db * factor).label;
     let marks = [
-        (bar.top() + 4.0, format!("+{}", fixed(most_db, decimals))),
+        (bar.top() + 4.0, format!("+{most}")),
         (bar.center().y, "0".to_owned()),
-        (bar.bottom() - 4.0, fixed(-most_db, decimals)),
+        (bar.bottom() - 4.0, format!("−{most}")),
     ];
     for (y, digits) in marks {
         let at = pos2(bar.right() + 5.0, y);
@@ -138,7 +135,7 @@ fn paint_bar(painter: &Painter, bar: Rect, most_db: f64) {
         painter.text(at, Align2::LEFT_CENTER, digits, font, palette.dim);
     }
     let at = pos2(bar.left(), bar.top() - 11.0);
-    painter.text(at, Align2::LEFT_CENTER, "dB", theme::small(), palette.dim);
+    painter.text(at, Align2::LEFT_CENTER, unit, theme::small(), palette.dim);
 }
 
 fn words(index: usize, band: Band, tally: &Tally) -> String {
@@ -147,9 +144,9 @@ fn words(index: usize, band: Band, tally: &Tally) -> String {
     let difference = match (tally.mean_db(), tally.largest) {
         (Some(mean_db), Some(largest)) => format!(
             "B less A: mean {} over {} ticks\nlargest {} at tick {}",
-            signed_db(mean_db, 2),
+            signed_db(mean_db, decimals_of(mean_db)),
             tally.n_both,
-            signed_db(largest.difference_db, 2),
+            signed_db(largest.difference_db, decimals_of(largest.difference_db)),
             largest.tick,
         ),
         _ => alone_words(tally).to_owned(),

@@ -8,22 +8,21 @@ mod over_time;
 
 pub(crate) use controls::show_corner;
 
-use eframe::egui::{Align2, Rect, RichText, Ui, UiBuilder, vec2};
+use eframe::egui::{Align, Align2, Label, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
 use super::Wishes;
 use crate::app::compare::{Comparison, Route, Standing};
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::view::{SceneView, ShelfItem};
+use crate::app::widgets::round_step;
 use crate::quantity::{fixed, with_unit};
 use crate::render::{LevelDifference, Tally};
 use crate::tactile::Band;
 
 /// Height of a line of the summary, points.
-const LINE: f32 = 15.0;
+const LINE: f32 = 14.0;
 /// A pane this wide has room for the maps beside the curve, points.
 const WIDE: f32 = 300.0;
-/// Width that the maps are given beside the curve, at most, points.
-const MAPS: f32 = 320.0;
 
 /// What the pane is drawn from, besides what was found.
 pub(crate) struct CompareView<'a> {
@@ -67,18 +66,18 @@ pub(crate) fn show(
     let summary = Band::ALL.map(|band| summary(&found.in_all[band.index()]));
     let height = (rect.height() - 2.0 * LINE - STEP).max(0.0);
     let body = Rect::from_min_size(rect.min, vec2(rect.width(), height));
-    let (maps, curve) = split(body);
+    let (maps, curve) = split(body, view.scene.grid);
     let mut dimmed = ui.new_child(UiBuilder::new().max_rect(body));
     if view.standing != Standing::Fresh {
         dimmed.set_opacity(0.45);
     }
     maps::show(&dimmed, maps, found, view, wishes);
     over_time::show(&dimmed, curve, comparison, view, wishes);
-    let lines = Rect::from_min_max(body.left_bottom() + vec2(0.0, STEP), rect.max);
-    let mut below = ui.new_child(UiBuilder::new().max_rect(lines));
-    below.spacing_mut().item_spacing.y = 0.0;
+    let top = body.bottom() + STEP;
     for (band, words) in Band::ALL.into_iter().zip(summary) {
-        show_line(&mut below, band, &words);
+        let top = top + LINE * band.index() as f32;
+        let line = Rect::from_x_y_ranges(rect.x_range(), top..=top + LINE);
+        show_line(ui, line, band, &words);
     }
     ui.advance_cursor_after_rect(rect);
 }
@@ -99,9 +98,11 @@ fn empty_words(view: &CompareView<'_>) -> String {
     }
 }
 
-fn split(body: Rect) -> (Rect, Rect) {
+/// The places of the maps and of the curve: side by side where there is room for both.
+fn split(body: Rect, grid: Option<(usize, usize)>) -> (Rect, Rect) {
     if body.width() >= WIDE && body.width() > body.height() {
-        let (maps, curve) = body.split_left_right_at_x(body.left() + maps_width(body));
+        let maps = maps_width(body, grid);
+        let (maps, curve) = body.split_left_right_at_x(body.left() + maps);
         (maps, curve.with_min_x(curve.left() + 2.0 * STEP))
     } else {
         let (maps, curve) = body.split_top_bottom_at_fraction(0.5);
@@ -109,26 +110,30 @@ fn split(body: Rect) -> (Rect, Rect) {
     }
 }
 
-fn maps_width(body: Rect) -> f32 {
-    (0.54 * body.width()).min(MAPS)
+/// As wide as maps of this height need to be with square cells.
+fn maps_width(body: Rect, grid: Option<(usize, usize)>) -> f32 {
+    let (n_rows, n_columns) = grid.unwrap_or((1, 1));
+    let cell = (body.height() - 20.0) / n_rows.max(1) as f32;
+    let maps = 2.0 * n_columns as f32 * cell + 64.0;
+    maps.clamp(0.3 * body.width(), 0.56 * body.width())
 }
 
-fn show_line(ui: &mut Ui, band: Band, words: &str) {
+fn show_line(ui: &mut Ui, line: Rect, band: Band, words: &str) {
     let palette = Palette::in_ui(ui);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0 * STEP;
-        let name = band_name(band);
-        let name = RichText::new(name).font(theme::small());
-        let (cell, _) = ui.allocate_exact_size(vec2(36.0, LINE), eframe::egui::Sense::hover());
-        let at = cell.left_center();
-        let ink = palette.band(band);
-        ui.painter()
-            .text(at, Align2::LEFT_CENTER, name.text(), theme::small(), ink);
-        let words = RichText::new(words)
-            .font(theme::small())
-            .color(palette.text);
-        ui.add(eframe::egui::Label::new(words).truncate());
-    });
+    let (name, words_at) = line.split_left_right_at_x(line.left() + 44.0);
+    let (at, ink) = (name.left_center(), palette.band(band));
+    let font = theme::small();
+    ui.painter()
+        .text(at, Align2::LEFT_CENTER, band_name(band), font, ink);
+    let words = RichText::new(words)
+        .font(theme::small())
+        .color(palette.text);
+    let mut child = ui.new_child(
+        UiBuilder::new()
+            .max_rect(words_at)
+            .layout(Layout::left_to_right(Align::Center)),
+    );
+    child.add(Label::new(words).truncate());
 }
 
 /// A band's name.
@@ -141,9 +146,14 @@ fn summary(tally: &Tally) -> String {
     let (Some(mean_db), Some(largest)) = (tally.mean_db(), tally.largest) else {
         return alone_words(tally).to_owned();
     };
-    let [mean, most] = [mean_db, largest.difference_db].map(|db| with_unit(db, 2, "dB"));
+    let n_apart = tally.n_only[0] + tally.n_only[1];
+    if largest.difference_db.abs() < 1e-9 && n_apart == 0 {
+        return "no difference at any tick, 0.00 dB".to_owned();
+    }
+    let decimals = decimals_of(largest.difference_db);
+    let [mean, most] = [mean_db, largest.difference_db].map(|db| with_unit(db, decimals, "dB"));
     let (tick, contactor) = (largest.tick, largest.contactor);
-    let n_all = tally.n_both + tally.n_only[0] + tally.n_only[1];
+    let n_all = tally.n_both + n_apart;
     let alone = ["A", "B"].into_iter().zip(tally.n_only);
     let alone = alone
         .filter(|(_, n_only)| *n_only > 0)
@@ -165,10 +175,35 @@ fn alone_words(tally: &Tally) -> &'static str {
     }
 }
 
-/// Half the range of a scale of differences: the least of 1, 2, 5 · 10ⁿ that holds the largest.
+/// Half the range of a scale of differences: the least of 1, 2, 5 · 10ⁿ that holds the largest;
+/// 1 dB where there are none.
 fn scale_db(differences_db: impl Iterator<Item = f64>) -> f64 {
     let largest = differences_db.map(f64::abs).fold(0.0, f64::max);
-    crate::app::widgets::round_step(largest.max(0.01))
+    if largest > 1e-6 {
+        round_step(largest.max(1e-4))
+    } else {
+        1.0
+    }
+}
+
+/// The unit of a scale of differences and how many of it are a dB: methods differ by so little that
+/// thousandths are needed.
+fn unit_of(most_db: f64) -> (&'static str, f64) {
+    if most_db < 0.1 {
+        ("mdB", 1000.0)
+    } else {
+        ("dB", 1.0)
+    }
+}
+
+/// Decimals that a difference is written with: methods differ by very little.
+fn decimals_of(difference_db: f64) -> usize {
+    let magnitude = difference_db.abs();
+    if magnitude > 1e-6 && magnitude < 0.1 {
+        4
+    } else {
+        2
+    }
 }
 
 /// Sounding contactors by band, for those who do not see the maps.

@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use super::controls::signed_db;
-use super::{CompareView, band_name, scale_db};
+use super::{CompareView, band_name, decimals_of, scale_db, unit_of};
 use crate::app::command::CompareCommand;
 use crate::app::compare::{Comparison, Route};
 use crate::app::panes::Wishes;
@@ -56,7 +56,7 @@ pub(super) fn show(
         );
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
-    plot.paint(&ui.painter_at(rect), found, &columns);
+    plot.paint(&ui.painter_at(rect), &columns);
     let is_recorded = is_at_hand && matches!(view.route, Route::Take(_));
     if let Some(tick) = view.tick.filter(|_| is_recorded) {
         let x = ui.painter().round_to_pixel_center(plot.x_of(tick));
@@ -114,14 +114,14 @@ impl Plot {
         self.height_db.y(self.area.y_range(), difference_db)
     }
 
-    fn paint(&self, painter: &Painter, found: &LevelDifference, columns: &[[Spread; 2]]) {
+    fn paint(&self, painter: &Painter, columns: &[[Spread; 2]]) {
         self.paint_noticed(painter);
         self.paint_axes(painter);
         let within = painter.with_clip_rect(self.area.expand(1.0));
         for band in Band::ALL {
             self.paint_line(&within, band, columns);
         }
-        self.paint_title(painter, found);
+        self.paint_title(painter);
     }
 
     /// Within the shaded bands no difference is noticed, by the model.
@@ -149,7 +149,11 @@ impl Plot {
 
     fn paint_axes(&self, painter: &Painter) {
         let most_db = self.height_db.most();
-        let heights = [-most_db, 0.0, most_db].map(Tick::number);
+        let (unit, factor) = unit_of(most_db);
+        let heights = [-most_db, 0.0, most_db].map(|db| Tick {
+            value: db,
+            ..Tick::number(db * factor)
+        });
         paint_ticks(painter, self.area, (&self.height_db, Side::Left), &heights);
         let mut times = self.time_s.ticks(self.area.width(), 48.0);
         // The last number would not fit beside its unit.
@@ -161,20 +165,20 @@ impl Plot {
         let zero = painter.round_to_pixel_center(self.y_of(0.0));
         painter.hline(self.area.x_range(), zero, Stroke::new(1.0, palette.line));
         let at = pos2(self.area.left() - 5.0, self.area.top() - 6.0);
-        paint_unit(painter, at, Align2::RIGHT_BOTTOM, "dB");
+        paint_unit(painter, at, Align2::RIGHT_BOTTOM, unit);
     }
 
-    fn paint_title(&self, painter: &Painter, found: &LevelDifference) {
+    fn paint_title(&self, painter: &Painter) {
         let palette = Palette::of(painter.ctx().theme());
         let noticed = self.noticed_db.iter().flatten();
         let least = noticed.copied().min_by(f64::total_cmp);
         let words = match least {
-            Some(db) => format!("B − A   JND from ±{} dB, a model", fixed(db, 1)),
-            None => format!("B − A   {} ticks", found.n_ticks),
+            Some(db) => format!("B − A  JND ±{} (model)", fixed(db, 1)),
+            None => "B − A".to_owned(),
         };
-        let at = pos2(self.area.left(), self.area.top() - 10.0);
+        let at = pos2(self.area.right(), self.area.top() - 10.0);
         let font = theme::small();
-        painter.text(at, Align2::LEFT_CENTER, words, font, palette.dim);
+        painter.text(at, Align2::RIGHT_CENTER, words, font, palette.dim);
     }
 
     fn x_of_column(&self, column: usize, n_columns: usize) -> f32 {
@@ -253,9 +257,10 @@ fn words(plot: &Plot, tick: u64, spreads: &[Spread; 2], is_recorded: bool) -> St
         let spread = &spreads[band.index()];
         let difference = match (spread.range_db, spread.is_only) {
             (Some([least, most]), _) if most > least => {
-                format!("{} … {}", signed_db(least, 2), signed_db(most, 2))
+                let [least, most] = [least, most].map(|db| signed_db(db, decimals_of(db)));
+                format!("{least} … {most}")
             }
-            (Some([difference_db, _]), _) => signed_db(difference_db, 2),
+            (Some([db, _]), _) => signed_db(db, decimals_of(db)),
             (None, [true, false]) => "A only".to_owned(),
             (None, [false, true]) => "B only".to_owned(),
             (None, [true, true]) => "A only or B only".to_owned(),

@@ -25,6 +25,7 @@ fn a_band_is_summed_up_with_where_it_differs_most() {
         words,
         "mean −3.41 dB, largest −3.41 dB at tick 80, contactor 5"
     );
+    assert!(summary(&tally(Some(0.0), [0, 0])).starts_with("no difference"));
     let words = summary(&tally(Some(1.0), [0, 3]));
     assert!(words.ends_with("contactor 5, B only in 75.0 %"), "{words}");
 }
@@ -44,8 +45,10 @@ fn where_one_is_silent_no_number_is_made_up() {
 #[test]
 fn the_scale_is_round_and_holds_the_largest() {
     assert_eq!(scale_db([0.4, -3.0].into_iter()), 5.0);
-    assert_eq!(scale_db([0.0].into_iter()), 0.01);
-    assert_eq!(scale_db(std::iter::empty()), 0.01);
+    assert_eq!(scale_db([0.0].into_iter()), 1.0);
+    assert_eq!(scale_db(std::iter::empty()), 1.0);
+    assert_eq!([0.0, 0.0123, -3.0].map(decimals_of), [2, 4, 2]);
+    assert_eq!([0.05, 0.1].map(|db| unit_of(db).0), ["mdB", "dB"]);
     assert_eq!(signed_db(0.5, 1), "+0.5 dB");
     assert_eq!(signed_db(-0.5, 1), "−0.5 dB");
 }
@@ -55,7 +58,7 @@ fn the_parts_fit_side_by_side_or_one_above_the_other() {
     use eframe::egui::pos2;
     for size in [vec2(345.0, 130.0), vec2(700.0, 300.0), vec2(240.0, 500.0)] {
         let body = Rect::from_min_size(pos2(3.0, 4.0), size);
-        let (maps, curve) = split(body);
+        let (maps, curve) = split(body, Some((6, 4)));
         assert!(body.contains_rect(maps) && body.contains_rect(curve));
         assert!(!maps.intersect(curve).is_positive(), "{size:?}");
     }
