@@ -236,6 +236,25 @@ mod tests {
     };
 
     #[test]
+    fn after_a_period_a_stroke_begins_again() {
+        let line = Stroke::Line {
+            start: Point::new(0.0, 0.0),
+            end: Point::new(30.0, 40.0),
+            speed_mm_per_s: 50.0,
+        };
+        assert_eq!(line.period_s(), 2.0);
+        for stroke in [line, RASTER, CIRCLE] {
+            let period_s = stroke.period_s();
+            for t_s in [0.0, 0.1, 0.37] {
+                let ((at, _), (again, _)) = (stroke.at(t_s), stroke.at(t_s + period_s));
+                assert!((again - at).length_mm() < 1e-9, "{stroke:?}");
+                let (halfway, _) = stroke.at(t_s + 0.3 * period_s);
+                assert!((halfway - at).length_mm() > 0.1, "not before: {stroke:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_line_turns_at_its_end_and_comes_back() {
         assert_eq!(
             LINE.at(0.25),

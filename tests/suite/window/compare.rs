@@ -142,7 +142,7 @@ fn a_scene_without_textiles_says_what_to_do() {
 }
 
 #[test]
-fn what_is_below_threshold_is_said_and_the_switch_is_kept() {
+fn what_is_below_threshold_is_said_until_it_is_switched_off() {
     let folder = Folder::new("threshold");
     let mut harness = window(&folder.scene());
     harness.run();
