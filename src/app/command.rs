@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::arrangement::Pane;
+use super::compare::Choice;
 use super::theme::ColourMap;
 use crate::geometry::Point;
 use crate::tactile::{Band, Filters};
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     File(FileCommand),
     /// Move, record and replay.
     Play(PlayCommand),
+    /// Compare tunings, textiles or methods.
+    Compare(CompareCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -48,6 +51,12 @@ impl From<DeviceCommand> for Command {
 impl From<FileCommand> for Command {
     fn from(command: FileCommand) -> Self {
         Self::File(command)
+    }
+}
+
+impl From<CompareCommand> for Command {
+    fn from(command: CompareCommand) -> Self {
+        Self::Compare(command)
     }
 }
 
@@ -171,6 +180,21 @@ pub(crate) enum PlaySource {
     Recording,
 }
 
+/// What is compared. Never undoable.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum CompareCommand {
+    /// Compare this.
+    Choose(Choice),
+    /// Hold the present tuning as A, to compare it with what comes.
+    Hold,
+    /// Compare now.
+    Run,
+    /// Stop comparing.
+    Cancel,
+    /// Show this tick of the recording at hand.
+    Seek(u64),
+}
+
 /// What is shown how. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ShowCommand {
@@ -200,6 +224,8 @@ pub(crate) enum ShowCommand {
     HearAll,
     /// Write numbers into the heatmaps, or no longer.
     ToggleNumbers,
+    /// Grey what is too weak to be felt by the model, or no longer.
+    ToggleThreshold,
     /// Hold the scale of amplitudes, or let it follow them.
     LockScale(bool),
     /// The largest amplitude of the scale, µm; holds it.

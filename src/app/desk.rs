@@ -12,13 +12,14 @@ use egui_tiles::{
 
 use super::arrangement::Pane;
 use super::panes::{
-    self, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle, SpatialSource,
-    Wishes,
+    self, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle,
+    SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::{TITLE_SPACING, TabRow, corner_width};
+use super::take::Take;
 use super::theme::{self, Palette};
-use super::view::SceneView;
+use super::view::{SceneView, Source};
 use super::window::Workbench;
 use super::workspace;
 
@@ -70,6 +71,7 @@ impl Desk<'_> {
                 let why = self.bench.transient.why.0.as_ref();
                 panes::show_why(ui, why, &self.scene.filters);
             }),
+            Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
         }
     }
 
@@ -95,15 +97,21 @@ impl Desk<'_> {
         );
     }
 
-    fn show_heatmaps(&mut self, ui: &mut Ui) {
+    fn heatmap_style(&self) -> HeatmapStyle {
         let bench = &*self.bench;
-        let style = HeatmapStyle {
+        HeatmapStyle {
             map: bench.settings.kept.colour_map,
             scale: bench.workspace.scale,
             has_numbers: bench.settings.kept.has_numbers,
+            greys_below: bench.workspace.greys_below,
             selected: bench.workspace.contactor.unwrap_or(usize::MAX),
-        };
-        panes::show_heatmaps(ui, self.scene, &bench.transient.live, style, self.wishes);
+        }
+    }
+
+    fn show_heatmaps(&mut self, ui: &mut Ui) {
+        let style = self.heatmap_style();
+        let live = &self.bench.transient.live;
+        panes::show_heatmaps(ui, self.scene, live, style, self.wishes);
     }
 }
 
@@ -166,15 +174,37 @@ impl Desk<'_> {
     }
 }
 
+/// Tunings, textiles and methods against each other.
+impl Desk<'_> {
+    fn show_compare(&mut self, ui: &mut Ui) {
+        let standing = self.bench.follow_comparison(ui.ctx());
+        let bench = &mut *self.bench;
+        let play = bench.transient.live.play;
+        let route = bench.route();
+        let place = bench.compared_place(&route);
+        let is_replayed = play.source == Source::Recording;
+        let view = CompareView {
+            scene: self.scene,
+            shelf: bench.shelf.items(),
+            place,
+            route,
+            take: bench.take.as_ref().map(Take::name),
+            standing,
+            contactor: bench.workspace.contactor,
+            tick: is_replayed.then_some(play.tick),
+        };
+        panes::show_compare(ui, &mut bench.transient.comparison, &view, self.wishes);
+    }
+}
+
 /// The right end of a row of tabs: what belongs to the pane in front.
 impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
         match pane {
             Pane::Heatmaps => {
-                let has_numbers = self.bench.settings.kept.has_numbers;
-                let scale = self.bench.workspace.scale;
+                let style = self.heatmap_style();
                 let audition = &self.bench.transient.audition;
-                panes::show_heatmap_corner(ui, scale, has_numbers, audition, self.wishes);
+                panes::show_heatmap_corner(ui, style, audition, self.wishes);
             }
             Pane::ContactSpectrum
             | Pane::DriveSpectrum
@@ -192,6 +222,10 @@ impl Desk<'_> {
             Pane::Why => {
                 let (why, is_frozen) = &self.bench.transient.why;
                 panes::show_why_corner(ui, *is_frozen, why.as_ref(), self.wishes);
+            }
+            Pane::Compare => {
+                let standing = self.bench.comparison_standing();
+                panes::show_compare_corner(ui, &standing, self.wishes);
             }
             Pane::Workspace => {
                 let bench = &*self.bench;

@@ -134,6 +134,7 @@ impl Workbench {
             map: kept.colour_map,
             zoom: kept.zoom,
             dots: self.workspace.dot_style,
+            greys_below: self.workspace.greys_below,
             panes: shown.to_vec(),
             recent: kept.recent_scenes.clone(),
         }

@@ -24,6 +24,7 @@ impl Workbench {
         }
         self.take_files(ctx);
         self.poll_prepared(ctx);
+        self.transient.comparison.poll();
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();
@@ -156,6 +157,7 @@ impl Workbench {
         let kept = &mut self.settings.kept;
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
+        kept.greys_below = self.workspace.greys_below;
         kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
     }
 }

@@ -6,6 +6,7 @@ use super::arrangement::Pane;
 use super::command::{DeviceCommand, FileCommand, Purpose};
 use super::view::{BridgePhase, Source};
 use super::window::Workbench;
+use crate::render::LevelDifference;
 use crate::scene::Scene;
 use crate::tactile::Tuning;
 
@@ -65,6 +66,16 @@ impl Workbench {
             self.transient.contact_spectrogram.n_columns_computed(),
             self.transient.drive_spectrogram.n_columns_computed(),
         ]
+    }
+
+    /// Comparisons that were begun.
+    pub fn n_comparisons(&self) -> u64 {
+        self.transient.comparison.n_begun()
+    }
+
+    /// The differences that were found last.
+    pub fn comparison(&self) -> Option<&LevelDifference> {
+        self.transient.comparison.found()
     }
 
     /// The scene's name.

@@ -4,6 +4,7 @@
 use super::audition::Audition;
 use super::command::Part;
 use super::document::Document;
+use super::sensation::Sensation;
 use super::shelf::Shelf;
 use super::view::{
     BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, PlayView, SceneView, ShelfItem, Source,
@@ -64,6 +65,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDo
     if has_index && scene.filters == Filters::default() {
         let dot = |item: &ShelfItem| {
             Some(LibraryDot {
+                id: item.id.clone(),
                 name: item.name.clone(),
                 mean_um: item.mean_um,
                 gain_db: item.gain_db,
@@ -82,6 +84,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDo
         seen.push(textile.id());
         let levels = Levels::of(textile.surface(), &scene.filters);
         dots.extend(levels.level_db().map(|level_db| LibraryDot {
+            id: textile.id().to_owned(),
             name: textile.manifest().name.clone(),
             mean_um: levels.mean_um,
             gain_db: textile.manifest().gain_db,
@@ -106,6 +109,11 @@ pub(crate) fn live_view(
     let play = play_view(snapshot);
     // All off silences a display that goes on moving; one that is held stands still.
     let goes_on = snapshot.source == SourceKind::Pointer || play.is_playing;
+    let dots = contactors.iter().enumerate().map(|(index, contactor)| {
+        let is_muted = !audition.is_felt(Part::Contactor(index));
+        dot(contactor, is_muted)
+    });
+    let dots: Vec<Dot> = dots.collect();
     let is_held = snapshot.is_silent && !(snapshot.is_stopped && goes_on);
     Live {
         tick: snapshot.tick,
@@ -116,11 +124,8 @@ pub(crate) fn live_view(
         } else {
             snapshot.pose.velocity.speed_mm_per_s()
         },
-        dots: contactors
-            .iter()
-            .enumerate()
-            .map(|(index, contactor)| dot(contactor, !audition.is_felt(Part::Contactor(index))))
-            .collect(),
+        sensation: Sensation::of(dots.iter().map(|dot| dot.amplitude_um)),
+        dots,
         is_stopped: snapshot.is_stopped,
         is_silent: snapshot.is_silent,
         play,

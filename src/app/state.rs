@@ -3,6 +3,7 @@
 use eframe::egui::{Rect, Vec2};
 
 use super::audition::Audition;
+use super::compare::Comparison;
 use super::dialogs::Dialogs;
 use super::history::Moment;
 use super::job::Job;
@@ -64,6 +65,8 @@ pub(crate) struct Transient {
     pub(crate) spatial: SpatialSpectra,
     /// The explanation that is shown, and whether it is held.
     pub(crate) why: (Option<Why>, bool),
+    /// What is compared, and what came of it.
+    pub(crate) comparison: Comparison,
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.

@@ -45,11 +45,12 @@ impl TabRow {
 /// Width of what stands at the right end of a row of tabs, points.
 pub(crate) fn corner_width(pane: Pane) -> f32 {
     match pane {
-        Pane::Heatmaps => 156.0,
+        Pane::Heatmaps => 184.0,
         Pane::ContactSpectrum | Pane::DriveSpectrum | Pane::DriveWave | Pane::SpatialSpectra => {
             112.0
         }
         Pane::Why => 128.0,
+        Pane::Compare => 124.0,
         Pane::Workspace => 300.0,
         Pane::Library | Pane::Tuning | Pane::Bridge => 0.0,
     }

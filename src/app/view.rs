@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{TextureId, Vec2};
 
+use super::sensation::Sensation;
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -96,6 +97,8 @@ pub(crate) struct ShelfItem {
 /// A textile of the library as the compression curve shows it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LibraryDot {
+    /// What scenes call it.
+    pub(crate) id: String,
     /// The textile's name.
     pub(crate) name: String,
     /// Its mean amplitudes without any gain, µm.
@@ -121,6 +124,8 @@ pub(crate) struct Live {
     pub(crate) speed_mm_per_s: f64,
     /// Contactors in index order.
     pub(crate) dots: Vec<Dot>,
+    /// What they feel like, by a model.
+    pub(crate) sensation: Sensation,
     /// Whether everything was switched off and nothing was armed since.
     pub(crate) is_stopped: bool,
     /// Whether the device plays silence, stopped or held; the screen keeps what it showed.

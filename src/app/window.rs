@@ -159,6 +159,7 @@ impl Workbench {
         }
         self.workspace.scale = kept.amplitude;
         self.workspace.dot_style = kept.dots;
+        self.workspace.greys_below = kept.greys_below;
         self.workspace.true_pixels_per_mm = kept.pixels_per_mm;
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
@@ -176,6 +177,7 @@ impl Workbench {
         self.transient.audition = super::audition::Audition::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
+        self.transient.comparison.leave_scene();
         self.workspace.cloth = None;
         self.eye.n_scenes += 1;
         self.workspace.camera = super::workspace::Camera::default();

@@ -2,7 +2,8 @@
 //!
 //! `array` renders a display's contactors (reference, banded, table), writes the drive waveform
 //! and explains single contactors; `plan` decides what a tick has to evaluate; `replay` runs a
-//! whole path and measures cost and error. Knows nothing of files, devices, threads or screens.
+//! whole path and measures cost and error; `difference` says by how much two runs differ. Knows
+//! nothing of files, devices, threads or screens.
 //!
 //! # Invariants
 //! - `tick` neither allocates, locks, logs, reads a clock nor fails; preparing allocates
@@ -11,16 +12,20 @@
 //! - gains are applied after the spectra: changing them recomputes nothing
 
 pub mod array;
+mod difference;
 mod gains;
 mod input;
 mod plan;
 mod replay;
 mod stats;
 
+pub use difference::{
+    Contrast, DifferenceMeter, Largest, LevelDifference, SILENT_UM, Spread, Tally,
+};
 pub use gains::{GainTerms, MAX_TOTAL_GAIN_DB};
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 pub use plan::{Counters, Rule, Rules};
-pub use replay::{FrameSink, Replay, replay};
+pub use replay::{FrameSink, PairSink, Replay, replay, replay_pair};
 pub use stats::{ErrorMeter, Histogram, LevelError, RunStats};
 
 use crate::tactile::TuningError;

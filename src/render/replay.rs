@@ -1,11 +1,12 @@
 //! A whole path through a renderer, off the real-time path: frames for files, figures for reports.
 //!
+//! Two scenes, or two methods, can be replayed side by side on the very same poses.
 //! Rendering has no clock: whoever wants times hands one in. Errors are taken against `reference`
 //! on the very same poses.
 
 use std::ops::ControlFlow;
 
-use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
+use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
 use super::stats::{ErrorMeter, Histogram, RunStats};
 use super::{RenderError, RenderScene};
 use crate::scene::Pose;
@@ -90,6 +91,38 @@ pub fn replay(
         counters: *renderer.counters(),
         level_error: comparison.map(|comparison| comparison.meter.finish()),
     })
+}
+
+/// Takes a tick's number and the frames of both runs; may stop them.
+pub type PairSink<'a> = dyn FnMut(u64, [&[DisplayFrame]; 2]) -> ControlFlow<()> + 'a;
+
+/// Replays the same ticks in two scenes, each by its method, side by side: for comparing them. Both
+/// use the same `cache` of tables. Says whether every tick was replayed.
+///
+/// # Errors
+/// What [`ArrayRenderer::prepare`] refuses.
+pub fn replay_pair(
+    [a, b]: [(&RenderScene, Method); 2],
+    ticks: impl Iterator<Item = (u64, Pose)>,
+    cache: &mut TableCache,
+    sink: &mut PairSink<'_>,
+) -> Result<ControlFlow<()>, RenderError> {
+    let mut prepare = |(scene, method): (&RenderScene, Method)| {
+        let accuracy = Accuracy::default();
+        let renderer = ArrayRenderer::prepare_with_cache(scene, method, &accuracy, cache)?;
+        Ok::<_, RenderError>((renderer, vec![Pose::default(); scene.displays.len()]))
+    };
+    let (mut a, mut b) = (prepare(a)?, prepare(b)?);
+    for (tick, pose) in ticks {
+        let frames = [&mut a, &mut b].map(|(renderer, poses)| {
+            poses.fill(pose);
+            renderer.tick(poses)
+        });
+        if sink(tick, frames).is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+    }
+    Ok(ControlFlow::Continue(()))
 }
 
 /// The reference beside a run.

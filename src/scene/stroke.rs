@@ -91,6 +91,28 @@ impl Stroke {
         Ok(())
     }
 
+    /// How long it takes until the stroke begins again, s; infinite for one that stands still.
+    pub fn period_s(&self) -> f64 {
+        match *self {
+            Self::Line {
+                start,
+                end,
+                speed_mm_per_s,
+            } => 2.0 * (end - start).length_mm() / speed_mm_per_s,
+            Self::Circle {
+                radius_mm,
+                speed_mm_per_s,
+                ..
+            } => std::f64::consts::TAU * radius_mm / speed_mm_per_s,
+            Self::Raster {
+                size_mm,
+                spacing_mm,
+                speed_mm_per_s,
+                ..
+            } => 2.0 * raster_length_mm(size_mm, spacing_mm) / speed_mm_per_s,
+        }
+    }
+
     /// Place and velocity at `t_s` seconds after the start.
     pub fn at(&self, t_s: f64) -> (Point, Velocity) {
         match *self {
@@ -212,6 +234,25 @@ mod tests {
         end: Point::new(30.0, 40.0),
         speed_mm_per_s: 100.0,
     };
+
+    #[test]
+    fn after_a_period_a_stroke_begins_again() {
+        let line = Stroke::Line {
+            start: Point::new(0.0, 0.0),
+            end: Point::new(30.0, 40.0),
+            speed_mm_per_s: 50.0,
+        };
+        assert_eq!(line.period_s(), 2.0);
+        for stroke in [line, RASTER, CIRCLE] {
+            let period_s = stroke.period_s();
+            for t_s in [0.0, 0.1, 0.37] {
+                let ((at, _), (again, _)) = (stroke.at(t_s), stroke.at(t_s + period_s));
+                assert!((again - at).length_mm() < 1e-9, "{stroke:?}");
+                let (halfway, _) = stroke.at(t_s + 0.3 * period_s);
+                assert!((halfway - at).length_mm() > 0.1, "not before: {stroke:?}");
+            }
+        }
+    }
 
     #[test]
     fn a_line_turns_at_its_end_and_comes_back() {

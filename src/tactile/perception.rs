@@ -62,6 +62,20 @@ pub fn just_noticeable_db(sensation_db: f64) -> f64 {
     from[1] + (to[1] - from[1]) * (at - from[0]) / (to[0] - from[0])
 }
 
+/// How many contactors vibrate in either band, and their mean amplitudes [A40, A320], µm; zeros
+/// when none does. What is no positive number is silence.
+pub fn vibrating_mean_um(amplitudes_um: impl Iterator<Item = [f64; 2]>) -> (usize, [f64; 2]) {
+    let (mut n, mut sum_um) = (0_usize, [0.0_f64; 2]);
+    for um in amplitudes_um {
+        let heard = um.map(|um| if um > 0.0 && um.is_finite() { um } else { 0.0 });
+        if heard.iter().any(|um| *um > 0.0) {
+            n += 1;
+            sum_um = [sum_um[0] + heard[0], sum_um[1] + heard[1]];
+        }
+    }
+    (n, sum_um.map(|sum| sum / n.max(1) as f64))
+}
+
 impl Perception {
     /// Of mean amplitudes [A40, A320] over `n_active` contactors, µm. What is no number is silence.
     pub fn of(mean_um: [f64; 2], n_active: usize) -> Self {
@@ -119,6 +133,14 @@ mod tests {
         );
         let low = [1, 24].map(|n| detection_threshold_db(Band::Low, n));
         assert_eq!(low, [8.0, 8.0], "no summation at 40 Hz");
+    }
+
+    #[test]
+    fn the_mean_is_over_contactors_that_vibrate() {
+        let amplitudes = [[2.0, 0.0], [4.0, 6.0], [0.0, 0.0], [f64::NAN, -1.0]];
+        let mean = vibrating_mean_um(amplitudes.into_iter());
+        assert_eq!(mean, (2, [3.0, 3.0]));
+        assert_eq!(vibrating_mean_um(std::iter::empty()), (0, [0.0; 2]));
     }
 
     #[test]

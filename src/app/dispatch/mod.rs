@@ -1,10 +1,13 @@
 //! The one place where something changes: commands in, document, engine and transient state out.
 
+mod compare;
 mod device;
 mod edit;
 mod file;
 mod play;
 mod show;
+
+pub(crate) use play::resting_stroke;
 
 use eframe::egui;
 
@@ -24,6 +27,7 @@ impl Workbench {
             Command::Device(command) => self.dispatch_device(ctx, command),
             Command::File(command) => self.dispatch_file(ctx, command),
             Command::Play(command) => self.dispatch_play(command),
+            Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

@@ -55,6 +55,17 @@ impl Workbench {
         }
     }
 
+    /// Shows a tick of the recording at hand, whatever moved the display before.
+    pub(super) fn seek_in_take(&mut self, tick: u64) {
+        if self.take.is_none() {
+            return;
+        }
+        if self.transient.live.play.source != Source::Recording {
+            self.replay();
+        }
+        self.send(engine::Command::Seek(tick));
+    }
+
     fn explore_alone(&mut self) {
         let stroke = resting_stroke(self.document.scene());
         self.send(engine::Command::SetSource(InputSource::Stroke(stroke)));

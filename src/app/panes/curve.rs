@@ -8,7 +8,7 @@ use crate::quantity;
 use crate::tactile::{Band, Tuning};
 
 /// Height of the plot, points.
-const HEIGHT: f32 = 108.0;
+const HEIGHT: f32 = 90.0;
 
 /// The spread of a library's mean amplitudes, by band, dB.
 pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f64) -> [f64; 2] {
@@ -192,6 +192,7 @@ mod tests {
 
     fn library() -> Vec<LibraryDot> {
         let dot = |low_um: f64, high_um: f64| LibraryDot {
+            id: String::new(),
             name: String::new(),
             mean_um: [low_um, high_um],
             gain_db: 0.0,

@@ -9,6 +9,7 @@ use super::Wishes;
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::audition::Audition;
 use crate::app::command::{Part, ShowCommand};
+use crate::app::sensation::Sensation;
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::{Dot, Live, SceneView};
 use crate::app::widgets::toggle;
@@ -16,9 +17,9 @@ use crate::quantity;
 use crate::tactile::Band;
 
 /// Height of a title, points.
-const TITLE: f32 = 20.0;
+pub(super) const TITLE: f32 = 20.0;
 /// Space between cells, points.
-const GAP: f32 = 2.0;
+pub(super) const GAP: f32 = 2.0;
 /// Height of a number beside the colour bar, points.
 const BAR_LINE: f32 = 10.0;
 /// Width of the colour bar with its numbers, points.
@@ -26,7 +27,7 @@ const BAR: f32 = 48.0;
 /// Space between the two heatmaps, points.
 const BETWEEN: f32 = 16.0;
 /// A cell narrower than this has no room for a number, points.
-const NUMBER_WIDTH: f32 = 20.0;
+pub(super) const NUMBER_WIDTH: f32 = 20.0;
 
 /// How the heatmaps are drawn.
 #[derive(Debug, Clone, Copy)]
@@ -37,23 +38,25 @@ pub(crate) struct HeatmapStyle {
     pub(crate) scale: AmplitudeScale,
     /// Whether numbers are written into the cells.
     pub(crate) has_numbers: bool,
+    /// Whether cells below the threshold of detection are hollow and grey.
+    pub(crate) greys_below: bool,
     /// The contactor that is looked at closer.
     pub(crate) selected: usize,
 }
 
 /// Where the cells of both bands are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Places {
+pub(super) struct Places {
     /// The upper left corner of either heatmap.
-    corners: [Pos2; 2],
+    pub(super) corners: [Pos2; 2],
     /// Width and height of a cell with its gap.
-    cell: egui::Vec2,
+    pub(super) cell: egui::Vec2,
     n_columns: usize,
 }
 
 impl Places {
     /// As large as fits, in the middle of `rect`; cells are at most half as wide again as high.
-    fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
+    pub(super) fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
         let height = ((rect.height() - TITLE) / n_rows.max(1) as f32).max(2.0);
         let room = (rect.width() - BAR - BETWEEN) / 2.0;
         let width = (room / n_columns.max(1) as f32).clamp(2.0, 1.9 * height);
@@ -70,14 +73,14 @@ impl Places {
         }
     }
 
-    fn cell(&self, band: usize, index: usize) -> Rect {
+    pub(super) fn cell(&self, band: usize, index: usize) -> Rect {
         let (row, column) = (index / self.n_columns, index % self.n_columns);
         let corner = self.corners[band] + vec2(column as f32, row as f32) * self.cell;
         Rect::from_min_size(corner, self.cell - vec2(GAP, GAP))
     }
 
     /// The contactor and band whose cell is at a place.
-    fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
+    pub(super) fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
         let cells = (0..2).flat_map(|band| (0..n_contactors).map(move |index| (band, index)));
         cells
             .into_iter()
@@ -101,7 +104,12 @@ pub(crate) fn show(
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     response.widget_info(|| {
         let [least, most] = [style.scale.least_um(), style.scale.most_um()];
-        let words = format!("Heatmaps of both bands, {least} to {most} µm");
+        let below = if style.greys_below {
+            below_words(live)
+        } else {
+            String::new()
+        };
+        let words = format!("Heatmaps of both bands, {least} to {most} µm{below}");
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
     let places = Places::new(rect, grid);
@@ -113,7 +121,10 @@ pub(crate) fn show(
         let ink = palette.band(band);
         painter.text(title_at, Align2::LEFT_CENTER, title, theme::body(), ink);
         for (index, dot) in live.dots.iter().enumerate() {
-            paint_cell(&painter, places.cell(band.index(), index), dot, band, style);
+            let rect = places.cell(band.index(), index);
+            let is_below = live.sensation.is_below(dot.amplitude_um)[band.index()];
+            let is_grey = style.greys_below && is_below;
+            paint_cell(&painter, rect, (dot, band), is_grey, style);
         }
     }
     for band in 0..2 {
@@ -133,13 +144,17 @@ pub(crate) fn show(
 /// What stands over the heatmaps: numbers, the scale's lock and its top.
 pub(crate) fn show_corner(
     ui: &mut Ui,
-    scale: AmplitudeScale,
-    has_numbers: bool,
+    style: HeatmapStyle,
     audition: &Audition,
     wishes: &mut Wishes,
 ) {
-    if toggle(ui, "123", has_numbers, "Numbers in the cells (N)") {
+    let scale = style.scale;
+    if toggle(ui, "123", style.has_numbers, "Numbers in the cells (N)") {
         wishes.push(ShowCommand::ToggleNumbers.into());
+    }
+    let tip = "Hollow and grey what is below the threshold of detection, by a model";
+    if toggle(ui, "SL", style.greys_below, tip) {
+        wishes.push(ShowCommand::ToggleThreshold.into());
     }
     let (word, tip) = if scale.is_locked() {
         (
@@ -177,7 +192,24 @@ pub(crate) fn show_corner(
     }
 }
 
-fn paint_cell(painter: &Painter, rect: Rect, dot: &Dot, band: Band, style: HeatmapStyle) {
+/// How many contactors on cloth are too weak to be felt in each band.
+fn below_words(live: &Live) -> String {
+    let on_cloth = || live.dots.iter().filter(|dot| dot.cloth.is_some());
+    let [low, high] = Band::ALL.map(|band| {
+        let is_below = |dot: &&Dot| live.sensation.is_below(dot.amplitude_um)[band.index()];
+        on_cloth().filter(is_below).count()
+    });
+    let n = on_cloth().count();
+    format!(", of {n} on cloth {low} at 40 Hz and {high} at 320 Hz below threshold, by a model")
+}
+
+fn paint_cell(
+    painter: &Painter,
+    rect: Rect,
+    (dot, band): (&Dot, Band),
+    is_grey: bool,
+    style: HeatmapStyle,
+) {
     let palette = Palette::of(painter.ctx().theme());
     if dot.cloth.is_none() || dot.is_muted {
         // Off every textile: an empty frame, which no amplitude looks like. Muted: crossed out.
@@ -191,7 +223,14 @@ fn paint_cell(painter: &Painter, rect: Rect, dot: &Dot, band: Band, style: Heatm
     }
     let amplitude_um = dot.amplitude_um[band.index()];
     let share = style.scale.share(amplitude_um);
-    painter.rect_filled(rect, 2, style.map.colour(share));
+    if is_grey {
+        // Hollow: the colour of its level is left at the edge.
+        painter.rect_filled(rect, 2, palette.raised);
+        let edge = Stroke::new(1.5, style.map.colour(share));
+        painter.rect_stroke(rect, 2, edge, StrokeKind::Inside);
+    } else {
+        painter.rect_filled(rect, 2, style.map.colour(share));
+    }
     if dot.is_limited {
         let corner = rect.right_top() + vec2(-5.0, 5.0);
         let rim = Stroke::new(1.5, palette.panel);
@@ -201,7 +240,11 @@ fn paint_cell(painter: &Painter, rect: Rect, dot: &Dot, band: Band, style: Heatm
         // Three signs fit into the narrowest cell that holds numbers.
         let decimals = usize::from(amplitude_um < 9.95);
         let digits = quantity::fixed(amplitude_um, decimals);
-        let ink = style.map.ink(share);
+        let ink = if is_grey {
+            palette.dim
+        } else {
+            style.map.ink(share)
+        };
         let font = theme::small_number();
         painter.text(rect.center(), Align2::CENTER_CENTER, digits, font, ink);
     }
@@ -236,7 +279,7 @@ fn answer(
         return;
     };
     if response.hovered() && !response.context_menu_opened() {
-        let words = words(index, dot, scene);
+        let words = words(index, dot, scene, &live.sensation);
         response.clone().on_hover_ui_at_pointer(|ui| {
             ui.label(words);
         });
@@ -265,12 +308,12 @@ fn show_menu(ui: &mut Ui, index: usize, live: &Live, wishes: &mut Wishes) {
     }
 }
 
-fn words(index: usize, dot: &Dot, scene: &SceneView) -> String {
+fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> String {
     let on = match dot.cloth.and_then(|cloth| scene.cloths.get(cloth)) {
         Some(cloth) => format!("on {} {}", cloth.label, cloth.name),
         None => "off every textile".to_owned(),
     };
-    let [low, high] = dot.amplitude_um.map(|um| quantity::with_unit(um, 2, "µm"));
+    let bands = sensation.band_lines(dot.amplitude_um);
     let limited = if dot.is_limited {
         "\nan output limit bites"
     } else {
@@ -278,14 +321,15 @@ fn words(index: usize, dot: &Dot, scene: &SceneView) -> String {
     };
     let muted = if dot.is_muted { "\nmuted" } else { "" };
     format!(
-        "Contactor {index}, {on}\n40 Hz  {low}\n320 Hz  {high}\npeak, after gains, before output \
+        "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \
          limits{limited}{muted}\nclick to look closer"
     )
 }
 
 fn paint_bar(painter: &Painter, bar: Rect, style: HeatmapStyle) {
     let palette = Palette::of(painter.ctx().theme());
-    crate::app::widgets::colour_bar(painter, bar, style.map);
+    let colour = |share| style.map.colour(share);
+    crate::app::widgets::colour_bar(painter, bar, colour);
     let mut taken: Vec<f32> = Vec::new();
     let mut marks: Vec<f64> = style.scale.marks_um().into_iter().collect();
     // The ends of the scale are written before what lies between.

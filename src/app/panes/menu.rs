@@ -24,6 +24,8 @@ pub(crate) struct Appearance {
     pub(crate) zoom: f32,
     /// How contactors are drawn.
     pub(crate) dots: DotStyle,
+    /// Whether what is below the threshold of detection is greyed.
+    pub(crate) greys_below: bool,
     /// The panes with whether each is in sight.
     pub(crate) panes: Vec<(Pane, bool)>,
     /// The scenes that were opened or saved last, newest first.
@@ -108,6 +110,9 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut 
         ui.menu_button("Contactors", |ui| {
             show_dot_styles(ui, appearance.dots, wishes);
         });
+        let command = ShowCommand::ToggleThreshold;
+        let label = "Grey below threshold (a model)";
+        choice(ui, label, appearance.greys_below, command, wishes);
         ui.separator();
         let calibrate = ShowCommand::Calibrate;
         entry(

@@ -5,6 +5,7 @@
 
 mod ask;
 mod bridge;
+mod compare;
 mod contact_spectrum;
 mod curve;
 mod drive_spectrum;
@@ -24,6 +25,7 @@ mod why;
 
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
+pub(crate) use compare::{CompareView, show as show_compare, show_corner as show_compare_corner};
 pub(crate) use contact_spectrum::{
     ContactSpectrogram, ContactSpectrumView, show as show_contact_spectrum,
 };

@@ -5,11 +5,12 @@ use eframe::egui::{ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 use super::{Wishes, curve};
 use crate::app::audition::Audition;
 use crate::app::command::{Edit, Part, ShowCommand};
+use crate::app::sensation::{SOURCE, above_words, felt_words, noticed_db, of_textile};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
 use crate::app::widgets::{Scale, row, slider_row, tip_beside, toggle};
 use crate::quantity;
-use crate::tactile::{Band, Filters, Tuning};
+use crate::tactile::{Band, Filters, Perception, Tuning};
 
 /// What every slider can do.
 const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on the number types";
@@ -26,14 +27,20 @@ pub(crate) fn show(
 ) {
     let palette = Palette::in_ui(ui);
     let (now, rest) = (scene.tuning, scene.default_tuning);
-    let scale = Scale::gain(rest.gain_db);
+    let under = live.cloth_under_display();
+    let felt = under.and_then(|cloth| of_textile(scene, cloth, live.dots.len()));
+    let marked = last_felt(ui, felt);
+    let noticed = marked.and_then(|felt| noticed_db(&felt, None));
+    let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
     let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
-    tip_beside(ui, &response, SLIDER_TIP);
+    tip_beside(ui, &response, slider_tip(noticed));
     wishes.extend(new.map(|db| Edit::MasterGain(db).into()));
     for band in Band::ALL {
-        show_band(ui, band, scene, audition, wishes);
+        let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
+        show_band(ui, band, noticed, (scene, audition), wishes);
     }
-    show_textile(ui, scene, live, wishes);
+    show_textile(ui, scene, (under, noticed), wishes);
+    show_felt(ui, felt.as_ref());
     let scale = Scale::share(rest.compression);
     let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
     let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
@@ -54,10 +61,16 @@ fn own_gain_db(tuning: &Tuning, band: Band) -> f64 {
 }
 
 /// A band's gain, with its mute and solo.
-fn show_band(ui: &mut Ui, band: Band, scene: &SceneView, audition: &Audition, wishes: &mut Wishes) {
+fn show_band(
+    ui: &mut Ui,
+    band: Band,
+    noticed: Option<f64>,
+    (scene, audition): (&SceneView, &Audition),
+    wishes: &mut Wishes,
+) {
     let palette = Palette::in_ui(ui);
     let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-    let scale = Scale::gain(own_gain_db(&scene.default_tuning, band));
+    let scale = Scale::gain(own_gain_db(&scene.default_tuning, band)).with_noticed(noticed);
     let ink = palette.band(band);
     let value = own_gain_db(&scene.tuning, band);
     let (new, response) = slider_row(ui, &name, ink, scale, value);
@@ -81,13 +94,76 @@ fn show_band(ui: &mut Ui, band: Band, scene: &SceneView, audition: &Audition, wi
             wishes.push(command.into());
         }
     }
-    tip_beside(ui, &response, SLIDER_TIP);
+    tip_beside(ui, &response, slider_tip(noticed));
+}
+
+/// How the textile felt that is under the display or was last, so that marks do not come and go
+/// while the display moves over gaps.
+fn last_felt(ui: &Ui, felt: Option<Perception>) -> Option<Perception> {
+    let id = ui.scope_id().with("last felt");
+    let Some(felt) = felt else {
+        return ui.data(|data| data.get_temp(id));
+    };
+    ui.data_mut(|data| data.insert_temp(id, felt));
+    Some(felt)
+}
+
+/// What a gain's slider can do, and what its marks are.
+fn slider_tip(noticed_db: Option<f64>) -> String {
+    noticed_db.map_or_else(
+        || SLIDER_TIP.to_owned(),
+        |noticed_db| {
+            let change = quantity::with_unit(noticed_db, 1, "dB");
+            format!("{SLIDER_TIP}\nMarks: ±1, 2 … just noticeable differences of {change}, a model")
+        },
+    )
+}
+
+/// How the textile under the display feels on average; without one the row keeps its place.
+fn show_felt(ui: &mut Ui, felt: Option<&Perception>) {
+    let palette = Palette::in_ui(ui);
+    let small = |words: &str| RichText::new(words).font(theme::small()).color(palette.dim);
+    let response = row(ui, "Felt (model)", |ui| {
+        ui.spacing_mut().item_spacing.x = theme::STEP;
+        let Some(felt) = felt else {
+            ui.label(small("no textile with a level"));
+            return;
+        };
+        let balance = felt.balance().map_or_else(
+            || "–".to_owned(),
+            |balance| quantity::fixed(balance * 100.0, 0),
+        );
+        let number = |words: String| RichText::new(words).font(theme::number());
+        ui.label(small("%"));
+        ui.label(number(format!("{balance:>3}")));
+        let intensity = quantity::fixed(felt.intensity(), 1);
+        ui.label(number(format!("{intensity:>4}")));
+        ui.label(small("int."));
+        ui.label(small("dB SL"));
+        for band in [Band::High, Band::Low] {
+            let above_db = quantity::fixed(felt.sensation_db[band.index()], 1);
+            let words = number(format!("{above_db:>5}"));
+            ui.label(words.color(palette.band(band)));
+        }
+    });
+    let words = felt.map_or_else(String::new, |felt| {
+        let [low, high] = felt.sensation_db.map(above_words);
+        format!("40 Hz  {low}\n320 Hz  {high}\n{}\n", felt_words(felt))
+    });
+    response.on_hover_text(format!(
+        "The textile under the display, on average at 100 mm/s with these gains: levels above \
+         threshold, intensity, share of the 320 Hz channel\n{words}{SOURCE}"
+    ));
 }
 
 /// The gain of the textile under the display; without one the row keeps its place.
-fn show_textile(ui: &mut Ui, scene: &SceneView, live: &Live, wishes: &mut Wishes) {
+fn show_textile(
+    ui: &mut Ui,
+    scene: &SceneView,
+    (under, noticed): (Option<usize>, Option<f64>),
+    wishes: &mut Wishes,
+) {
     let palette = Palette::in_ui(ui);
-    let under = live.cloth_under_display();
     let Some((index, cloth)) = under.and_then(|i| scene.cloths.get(i).map(|cloth| (i, cloth)))
     else {
         row(ui, "Textile", |ui| {
@@ -97,13 +173,13 @@ fn show_textile(ui: &mut Ui, scene: &SceneView, live: &Live, wishes: &mut Wishes
         return;
     };
     let name = format!("Textile {}", cloth.label);
-    let scale = Scale::gain(0.0);
+    let scale = Scale::gain(0.0).with_noticed(noticed);
     let name = name.trim_end();
     let (new, response) = slider_row(ui, name, palette.text, scale, cloth.gain_db);
     tip_beside(
         ui,
         &response,
-        format!("Gain of {}\n{SLIDER_TIP}", cloth.name),
+        format!("Gain of {}\n{}", cloth.name, slider_tip(noticed)),
     );
     wishes.extend(new.map(|db| Edit::TextileGain(index, db).into()));
 }
@@ -169,6 +245,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
         decimals: 1,
         unit: "oct",
         factor: 1.0,
+        noticed: None,
     };
     ui.add_enabled_ui(is_gaussian, |ui| {
         let ink = Palette::in_ui(ui).text;

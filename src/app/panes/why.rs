@@ -7,6 +7,7 @@ use eframe::egui::{
 
 use super::Wishes;
 use crate::app::command::{FileCommand, Purpose, ShowCommand};
+use crate::app::sensation::SOURCE;
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::why::{Why, lines};
 use crate::app::widgets::{Axis, Side, Tick, paint_ticks, toggle};
@@ -115,8 +116,12 @@ fn show_line(ui: &mut Ui, name: &str, value: &str) {
             ui.label(name);
         });
         let value = RichText::new(value).font(theme::small_number());
+        let is_model = value.text().ends_with("(model)");
         let label = egui::Label::new(value.color(palette.text)).truncate();
-        ui.add(label.selectable(true));
+        let response = ui.add(label.selectable(true));
+        if is_model {
+            response.on_hover_text(SOURCE);
+        }
     });
 }
 

@@ -32,6 +32,8 @@ pub(crate) struct Kept {
     pub(crate) dots: DotStyle,
     /// Whether heatmaps show numbers.
     pub(crate) has_numbers: bool,
+    /// Whether what is below the threshold of detection is greyed.
+    pub(crate) greys_below: bool,
     /// The scale of amplitudes.
     pub(crate) amplitude: AmplitudeScale,
     /// Pixels per millimetre of the screen, once it was calibrated.
@@ -52,6 +54,7 @@ impl Default for Kept {
             zoom: ZOOM[0],
             dots: DotStyle::default(),
             has_numbers: false,
+            greys_below: true,
             amplitude: AmplitudeScale::default(),
             pixels_per_mm: None,
             arrangement: None,

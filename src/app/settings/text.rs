@@ -34,6 +34,7 @@ struct Keys {
     colour_map: Value<String>,
     dots: Value<String>,
     numbers: Value<bool>,
+    grey_below_threshold: Value<bool>,
     amplitude_top_um: Value<f64>,
     amplitude_locked: Value<bool>,
     #[serde(skip_serializing_if = "Value::is_missing")]
@@ -109,6 +110,8 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         zoom: zoom_percent.map_or(first.zoom, |percent| percent / 100.0),
         dots: dots.ok().flatten().unwrap_or(first.dots),
         has_numbers: taken("numbers", keys.numbers, odd).unwrap_or(first.has_numbers),
+        greys_below: taken("grey_below_threshold", keys.grey_below_threshold, odd)
+            .unwrap_or(first.greys_below),
         amplitude: scale.with_lock(is_locked.unwrap_or_else(|| scale.is_locked())),
         pixels_per_mm: taken("pixels_per_mm", keys.pixels_per_mm, odd),
         arrangement: taken("arrangement", keys.arrangement, odd),
@@ -157,6 +160,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         colour_map: word(&kept.colour_map, &colour_maps()).into(),
         dots: word(&kept.dots, &DOTS).into(),
         numbers: Value::Known(kept.has_numbers),
+        grey_below_threshold: Value::Known(kept.greys_below),
         amplitude_top_um: Value::Known(kept.amplitude.most_um()),
         amplitude_locked: Value::Known(kept.amplitude.is_locked()),
         pixels_per_mm: kept.pixels_per_mm.into(),
@@ -184,6 +188,7 @@ mod tests {
             zoom: 1.5,
             dots: DotStyle::Brightness,
             has_numbers: true,
+            greys_below: false,
             amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
             pixels_per_mm: Some(3.78),
             arrangement: Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),

@@ -3,6 +3,7 @@
 
 use crate::quantity;
 use crate::scene::{ExplorationPath, Pose};
+use crate::tactile::vibrating_mean_um;
 
 /// Entries in a strip. An exploration with more ticks (seven hours) has several in each.
 const MOST_ENTRIES: u64 = 1 << 20;
@@ -159,16 +160,11 @@ fn speed(pose: Pose) -> f32 {
 /// Mean over the contactors that vibrate in either band, µm; 0 when none does. A recording does
 /// not say which contactors lie on a textile; those that vibrate do.
 fn mean_um(amplitudes_um: &[[f32; 2]]) -> [f32; 2] {
-    let vibrates = |um: &&[f32; 2]| um.iter().any(|um| *um > 0.0);
-    let (mut n, mut sum_um) = (0.0_f32, [0.0_f32; 2]);
-    for um in amplitudes_um.iter().filter(vibrates) {
-        n += 1.0;
-        sum_um = [sum_um[0] + um[0], sum_um[1] + um[1]];
-    }
-    sum_um.map(|sum| {
-        let mean = sum / n.max(1.0);
-        if mean.is_finite() { mean } else { 0.0 }
-    })
+    let amplitudes_um = amplitudes_um.iter().map(|um| um.map(f64::from));
+    let (_, mean_um) = vibrating_mean_um(amplitudes_um);
+    #[expect(clippy::cast_possible_truncation, reason = "a mean, for the screen")]
+    let single = mean_um.map(|um| um as f32);
+    single
 }
 
 #[cfg(test)]

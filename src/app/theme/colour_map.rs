@@ -1,4 +1,5 @@
-//! Colours for numbers: viridis, cividis and grey, all of rising lightness.
+//! Colours for numbers: viridis, cividis and grey, all of rising lightness; and one with two arms
+//! for differences.
 //!
 //! Each map is a short table of evenly spaced sRGB colours, mixed linearly in between. Smith and
 //! van der Walt 2015 (viridis); Nuñez, Anderton and Renslow 2018 (cividis, for any colour vision).
@@ -50,13 +51,7 @@ impl ColourMap {
 
     /// The colour of writing on that of a share 0…1 of the scale: black on bright, white on dark.
     pub(crate) fn ink(self, share: f64) -> Color32 {
-        let [r, g, b, _] = self.colour(share).to_array().map(f64::from);
-        // Lightness as the eye weighs it, roughly.
-        if 0.3 * r + 0.6 * g + 0.1 * b > 115.0 {
-            Color32::BLACK
-        } else {
-            Color32::WHITE
-        }
+        ink_on(self.colour(share))
     }
 
     /// Its name.
@@ -84,6 +79,58 @@ impl ColourMap {
         let (from, to) = (channels(table[below]), channels(table[below + 1]));
         let [r, g, b] = std::array::from_fn(|i| mixed(from[i], to[i], mix));
         Color32::from_rgb(r, g, b)
+    }
+}
+
+/// Colours of differences: from violet through the ground of the theme to yellow. Both arms get
+/// farther from the ground alike, so that no difference is the calmest colour and the strongest
+/// stand out; violet and yellow are told apart by every colour vision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Diverging {
+    below: u32,
+    none: u32,
+    above: u32,
+}
+
+impl Diverging {
+    pub(super) const DARK: Self = Self {
+        below: 0x00c0_b0ff,
+        none: 0x0026_2b32,
+        above: 0x00d9_c229,
+    };
+    pub(super) const LIGHT: Self = Self {
+        below: 0x0051_2fb8,
+        none: 0x00ee_eff1,
+        above: 0x0061_4a00,
+    };
+
+    /// The colour of a share −1…1 of the scale; outside it the nearest end, for NaN the middle.
+    pub(crate) fn colour(self, share: f64) -> Color32 {
+        let share = if share.is_nan() {
+            0.0
+        } else {
+            share.clamp(-1.0, 1.0)
+        };
+        let end = if share < 0.0 { self.below } else { self.above };
+        let (from, to) = (channels(self.none), channels(end));
+        let [r, g, b] = std::array::from_fn(|i| mixed(from[i], to[i], share.abs()));
+        Color32::from_rgb(r, g, b)
+    }
+
+    /// The colour of writing on that of a share.
+    pub(crate) fn ink(self, share: f64) -> Color32 {
+        ink_on(self.colour(share))
+    }
+}
+
+/// Black on bright, white on dark.
+fn ink_on(ground: Color32) -> Color32 {
+    let [r, g, b, _] = ground.to_array().map(f64::from);
+    // Lightness as the eye weighs it, roughly.
+    if 0.3 * r + 0.6 * g + 0.1 * b > 115.0 {
+        Color32::BLACK
+    } else {
+        Color32::WHITE
     }
 }
 

@@ -7,7 +7,7 @@
 mod colour_map;
 mod style;
 
-pub(crate) use colour_map::ColourMap;
+pub(crate) use colour_map::{ColourMap, Diverging};
 pub(crate) use style::install;
 
 use eframe::egui::{self, Color32, FontId};
@@ -48,6 +48,8 @@ pub(crate) struct Palette {
     pub(crate) contactor: Color32,
     /// Contactors on cloth, which may be bright or dark: bright green with a rim of `rim`.
     pub(crate) lit: Color32,
+    /// Contactors on cloth that are not felt: grey, with the same rim.
+    pub(crate) faint: Color32,
     /// The rim around what is lit.
     pub(crate) rim: Color32,
     /// Armed, fault, all off.
@@ -76,6 +78,7 @@ const DARK: Palette = Palette {
     high: Color32::from_rgb(0x45, 0xcb, 0xe6),
     contactor: Color32::from_rgb(0x52, 0xe8, 0x8c),
     lit: Color32::from_rgb(0x52, 0xe8, 0x8c),
+    faint: Color32::from_rgb(0xc3, 0xc9, 0xd0),
     rim: Color32::from_rgba_premultiplied(0, 0, 0, 160),
     danger: Color32::from_rgb(0xe5, 0x48, 0x3f),
     on_danger: Color32::from_rgb(0x0b, 0x04, 0x04),
@@ -98,6 +101,7 @@ const LIGHT: Palette = Palette {
     high: Color32::from_rgb(0x00, 0x75, 0x90),
     contactor: Color32::from_rgb(0x00, 0x7f, 0x3c),
     lit: Color32::from_rgb(0x52, 0xe8, 0x8c),
+    faint: Color32::from_rgb(0xc3, 0xc9, 0xd0),
     rim: Color32::from_rgba_premultiplied(0, 0, 0, 160),
     danger: Color32::from_rgb(0xc4, 0x28, 0x20),
     on_danger: Color32::from_rgb(0xff, 0xff, 0xff),
@@ -127,6 +131,15 @@ impl Palette {
         } else {
             egui::Theme::Light
         })
+    }
+
+    /// The colours of differences, whose middle is this theme's ground.
+    pub(crate) fn differences(&self) -> Diverging {
+        if self == &DARK {
+            Diverging::DARK
+        } else {
+            Diverging::LIGHT
+        }
     }
 
     /// The colour of a band.

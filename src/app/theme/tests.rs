@@ -83,11 +83,9 @@ fn lit_contactors_stand_out_from_their_rim_on_any_cloth() {
         for cloth in [0_u8, 64, 128, 192, 255] {
             let dimmed = u16::from(cloth) * u16::from(255 - palette.rim.a()) / 255;
             let rim = Color32::from_gray(u8::try_from(dimmed).unwrap());
-            assert!(
-                contrast(palette.lit, rim) >= 3.0,
-                "{}",
-                contrast(palette.lit, rim)
-            );
+            for ink in [palette.lit, palette.faint] {
+                assert!(contrast(ink, rim) >= 3.0, "{}", contrast(ink, rim));
+            }
         }
     }
 }
@@ -106,6 +104,54 @@ fn every_colour_map_only_gets_lighter() {
             lightness[200] > lightness[0] + 0.5,
             "{map:?} spans dark to bright"
         );
+    }
+}
+
+/// A colour as eyes without red (0), green (1) or blue (2) cones see it, linear: Machado, Oliveira
+/// and Fernandes (2009) at full severity.
+fn seen_without(cone: usize, colour: Color32) -> [f64; 3] {
+    const SEEN: [[[f64; 3]; 3]; 3] = [
+        [
+            [0.152_286, 1.052_583, -0.204_868],
+            [0.114_503, 0.786_281, 0.099_216],
+            [-0.003_882, -0.048_116, 1.051_998],
+        ],
+        [
+            [0.367_322, 0.860_646, -0.227_968],
+            [0.280_085, 0.672_501, 0.047_413],
+            [-0.011_820, 0.042_940, 0.968_881],
+        ],
+        [
+            [1.255_528, -0.076_749, -0.178_779],
+            [-0.078_411, 0.930_809, 0.147_602],
+            [0.004_733, 0.691_367, 0.303_900],
+        ],
+    ];
+    let [r, g, b, _] = colour.to_array().map(|c| (f64::from(c) / 255.0).powf(2.2));
+    SEEN[cone].map(|[x, y, z]| x * r + y * g + z * b)
+}
+
+#[test]
+fn differences_leave_zero_alike_and_are_told_apart_by_every_colour_vision() {
+    for palette in both() {
+        let map = palette.differences();
+        let away = |share: f64| contrast(map.colour(share), map.colour(0.0));
+        for sign in [-1.0, 1.0] {
+            let arm: Vec<f64> = (0..=20).map(|i| away(sign * f64::from(i) / 20.0)).collect();
+            assert!(arm.windows(2).all(|pair| pair[1] >= pair[0]), "{arm:?}");
+        }
+        let [below, above] = [away(-1.0), away(1.0)];
+        assert!(below >= 5.0 && above >= 5.0, "{below} {above}");
+        assert!((below / above).ln().abs() < 0.2, "{below} {above}");
+        for cone in 0..3 {
+            for share in [0.3, 0.6, 1.0] {
+                let [one, other] = [-share, share].map(|s| seen_without(cone, map.colour(s)));
+                let apart: f64 = (0..3).map(|i| (one[i] - other[i]).abs()).sum();
+                assert!(apart > 0.05, "{share} without cone {cone}: {apart}");
+            }
+        }
+        assert_eq!(map.colour(f64::NAN), map.colour(0.0));
+        assert_eq!(map.colour(7.0), map.colour(1.0));
     }
 }
 

@@ -11,6 +11,7 @@ mod text;
 pub(crate) use text::{lines, to_csv, to_text};
 
 use super::command::Part;
+use super::sensation::Sensation;
 use super::view::Source;
 use super::window::Workbench;
 use crate::bridge::{ArrayProfile, Bite, Coder};
@@ -34,6 +35,8 @@ pub(crate) struct Why {
     pub(crate) textile: Option<String>,
     /// Whether the contactor is left out for the moment.
     pub(crate) is_muted: bool,
+    /// What the whole display feels like, by a model.
+    pub(crate) sensation: Sensation,
     /// What becomes of the amplitudes at the output.
     pub(crate) output: Output,
 }
@@ -165,6 +168,7 @@ impl Workbench {
             trace,
             textile,
             is_muted,
+            sensation: live.sensation,
             output,
         })
     }

@@ -1,6 +1,7 @@
 //! The explanation as text to be copied, and as a table to be saved.
 
 use super::{FULL_CODE, Why};
+use crate::app::sensation::felt_words;
 use crate::quantity::{fixed, with_unit};
 use crate::render::GainTerms;
 use crate::render::array::DirectionTrace;
@@ -49,9 +50,25 @@ pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
     lines.push(("= gain".to_owned(), both(totals, 2, "dB")));
     let amplitudes = both(why.trace.amplitudes_um, 3, "µm");
     lines.push(("Amplitudes".to_owned(), amplitudes));
+    lines.extend(felt(why));
     lines.push(("Limits".to_owned(), limits(why)));
     lines.push(("Drive codes".to_owned(), codes(why)));
     lines
+}
+
+/// What it feels like, by the model: this contactor's levels above threshold, and the display.
+fn felt(why: &Why) -> [(String, String); 2] {
+    let above = why.sensation.above_db(why.trace.amplitudes_um);
+    let [low, high] = above.map(|above_db| {
+        if above_db.is_finite() {
+            fixed(above_db, 1)
+        } else {
+            "silent".to_owned()
+        }
+    });
+    let above = format!("{low} / {high} dB SL (model)");
+    let display = format!("{} (model)", felt_words(&why.sensation.whole));
+    [("Sensation", above), ("Display feels", display)].map(|(name, value)| (name.to_owned(), value))
 }
 
 fn place(why: &Why) -> String {
@@ -141,6 +158,14 @@ pub(crate) fn to_csv(why: &Why) -> String {
     }
     let amplitudes = why.trace.amplitudes_um;
     row("amplitude", "", String::new(), amplitudes, "um");
+    let above_db = why.sensation.above_db(amplitudes);
+    row(
+        "sensation level by model",
+        "",
+        String::new(),
+        above_db,
+        "dB",
+    );
     row("limit", "", String::new(), why.output.limit_um, "um");
     row(
         "soft-start gain",

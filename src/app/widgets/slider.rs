@@ -17,6 +17,8 @@ const NAME: f32 = 92.0;
 const NUMBER: f32 = 70.0;
 /// Within this distance the thumb snaps to zero, points.
 const SNAP: f32 = 4.0;
+/// Marks of just noticeable differences on either side.
+const MOST_MARKS: u8 = 8;
 /// How much finer Shift moves.
 const FINE: f64 = 0.1;
 
@@ -37,6 +39,8 @@ pub(crate) struct Scale {
     pub(crate) unit: &'static str,
     /// Shown values are stored values times this (100 for %).
     pub(crate) factor: f64,
+    /// The change that is just noticed, if it is known: marked while the slider is held or hovered.
+    pub(crate) noticed: Option<f64>,
 }
 
 impl Scale {
@@ -51,7 +55,13 @@ impl Scale {
             decimals: 1,
             unit: "dB",
             factor: 1.0,
+            noticed: None,
         }
+    }
+
+    /// The same with the change that is just noticed.
+    pub(crate) fn with_noticed(self, noticed: Option<f64>) -> Self {
+        Self { noticed, ..self }
     }
 
     /// Shares from 0 to 100 %.
@@ -64,6 +74,7 @@ impl Scale {
             decimals: 0,
             unit: "%",
             factor: 100.0,
+            noticed: None,
         }
     }
 
@@ -118,8 +129,12 @@ pub(crate) fn slider_row(
     let id = ui.scope_id().with(("slider", name));
     let response = ui.interact(rail, id, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), value * scale.factor, name));
-    declare(ui, id, &scale);
+    let gesture = gesture(ui, &response, &scale, value);
+    declare(ui, id, &scale, gesture);
     let slid = slid(ui, &response, rail, &scale, value);
+    if let Some((began_at, noticed)) = gesture {
+        paint_marks(ui, rail, &scale, &marks(&scale, began_at, noticed));
+    }
     paint_rail(ui, &response, rail, &scale, slid.unwrap_or(value), ink);
     let number = Rect::from_min_max(pos2(row.right() - NUMBER, row.top()), row.max);
     let typed = number_field(
@@ -201,8 +216,59 @@ fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
     .filter(|value| value.is_finite())
 }
 
-fn declare(ui: &Ui, id: Id, scale: &Scale) {
+/// Where the gesture under way began, and what change was just noticed there; while the pointer
+/// only rests on the rail, where a gesture would begin.
+fn gesture(ui: &Ui, response: &Response, scale: &Scale, value: f64) -> Option<(f64, f64)> {
+    let id = response.id.with("gesture");
+    let is_held = response.is_pointer_button_down_on() || response.dragged();
+    if !is_held {
+        ui.data_mut(|data| data.remove::<(f64, f64)>(id));
+        let is_rested_on = response.hovered();
+        return scale.noticed.filter(|_| is_rested_on).map(|n| (value, n));
+    }
+    let began: Option<(f64, f64)> = ui.data(|data| data.get_temp(id));
+    let began = began.or_else(|| Some((value, scale.noticed?)))?;
+    ui.data_mut(|data| data.insert_temp(id, began));
+    Some(began)
+}
+
+/// The values that are 1, 2, 3 … just noticeable differences away from `began_at`, on the scale.
+fn marks(scale: &Scale, began_at: f64, noticed: f64) -> Vec<f64> {
+    if !(noticed > 0.0 && noticed.is_finite()) {
+        return Vec::new();
+    }
+    let steps = (1..=MOST_MARKS).flat_map(|n| [-1.0, 1.0].map(|sign| sign * f64::from(n)));
+    let values = steps.map(|n| began_at + n * noticed);
+    let is_on_it = |value: &f64| (scale.least..=scale.most).contains(value);
+    values.filter(is_on_it).collect()
+}
+
+/// Paints marks under the rail.
+fn paint_marks(ui: &Ui, rail: Rect, scale: &Scale, marks: &[f64]) {
+    let painter = ui.painter();
+    let stroke = Stroke::new(1.0, Palette::in_ui(ui).dim);
+    for &value in marks {
+        let x = painter.round_to_pixel_center(x_of(rail, scale, value));
+        painter.vline(x, (rail.bottom() - 5.0)..=(rail.bottom() - 1.0), stroke);
+    }
+}
+
+fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
+    let noticed = |change: f64| {
+        let change = quantity::with_unit(change * scale.factor, scale.decimals, scale.unit);
+        format!("Just noticeable difference {change}, by a model")
+    };
+    let words = match gesture {
+        Some((began_at, change)) => {
+            let from = quantity::with_unit(began_at * scale.factor, scale.decimals, scale.unit);
+            Some(format!("{}, marked around {from}", noticed(change)))
+        }
+        None => scale.noticed.map(noticed),
+    };
     ui.ctx().accesskit_node_builder(id, |node| {
+        if let Some(words) = words {
+            node.set_description(words);
+        }
         node.set_min_numeric_value(scale.least * scale.factor);
         node.set_max_numeric_value(scale.most * scale.factor);
         node.set_numeric_value_step(scale.step * scale.factor);
@@ -321,6 +387,16 @@ mod tests {
         assert_eq!(gain.stepped(-3.049), -3.0);
         assert_eq!(gain.stepped(0.299_999), 0.3);
         assert_eq!(Scale::share(0.0).stepped(0.348_7), 0.35);
+    }
+
+    #[test]
+    fn marks_stand_at_whole_just_noticeable_differences_and_on_the_rail() {
+        let gain = Scale::gain(0.0);
+        assert_eq!(marks(&gain, -26.0, 2.5)[..3], [-28.5, -23.5, -21.0]);
+        assert_eq!(marks(&gain, 0.0, 2.0).len(), 2 * usize::from(MOST_MARKS));
+        for odd in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(marks(&gain, 0.0, odd).is_empty(), "{odd}");
+        }
     }
 
     #[test]

@@ -1,15 +1,17 @@
 //! The display: its contactors as green dots at their true places, and the trail behind it.
 //!
 //! Dots show amplitudes on the scale of the heatmaps; outside every textile a contactor is a ring,
-//! and a muted one is hollow and struck through.
+//! and a muted one is hollow and struck through. What is too weak to be felt, by a model, is a grey
+//! ring.
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use super::{ViewTransform, WorkspaceState};
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::command::DotStyle;
+use crate::app::sensation::Sensation;
 use crate::app::theme::Palette;
-use crate::app::view::Dot;
+use crate::app::view::{Dot, Live};
 use crate::geometry::Point;
 
 /// How long the trail is, s.
@@ -25,13 +27,15 @@ const HALF_PITCH_MM: f64 = 1.0;
 const LEAST_SCALE: f32 = 2.4;
 
 /// Draws every contactor that is in sight.
-pub(super) fn paint(painter: &Painter, view: &ViewTransform, dots: &[Dot], state: &WorkspaceState) {
+pub(super) fn paint(painter: &Painter, view: &ViewTransform, live: &Live, state: &WorkspaceState) {
+    let dots = &live.dots;
     let brush = Brush {
         painter,
         palette: Palette::of(painter.ctx().theme()),
         points_per_mm: view.length(1.0).max(LEAST_SCALE),
         scale: state.scale,
         style: state.dot_style,
+        sensation: state.greys_below.then_some(live.sensation),
     };
     let sight = painter.clip_rect().expand(2.5 * brush.points_per_mm);
     let in_sight = |dot: &&Dot| sight.contains(view.screen(dot.position));
@@ -92,6 +96,8 @@ struct Brush<'a> {
     points_per_mm: f32,
     scale: AmplitudeScale,
     style: DotStyle,
+    /// By what to grey what is not felt, if it is greyed.
+    sensation: Option<Sensation>,
 }
 
 impl Brush<'_> {
@@ -102,7 +108,7 @@ impl Brush<'_> {
 
     fn glow(&self, at: Pos2, dot: &Dot) {
         let [_, strength] = self.strengths(dot);
-        if dot.cloth.is_none() || dot.is_muted || strength <= 0.0 {
+        if dot.cloth.is_none() || dot.is_muted || strength <= 0.0 || self.is_below(dot)[1] {
             return;
         }
         let radius = (1.0 + 1.3 * strength) * self.points_per_mm;
@@ -118,7 +124,7 @@ impl Brush<'_> {
         } else if dot.is_muted {
             self.muted(at);
         } else {
-            self.felt(at, self.strengths(dot));
+            self.felt(at, self.strengths(dot), self.is_below(dot));
         }
     }
 
@@ -133,28 +139,47 @@ impl Brush<'_> {
         }
     }
 
-    fn felt(&self, at: Pos2, [low, high]: [f32; 2]) {
-        let disc = |radius: f32, ink: Color32| {
-            self.painter
-                .circle_filled(at, radius + 0.75, self.palette.rim);
+    /// Whether each band is greyed because it is too weak to be felt.
+    fn is_below(&self, dot: &Dot) -> [bool; 2] {
+        let is_below = |s: Sensation| s.is_below(dot.amplitude_um);
+        self.sensation.map_or([false; 2], is_below)
+    }
+
+    /// Below threshold a disc is a grey ring.
+    fn disc(&self, at: Pos2, radius: f32, ink: Color32, is_below: bool) {
+        let rim = self.palette.rim;
+        self.painter.circle_filled(at, radius + 0.75, rim);
+        if is_below {
+            let ring = Stroke::new(1.25, self.palette.faint);
+            self.painter.circle_stroke(at, radius - 0.5, ring);
+        } else {
             self.painter.circle_filled(at, radius, ink);
-        };
+        }
+    }
+
+    fn felt(&self, at: Pos2, [low, high]: [f32; 2], is_below: [bool; 2]) {
+        let disc = |radius, ink, is_below| self.disc(at, radius, ink, is_below);
         let radius_of = |strength: f32| (0.26 + 0.62 * strength) * self.points_per_mm;
         match self.style {
-            DotStyle::SizeAndGlow => disc(radius_of(low), self.palette.lit),
+            DotStyle::SizeAndGlow => disc(radius_of(low), self.palette.lit, is_below[0]),
             DotStyle::Size => {
-                disc(0.8 * radius_of(low), self.palette.lit);
+                disc(0.8 * radius_of(low), self.palette.lit, is_below[0]);
                 let width = (0.1 * self.points_per_mm).max(1.0);
                 let around = 0.8 * radius_of(high) + 1.5 * width;
                 let rim = Stroke::new(width + 1.5, self.palette.rim);
                 self.painter.circle_stroke(at, around, rim);
-                let ring = Stroke::new(width, self.palette.lit);
+                let ink = if is_below[1] {
+                    self.palette.faint
+                } else {
+                    self.palette.lit
+                };
+                let ring = Stroke::new(width, ink);
                 self.painter.circle_stroke(at, around, ring);
             }
             DotStyle::Brightness => {
                 let brightness = 0.12 + 0.88 * low.max(high);
                 let ink = Color32::BLACK.lerp_to_gamma(self.palette.lit, brightness);
-                disc(0.72 * self.points_per_mm, ink);
+                disc(0.72 * self.points_per_mm, ink, is_below == [true; 2]);
             }
         }
     }

@@ -180,7 +180,7 @@ fn lifted(stage: &Stage<'_>) -> Option<usize> {
 fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, trail: &Trail) {
     display::paint_trail(painter, view, trail.aged());
     if stage.live.centre.is_some() {
-        display::paint(painter, view, &stage.live.dots, stage.state);
+        display::paint(painter, view, stage.live, stage.state);
     }
 }
 

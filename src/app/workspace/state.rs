@@ -21,6 +21,8 @@ pub(crate) struct WorkspaceState {
     pub(crate) scale: AmplitudeScale,
     /// What the dots show by what.
     pub(crate) dot_style: DotStyle,
+    /// Whether what is below the threshold of detection is greyed.
+    pub(crate) greys_below: bool,
     /// Whether the screen is being calibrated to true size.
     pub(crate) is_calibrating: bool,
     /// Physical pixels per millimetre of the screen, once it is calibrated.
@@ -47,6 +49,7 @@ impl WorkspaceState {
             ShowCommand::SelectContactor(index) => self.contactor = Some(index),
             ShowCommand::SelectCloth(index) => self.cloth = index,
             ShowCommand::DotStyle(style) => self.dot_style = style,
+            ShowCommand::ToggleThreshold => self.greys_below = !self.greys_below,
             ShowCommand::LockScale(is_locked) => self.scale = self.scale.with_lock(is_locked),
             ShowCommand::ScaleTop(most_um) => self.scale = self.scale.locked_at(most_um),
             ShowCommand::Calibrate => self.is_calibrating = true,

@@ -5,6 +5,7 @@
 use eframe::egui::{Label, Pos2, Response, Ui};
 
 use super::{Stage, arrange, drag};
+use crate::app::sensation::Sensation;
 use crate::app::view::{Cloth, Dot, SceneView};
 use crate::quantity;
 
@@ -36,7 +37,8 @@ pub(super) fn tell(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
 pub(super) fn tell_of_dot(response: &Response, stage: &Stage<'_>, index: usize) {
     if let Some(dot) = stage.live.dots.get(index) {
         response.clone().on_hover_ui_at_pointer(|ui| {
-            ui.add(Label::new(of_dot(index, dot, stage.scene)).extend());
+            let words = of_dot(index, dot, stage.scene, &stage.live.sensation);
+            ui.add(Label::new(words).extend());
         });
     }
 }
@@ -65,7 +67,7 @@ fn of_cloth(cloth: &Cloth) -> String {
     )
 }
 
-fn of_dot(index: usize, dot: &Dot, scene: &SceneView) -> String {
+fn of_dot(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> String {
     let grid = match scene.grid {
         Some((_, n_columns)) if n_columns > 0 => {
             format!(", row {}, column {}", index / n_columns, index % n_columns)
@@ -77,15 +79,15 @@ fn of_dot(index: usize, dot: &Dot, scene: &SceneView) -> String {
         None => "off every textile".to_owned(),
     };
     let [x, y] = [dot.position.x_mm, dot.position.y_mm].map(|mm| quantity::fixed(mm, 2));
-    let [low, high] = dot.amplitude_um.map(|um| quantity::with_unit(um, 2, "µm"));
+    let bands = sensation.band_lines(dot.amplitude_um);
     let state = match (dot.is_muted, dot.is_limited) {
         (true, _) => "\nMuted",
         (false, true) => "\nAn output limit bites",
         (false, false) => "",
     };
     format!(
-        "Contactor {index}{grid}\n{on}, at {x}, {y} mm\n40 Hz  {low}\n320 Hz  {high}\nPeak, after \
-         gains, before output limits{state}\nClick to look closer at it"
+        "Contactor {index}{grid}\n{on}, at {x}, {y} mm\n{bands}\nPeak, after gains, before output \
+         limits{state}\nClick to look closer at it"
     )
 }
 
@@ -120,7 +122,7 @@ mod tests {
             amplitude_um: [3.0, 0.5],
             ..Dot::default()
         };
-        let words = of_dot(9, &dot, &scene);
+        let words = of_dot(9, &dot, &scene, &Sensation::default());
         assert!(words.starts_with("Contactor 9, row 2, column 1\non 2 Wool felt"));
         assert!(words.contains("at 1.00, −2.00 mm"), "{words}");
         assert!(words.contains("320 Hz  0.50 µm"), "{words}");

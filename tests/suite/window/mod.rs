@@ -2,6 +2,7 @@
 
 mod around;
 mod basics;
+mod compare;
 #[cfg(unix)]
 mod ports;
 mod views;
