@@ -15,12 +15,14 @@ mod gains;
 mod input;
 mod plan;
 mod replay;
+mod running_error;
 mod stats;
 
 pub use gains::{GainTerms, MAX_TOTAL_GAIN_DB};
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 pub use plan::{Counters, Rule, Rules};
 pub use replay::{FrameSink, Replay, replay};
+pub use running_error::RunningError;
 pub use stats::{ErrorMeter, Histogram, LevelError, RunStats};
 
 use crate::tactile::TuningError;
