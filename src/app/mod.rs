@@ -47,6 +47,7 @@ mod ports;
 mod preparing;
 mod query;
 mod raster;
+mod rendering;
 mod screenshot;
 mod settings;
 mod shelf;

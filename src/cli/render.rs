@@ -33,6 +33,15 @@ pub(super) struct RenderArgs {
     /// How to render: reference, banded, table or auto
     #[arg(long, value_name = "METHOD", default_value = "auto")]
     method: Method,
+    /// Largest level error that auto and table may make, dB: auto takes the cheapest method that is
+    /// proved to keep to it, 0 takes reference
+    #[arg(
+        long,
+        value_name = "DB",
+        default_value_t = Accuracy::default().budget_db,
+        allow_negative_numbers = true
+    )]
+    budget_db: f64,
     /// The drive waveform, one channel a contactor; full scale is 50 µm
     #[arg(long, value_name = "W.wav")]
     wav: Option<PathBuf>,
@@ -91,7 +100,7 @@ fn run_method(
     let what = Replay {
         scene,
         method,
-        accuracy: Accuracy::default(),
+        accuracy: Accuracy::within_db(args.budget_db),
         measures_error: args.stats.is_some(),
     };
     let started = Instant::now();
