@@ -41,11 +41,13 @@ pub(crate) enum Pane {
     SpatialSpectra,
     /// Why the selected contactor does what it does.
     Why,
+    /// How accurate rendering is, and what it costs.
+    Accuracy,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 10] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -56,6 +58,7 @@ impl Pane {
         Self::SpatialSpectra,
         Self::DriveWave,
         Self::Why,
+        Self::Accuracy,
     ];
 
     /// Its title.
@@ -71,6 +74,7 @@ impl Pane {
             Self::DriveWave => "Drive waveform",
             Self::SpatialSpectra => "Spatial spectra",
             Self::Why => "Why",
+            Self::Accuracy => "Accuracy",
         }
     }
 
@@ -86,7 +90,8 @@ impl Pane {
             | Self::Tuning
             | Self::Bridge
             | Self::Heatmaps
-            | Self::Why => self.title(),
+            | Self::Why
+            | Self::Accuracy => self.title(),
         }
     }
 
@@ -124,7 +129,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
     let spectra = tabs(tiles, &[Pane::ContactSpectrum, Pane::DriveSpectrum]);
-    let spatial = tabs(tiles, &[Pane::SpatialSpectra, Pane::Why]);
+    let spatial = tabs(tiles, &[Pane::SpatialSpectra, Pane::Why, Pane::Accuracy]);
     let lower = [(heatmaps, 0.27), (spectra, 0.39), (spatial, 0.34)];
     let lower = linear(tiles, LinearDir::Horizontal, &lower);
     let height = (size.y - PICTURES).max(PICTURES);
@@ -151,6 +156,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
             Pane::DriveSpectrum,
             Pane::SpatialSpectra,
             Pane::Why,
+            Pane::Accuracy,
             Pane::DriveWave,
         ],
     );

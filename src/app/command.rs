@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
+use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::theme::ColourMap;
 use crate::geometry::Point;
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     File(FileCommand),
     /// Move, record and replay.
     Play(PlayCommand),
+    /// Change how scenes are rendered, or ask how accurate that is.
+    Accuracy(AccuracyCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.

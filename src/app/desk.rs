@@ -65,6 +65,10 @@ impl Desk<'_> {
             Pane::DriveSpectrum => framed(ui, 8, |ui| self.show_drive_spectrum(ui)),
             Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
             Pane::SpatialSpectra => framed(ui, 8, |ui| self.show_spatial(ui)),
+            Pane::Accuracy => framed(ui, 10, |ui| {
+                self.bench.watch_accuracy();
+                panes::show_accuracy(ui, &self.bench.accuracy_view(), self.wishes);
+            }),
             Pane::Why => framed(ui, 10, |ui| {
                 self.bench.explain();
                 let why = self.bench.transient.why.0.as_ref();
@@ -193,6 +197,7 @@ impl Desk<'_> {
                 let (why, is_frozen) = &self.bench.transient.why;
                 panes::show_why_corner(ui, *is_frozen, why.as_ref(), self.wishes);
             }
+            Pane::Accuracy => panes::show_accuracy_corner(ui, self.wishes),
             Pane::Workspace => {
                 let bench = &*self.bench;
                 if let Some(ground) = bench.transient.ground {

@@ -2,6 +2,7 @@
 
 use eframe::egui::{Rect, Vec2};
 
+use super::accuracy::AccuracyWatch;
 use super::audition::Audition;
 use super::dialogs::Dialogs;
 use super::history::Moment;
@@ -64,6 +65,8 @@ pub(crate) struct Transient {
     pub(crate) spatial: SpatialSpectra,
     /// The explanation that is shown, and whether it is held.
     pub(crate) why: (Option<Why>, bool),
+    /// How accurate rendering was found to be.
+    pub(crate) accuracy: AccuracyWatch,
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.

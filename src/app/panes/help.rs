@@ -89,7 +89,9 @@ fn kind(command: &Command) -> &'static str {
         Command::Device(_) => "Device",
         Command::File(_) => "Files",
         Command::Play(_) => "Play and record",
-        Command::Show(_) | Command::Dismiss | Command::DismissNotice(_) => "View",
+        Command::Show(_) | Command::Accuracy(_) | Command::Dismiss | Command::DismissNotice(_) => {
+            "View"
+        }
     }
 }
 

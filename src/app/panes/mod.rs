@@ -3,6 +3,7 @@
 //! A pane takes views (`view.rs`), pushes [`Command`]s, and changes nothing. What it computes
 //! before it paints is a pure query with tests of its own.
 
+mod accuracy;
 mod ask;
 mod bridge;
 mod contact_spectrum;
@@ -22,6 +23,7 @@ mod transport;
 mod tuning;
 mod why;
 
+pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
 pub(crate) use contact_spectrum::{

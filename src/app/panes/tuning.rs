@@ -7,7 +7,7 @@ use crate::app::audition::Audition;
 use crate::app::command::{Edit, Part, ShowCommand};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
-use crate::app::widgets::{Scale, row, slider_row, tip_beside, toggle};
+use crate::app::widgets::{Curve, Scale, row, slider_row, tip_beside, toggle};
 use crate::quantity;
 use crate::tactile::{Band, Filters, Tuning};
 
@@ -169,6 +169,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
         decimals: 1,
         unit: "oct",
         factor: 1.0,
+        curve: Curve::Even,
     };
     ui.add_enabled_ui(is_gaussian, |ui| {
         let ink = Palette::in_ui(ui).text;
