@@ -197,7 +197,10 @@ impl Desk<'_> {
                 let (why, is_frozen) = &self.bench.transient.why;
                 panes::show_why_corner(ui, *is_frozen, why.as_ref(), self.wishes);
             }
-            Pane::Accuracy => panes::show_accuracy_corner(ui, self.wishes),
+            Pane::Accuracy => {
+                let shows_methods = self.bench.transient.accuracy.shows_methods;
+                panes::show_accuracy_corner(ui, shows_methods, self.wishes);
+            }
             Pane::Workspace => {
                 let bench = &*self.bench;
                 if let Some(ground) = bench.transient.ground {

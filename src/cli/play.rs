@@ -56,6 +56,7 @@ pub(super) struct PlayArgs {
         long,
         value_name = "DB",
         default_value_t = Accuracy::default().budget_db,
+        value_parser = super::render::budget_db,
         allow_negative_numbers = true
     )]
     budget_db: f64,

@@ -39,6 +39,7 @@ pub(super) struct RenderArgs {
         long,
         value_name = "DB",
         default_value_t = Accuracy::default().budget_db,
+        value_parser = budget_db,
         allow_negative_numbers = true
     )]
     budget_db: f64,
@@ -54,6 +55,15 @@ pub(super) struct RenderArgs {
     /// Cost, work left out and level error of every method on this path, as JSON
     #[arg(long, value_name = "S.json")]
     stats: Option<PathBuf>,
+}
+
+/// An error budget as it is typed, dB.
+pub(super) fn budget_db(text: &str) -> Result<f64, String> {
+    let budget_db = text.parse().ok();
+    let is_budget = |budget_db: &f64| *budget_db >= 0.0 && budget_db.is_finite();
+    budget_db
+        .filter(is_budget)
+        .ok_or_else(|| "give a number of dB, 0 or above".to_owned())
 }
 
 /// What `--stats` writes.

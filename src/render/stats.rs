@@ -226,7 +226,9 @@ mod tests {
     fn numbers_are_counted_between_edges_and_histograms_add_up() {
         let mut histogram = Histogram::default();
         let numbers = [0.0, 1e-4, 0.02, 0.03, 5.0, f64::INFINITY];
-        numbers.iter().for_each(|x| histogram.add(*x));
+        for x in numbers {
+            histogram.add(x);
+        }
         let edges = [1e-3, 1e-2, 0.1, 1.0];
         assert_eq!(histogram.between(&edges), [2, 2, 2]);
         let mut both = histogram.clone();

@@ -119,7 +119,9 @@ impl Checker {
             })
             .collect();
         // The whole tick is judged by the strength that it reaches itself.
-        pairs.iter().for_each(|[_, exact]| self.error.reach(*exact));
+        for [_, exact] in &pairs {
+            self.error.reach(*exact);
+        }
         self.now_db = [None; 2];
         for [found, exact] in pairs {
             let judged = self.error.judge(found, exact);

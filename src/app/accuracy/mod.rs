@@ -43,6 +43,8 @@ pub(crate) enum AccuracyCommand {
     Measure,
     /// Stop measuring.
     StopMeasuring,
+    /// Show the methods instead of errors and costs where there is no room for both, or no longer.
+    ToggleMethods,
     /// Say in words what a measured method is, by its row, or no longer.
     Choose(Option<usize>),
 }
@@ -97,6 +99,8 @@ pub(crate) struct AccuracyWatch {
     pub(crate) measured: Option<Measured>,
     /// The row of it that is told in words.
     pub(crate) chosen: Option<usize>,
+    /// Whether methods are shown where there is no room for all.
+    pub(crate) shows_methods: bool,
 }
 
 /// What the pane draws.
@@ -124,6 +128,8 @@ pub(crate) struct AccuracyView<'a> {
     pub(crate) is_outdated: bool,
     /// The row of it that is told in words.
     pub(crate) chosen: Option<usize>,
+    /// Whether methods are shown where there is no room for all.
+    pub(crate) shows_methods: bool,
 }
 
 impl AccuracyWatch {
@@ -248,6 +254,7 @@ impl Workbench {
             measured,
             is_outdated: measured.is_some_and(|m| m.n_edits != self.eye.n_edits),
             chosen: watch.chosen,
+            shows_methods: watch.shows_methods,
         }
     }
 

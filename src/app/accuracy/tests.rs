@@ -108,7 +108,7 @@ fn a_window_that_believes_the_wrong_gain_would_see_it() {
 fn nothing_is_sampled_at_rest_or_twice_and_a_reset_forgets() {
     let (ctx, mut bench) = exploring();
     watch(&mut bench, 20);
-    bench.dispatch(&ctx, PlayCommand::Toggle.into());
+    bench.send(engine::Command::Pause);
     watch(&mut bench, 20);
     assert!(
         tally(&bench).sampled <= 21,

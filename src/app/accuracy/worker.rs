@@ -70,7 +70,10 @@ fn check(waiting: &Receiver<TickSample>, mut publish: Input<ErrorView>, ctx: &eg
     let mut checker = Checker::default();
     while let Ok(sample) = waiting.recv() {
         checker.take(&sample);
-        waiting.try_iter().for_each(|sample| checker.take(&sample));
+        // Something is shown even if more samples come than can be checked.
+        for sample in waiting.try_iter().take(MOST_WAITING) {
+            checker.take(&sample);
+        }
         publish.write(checker.view());
         ctx.request_repaint_after(FRAME);
     }

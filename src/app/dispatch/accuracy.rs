@@ -28,6 +28,10 @@ impl Workbench {
                     measuring.stop();
                 }
             }
+            AccuracyCommand::ToggleMethods => {
+                let shows_methods = &mut self.transient.accuracy.shows_methods;
+                *shows_methods = !*shows_methods;
+            }
             AccuracyCommand::Choose(row) => self.transient.accuracy.chosen = row,
         }
     }

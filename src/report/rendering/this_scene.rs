@@ -55,10 +55,10 @@ impl ThisSceneStudy {
     /// The poses that are measured: at most as many as the scene's contactors allow, evenly from
     /// the whole exploration.
     fn poses(&self) -> Vec<Pose> {
-        let crossings = || crossings(&self.scene.textiles);
-        let poses = match self.poses.is_empty() {
-            true => crossings(),
-            false => self.poses.clone(),
+        let poses = if self.poses.is_empty() {
+            crossings(&self.scene.textiles)
+        } else {
+            self.poses.clone()
         };
         let displays = self.scene.displays.iter();
         let n_contactors: usize = displays.map(|display| display.offsets.len()).sum();

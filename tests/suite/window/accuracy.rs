@@ -19,7 +19,6 @@ fn in_front(folder: &Folder) -> Harness<'static, Workbench> {
 fn the_pane_says_what_to_do_and_then_shows_errors_within_the_bound() {
     let folder = Folder::new("accuracy");
     let mut harness = in_front(&folder);
-    harness.get_by_label("Error against time of every method on this scene");
     harness.render().unwrap();
     press(&mut harness, Modifiers::NONE, Key::Space);
     harness.run_steps(60);
@@ -67,6 +66,9 @@ fn the_budget_slider_switches_what_auto_chooses() {
 fn every_method_is_measured_and_a_point_is_told_in_words() {
     let folder = Folder::new("measure");
     let mut harness = in_front(&folder);
+    harness.get_by_label("Every method on this scene").click();
+    harness.run_steps(3);
+    harness.get_by_label("Error against time of every method on this scene");
     harness.get_by_label("Measure this scene").click();
     harness.run_steps(2);
     wait(&mut harness, |bench| bench.n_methods_measured() > 0);
@@ -79,4 +81,50 @@ fn every_method_is_measured_and_a_point_is_told_in_words() {
     harness.run_steps(3);
     harness.get_by_label_contains("reference: nothing beats it");
     harness.render().unwrap();
+}
+
+#[test]
+fn zz_look() {
+    for (name, size) in [
+        ("small", vec2(1400.0, 900.0)),
+        ("wide", vec2(2300.0, 1100.0)),
+    ] {
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .with_step_dt(1.0 / 40.0)
+            .with_max_steps(200)
+            .renderer(Soft(Rasteriser::default()))
+            .build_eframe(move |cc| Workbench::new(&cc.egui_ctx, None, Drive::Stepped).unwrap());
+        harness.run();
+        harness.get_by_label("Accuracy").click();
+        harness.run_steps(3);
+        harness
+            .render()
+            .unwrap()
+            .save(format!("/tmp/acc_{name}_empty.png"))
+            .unwrap();
+        press(&mut harness, Modifiers::NONE, Key::Space);
+        harness.run_steps(200);
+        harness
+            .render()
+            .unwrap()
+            .save(format!("/tmp/acc_{name}_live.png"))
+            .unwrap();
+        harness.get_by_label("Every method on this scene").click();
+        harness.run_steps(3);
+        harness.get_by_label("Measure this scene").click();
+        harness.run_steps(2);
+        harness
+            .render()
+            .unwrap()
+            .save(format!("/tmp/acc_{name}_measuring.png"))
+            .unwrap();
+        wait(&mut harness, |bench| bench.n_methods_measured() > 0);
+        harness.run_steps(3);
+        harness
+            .render()
+            .unwrap()
+            .save(format!("/tmp/acc_{name}.png"))
+            .unwrap();
+    }
 }

@@ -20,7 +20,8 @@ const COSTS_US: [f64; 2] = [0.5, 1e5];
 pub(super) fn show(ui: &mut Ui, cost: &CostView) {
     let tip = "Time from the beginning of a tick to the end of all that it does: pointer, velocity, \
                rendering, frame to the device, recording. What the system gave to others meanwhile \
-               counts too";
+               counts too\nLate: began more than 1 ms after it was due. Missed: never was, because \
+               the engine came a whole tick too late";
     quiet_line(ui, "Time a tick", tip);
     let height = (ui.available_height() - 3.0 * LINE).max(40.0);
     let size = vec2(ui.available_width(), height);

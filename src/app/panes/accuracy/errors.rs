@@ -2,7 +2,7 @@
 //! that the method promises and the budget that it was given.
 
 use eframe::egui::{
-    self, Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    self, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::numbers::{self, LINE};
@@ -15,6 +15,8 @@ use crate::quantity;
 use crate::render::array::Method;
 use crate::tactile::Band;
 
+/// Between the names of two lines, points.
+const NAME_GAP: f32 = 5.0;
 /// How a distribution is filled.
 const FILL: f32 = 0.28;
 
@@ -48,14 +50,15 @@ pub(super) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
     if view.found.n_ticks == 0 {
         let words = "Move the display over a textile: its ticks are checked against reference";
         paint_sentence(ui.painter(), plot, words);
+    } else {
+        let counts = &view.found.counts;
+        let most = counts.iter().flatten().copied().max().unwrap_or(0);
+        for band in Band::ALL {
+            let counts = &counts[band.index()];
+            paint_distribution(ui.painter(), plot, &axis, (counts, most), band);
+        }
+        paint_marks(ui, plot, &axis, view);
     }
-    let counts = &view.found.counts;
-    let most = counts.iter().flatten().copied().max().unwrap_or(0);
-    for band in Band::ALL {
-        let counts = &counts[band.index()];
-        paint_distribution(ui.painter(), plot, &axis, (counts, most), band);
-    }
-    paint_marks(ui, plot, &axis, view);
     let pointer = response.hover_pos().filter(|at| plot.contains(*at));
     if let Some(at) = pointer {
         let words = words_at(view.found, axis.value_at_x(plot.x_range(), at.x));
@@ -102,8 +105,12 @@ fn paint_distribution(
         return;
     }
     let ink = Palette::of(painter.ctx().theme()).band(band);
+    let is_any = |count: &u64| *count > 0;
+    let first = counts.iter().position(is_any).unwrap_or(counts.len());
+    let end = counts.iter().rposition(is_any).map_or(0, |last| last + 1);
+    let edges = edges_db();
     let mut outline: Vec<Pos2> = Vec::new();
-    for (edge_db, count) in edges_db().windows(2).zip(counts) {
+    for (edge_db, count) in edges.windows(2).zip(counts).take(end).skip(first) {
         #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
         let share = (*count as f64 / most as f64) as f32;
         let y = plot.bottom() - share * (plot.height() - 2.0);
@@ -127,7 +134,7 @@ fn paint_marks(ui: &Ui, plot: Rect, axis: &Axis, view: &AccuracyView<'_>) {
         ink,
         is_dashed,
     };
-    let mut marks = vec![mark(ROUNDING_DB, "f32", palette.dim, true)];
+    let mut marks = vec![mark(ROUNDING_DB, "rounding", palette.dim, true)];
     if view.bound_db > ROUNDING_DB {
         marks.push(mark(view.bound_db, "bound", palette.text, false));
     }
@@ -135,9 +142,10 @@ fn paint_marks(ui: &Ui, plot: Rect, axis: &Axis, view: &AccuracyView<'_>) {
         let budget_db = view.rendering.budget_db;
         marks.push(mark(budget_db, "budget", palette.selection, true));
     }
-    marks.sort_by(|a, b| a.db.total_cmp(&b.db));
-    let n_marks = marks.len();
-    for (nth, mark) in marks.iter().enumerate() {
+    marks.sort_by(|a, b| b.db.total_cmp(&a.db));
+    // From the right on, names give way to those before them.
+    let mut most_right = plot.right() + 2.0;
+    for mark in marks {
         let x = painter.round_to_pixel_center(axis.x(plot.x_range(), mark.db));
         let ends = [pos2(x, plot.top()), pos2(x, plot.bottom())];
         let stroke = Stroke::new(1.0, mark.ink);
@@ -146,15 +154,10 @@ fn paint_marks(ui: &Ui, plot: Rect, axis: &Axis, view: &AccuracyView<'_>) {
         } else {
             painter.line_segment(ends, stroke);
         }
-        // The last name stands right of its line, those before it left: they never meet.
-        let is_last = nth + 1 == n_marks && nth > 0;
-        let (anchor, shift) = if is_last {
-            (Align2::LEFT_BOTTOM, -6.0)
-        } else {
-            (Align2::RIGHT_BOTTOM, 6.0)
-        };
-        let at = pos2(x + shift, plot.top() - 1.0);
-        painter.text(at, anchor, mark.name, theme::small(), mark.ink);
+        let name = painter.layout_no_wrap(mark.name.to_owned(), theme::small(), mark.ink);
+        let left = (x - 0.5 * name.size().x).min(most_right - name.size().x);
+        painter.galley(pos2(left, plot.top() - LINE), name, mark.ink);
+        most_right = left - NAME_GAP;
     }
 }
 

@@ -16,11 +16,11 @@ use crate::app::widgets::{Curve, Scale, slider_row, tip_beside, toggle};
 use crate::render::array::Method;
 
 /// A pane at least this wide shows all three plots side by side, points.
-const ROOM_FOR_THREE: f32 = 720.0;
-/// Height of the two histograms where they stand above the methods, points.
-const HISTOGRAMS: f32 = 152.0;
-/// Least height of the methods below them, points.
-const METHODS: f32 = 196.0;
+const ROOM_FOR_THREE: f32 = 640.0;
+/// A pane at least this high shows the histograms above the methods, points.
+const ROOM_FOR_BOTH: f32 = 400.0;
+/// Least height of plots; a lower pane scrolls, points.
+const LEAST: f32 = 132.0;
 /// Space between two plots, points.
 const GAP: f32 = 3.0 * STEP;
 /// Decades of the budget's slider: down to 0.0001 dB, then 0.
@@ -44,26 +44,41 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
         .auto_shrink(false);
     area.show(ui, |ui| {
         show_controls(ui, view, wishes);
-        let width = ui.available_width();
-        let (above, _) = ui.allocate_exact_size(vec2(width, HISTOGRAMS), egui::Sense::hover());
-        let half = 0.5 * (width - GAP);
-        let (left, right) = above.split_left_right_at_x(above.left() + half);
-        within(ui, left, |ui| errors::show(ui, view));
-        within(ui, right.with_min_x(right.left() + GAP), |ui| {
-            costs::show(ui, &view.cost);
-        });
-        let left_over = size.y - ROW - HISTOGRAMS - 6.0 * STEP;
-        let (below, _) =
-            ui.allocate_exact_size(vec2(width, left_over.max(METHODS)), egui::Sense::hover());
-        within(ui, below, |ui| pareto::show(ui, view, wishes));
+        let left_over = (size.y - ROW - 3.0 * STEP).max(LEAST);
+        let size = vec2(ui.available_width(), left_over);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        if size.y >= ROOM_FOR_BOTH {
+            let (above, below) = rect.split_top_bottom_at_fraction(0.45);
+            show_histograms(ui, above, view);
+            let below = below.with_min_y(below.top() + GAP);
+            within(ui, below, |ui| pareto::show(ui, view, wishes));
+        } else if view.shows_methods {
+            within(ui, rect, |ui| pareto::show(ui, view, wishes));
+        } else {
+            show_histograms(ui, rect, view);
+        }
     });
 }
 
-/// What stands beside the title: begin anew.
-pub(crate) fn show_corner(ui: &mut Ui, wishes: &mut Wishes) {
+/// Errors and costs side by side.
+fn show_histograms(ui: &mut Ui, rect: Rect, view: &AccuracyView<'_>) {
+    let (left, right) = rect.split_left_right_at_x(rect.center().x);
+    let left = left.with_max_x(left.right() - 0.5 * GAP);
+    within(ui, left, |ui| errors::show(ui, view));
+    let right = right.with_min_x(right.left() + 0.5 * GAP);
+    within(ui, right, |ui| costs::show(ui, &view.cost));
+}
+
+/// What stands beside the title: begin anew, and which plots there are where there is no room for
+/// all.
+pub(crate) fn show_corner(ui: &mut Ui, shows_methods: bool, wishes: &mut Wishes) {
     let tip = "Begin the statistics of errors and costs anew";
     if toggle(ui, "reset", false, tip) {
         wishes.push(AccuracyCommand::Reset.into());
+    }
+    let tip = "Every method on this scene";
+    if toggle(ui, "methods", shows_methods, tip) {
+        wishes.push(AccuracyCommand::ToggleMethods.into());
     }
 }
 

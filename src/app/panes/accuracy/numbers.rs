@@ -8,13 +8,13 @@ use crate::quantity;
 /// Height of a line, points.
 pub(super) const LINE: f32 = 14.0;
 
-/// A level error in six places, dB: `0.0123`, and `3e−07` where that would be nothing but zeros.
+/// A level error in six places, dB: `0.0123`, and `5.2e−7` where that would be nothing but zeros.
 pub(super) fn level(db: f64) -> String {
     if db == 0.0 {
         return "0".to_owned();
     }
     if !(1e-3..1e6).contains(&db) && db.is_finite() {
-        let text = format!("{db:.0e}");
+        let text = format!("{db:.1e}");
         let (digit, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{digit}e{}", exponent.replace('-', "−"));
     }
@@ -62,8 +62,8 @@ mod tests {
     fn level_errors_are_short_however_small() {
         for (db, text) in [
             (0.0, "0"),
-            (5.2e-7, "5e−7"),
-            (0.000_45, "5e−4"),
+            (5.2e-7, "5.2e−7"),
+            (0.000_45, "4.5e−4"),
             (0.0123, "0.0123"),
             (6.0206, "6.0206"),
             (42.0, "42.0"),

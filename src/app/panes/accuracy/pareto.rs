@@ -2,8 +2,8 @@
 //! and the one that runs marked.
 
 use eframe::egui::{
-    self, Align, Align2, Layout, Painter, Pos2, ProgressBar, Rect, RichText, Sense, Shape, Stroke,
-    Ui, WidgetInfo, pos2, vec2,
+    self, Align, Align2, Layout, Painter, Pos2, ProgressBar, Rect, Sense, Shape, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::numbers::{self, LINE};
@@ -24,7 +24,7 @@ const REACH: f32 = 7.0;
 pub(super) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
     show_head(ui, view, wishes);
     let words = view.measured.map(|measured| words_below(view, measured));
-    let n_lines = if words.is_some() { 3.0 } else { 0.0 };
+    let n_lines = if words.is_some() { 2.0 } else { 0.0 };
     let height = (ui.available_height() - n_lines * LINE).max(60.0);
     let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -69,10 +69,14 @@ fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
         if button(ui, "Measure this scene", tip, None) {
             wishes.push(AccuracyCommand::Measure.into());
         }
-        if view.is_outdated {
-            let ink = Palette::in_ui(ui).dim;
-            let words = "before the last change";
-            ui.label(RichText::new(words).font(theme::small()).color(ink));
+        if let Some(measured) = view.measured {
+            let before = if view.is_outdated {
+                "Before the last change: "
+            } else {
+                ""
+            };
+            let words = format!("{before}{}", measured.note);
+            quiet_line(ui, &words, &words);
         }
     });
 }
@@ -199,13 +203,14 @@ impl Plot {
                 continue;
             };
             named.push(&row.method);
-            let is_left = at.x < self.area.center().x;
-            let (anchor, by) = if is_left {
-                (Align2::LEFT_CENTER, vec2(11.0, 0.0))
+            let has_room = at.y - self.area.top() > 16.0;
+            let (anchor, by) = if has_room {
+                (Align2::LEFT_BOTTOM, vec2(-4.0, -7.0))
             } else {
-                (Align2::RIGHT_CENTER, vec2(-11.0, 0.0))
+                (Align2::LEFT_CENTER, vec2(12.0, 0.0))
             };
-            painter.text(at + by, anchor, &row.method, theme::small(), palette.text);
+            let ink = palette.text;
+            painter.text(at + by, anchor, &row.method, theme::small(), ink);
         }
     }
 }
@@ -237,27 +242,41 @@ fn words_of(row: &Row) -> String {
     format!("error at most {error} dB, 99 % within {p99} dB{cost}{memory}")
 }
 
-/// What stands below the plot: the chosen method, and along what was measured.
-fn words_below(view: &AccuracyView<'_>, measured: &Measured) -> [String; 3] {
+/// What stands below the plot: the chosen method.
+fn words_below(view: &AccuracyView<'_>, measured: &Measured) -> [String; 2] {
     let chosen = view.chosen.and_then(|index| {
         let row = measured.rows.get(index)?;
         Some((index, row))
     });
     let Some((index, row)) = chosen else {
         let words = "Click a point: what it is, in words".to_owned();
-        return [words, String::new(), measured.note.clone()];
+        return [words, String::new()];
     };
     let is_front = measured.front.get(index).copied().unwrap_or_default();
-    let place = match (measured.running() == Some(index), is_front) {
-        (true, true) => "runs now, and nothing beats it",
-        (true, false) => "runs now, and another one beats it",
-        (false, true) => "nothing beats it",
-        (false, false) => "another one is better, or it breaks its promise",
+    let place = match better_than(row, measured) {
+        _ if is_front => "nothing beats it".to_owned(),
+        _ if row.is_kept() == Some(false) => "it breaks its promise".to_owned(),
+        Some(better) => format!("{} beats it in both", name_of(better)),
+        None => "another one beats it".to_owned(),
+    };
+    let runs = if measured.running() == Some(index) {
+        "runs now; "
+    } else {
+        ""
     };
     let words = words_of(row).replace('\n', "; ");
-    [
-        format!("{}: {place}", name_of(row)),
-        words,
-        measured.note.clone(),
-    ]
+    [format!("{}: {runs}{place}", name_of(row)), words]
+}
+
+/// The most accurate method that is neither slower nor less accurate than this one.
+fn better_than<'a>(row: &Row, measured: &'a Measured) -> Option<&'a Row> {
+    let (error_db, us) = (row.error?, cost_us(row)?);
+    let on_front = measured.rows.iter().zip(&measured.front);
+    let fronted = on_front.filter_map(|(other, is_front)| is_front.then_some(other));
+    let better = fronted.filter(|other| {
+        let is_accurate = other.error.is_some_and(|db| db <= error_db);
+        is_accurate && cost_us(other).is_some_and(|other_us| other_us <= us)
+    });
+    let error = |row: &&Row| row.error.unwrap_or(f64::INFINITY);
+    better.min_by(|a, b| error(a).total_cmp(&error(b)))
 }
