@@ -1,4 +1,5 @@
-//! Every method on the scene at hand, measured on demand: a thread with progress, and what it found.
+//! Every method on the scene at hand, measured on demand: a thread with progress, and what it
+//! found.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};

@@ -18,10 +18,10 @@ const COSTS_US: [f64; 2] = [0.5, 1e5];
 
 /// Shows costs and their distribution in the space that is left.
 pub(super) fn show(ui: &mut Ui, cost: &CostView) {
-    let tip = "Time from the beginning of a tick to the end of all that it does: pointer, velocity, \
-               rendering, frame to the device, recording. What the system gave to others meanwhile \
-               counts too\nLate: began more than 1 ms after it was due. Missed: never was, because \
-               the engine came a whole tick too late";
+    let tip = "Time from the beginning of a tick to the end of all that it does: pointer, \
+               velocity, rendering, frame to the device, recording. What the system gave to \
+               others meanwhile counts too\nLate: began more than 1 ms after it was due. Missed: \
+               never was, because the engine came a whole tick too late";
     quiet_line(ui, "Time a tick", tip);
     let height = (ui.available_height() - 3.0 * LINE).max(40.0);
     let size = vec2(ui.available_width(), height);
@@ -40,9 +40,10 @@ pub(super) fn show(ui: &mut Ui, cost: &CostView) {
     paint_ticks(ui.painter(), plot, (&axis, Side::Bottom), &ticks);
     if cost.costs.n() == 0 {
         paint_sentence(ui.painter(), plot, "Times show here once the engine runs");
+    } else {
+        paint_buckets(ui, plot, &axis, cost);
+        paint_deadline(ui, plot, &axis);
     }
-    paint_buckets(ui, plot, &axis, cost);
-    paint_deadline(ui, plot, &axis);
     let pointer = response.hover_pos().filter(|at| plot.contains(*at));
     if let Some(words) =
         pointer.and_then(|at| words_at(cost, axis.value_at_x(plot.x_range(), at.x)))

@@ -110,7 +110,7 @@ fn show_point(
         painter.circle(at, 3.0, palette.panel, Stroke::new(1.0, palette.line));
     }
     if measured.running() == Some(index) {
-        painter.circle_stroke(at, 6.5, Stroke::new(1.5, palette.contactor));
+        painter.circle_stroke(at, 6.0, Stroke::new(1.5, palette.text));
     }
     if is_chosen || response.has_focus() || response.hovered() {
         painter.circle_stroke(at, 9.0, Stroke::new(1.0, palette.selection));
@@ -191,26 +191,33 @@ impl Plot {
         painter.add(Shape::line(steps.collect(), Stroke::new(1.0, ink)));
     }
 
-    /// Names each method once, beside its first point, and the one that runs.
+    /// Names each method once, beside its first point or where it is the one that runs.
     fn paint_names(&self, painter: &Painter, measured: &Measured) {
         let palette = Palette::of(painter.ctx().theme());
         let mut named: Vec<&str> = Vec::new();
-        for row in &measured.rows {
-            let Some(at) = self
-                .place_of(row)
-                .filter(|_| !named.contains(&&*row.method))
-            else {
+        let running = measured
+            .running()
+            .and_then(|index| measured.rows.get(index));
+        for row in running.into_iter().chain(&measured.rows) {
+            let is_named = named.contains(&&*row.method);
+            let Some(at) = self.place_of(row).filter(|_| !is_named) else {
                 continue;
+            };
+            let is_running = running.is_some_and(|running| std::ptr::eq(running, row));
+            let name = if is_running {
+                format!("{}, runs now", row.method)
+            } else {
+                row.method.clone()
             };
             named.push(&row.method);
             let has_room = at.y - self.area.top() > 16.0;
             let (anchor, by) = if has_room {
-                (Align2::LEFT_BOTTOM, vec2(-4.0, -7.0))
+                (Align2::LEFT_BOTTOM, vec2(-4.0, -9.0))
             } else {
                 (Align2::LEFT_CENTER, vec2(12.0, 0.0))
             };
             let ink = palette.text;
-            painter.text(at + by, anchor, &row.method, theme::small(), ink);
+            painter.text(at + by, anchor, name, theme::small(), ink);
         }
     }
 }
@@ -256,7 +263,10 @@ fn words_below(view: &AccuracyView<'_>, measured: &Measured) -> [String; 2] {
     let place = match better_than(row, measured) {
         _ if is_front => "nothing beats it".to_owned(),
         _ if row.is_kept() == Some(false) => "it breaks its promise".to_owned(),
-        Some(better) => format!("{} beats it in both", name_of(better)),
+        Some(better) => {
+            let name = name_of(better);
+            format!("{name} is no slower and no less accurate")
+        }
         None => "another one beats it".to_owned(),
     };
     let runs = if measured.running() == Some(index) {
