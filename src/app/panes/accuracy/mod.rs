@@ -100,7 +100,8 @@ fn within(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
 
 /// The method, and the error that it may make.
 fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
-    ui.horizontal(|ui| {
+    let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
+    let row = ui.horizontal(|ui| {
         show_method(ui, view, wishes);
         ui.add_space(STEP);
         let scale = Scale {
@@ -113,20 +114,22 @@ fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
             factor: 1.0,
             curve: Curve::Decades(DECADES),
         };
-        let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
-        ui.add_enabled_ui(has_budget, |ui| {
+        let slider = ui.add_enabled_ui(has_budget, |ui| {
             let ink = Palette::in_ui(ui).text;
             let now_db = view.rendering.budget_db;
             let (new, response) = slider_row(ui, "Error budget", ink, scale, now_db);
             wishes.extend(new.map(|db| AccuracyCommand::Budget(db).into()));
-            if has_budget {
-                tip_beside(ui, &response, budget_words(view));
-            } else {
-                let words = "Only auto and table keep to a budget; this method has its own error";
-                response.on_disabled_hover_text(words);
-            }
+            response
         });
+        slider.inner
     });
+    if has_budget {
+        // Beside the whole pane: what the slider does to the plots stays in sight.
+        tip_beside(ui, &row.inner, budget_words(view));
+    } else {
+        let words = "Only auto and table keep to a budget; this method has its own error";
+        row.inner.on_disabled_hover_text(words);
+    }
 }
 
 fn budget_words(view: &AccuracyView<'_>) -> String {
