@@ -43,11 +43,13 @@ pub(crate) enum Pane {
     Why,
     /// Two tunings, textiles or methods set against each other.
     Compare,
+    /// How accurate rendering is, and what it costs.
+    Accuracy,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 11] = [
+    pub(crate) const ALL: [Self; 12] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -59,6 +61,7 @@ impl Pane {
         Self::DriveWave,
         Self::Why,
         Self::Compare,
+        Self::Accuracy,
     ];
 
     /// Its title.
@@ -75,6 +78,7 @@ impl Pane {
             Self::SpatialSpectra => "Spatial spectra",
             Self::Why => "Why",
             Self::Compare => "Compare",
+            Self::Accuracy => "Accuracy",
         }
     }
 
@@ -91,6 +95,7 @@ impl Pane {
             | Self::Bridge
             | Self::Heatmaps
             | Self::Why
+            | Self::Accuracy
             | Self::Compare => self.title(),
         }
     }
@@ -129,7 +134,13 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
     let spectra = tabs(tiles, &[Pane::ContactSpectrum, Pane::DriveSpectrum]);
-    let spatial = tabs(tiles, &[Pane::SpatialSpectra, Pane::Why, Pane::Compare]);
+    let closer = [
+        Pane::SpatialSpectra,
+        Pane::Why,
+        Pane::Accuracy,
+        Pane::Compare,
+    ];
+    let spatial = tabs(tiles, &closer);
     let lower = [(heatmaps, 0.27), (spectra, 0.39), (spatial, 0.34)];
     let lower = linear(tiles, LinearDir::Horizontal, &lower);
     let height = (size.y - PICTURES).max(PICTURES);
@@ -157,6 +168,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
             Pane::SpatialSpectra,
             Pane::Why,
             Pane::Compare,
+            Pane::Accuracy,
             Pane::DriveWave,
         ],
     );

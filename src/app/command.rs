@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
+use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::theme::ColourMap;
@@ -32,6 +33,8 @@ pub(crate) enum Command {
     Play(PlayCommand),
     /// Compare tunings, textiles or methods.
     Compare(CompareCommand),
+    /// Change how scenes are rendered, or ask how accurate that is.
+    Accuracy(AccuracyCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.

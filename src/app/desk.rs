@@ -66,6 +66,10 @@ impl Desk<'_> {
             Pane::DriveSpectrum => framed(ui, 8, |ui| self.show_drive_spectrum(ui)),
             Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
             Pane::SpatialSpectra => framed(ui, 8, |ui| self.show_spatial(ui)),
+            Pane::Accuracy => framed(ui, 10, |ui| {
+                self.bench.watch_accuracy();
+                panes::show_accuracy(ui, &self.bench.accuracy_view(), self.wishes);
+            }),
             Pane::Why => framed(ui, 10, |ui| {
                 self.bench.explain();
                 let why = self.bench.transient.why.0.as_ref();
@@ -226,6 +230,10 @@ impl Desk<'_> {
             Pane::Compare => {
                 let standing = self.bench.comparison_standing();
                 panes::show_compare_corner(ui, &standing, self.wishes);
+            }
+            Pane::Accuracy => {
+                let shows_methods = self.bench.transient.accuracy.shows_methods;
+                panes::show_accuracy_corner(ui, shows_methods, self.wishes);
             }
             Pane::Workspace => {
                 let bench = &*self.bench;

@@ -66,6 +66,7 @@ impl Workbench {
             Some(Polled::Working) | None => {}
         }
         self.transient.ports.poll();
+        self.poll_measuring();
         match self.transient.dialogs.poll() {
             Some(Answer::Path(purpose, path)) => {
                 self.dispatch(ctx, FileCommand::Use(purpose, path).into());

@@ -78,6 +78,28 @@ impl Workbench {
         self.transient.comparison.found()
     }
 
+    /// Ticks that were checked against `reference` since the statistics began, and ticks left out.
+    pub fn ticks_checked(&self) -> [u64; 2] {
+        let tally = self.transient.accuracy.tally();
+        [tally.sampled, tally.busy + tally.changed]
+    }
+
+    /// The name of the rendering method that runs.
+    pub fn rendered_by(&self) -> &'static str {
+        self.transient.live.status.method
+    }
+
+    /// The level error that rendering may make, dB.
+    pub fn error_budget_db(&self) -> f64 {
+        self.settings.kept.rendering.budget_db
+    }
+
+    /// Methods that were measured on this scene.
+    pub fn n_methods_measured(&self) -> usize {
+        let measured = self.transient.accuracy.measured.as_ref();
+        measured.map_or(0, |measured| measured.rows.len())
+    }
+
     /// The scene's name.
     pub fn scene_name(&self) -> &str {
         &self.document.scene().name

@@ -19,6 +19,7 @@
 //! - nothing is drawn anew that has not changed; nothing longer than a frame runs on this thread
 //! - Esc, closing the window and a panic switch everything off without waiting for a frame
 
+mod accuracy;
 mod amplitude;
 mod arrangement;
 mod audition;
@@ -49,6 +50,7 @@ mod ports;
 mod preparing;
 mod query;
 mod raster;
+mod rendering;
 mod screenshot;
 mod sensation;
 mod settings;

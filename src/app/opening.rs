@@ -9,10 +9,11 @@ use eframe::egui;
 
 use super::error::AppError;
 use super::job::{Job, Polled};
+use super::rendering::Rendering;
 use super::shelf;
 use super::view::ShelfItem;
 use crate::engine::PreparedScene;
-use crate::render::array::{Accuracy, Method, TableCache};
+use crate::render::array::TableCache;
 use crate::scene::LoadedScene;
 
 /// A scene without textiles over the shipped library.
@@ -39,6 +40,8 @@ pub(crate) struct Opened {
     pub(crate) loaded: LoadedScene,
     /// The same, ready for the engine.
     pub(crate) prepared: PreparedScene,
+    /// How it was prepared.
+    pub(crate) rendering: Rendering,
     /// The tables that were made for it.
     pub(crate) cache: TableCache,
     /// The textiles of its library.
@@ -54,9 +57,14 @@ pub(crate) struct Opening {
 
 impl Opening {
     /// Begins to open a scene; `ctx` is woken when that is done.
-    pub(crate) fn start(origin: Origin, ctx: &egui::Context) -> std::io::Result<Self> {
+    pub(crate) fn start(
+        origin: Origin,
+        rendering: Rendering,
+        ctx: &egui::Context,
+    ) -> std::io::Result<Self> {
         let from = origin.clone();
-        let job = Job::start("selvedge-open", ctx, move || open(from).map(Box::new))?;
+        let work = move || open(from, rendering).map(Box::new);
+        let job = Job::start("selvedge-open", ctx, work)?;
         Ok(Self { origin, job })
     }
 
@@ -75,21 +83,22 @@ impl Opening {
 }
 
 /// Opens a scene on this thread.
-pub(crate) fn open(origin: Origin) -> Result<Opened, AppError> {
+pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppError> {
     let loaded = match &origin {
         Origin::New => LoadedScene::from_toml(EMPTY, Path::new("new scene"))?,
         Origin::Shipped => LoadedScene::shipped()?,
         Origin::File(path) => LoadedScene::read(path)?,
     };
     let mut cache = TableCache::default();
-    let accuracy = Accuracy::default();
-    let prepared = PreparedScene::prepare_cached(&loaded, Method::Auto, &accuracy, &mut cache)?;
+    let accuracy = rendering.accuracy();
+    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
     Ok(Opened {
         path: match origin {
             Origin::File(path) => Some(path),
             Origin::New | Origin::Shipped => None,
         },
         prepared,
+        rendering,
         cache,
         shelf: shelf::items_of(loaded.library()),
         loaded,
@@ -102,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_new_scene_has_the_shipped_library_and_nothing_in_it() {
-        let opened = open(Origin::New).unwrap();
+        let opened = open(Origin::New, Rendering::default()).unwrap();
         assert!(opened.loaded.scene().textiles.is_empty() && opened.path.is_none());
         assert_eq!(opened.shelf.len(), 16);
         assert_eq!(opened.prepared.n_contactors(), 24);

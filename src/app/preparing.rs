@@ -2,18 +2,27 @@
 //!
 //! Moving a textile takes the engine's tables as they are and costs little; a new textile, or other
 //! filters, take longer and are prepared on a thread of their own. Edits that come meanwhile wait,
-//! and only the last of them is prepared.
+//! and only the last of them is prepared. So it is with another error budget.
 
 use eframe::egui;
 
 use super::error::AppError;
 use super::job::{Job, Polled};
+use super::rendering::Rendering;
 use crate::engine::{EngineError, PreparedScene};
-use crate::render::array::{Accuracy, Method, TableCache};
+use crate::render::array::TableCache;
 use crate::scene::{LoadedScene, PlacedTextile, Scene};
 
-/// A scene that is ready for the engine, with its textiles.
-pub(crate) type Ready = (LoadedScene, Box<PreparedScene>);
+/// A scene that is ready for the engine.
+#[derive(Debug)]
+pub(crate) struct Ready {
+    /// The scene with its textiles.
+    pub(crate) loaded: LoadedScene,
+    /// The same as the engine takes it.
+    pub(crate) prepared: Box<PreparedScene>,
+    /// How it was prepared.
+    pub(crate) rendering: Rendering,
+}
 
 /// What a thread brings back.
 struct Done {
@@ -25,15 +34,18 @@ struct Done {
 #[derive(Default)]
 pub(crate) struct Preparing {
     cache: TableCache,
+    /// What the tables in the cache were made for last.
+    rendering: Rendering,
     job: Option<Job<Done>>,
     next: Option<Scene>,
 }
 
 impl Preparing {
-    /// With the tables that the first scene was prepared with.
-    pub(crate) fn new(cache: TableCache) -> Self {
+    /// With the tables that the first scene was prepared with, and how it was.
+    pub(crate) fn new(cache: TableCache, rendering: Rendering) -> Self {
         Self {
             cache,
+            rendering,
             ..Self::default()
         }
     }
@@ -48,7 +60,7 @@ impl Preparing {
     pub(crate) fn ask(
         &mut self,
         loaded: &LoadedScene,
-        scene: Scene,
+        (scene, rendering): (Scene, Rendering),
         ctx: &egui::Context,
         is_at_once: bool,
     ) -> Option<Result<Ready, AppError>> {
@@ -58,14 +70,16 @@ impl Preparing {
         }
         let is_known = |id: &str| loaded.textiles().iter().any(|known| known.id() == id);
         let is_loaded = scene.textiles.iter().all(|cloth| is_known(&cloth.id));
-        let is_quick = is_loaded && scene.filters == loaded.scene().filters;
+        let is_quick = is_loaded
+            && scene.filters == loaded.scene().filters
+            && rendering == std::mem::replace(&mut self.rendering, rendering);
         if is_at_once || is_quick {
-            return Some(prepare(loaded, scene, &mut self.cache));
+            return Some(prepare(loaded, (scene, rendering), &mut self.cache));
         }
         let mut cache = std::mem::take(&mut self.cache);
         let loaded = loaded.clone();
         let work = move || {
-            let outcome = prepare(&loaded, scene, &mut cache);
+            let outcome = prepare(&loaded, (scene, rendering), &mut cache);
             Done { cache, outcome }
         };
         match Job::start("selvedge-prepare", ctx, work) {
@@ -92,11 +106,19 @@ impl Preparing {
     }
 }
 
-fn prepare(loaded: &LoadedScene, scene: Scene, cache: &mut TableCache) -> Result<Ready, AppError> {
+fn prepare(
+    loaded: &LoadedScene,
+    (scene, rendering): (Scene, Rendering),
+    cache: &mut TableCache,
+) -> Result<Ready, AppError> {
     let loaded = loaded.with_scene(scene)?;
-    let prepared =
-        PreparedScene::prepare_cached(&loaded, Method::Auto, &Accuracy::default(), cache)?;
-    Ok((loaded, Box::new(prepared)))
+    let accuracy = rendering.accuracy();
+    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, cache)?;
+    Ok(Ready {
+        loaded,
+        prepared: Box::new(prepared),
+        rendering,
+    })
 }
 
 /// Whether two scenes differ in anything but gains, so that the engine needs a new one.
@@ -159,8 +181,9 @@ mod tests {
             &mut scene,
             loaded.tuning(),
         );
-        let ready = preparing.ask(&loaded, scene.clone(), &ctx, false);
-        let (moved, _) = ready.expect("at once").expect("it makes sense");
+        let how = Rendering::default();
+        let ready = preparing.ask(&loaded, (scene.clone(), how), &ctx, false);
+        let moved = ready.expect("at once").expect("it makes sense").loaded;
         assert_eq!(*moved.scene(), scene);
         let add = |scene: &mut Scene, id: &str| {
             let edit = Edit::AddCloth(id.to_owned(), Point::new(50.0, 50.0));
@@ -173,17 +196,19 @@ mod tests {
             .find(|id| scene.textiles.iter().all(|cloth| cloth.id != **id))
             .unwrap();
         add(&mut scene, new);
-        assert!(preparing.ask(&moved, scene.clone(), &ctx, false).is_none());
+        let asked = preparing.ask(&moved, (scene.clone(), how), &ctx, false);
+        assert!(asked.is_none(), "it takes a while");
         let mut last = scene.clone();
         add(&mut last, new);
-        assert!(preparing.ask(&moved, last.clone(), &ctx, false).is_none());
+        let asked = preparing.ask(&moved, (last.clone(), how), &ctx, false);
+        assert!(asked.is_none(), "it waits");
         let (outcome, waiting) = loop {
             if let Some(done) = preparing.poll() {
                 break done;
             }
             std::thread::yield_now();
         };
-        assert_eq!(*outcome.unwrap().0.scene(), scene);
+        assert_eq!(*outcome.unwrap().loaded.scene(), scene);
         assert_eq!(waiting, Some(last), "the last edit is still to come");
     }
 }

@@ -2,6 +2,7 @@
 
 use eframe::egui::{Rect, Vec2};
 
+use super::accuracy::AccuracyWatch;
 use super::audition::Audition;
 use super::compare::Comparison;
 use super::dialogs::Dialogs;
@@ -67,6 +68,8 @@ pub(crate) struct Transient {
     pub(crate) why: (Option<Why>, bool),
     /// What is compared, and what came of it.
     pub(crate) comparison: Comparison,
+    /// How accurate rendering was found to be.
+    pub(crate) accuracy: AccuracyWatch,
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.

@@ -51,6 +51,7 @@ pub(crate) fn corner_width(pane: Pane) -> f32 {
         }
         Pane::Why => 128.0,
         Pane::Compare => 124.0,
+        Pane::Accuracy => 108.0,
         Pane::Workspace => 300.0,
         Pane::Library | Pane::Tuning | Pane::Bridge => 0.0,
     }

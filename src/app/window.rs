@@ -17,6 +17,7 @@ use super::felt::Felt;
 use super::opening::{Opened, Origin, open};
 use super::pointer::PointerTap;
 use super::preparing::Preparing;
+use super::rendering::Rendering;
 use super::settings::Settings;
 use super::shelf::Shelf;
 use super::state::Transient;
@@ -60,6 +61,10 @@ pub struct Workbench {
     pub(crate) take: Option<Take>,
     /// The scene as the engine has it: with its textiles, and gains as they are felt.
     pub(crate) loaded: LoadedScene,
+    /// The serial number of that scene.
+    pub(crate) scene_serial: u64,
+    /// How that scene is rendered; what the user chose may still be on its way.
+    pub(crate) rendering: Rendering,
     pub(crate) preparing: Preparing,
     pub(crate) felt: Felt,
     pub(crate) shelf: Shelf,
@@ -102,7 +107,6 @@ impl Workbench {
     pub fn new(ctx: &egui::Context, scene: Option<&Path>, drive: Drive) -> Result<Self, AppError> {
         theme::install(ctx);
         let origin = scene.map_or(Origin::Shipped, |path| Origin::File(path.to_owned()));
-        let opened = open(origin)?;
         let now = Instant::now();
         let is_stepped = drive == Drive::Stepped;
         let (settings, complaint) = if is_stepped {
@@ -110,6 +114,8 @@ impl Workbench {
         } else {
             Settings::of_user()
         };
+        let opened = open(origin, settings.kept.rendering)?;
+        let scene_serial = opened.prepared.serial();
         let config = EngineConfig {
             scene: opened.prepared,
             on_news: (!is_stepped).then(|| waker(ctx)),
@@ -130,7 +136,9 @@ impl Workbench {
             tap: Arc::new(Mutex::new(PointerTap::new(engine.take_pointer()))),
             engine,
             take: None,
-            preparing: Preparing::new(opened.cache),
+            scene_serial,
+            rendering: opened.rendering,
+            preparing: Preparing::new(opened.cache, opened.rendering),
             felt: Felt::default(),
             shelf: Shelf::new(Arc::clone(loaded.library()), opened.shelf),
             library: Vec::new(),
@@ -169,10 +177,12 @@ impl Workbench {
 
     /// Shows another scene, and lets it be felt.
     pub(crate) fn show_scene(&mut self, opened: Opened) {
+        self.scene_serial = opened.prepared.serial();
+        self.rendering = opened.rendering;
         self.send(Command::SetScene(Box::new(opened.prepared)));
         self.document = document_of(&opened.loaded, opened.path.as_deref());
         self.shelf = Shelf::new(Arc::clone(opened.loaded.library()), opened.shelf);
-        self.preparing = Preparing::new(opened.cache);
+        self.preparing = Preparing::new(opened.cache, opened.rendering);
         self.loaded = opened.loaded;
         self.transient.audition = super::audition::Audition::default();
         self.transient.trail = Trail::default();
@@ -182,6 +192,7 @@ impl Workbench {
         self.eye.n_scenes += 1;
         self.workspace.camera = super::workspace::Camera::default();
         self.show_document();
+        self.render_as_chosen(&self.ctx.clone());
     }
 
     /// What a scene that is new to the window needs.

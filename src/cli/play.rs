@@ -50,6 +50,16 @@ pub(super) struct PlayArgs {
     /// How to render: reference, banded, table or auto
     #[arg(long, value_name = "METHOD", default_value = "auto")]
     method: Method,
+    /// Largest level error that auto and table may make, dB: auto takes the cheapest method that is
+    /// proved to keep to it, 0 takes reference
+    #[arg(
+        long,
+        value_name = "DB",
+        default_value_t = Accuracy::default().budget_db,
+        value_parser = super::render::budget_db,
+        allow_negative_numbers = true
+    )]
+    budget_db: f64,
 }
 
 /// Plays, and says how punctual it was.
@@ -57,7 +67,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     let loaded = LoadedScene::read(&args.scene)?;
     let source = source_of(args)?;
     check_port(&args.port)?;
-    let scene = PreparedScene::prepare(&loaded, args.method, &Accuracy::default())?;
+    let scene = PreparedScene::prepare(&loaded, args.method, &Accuracy::within_db(args.budget_db))?;
     let log = match &args.log {
         Some(place) => Some(PlayLog::create(place, scene.profile(), scene.n_felt())?),
         None => None,

@@ -33,6 +33,16 @@ pub(super) struct RenderArgs {
     /// How to render: reference, banded, table or auto
     #[arg(long, value_name = "METHOD", default_value = "auto")]
     method: Method,
+    /// Largest level error that auto and table may make, dB: auto takes the cheapest method that is
+    /// proved to keep to it, 0 takes reference
+    #[arg(
+        long,
+        value_name = "DB",
+        default_value_t = Accuracy::default().budget_db,
+        value_parser = budget_db,
+        allow_negative_numbers = true
+    )]
+    budget_db: f64,
     /// The drive waveform, one channel a contactor; full scale is 50 µm
     #[arg(long, value_name = "W.wav")]
     wav: Option<PathBuf>,
@@ -45,6 +55,15 @@ pub(super) struct RenderArgs {
     /// Cost, work left out and level error of every method on this path, as JSON
     #[arg(long, value_name = "S.json")]
     stats: Option<PathBuf>,
+}
+
+/// An error budget as it is typed, dB.
+pub(super) fn budget_db(text: &str) -> Result<f64, String> {
+    let budget_db = text.parse().ok();
+    let is_budget = |budget_db: &f64| *budget_db >= 0.0 && budget_db.is_finite();
+    budget_db
+        .filter(is_budget)
+        .ok_or_else(|| "give a number of dB, 0 or above".to_owned())
 }
 
 /// What `--stats` writes.
@@ -91,7 +110,7 @@ fn run_method(
     let what = Replay {
         scene,
         method,
-        accuracy: Accuracy::default(),
+        accuracy: Accuracy::within_db(args.budget_db),
         measures_error: args.stats.is_some(),
     };
     let started = Instant::now();

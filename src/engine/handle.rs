@@ -39,6 +39,7 @@ pub struct EngineConfig {
 pub struct Engine {
     body: Body,
     orders: Producer<Order>,
+    commands_sent: u64,
     retired: Consumer<Retired>,
     notices: Consumer<Notice>,
     glimpses: Consumer<Glimpse>,
@@ -114,6 +115,7 @@ impl Engine {
         Ok(Self {
             body: Body::Still(Box::new(runner)),
             orders,
+            commands_sent: 0,
             retired,
             notices,
             glimpses,
@@ -223,6 +225,13 @@ impl Engine {
         self.snapshots.read()
     }
 
+    /// Commands that were sent, but for stops. A snapshot whose
+    /// [`commands_obeyed`](super::EngineCounters::commands_obeyed) is less does not show all of
+    /// them yet.
+    pub fn commands_sent(&self) -> u64 {
+        self.commands_sent
+    }
+
     /// The oldest notice that was not taken yet.
     pub fn next_notice(&mut self) -> Option<Notice> {
         self.notices.pop().ok()
@@ -272,6 +281,7 @@ impl Engine {
 
     pub(super) fn push(&mut self, order: Order) -> Result<(), EngineError> {
         self.orders.push(order).map_err(|_full| EngineError::Busy)?;
+        self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
     }

@@ -6,38 +6,86 @@ use crate::bridge::Spread;
 
 /// Buckets to an octave: a quantile is at most 9 % too high.
 const PER_OCTAVE: usize = 8;
-/// The first bucket ends at 1 µs, the last octave at 2 s.
-const N_OCTAVES: usize = 21;
+/// The first bucket ends at 2⁻⁴ µs, the last octave at 2 s.
+const LOWEST_OCTAVE: f64 = -4.0;
+const N_OCTAVES: usize = 25;
 const N_BUCKETS: usize = PER_OCTAVE * N_OCTAVES + 1;
 /// Ticks over which the median cost is taken: 1.6 s.
 const RECENT: usize = 64;
 
-/// How often each duration was met.
-#[derive(Debug)]
-pub(super) struct Histogram {
-    counts: [u64; N_BUCKETS],
+/// How often each duration was met, in buckets of an eighth of an octave from 62.5 ns to 2 s.
+/// Fixed size: it is copied into every snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DurationHistogram {
+    counts: [u32; N_BUCKETS],
     n: u64,
     max: Duration,
 }
 
-impl Histogram {
-    pub(super) fn new() -> Self {
+/// A bucket of a [`DurationHistogram`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DurationBucket {
+    /// Its lower end; zero for the first.
+    pub from: Duration,
+    /// Its upper end, which belongs to it.
+    pub to: Duration,
+    /// How often.
+    pub count: u32,
+}
+
+impl Default for DurationHistogram {
+    fn default() -> Self {
         Self {
             counts: [0; N_BUCKETS],
             n: 0,
             max: Duration::ZERO,
         }
     }
+}
 
-    pub(super) fn add(&mut self, duration: Duration) {
-        self.counts[bucket_of(duration)] += 1;
+impl DurationHistogram {
+    /// Adds a duration. Allocates nothing.
+    pub fn add(&mut self, duration: Duration) {
+        let count = &mut self.counts[bucket_of(duration)];
+        *count = count.saturating_add(1);
         self.n += 1;
         self.max = self.max.max(duration);
     }
 
+    /// How many were added.
+    pub fn n(&self) -> u64 {
+        self.n
+    }
+
+    /// What was added since this histogram was as `earlier`; its largest is that of its highest
+    /// bucket that is not empty, at most the largest of all.
+    #[must_use]
+    pub fn since(&self, earlier: &Self) -> Self {
+        let mut counts = self.counts;
+        for (count, before) in counts.iter_mut().zip(earlier.counts) {
+            *count = count.saturating_sub(before);
+        }
+        let highest = counts.iter().rposition(|count| *count > 0);
+        Self {
+            counts,
+            n: self.n.saturating_sub(earlier.n),
+            max: highest.map_or(Duration::ZERO, |bucket| upper_end(bucket).min(self.max)),
+        }
+    }
+
+    /// The buckets that are not empty, from short to long.
+    pub fn buckets(&self) -> impl Iterator<Item = DurationBucket> {
+        let filled = self.counts.iter().enumerate().filter(|(_, n)| **n > 0);
+        filled.map(|(bucket, &count)| DurationBucket {
+            from: bucket.checked_sub(1).map_or(Duration::ZERO, upper_end),
+            to: upper_end(bucket),
+            count,
+        })
+    }
+
     /// Median, 99th percentile and largest. Quantiles are the upper ends of their buckets, never
     /// above the largest.
-    pub(super) fn spread(&self) -> Spread {
+    pub fn spread(&self) -> Spread {
         Spread {
             n: self.n,
             median: self.quantile(50),
@@ -50,7 +98,7 @@ impl Histogram {
         let rank = (self.n * percent).div_ceil(100);
         let mut seen = 0;
         for (bucket, count) in self.counts.iter().enumerate() {
-            seen += count;
+            seen += u64::from(*count);
             if seen >= rank && seen > 0 {
                 return upper_end(bucket).min(self.max);
             }
@@ -61,20 +109,20 @@ impl Histogram {
 
 fn bucket_of(duration: Duration) -> usize {
     let us = duration.as_secs_f64() * 1e6;
-    if us <= 1.0 {
+    if us <= LOWEST_OCTAVE.exp2() {
         return 0;
     }
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a logarithm of a number above 1, below 1000"
+        reason = "a logarithm above the lowest, below 1000"
     )]
-    let bucket = (us.log2() * PER_OCTAVE as f64).ceil() as usize;
+    let bucket = ((us.log2() - LOWEST_OCTAVE) * PER_OCTAVE as f64).ceil() as usize;
     bucket.min(N_BUCKETS - 1)
 }
 
 fn upper_end(bucket: usize) -> Duration {
-    Duration::from_secs_f64((bucket as f64 / PER_OCTAVE as f64).exp2() * 1e-6)
+    Duration::from_secs_f64((bucket as f64 / PER_OCTAVE as f64 + LOWEST_OCTAVE).exp2() * 1e-6)
 }
 
 /// The median of the last few costs.
@@ -115,7 +163,7 @@ mod tests {
 
     #[test]
     fn quantiles_are_within_a_bucket_and_the_largest_is_exact() {
-        let mut histogram = Histogram::new();
+        let mut histogram = DurationHistogram::default();
         assert_eq!(histogram.spread().p99, Duration::ZERO);
         for us in 1..=1000 {
             histogram.add(Duration::from_micros(us));
@@ -132,11 +180,30 @@ mod tests {
 
     #[test]
     fn durations_beyond_the_last_bucket_count_as_the_largest() {
-        let mut histogram = Histogram::new();
+        let mut histogram = DurationHistogram::default();
         histogram.add(Duration::from_hours(1));
         histogram.add(Duration::ZERO);
         assert_eq!(histogram.spread().n, 2);
         assert_eq!(histogram.spread().max, Duration::from_hours(1));
+    }
+
+    #[test]
+    fn what_came_since_is_told_apart_and_buckets_hold_their_durations() {
+        let mut histogram = DurationHistogram::default();
+        let us = |us: u64| Duration::from_nanos(us * 1000 + 1);
+        (0..5).for_each(|_| histogram.add(us(900)));
+        let before = histogram;
+        (0..3).for_each(|_| histogram.add(us(7)));
+        histogram.add(Duration::from_nanos(90));
+        let since = histogram.since(&before);
+        assert_eq!(since.n(), 4);
+        let counts: Vec<u32> = since.buckets().map(|bucket| bucket.count).collect();
+        assert_eq!(counts, [1, 3]);
+        for (bucket, held) in since.buckets().zip([Duration::from_nanos(90), us(7)]) {
+            assert!(bucket.from < held && held <= bucket.to, "{bucket:?}");
+        }
+        assert!(since.spread().max < us(8), "{:?}", since.spread());
+        assert_eq!(before.since(&before).spread().max, Duration::ZERO);
     }
 
     #[test]

@@ -43,6 +43,7 @@ pub use error::EngineError;
 pub use glimpse::Glimpse;
 pub use handle::{Engine, EngineConfig};
 pub use input::{Control, InputLosses, PointerInput, PointerSender, Reading};
+pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::{Due, PATIENCE, Pacer};
 pub use prepared::PreparedScene;
 pub use recording::{RecordedTick, Recording};

@@ -12,7 +12,7 @@ use triple_buffer::Input;
 use super::gist::{Gist, Waker};
 use super::glimpse::Glimpser;
 use super::link::{Link, News};
-use super::meters::{Histogram, RecentMedian};
+use super::meters::{DurationHistogram, RecentMedian};
 use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch};
@@ -60,9 +60,11 @@ pub(super) struct Runner {
     pub(super) clock: Clock,
     pacer: Pacer,
     link: Link,
-    lateness: Histogram,
+    lateness: DurationHistogram,
     late: u64,
     cost: RecentMedian,
+    costs: DurationHistogram,
+    commands_obeyed: u64,
     gist: Gist,
     waker: Waker,
     is_over: bool,
@@ -85,9 +87,11 @@ impl Runner {
             clock,
             pacer: Pacer::new(clock.now()),
             link: Link::default(),
-            lateness: Histogram::new(),
+            lateness: DurationHistogram::default(),
             late: 0,
             cost: RecentMedian::new(),
+            costs: DurationHistogram::default(),
+            commands_obeyed: 0,
             gist: Gist::default(),
             waker,
             is_over: false,
@@ -157,6 +161,9 @@ impl Runner {
         self.late += u64::from(started.saturating_duration_since(due) > LATE);
         self.lateness.add(done.saturating_duration_since(due));
         self.cost.add(done.saturating_duration_since(started));
+        if matches!(self.clock, Clock::Real) {
+            self.costs.add(done.saturating_duration_since(started));
+        }
         self.publish();
     }
 
@@ -207,6 +214,7 @@ impl Runner {
             let Ok(order) = self.channels.orders.pop() else {
                 return;
             };
+            self.commands_obeyed += 1;
             match order {
                 Order::Core(order) => self.obey_core(order),
                 Order::Scene(next, snapshots) => self.set_scene(next, snapshots),
@@ -278,6 +286,7 @@ impl Runner {
         self.core.fill(snapshot, depth);
         snapshot.counters.notices_lost = self.notices_lost;
         snapshot.counters.glimpses_lost = glimpses_lost;
+        snapshot.counters.commands_obeyed = self.commands_obeyed;
         snapshot.counters.frames_unheard = self.link.n_unheard();
         snapshot.clock = ClockView {
             is_device_paced: self.pacer.is_device_paced(),
@@ -286,6 +295,7 @@ impl Runner {
             fallbacks: self.pacer.fallbacks(),
             lateness: self.lateness.spread(),
             cost_ns: self.cost.median_ns(),
+            costs: self.costs,
         };
         snapshot.link = self.link.view();
         let gist = Gist::of(snapshot);

@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use super::{PreparedScene, SampleCounters, VelocityMethod};
+use super::{DurationHistogram, PreparedScene, SampleCounters, VelocityMethod};
 use crate::bridge::{Bite, BridgeCounters, BridgeState, Caps, SentFrame, Spread, Status, Timings};
 use crate::geometry::Point;
 use crate::render::Counters;
@@ -27,6 +27,9 @@ pub struct Snapshot {
     pub t_s: f64,
     /// Where the display is, how it is turned and how it moves. Its time is that of the source.
     pub pose: Pose,
+    /// The pose that the amplitudes below were rendered at: at rest while everything is off, and in
+    /// a scene that was just opened.
+    pub rendered: Pose,
     /// The angle that the display was turned to by hand, degrees counter-clockwise, added to the
     /// scene's; a replay has angles of its own instead.
     pub turn_deg: f64,
@@ -69,15 +72,17 @@ impl Snapshot {
     /// A snapshot before the first tick, with room for every contactor of the scene.
     pub fn of(scene: &PreparedScene) -> Self {
         let renderer = scene.renderer();
+        let pose = Pose {
+            position: scene.start(),
+            ..Pose::default()
+        };
         Self {
             scene_serial: scene.serial(),
             revision: 0,
             tick: 0,
             t_s: 0.0,
-            pose: Pose {
-                position: scene.start(),
-                ..Pose::default()
-            },
+            pose,
+            rendered: pose,
             turn_deg: 0.0,
             displays: scene.empty_views(),
             is_stopped: false,
@@ -192,6 +197,8 @@ pub struct ClockView {
     pub lateness: Spread,
     /// Median cost of the recent ticks, ns; 0 where nobody measures.
     pub cost_ns: u64,
+    /// The cost of every tick since the engine started, wall time; none where nobody measures.
+    pub costs: DurationHistogram,
 }
 
 /// What was lost or refused since the engine started.
@@ -205,6 +212,9 @@ pub struct EngineCounters {
     pub glimpses_lost: u64,
     /// Frames not made because no armed device listened.
     pub frames_unheard: u64,
+    /// Commands obeyed before this was shown: all that were sent once it equals
+    /// [`Engine::commands_sent`](super::Engine::commands_sent).
+    pub commands_obeyed: u64,
 }
 
 /// The device in a snapshot.

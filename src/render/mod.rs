@@ -17,6 +17,7 @@ mod gains;
 mod input;
 mod plan;
 mod replay;
+mod running_error;
 mod stats;
 
 pub use difference::{
@@ -26,6 +27,7 @@ pub use gains::{GainTerms, MAX_TOTAL_GAIN_DB};
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 pub use plan::{Counters, Rule, Rules};
 pub use replay::{FrameSink, PairSink, Replay, replay, replay_pair};
+pub use running_error::RunningError;
 pub use stats::{ErrorMeter, Histogram, LevelError, RunStats};
 
 use crate::tactile::TuningError;

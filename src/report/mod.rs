@@ -44,7 +44,7 @@ pub use growth::GrowthStudy;
 pub use left_out::{LeftOutStudy, SavingRule};
 pub use machine::Machine;
 pub use pareto::pareto;
-pub use rendering::RenderingStudy;
+pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use spectral_model::SpectralModelStudy;
 pub use study::Study;

@@ -237,6 +237,15 @@ fn bad_usage_is_one_line_that_says_how_to_mend_it() {
         "fast",
     ]);
     assert!(line.contains("reference, banded, table or auto"), "{line}");
+    for command in [
+        &RENDER[..],
+        &["play", "a.scene.toml", "--path", "a.csv", "--port", "p"],
+    ] {
+        for budget_db in ["-1", "inf", "none"] {
+            let line = lab.refuse(&[command, &["--budget-db", budget_db]].concat());
+            assert!(line.contains("give a number of dB, 0 or above"), "{line}");
+        }
+    }
 }
 
 #[test]

@@ -65,6 +65,34 @@ fn every_method_writes_the_same_amplitudes_within_its_error() {
 }
 
 #[test]
+fn the_error_budget_decides_what_auto_renders_by() {
+    let lab = Lab::with_scene();
+    let with = |budget_db: &str| {
+        let args = [
+            "--budget-db",
+            budget_db,
+            "--stats",
+            "s.json",
+            "--out",
+            "a40.csv",
+        ];
+        lab.print(&[&RENDER[..], &args].concat());
+        let stats = lab.read("s.json");
+        let used = stats.split_once("\"method\": \"").unwrap().1;
+        (
+            used[..used.find('"').unwrap()].to_owned(),
+            lab.read("a40.csv"),
+        )
+    };
+    let reference = lab.print(&[&RENDER[..], &["--method", "reference"]].concat());
+    assert_eq!(with("0"), ("reference".to_owned(), reference));
+    assert_eq!(with("0.0001").0, "banded");
+    let (method, amplitudes) = with("0.05");
+    assert_eq!(method, "table");
+    assert_eq!(lab.print(&RENDER), amplitudes, "that is what it is without");
+}
+
+#[test]
 fn a_run_writes_the_same_bytes_to_a_file_and_nothing_beside_it() {
     let lab = Lab::with_scene();
     let printed = lab.print(&RENDER);

@@ -54,11 +54,18 @@ impl Workbench {
 
     fn prepare(&mut self, ctx: &egui::Context, scene: &Scene) {
         let scene = self.felt_now(scene).in_scene(scene);
-        let asked = self
-            .preparing
-            .ask(&self.loaded, scene, ctx, self.is_stepped);
+        let what = (scene, self.settings.kept.rendering);
+        let asked = self.preparing.ask(&self.loaded, what, ctx, self.is_stepped);
         if let Some(outcome) = asked {
             self.take_prepared(ctx, outcome);
+        }
+    }
+
+    /// Lets the engine render as the user chose, if it does not yet.
+    pub(crate) fn render_as_chosen(&mut self, ctx: &egui::Context) {
+        if self.rendering != self.settings.kept.rendering || self.preparing.is_busy() {
+            let scene = self.document.scene().clone();
+            self.prepare(ctx, &scene);
         }
     }
 
@@ -76,9 +83,11 @@ impl Workbench {
 
     fn take_prepared(&mut self, ctx: &egui::Context, outcome: Result<Ready, AppError>) {
         match outcome {
-            Ok((loaded, prepared)) => {
-                self.send(engine::Command::UpdateScene(prepared));
-                self.loaded = loaded;
+            Ok(ready) => {
+                self.scene_serial = ready.prepared.serial();
+                self.send(engine::Command::UpdateScene(ready.prepared));
+                self.loaded = ready.loaded;
+                self.rendering = ready.rendering;
                 self.felt = self.felt.after_scene(self.loaded.scene());
                 self.scene_has_changed();
                 // Gains may have moved on while a thread was at work.
@@ -88,6 +97,14 @@ impl Workbench {
                 // The last good scene stays, in the engine and in the document.
                 self.transient.notices.give(error.to_string());
                 let before = self.document.scene().clone();
+                let tried = std::mem::replace(&mut self.settings.kept.rendering, self.rendering);
+                if tried != self.rendering {
+                    // It was not the scene: what is left of the edit is tried as before.
+                    if preparing::differs(self.loaded.scene(), &before) {
+                        self.prepare(ctx, &before);
+                    }
+                    return;
+                }
                 self.document.take_back();
                 if preparing::differs(&before, self.document.scene()) {
                     self.follow(ctx, &before);

@@ -90,10 +90,10 @@ impl Workbench {
     fn open(&mut self, ctx: &egui::Context, origin: Origin) {
         self.transient.ask = None;
         if self.is_stepped {
-            let outcome = open(origin).map(Box::new);
+            let outcome = open(origin, self.settings.kept.rendering).map(Box::new);
             return self.take_opened(outcome);
         }
-        match Opening::start(origin, ctx) {
+        match Opening::start(origin, self.settings.kept.rendering, ctx) {
             Ok(opening) => self.transient.opening = Some(opening),
             Err(error) => {
                 let words = format!("The scene was not opened: {error}; try again");

@@ -1,5 +1,6 @@
 //! The one place where something changes: commands in, document, engine and transient state out.
 
+mod accuracy;
 mod compare;
 mod device;
 mod edit;
@@ -28,6 +29,7 @@ impl Workbench {
             Command::File(command) => self.dispatch_file(ctx, command),
             Command::Play(command) => self.dispatch_play(command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
+            Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

@@ -89,9 +89,11 @@ fn kind(command: &Command) -> &'static str {
         Command::Device(_) => "Device",
         Command::File(_) => "Files",
         Command::Play(_) => "Play and record",
-        Command::Show(_) | Command::Compare(_) | Command::Dismiss | Command::DismissNotice(_) => {
-            "View"
-        }
+        Command::Show(_)
+        | Command::Accuracy(_)
+        | Command::Compare(_)
+        | Command::Dismiss
+        | Command::DismissNotice(_) => "View",
     }
 }
 

@@ -3,6 +3,7 @@
 //! A pane takes views (`view.rs`), pushes [`Command`]s, and changes nothing. What it computes
 //! before it paints is a pure query with tests of its own.
 
+mod accuracy;
 mod ask;
 mod bridge;
 mod compare;
@@ -23,6 +24,7 @@ mod transport;
 mod tuning;
 mod why;
 
+pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
 pub(crate) use compare::{CompareView, show as show_compare, show_corner as show_compare_corner};

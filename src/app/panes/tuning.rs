@@ -8,7 +8,7 @@ use crate::app::command::{Edit, Part, ShowCommand};
 use crate::app::sensation::{SOURCE, above_words, felt_words, noticed_db, of_textile};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
-use crate::app::widgets::{Scale, row, slider_row, tip_beside, toggle};
+use crate::app::widgets::{Curve, Scale, row, slider_row, tip_beside, toggle};
 use crate::quantity;
 use crate::tactile::{Band, Filters, Perception, Tuning};
 
@@ -246,6 +246,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
         unit: "oct",
         factor: 1.0,
         noticed: None,
+        curve: Curve::Even,
     };
     ui.add_enabled_ui(is_gaussian, |ui| {
         let ink = Palette::in_ui(ui).text;

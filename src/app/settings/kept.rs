@@ -6,6 +6,7 @@ use eframe::egui::ThemePreference;
 
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::command::DotStyle;
+use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
 
 /// Most scenes that are remembered.
@@ -38,6 +39,8 @@ pub(crate) struct Kept {
     pub(crate) amplitude: AmplitudeScale,
     /// Pixels per millimetre of the screen, once it was calibrated.
     pub(crate) pixels_per_mm: Option<f64>,
+    /// How scenes are rendered.
+    pub(crate) rendering: Rendering,
     /// Where each pane stands, as text that whoever arranges them understands.
     pub(crate) arrangement: Option<String>,
     /// Size of the window, points.
@@ -57,6 +60,7 @@ impl Default for Kept {
             greys_below: true,
             amplitude: AmplitudeScale::default(),
             pixels_per_mm: None,
+            rendering: Rendering::default(),
             arrangement: None,
             window_size: None,
             recent_scenes: Vec::new(),
@@ -77,6 +81,7 @@ impl Kept {
             .filter(|size| !size.iter().any(|x| x.is_nan()));
         Self {
             zoom: within(self.zoom, ZOOM),
+            rendering: self.rendering.in_bounds(),
             pixels_per_mm: per_mm.map(|x| x.clamp(PIXELS_PER_MM[0], PIXELS_PER_MM[1])),
             window_size: size.map(|[width, height]| [within(width, WIDTH), within(height, HEIGHT)]),
             ..self
@@ -113,12 +118,17 @@ mod tests {
         let kept = Kept {
             zoom: 9.0,
             pixels_per_mm: Some(-3.0),
+            rendering: Rendering {
+                budget_db: 7.0,
+                ..Rendering::default()
+            },
             window_size: Some([10.0, f32::INFINITY]),
             ..Kept::default()
         };
         let kept = kept.in_bounds();
         assert_eq!(kept.zoom, 2.0);
         assert_eq!(kept.pixels_per_mm, Some(1.0));
+        assert_eq!(kept.rendering.budget_db, 1.0);
         assert_eq!(kept.window_size, Some([960.0, 16_384.0]));
     }
 
@@ -127,6 +137,10 @@ mod tests {
         let kept = Kept {
             zoom: f32::NAN,
             pixels_per_mm: Some(f64::NAN),
+            rendering: Rendering {
+                budget_db: f64::NAN,
+                ..Rendering::default()
+            },
             window_size: Some([1400.0, f32::NAN]),
             ..Kept::default()
         };

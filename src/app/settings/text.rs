@@ -11,8 +11,10 @@ use serde::{Deserialize, Serialize};
 
 use super::kept::Kept;
 use crate::app::command::DotStyle;
+use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
 use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
+use crate::render::array::Method;
 
 const THEMES: [(ThemePreference, &str); 3] = [
     (ThemePreference::System, "system"),
@@ -39,6 +41,8 @@ struct Keys {
     amplitude_locked: Value<bool>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     pixels_per_mm: Value<f64>,
+    rendering_method: Value<String>,
+    error_budget_db: Value<f64>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     window_size: Value<[f32; 2]>,
     recent_scenes: Value<Vec<PathBuf>>,
@@ -90,10 +94,15 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
     let theme = choice(taken("theme", keys.theme, odd), &THEMES);
     let map = choice(taken("colour_map", keys.colour_map, odd), &colour_maps());
     let dots = choice(taken("dots", keys.dots, odd), &DOTS);
+    let method = choice(
+        taken("rendering_method", keys.rendering_method, odd),
+        &methods(),
+    );
     for (key, is_odd) in [
         ("theme", theme.is_err()),
         ("colour_map", map.is_err()),
         ("dots", dots.is_err()),
+        ("rendering_method", method.is_err()),
     ] {
         if is_odd {
             odd.push(key);
@@ -103,6 +112,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
     let top_um = taken("amplitude_top_um", keys.amplitude_top_um, odd);
     let is_locked = taken("amplitude_locked", keys.amplitude_locked, odd);
     let scale = top_um.map_or(first.amplitude, |um| first.amplitude.locked_at(um));
+    let budget_db = taken("error_budget_db", keys.error_budget_db, odd);
     let recent = taken("recent_scenes", keys.recent_scenes, odd);
     Kept {
         theme: theme.ok().flatten().unwrap_or(first.theme),
@@ -114,6 +124,10 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             .unwrap_or(first.greys_below),
         amplitude: scale.with_lock(is_locked.unwrap_or_else(|| scale.is_locked())),
         pixels_per_mm: taken("pixels_per_mm", keys.pixels_per_mm, odd),
+        rendering: Rendering {
+            method: method.ok().flatten().unwrap_or(first.rendering.method),
+            budget_db: budget_db.unwrap_or(first.rendering.budget_db),
+        },
         arrangement: taken("arrangement", keys.arrangement, odd),
         window_size: taken("window_size", keys.window_size, odd),
         ..first
@@ -150,6 +164,10 @@ fn colour_maps() -> [(ColourMap, &'static str); 3] {
     ColourMap::ALL.map(|map| (map, map.label()))
 }
 
+fn methods() -> [(Method, &'static str); 4] {
+    Method::ALL.map(|method| (method, method.name()))
+}
+
 /// The settings as the text of a file. Scenes whose paths are no text are left out.
 pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
     let recent = kept.recent_scenes.iter();
@@ -164,6 +182,8 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         amplitude_top_um: Value::Known(kept.amplitude.most_um()),
         amplitude_locked: Value::Known(kept.amplitude.is_locked()),
         pixels_per_mm: kept.pixels_per_mm.into(),
+        rendering_method: word(&kept.rendering.method, &methods()).into(),
+        error_budget_db: Value::Known(kept.rendering.budget_db),
         window_size: kept.window_size.into(),
         recent_scenes: Value::Known(recent.filter(is_text).cloned().collect()),
         arrangement: kept.arrangement.clone().into(),
@@ -191,6 +211,10 @@ mod tests {
             greys_below: false,
             amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
             pixels_per_mm: Some(3.78),
+            rendering: Rendering {
+                method: Method::Banded,
+                budget_db: 0.0,
+            },
             arrangement: Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),
             window_size: Some([1600.0, 1000.5]),
             ..Kept::default()
@@ -218,7 +242,8 @@ mod tests {
 
     #[test]
     fn a_value_that_is_not_understood_spoils_only_itself() {
-        let text = "zoom_percent = 150\ntheme = \"sepia\"\nnumbers = 3\nwindow_size = [1400]\n";
+        let text = "zoom_percent = 150\ntheme = \"sepia\"\nnumbers = 3\nwindow_size = [1400]\n\
+                    rendering_method = \"magic\"\nerror_budget_db = \"none\"\n";
         let (kept, odd) = read(text, path()).unwrap();
         assert_eq!((kept.zoom, odd), (1.5, Some(2)));
         let others = Kept { zoom: 1.0, ..kept };

@@ -16,5 +16,5 @@ pub(crate) use axis::{
 pub(crate) use bar::colour_bar;
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use polyline::corners;
-pub(crate) use slider::{Scale, slider_row, tip_beside};
+pub(crate) use slider::{Curve, Scale, slider_row, tip_beside};
 pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};

@@ -22,6 +22,20 @@ const MOST_MARKS: u8 = 8;
 /// How much finer Shift moves.
 const FINE: f64 = 0.1;
 
+/// The share of a rail over decades that is kept for zero.
+const ZERO_SHARE: f64 = 0.08;
+/// Steps of the arrow keys in a decade.
+const STEPS_A_DECADE: f64 = 20.0;
+
+/// How a slider's values lie along its rail.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Curve {
+    /// Evenly.
+    Even,
+    /// Evenly over so many decades below the highest value, with zero at the lower end.
+    Decades(f64),
+}
+
 /// What a slider measures.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scale {
@@ -41,6 +55,8 @@ pub(crate) struct Scale {
     pub(crate) factor: f64,
     /// The change that is just noticed, if it is known: marked while the slider is held or hovered.
     pub(crate) noticed: Option<f64>,
+    /// How values lie along the rail.
+    pub(crate) curve: Curve,
 }
 
 impl Scale {
@@ -56,6 +72,7 @@ impl Scale {
             unit: "dB",
             factor: 1.0,
             noticed: None,
+            curve: Curve::Even,
         }
     }
 
@@ -75,20 +92,54 @@ impl Scale {
             unit: "%",
             factor: 100.0,
             noticed: None,
+            curve: Curve::Even,
         }
     }
 
+    /// A value from the rail, rounded as befits it.
     fn stepped(&self, value: f64) -> f64 {
+        if let Curve::Decades(_) = self.curve {
+            return two_digits(value).clamp(self.least, self.most);
+        }
         let whole = (value / self.step).round();
         // Dividing by the reciprocal keeps tenths as short in files as on the screen.
         (whole / (1.0 / self.step).round()).clamp(self.least, self.most)
     }
 
+    /// The value so many steps of the arrow keys away.
+    fn moved(&self, value: f64, steps: f64) -> f64 {
+        let Curve::Decades(decades) = self.curve else {
+            return (value + steps * self.step).clamp(self.least, self.most);
+        };
+        let lowest = self.most * 10.0_f64.powf(-decades);
+        let factor = 10.0_f64.powf(steps / STEPS_A_DECADE);
+        match value * factor {
+            _ if value <= 0.0 && steps > 0.0 => lowest,
+            next if next < lowest * 0.999 => 0.0,
+            next => next.min(self.most),
+        }
+    }
+
     fn share_of(&self, value: f64) -> f64 {
+        if let Curve::Decades(decades) = self.curve {
+            if value <= 0.0 {
+                return 0.0;
+            }
+            let share = 1.0 + (value / self.most).log10() / decades;
+            return ZERO_SHARE + (1.0 - ZERO_SHARE) * share.clamp(0.0, 1.0);
+        }
         ((value - self.least) / (self.most - self.least)).clamp(0.0, 1.0)
     }
 
     fn value_at(&self, share: f64) -> f64 {
+        if let Curve::Decades(decades) = self.curve {
+            let above = (share.clamp(0.0, 1.0) - ZERO_SHARE) / (1.0 - ZERO_SHARE);
+            return if share < 0.5 * ZERO_SHARE {
+                0.0
+            } else {
+                self.most * 10.0_f64.powf(decades * (above.max(0.0) - 1.0))
+            };
+        }
         self.least + share.clamp(0.0, 1.0) * (self.most - self.least)
     }
 
@@ -179,8 +230,8 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
     }
     let steps = key_steps(ui, response);
     if steps != 0 {
-        let size = scale.step * if fine { FINE } else { 1.0 };
-        return Some((value + f64::from(steps) * size).clamp(scale.least, scale.most));
+        let size = if fine { FINE } else { 1.0 };
+        return Some(scale.moved(value, f64::from(steps) * size));
     }
     asked_value(ui, response.id).map(|asked| (asked / scale.factor).clamp(scale.least, scale.most))
 }
@@ -276,6 +327,12 @@ fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
         node.add_action(accesskit::Action::Increment);
         node.add_action(accesskit::Action::Decrement);
     });
+}
+
+/// A positive number rounded to two digits; 0 stays.
+fn two_digits(value: f64) -> f64 {
+    // What is printed and read again is as short in files as on the screen.
+    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// Where the middle of the thumb may go.
@@ -397,6 +454,35 @@ mod tests {
         for odd in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(marks(&gain, 0.0, odd).is_empty(), "{odd}");
         }
+    }
+
+    #[test]
+    fn a_rail_over_decades_begins_with_zero_and_moves_by_ratios() {
+        let scale = Scale {
+            least: 0.0,
+            most: 1.0,
+            resting: 0.05,
+            step: 0.01,
+            decimals: 4,
+            unit: "dB",
+            factor: 1.0,
+            noticed: None,
+            curve: Curve::Decades(4.0),
+        };
+        assert_eq!(scale.value_at(0.0), 0.0);
+        assert_eq!(scale.value_at(1.0), 1.0);
+        assert_eq!((scale.share_of(0.0), scale.share_of(1.0)), (0.0, 1.0));
+        assert_eq!(scale.stepped(0.051_4), 0.051);
+        for value in [1e-4, 0.003, 0.05, 1.0] {
+            let back = scale.value_at(scale.share_of(value));
+            assert!((back / value - 1.0).abs() < 1e-9, "{value}: {back}");
+            let there = scale.moved(scale.moved(value, -1.0), 1.0);
+            assert!((there / value - 1.0).abs() < 1e-9, "{value}: {there}");
+        }
+        assert_eq!(scale.moved(1e-4, -1.0), 0.0);
+        assert!((scale.moved(0.0, 1.0) - 1e-4).abs() < 1e-12, "up from zero");
+        assert_eq!(scale.moved(0.0, -1.0), 0.0);
+        assert_eq!(scale.moved(0.99, 5.0), 1.0);
     }
 
     #[test]

@@ -198,7 +198,8 @@ impl EngineCore {
     pub(super) fn stop(&mut self) -> Option<Retired> {
         self.is_stopped = true;
         self.control(Control::Pause);
-        self.scene.render(at_rest(self.pose), &self.mask);
+        self.rendered = at_rest(self.pose);
+        self.scene.render(self.rendered, &self.mask);
         self.end_recording()
     }
 
@@ -221,6 +222,7 @@ impl EngineCore {
         snapshot.tick = self.tick;
         snapshot.t_s = self.tick as f64 / TICKS_PER_S;
         snapshot.pose = self.pose;
+        snapshot.rendered = self.rendered;
         snapshot.turn_deg = self.angle_deg;
         self.scene.fill(&mut snapshot.displays);
         snapshot.is_stopped = self.is_stopped;

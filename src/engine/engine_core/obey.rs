@@ -66,7 +66,8 @@ impl EngineCore {
                         ..at_rest(self.pose)
                     };
                 }
-                self.scene.render(at_rest(self.pose), &self.mask);
+                self.rendered = at_rest(self.pose);
+                self.scene.render(self.rendered, &self.mask);
                 [recording, Some(Retired::Scene(retired))]
             }
             NextScene::Edited(mut scene) => {

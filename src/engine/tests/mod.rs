@@ -6,6 +6,7 @@ mod exact;
 mod glimpses;
 mod mask;
 mod seek;
+mod shown;
 mod update;
 
 use std::io::Cursor;

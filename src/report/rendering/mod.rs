@@ -5,6 +5,9 @@
 
 pub(super) mod cloths;
 mod study_table;
+mod this_scene;
+
+pub use this_scene::{Running, ThisSceneStudy};
 
 use std::sync::Arc;
 
@@ -65,9 +68,13 @@ impl Study for RenderingStudy {
         let n_cases = cases.len() as f64;
         for (number, case) in cases.iter().enumerate() {
             let done = |share: f64| (number as f64 + share) / n_cases;
-            bench.step(done(0.0), case.name)?;
-            findings.rows.extend(product_rows(bench, case)?);
-            bench.step(done(0.5), case.name)?;
+            bench.step(done(0.0), &case.name)?;
+            for (named, accuracy) in product_methods() {
+                findings
+                    .rows
+                    .push(case.product_row(bench, named, &accuracy)?);
+            }
+            bench.step(done(0.5), &case.name)?;
             findings.rows.extend(table_rows(bench, case)?);
         }
         let [slow, fast] = SPEEDS_MM_PER_S.map(|v| quantity::with_unit(v, 0, "mm/s"));
@@ -90,7 +97,7 @@ impl Study for RenderingStudy {
 
 /// A textile, the poses it is felt at, and what the reference makes of them.
 struct Case {
-    name: &'static str,
+    name: String,
     scene: RenderScene,
     poses: Vec<Pose>,
     /// Pose by pose, contactor by contactor, µm.
@@ -124,12 +131,18 @@ impl Case {
         poses: Vec<Pose>,
     ) -> Result<Self, ReportError> {
         let scene = scene_of(vec![placed(surface, Point::default())], exeter());
+        Self::of(name.to_owned(), scene, poses)
+    }
+
+    fn of(name: String, scene: RenderScene, poses: Vec<Pose>) -> Result<Self, ReportError> {
         let mut reference =
             ArrayRenderer::prepare(&scene, Method::Reference, &Accuracy::default())?;
         let mut exact_um = Vec::new();
         let mut largest_um = [0.0_f64; 2];
+        let mut display_poses = vec![Pose::default(); scene.displays.len()];
         for pose in &poses {
-            exact_um.extend(amplitudes(&mut reference, pose));
+            display_poses.fill(*pose);
+            exact_um.extend(amplitudes(&mut reference, &display_poses));
         }
         for amplitudes in &exact_um {
             (0..2).for_each(|b| largest_um[b] = largest_um[b].max(amplitudes[b]));
@@ -173,7 +186,7 @@ impl Case {
         Row {
             method: method.to_owned(),
             setting,
-            case: self.name.to_owned(),
+            case: self.name.clone(),
             error: Some(error.max_db),
             error_p99: Some(error.p99_db),
             cost: Some(cost),
@@ -195,51 +208,59 @@ impl Case {
     ) -> Result<Row, ReportError> {
         let mut renderer = ArrayRenderer::prepare(&self.scene, method, accuracy)?;
         let (n_bytes, bound) = (renderer.n_bytes(), renderer.bound());
-        let mut row = self.row(bench, (method.name(), setting), |pose, out| {
-            out.extend(amplitudes(&mut renderer, pose));
+        let mut poses = vec![Pose::default(); self.scene.displays.len()];
+        let method_used = renderer.method();
+        let mut row = self.row(bench, (method_used.name(), setting), |pose, out| {
+            poses.fill(*pose);
+            out.extend(amplitudes(&mut renderer, &poses));
         });
         row.bytes = Some(n_bytes as u64);
         row.more.push(("bound_db", format!("{:e}", bound.level_db)));
+        row.promised = promised_db(method_used, accuracy);
         Ok(row)
     }
 }
 
-/// All amplitudes of the first display at a pose, µm.
-fn amplitudes(renderer: &mut ArrayRenderer, pose: &Pose) -> impl Iterator<Item = [f64; 2]> {
-    let frames = renderer.tick(std::slice::from_ref(pose));
-    let first = frames.iter().take(1);
-    first.flat_map(|frame| (0..frame.n_contactors()).map(|contactor| frame.amplitude_um(contactor)))
+/// All amplitudes of all displays at their poses, µm.
+fn amplitudes(renderer: &mut ArrayRenderer, poses: &[Pose]) -> impl Iterator<Item = [f64; 2]> {
+    let frames = renderer.tick(poses).iter();
+    frames
+        .flat_map(|frame| (0..frame.n_contactors()).map(|contactor| frame.amplitude_um(contactor)))
 }
 
-/// The methods of the product.
-fn product_rows(bench: &mut Bench<'_>, case: &Case) -> Result<Vec<Row>, ReportError> {
+/// A method, what is said of its setting, and that setting.
+type Configured = ((Method, String), Accuracy);
+
+/// The methods of the product at several settings.
+fn product_methods() -> Vec<Configured> {
     let default = Accuracy::default();
-    let mut rows = Vec::new();
-    let exact = (Method::Reference, String::new());
-    rows.push(case.product_row(bench, exact, &default)?);
-    for banded_floor in FLOORS {
+    let mut methods = vec![((Method::Reference, String::new()), default)];
+    methods.extend(FLOORS.map(|banded_floor| {
         let accuracy = Accuracy {
             banded_floor,
             ..default
         };
-        let named = (Method::Banded, format!("floor {banded_floor:e}"));
-        let row = case.product_row(bench, named, &accuracy)?;
-        let is_default = banded_floor.to_bits() == default.banded_floor.to_bits();
-        rows.push(Row {
-            promised: is_default.then_some(PROMISED_DB),
-            ..row
-        });
-    }
-    for budget_db in BUDGETS_DB {
+        (
+            (Method::Banded, format!("floor {banded_floor:e}")),
+            accuracy,
+        )
+    }));
+    methods.extend(BUDGETS_DB.map(|budget_db| {
         let setting = format!("within {budget_db} dB");
-        let accuracy = Accuracy::within_db(budget_db);
-        let row = case.product_row(bench, (Method::Table, setting), &accuracy)?;
-        rows.push(Row {
-            promised: Some(budget_db),
-            ..row
-        });
+        ((Method::Table, setting), Accuracy::within_db(budget_db))
+    }));
+    methods
+}
+
+/// The error that a method promises at a setting, dB.
+fn promised_db(method: Method, accuracy: &Accuracy) -> Option<f64> {
+    let default_floor = Accuracy::default().banded_floor;
+    let has_default_floor = accuracy.banded_floor.to_bits() == default_floor.to_bits();
+    match method {
+        Method::Banded => has_default_floor.then_some(PROMISED_DB),
+        Method::Table => Some(accuracy.budget_db),
+        Method::Reference | Method::Auto => None,
     }
-    Ok(rows)
 }
 
 /// The tables that the product might have had.
@@ -250,7 +271,7 @@ fn table_rows(bench: &mut Bench<'_>, case: &Case) -> Result<Vec<Row>, ReportErro
     };
     let mut rows = Vec::new();
     for &per_octave in densities {
-        bench.step(0.5, case.name)?;
+        bench.step(0.5, &case.name)?;
         let nodes = Nodes::new(per_octave, true);
         let table = StudyTable::new(&case.scene, nodes, Reading::Linear);
         for reading in Reading::BOTH {

@@ -59,7 +59,7 @@ fn a_study_table_reads_its_own_nodes_exactly() {
         pose.velocity = crate::geometry::Velocity::new(-speed, 0.0);
         let mut found = vec![[0.0; 2]; 24];
         table.tick(&pose, &mut found);
-        for (found, exact) in found.iter().zip(amplitudes(&mut reference, &pose)) {
+        for (found, exact) in found.iter().zip(amplitudes(&mut reference, &[pose])) {
             for b in 0..2 {
                 assert!(
                     (found[b] / exact[b] - 1.0).abs() < 1e-6,

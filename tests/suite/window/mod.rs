@@ -1,5 +1,6 @@
 //! The real window under test: no display, no graphics card, simulated time, our own rasteriser.
 
+mod accuracy;
 mod around;
 mod basics;
 mod compare;
