@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::arrangement::Pane;
+use super::export::Exportable;
 use super::theme::ColourMap;
 use crate::geometry::Point;
 use crate::tactile::{Band, Filters};
@@ -114,6 +115,8 @@ pub(crate) enum FileCommand {
     OpenShipped,
     /// Save the scene where it came from, or ask where.
     Save,
+    /// Copy what a pane shows as a table.
+    CopyTable(Exportable),
     /// Close the window; asks first when the scene is not saved.
     Close,
     /// Go on with what was asked for and let the changes go.
@@ -131,8 +134,8 @@ pub(crate) enum Purpose {
     OpenRecording,
     /// Save the recorded exploration.
     SaveRecording,
-    /// Save the explanation of the chosen contactor as a table.
-    SaveWhy,
+    /// Save what a pane shows as a picture or a table.
+    Export(Exportable),
 }
 
 /// What moves the display, and how that is recorded.

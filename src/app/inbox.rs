@@ -64,6 +64,7 @@ impl Workbench {
             Some(Polled::BrokeOff) => self.transient.saving = None,
             Some(Polled::Working) | None => {}
         }
+        self.poll_exports(ctx);
         self.transient.ports.poll();
         match self.transient.dialogs.poll() {
             Some(Answer::Path(purpose, path)) => {

@@ -31,6 +31,7 @@ mod dispatch;
 mod document;
 mod editing;
 mod error;
+mod export;
 mod felt;
 mod frame;
 mod history;

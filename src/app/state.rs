@@ -4,6 +4,7 @@ use eframe::egui::{Rect, Vec2};
 
 use super::audition::Audition;
 use super::dialogs::Dialogs;
+use super::export::Exports;
 use super::history::Moment;
 use super::job::Job;
 use super::opening::{Opening, Origin};
@@ -48,6 +49,8 @@ pub(crate) struct Transient {
     pub(crate) reading: Option<Job<Result<Take, SceneError>>>,
     /// A recorded exploration on its way into a file.
     pub(crate) saving: Option<Job<Result<Take, SceneError>>>,
+    /// What is being exported.
+    pub(crate) exports: Exports,
     /// The engine as it was seen last.
     pub(crate) live: Live,
     /// Where the display was.

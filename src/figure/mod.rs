@@ -34,6 +34,8 @@ mod tests;
 mod text;
 mod ticks;
 
+#[cfg(test)]
+pub(crate) use pixels::is_well_formed;
 pub use pixels::{FigureError, Pixels};
 pub use plot::{Axis, Ink, Plot, Scale, Series, Style, Weight};
 pub use sheet::{

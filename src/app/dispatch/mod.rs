@@ -2,6 +2,7 @@
 
 mod device;
 mod edit;
+mod export;
 mod file;
 mod play;
 mod show;
@@ -53,6 +54,7 @@ impl Workbench {
 
     fn dismiss(&mut self) {
         self.transient.ask = None;
+        self.transient.exports.seen = None;
         self.transient.question = None;
         self.workspace.is_calibrating = false;
         self.transient.is_help_shown = false;

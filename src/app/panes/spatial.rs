@@ -19,10 +19,8 @@ use crate::scene::Pose;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, N_BINS};
 use crate::tactile::Band;
 
-/// Lower end of the densities, dB re 1 µm² per cycle/mm.
-const LEAST_DB: f64 = -60.0;
-/// Upper end of the densities, dB re 1 µm² per cycle/mm.
-const MOST_DB: f64 = 40.0;
+/// Ends of the densities, dB re 1 µm² per cycle/mm.
+pub(crate) const LEVELS_DB: [f64; 2] = [-60.0, 40.0];
 /// Bins nearer to one another on the screen than this are drawn as their mean, points.
 const LEAST_STEP: f32 = 1.5;
 /// How bright a curve is where it does not sound.
@@ -59,6 +57,16 @@ impl SpatialSpectra {
     #[cfg(test)]
     pub(crate) fn n_views_computed(&self) -> u64 {
         self.n_views_computed
+    }
+
+    /// The spectra that are shown; `None` where the contactor is off every textile.
+    pub(crate) fn shown(
+        &mut self,
+        inspector: &mut ContactInspector,
+        source: &SpatialSource<'_>,
+    ) -> Option<&SpatialView> {
+        self.catch_up(inspector, source);
+        self.view.as_ref()
     }
 
     fn catch_up(&mut self, inspector: &mut ContactInspector, source: &SpatialSource<'_>) {
@@ -122,11 +130,12 @@ pub(crate) fn show(
 }
 
 /// The wavenumber of bin k = 1 … 500, cycles/mm.
-fn wavenumber_per_mm(k: usize) -> f64 {
+pub(crate) fn wavenumber_per_mm(k: usize) -> f64 {
     BIN_SPACING_PER_MM * k as f64
 }
 
-fn density_db(density_um2_mm: f64) -> f64 {
+/// The level of a density in µm² per cycle/mm, dB.
+pub(crate) fn density_db(density_um2_mm: f64) -> f64 {
     10.0 * density_um2_mm.log10()
 }
 
@@ -183,7 +192,7 @@ impl Plot {
         Self {
             area,
             wavenumbers: Axis::log(wavenumber_per_mm(1), wavenumber_per_mm(N_BINS)),
-            levels_db: Axis::linear(LEAST_DB, MOST_DB),
+            levels_db: Axis::linear(LEVELS_DB[0], LEVELS_DB[1]),
         }
     }
 

@@ -115,7 +115,9 @@ fn outside_at_rest_and_silent_are_said() {
 #[test]
 fn the_table_holds_every_bin_and_its_powers_add_up() {
     let explained = why([10.2, 20.0], [40.0, 0.0]);
-    let csv = to_csv(&explained);
+    let path = std::path::Path::new("why.csv");
+    let origin = crate::app::export::Origin::default();
+    let csv = String::from_utf8(sheet(&explained).to_csv(&origin, path).unwrap()).unwrap();
     assert_eq!(
         csv.lines()
             .filter(|line| line.starts_with("power,"))
