@@ -3,27 +3,35 @@
 use super::frame::Frame;
 use super::legend::{self, LINE_PX};
 use super::look::{GREY, INK, looks};
-use super::marks::{hairline, text, upward_text};
+use super::marks::{hairline, haloed, text, upward_text};
 use super::raster::{Placed, hex};
-use super::svg::{FOOTNOTE_CHARACTERS, MARGIN_PX, WIDTH_PX, opening, paper};
+use super::svg::{MARGIN_PX, WIDTH_PX, opening, paper};
 use super::text::{escaped, wrapped};
 use super::ticks::Ruler;
-use super::{At, ColourBar, Extent, Figure, FigureError, Panel, Row, Rule, Tone, Upright, Words};
+use super::{
+    At, ColourBar, Extent, Figure, FigureError, Ink, Panel, Row, Rule, Tone, Upright, Words,
+};
 
 /// Above the first row: the title.
 const TITLE_PX: f64 = 40.0;
-/// Above a frame: its title and its legend.
-const HEAD_PX: f64 = 26.0;
-/// Below a frame: labels and the title of the axis.
-const FOOT_PX: f64 = 50.0;
-/// Left of a frame: labels and the title of the axis.
-const LABELS_PX: f64 = 56.0;
+/// Above a frame: its title and its legend; and where it has neither.
+const HEADS_PX: [f64; 2] = [26.0, 12.0];
+/// Below a frame: labels and the title of the axis; and where it has neither.
+const FEET_PX: [f64; 2] = [50.0, 6.0];
+/// Left of a frame: labels and the title of the axis; and of another on its left.
+const LABELS_PX: [f64; 2] = [56.0, 72.0];
 /// Left of a frame that shares its axis.
-const SHARED_PX: f64 = 12.0;
+const SHARED_PX: f64 = 22.0;
+/// From a row's last frame to the colour bar.
+const BAR_GAP_PX: f64 = 12.0;
 /// Right of a row's last frame, and of the colour bar's labels.
-const RIGHT_PX: f64 = 14.0;
+const RIGHT_PX: f64 = 24.0;
+/// Characters of a note that fit in a line.
+const NOTE_CHARACTERS: usize = 140;
 /// The colour bar with its labels and its title.
 const BAR_PX: f64 = 84.0;
+/// What the name of a dot takes, about, px.
+const NAME_PX: [f64; 2] = [96.0, 13.0];
 /// The bar itself.
 const BAR_WIDTH_PX: f64 = 12.0;
 
@@ -66,11 +74,12 @@ impl<'a> Page<'a> {
         let mut top_px = TITLE_PX;
         let mut rows = Vec::new();
         for row in &figure.rows {
-            rows.push(LaidRow::of(row, top_px + HEAD_PX));
-            top_px += HEAD_PX + row.height_px + FOOT_PX;
+            top_px += head_px(row);
+            rows.push(LaidRow::of(row, top_px));
+            top_px += row.height_px + foot_px(row);
         }
         let lines = figure.notes.iter();
-        let notes = lines.flat_map(|note| wrapped(note, FOOTNOTE_CHARACTERS));
+        let notes = lines.flat_map(|note| wrapped(note, NOTE_CHARACTERS));
         Self {
             figure,
             rows,
@@ -86,7 +95,9 @@ impl<'a> Page<'a> {
 
     /// The rasters that are pictures within.
     pub(super) fn pictures(&self) -> impl Iterator<Item = Placed<'_>> {
-        self.panels().filter_map(Laid::raster).filter(Placed::is_picture)
+        self.panels()
+            .filter_map(Laid::raster)
+            .filter(Placed::is_picture)
     }
 
     /// Everything that is drawn over a ground.
@@ -131,21 +142,35 @@ impl<'a> Page<'a> {
     }
 }
 
+/// What stands above the frames of a row, px.
+fn head_px(row: &Row) -> f64 {
+    let is_named = |panel: &Panel| {
+        let has_legend = panel.series.iter().any(|series| !series.name.is_empty());
+        !panel.title.is_empty() || has_legend
+    };
+    HEADS_PX[usize::from(!row.panels.iter().any(is_named))]
+}
+
+/// What stands below the frames of a row, px.
+fn foot_px(row: &Row) -> f64 {
+    FEET_PX[usize::from(row.panels.iter().all(|panel| panel.is_x_shared))]
+}
+
 impl<'a> LaidRow<'a> {
     fn of(row: &'a Row, top_px: f64) -> Self {
-        let before_px = |panel: &Panel| match panel.upright {
+        let before_px = |(index, panel): (usize, &Panel)| match panel.upright {
             Upright::Shared => SHARED_PX,
-            Upright::Upward | Upright::Downward => LABELS_PX,
+            Upright::Upward | Upright::Downward => LABELS_PX[index.min(1)],
         };
         let share = |panel: &Panel| if panel.width > 0.0 { panel.width } else { 1.0 };
         let bar_px = if row.bar.is_some() { BAR_PX } else { 0.0 };
-        let taken_px: f64 = row.panels.iter().map(before_px).sum();
+        let taken_px: f64 = row.panels.iter().enumerate().map(before_px).sum();
         let shares: f64 = row.panels.iter().map(share).sum();
         let room_px = WIDTH_PX - MARGIN_PX - RIGHT_PX - bar_px - taken_px;
         let mut left_px = MARGIN_PX;
         let mut panels = Vec::new();
-        for panel in &row.panels {
-            left_px += before_px(panel);
+        for (index, panel) in row.panels.iter().enumerate() {
+            left_px += before_px((index, panel));
             let width_px = (room_px * share(panel) / shares).floor();
             let size_px = [width_px, row.height_px];
             panels.push(Laid::of(panel, [left_px, top_px], size_px));
@@ -162,7 +187,7 @@ impl<'a> LaidRow<'a> {
         let frame = Frame {
             x: Ruler::of(&super::Axis::default(), std::iter::empty()),
             y: Ruler::of(&bar.axis, std::iter::empty()),
-            corner_px: [last.frame.right_px() + SHARED_PX, last.frame.corner_px[1]],
+            corner_px: [last.frame.right_px() + BAR_GAP_PX, last.frame.corner_px[1]],
             size_px: [BAR_WIDTH_PX, self.row.height_px],
             is_downward: false,
         };
@@ -242,9 +267,7 @@ impl<'a> Laid<'a> {
         }
         frame.draw_edge(body);
         self.draw_axes(body);
-        for words in &panel.words {
-            self.draw_words(words, body);
-        }
+        self.draw_words(body);
         let [left_px, top_px] = frame.corner_px;
         let head = ("start", 12, panel.ink.letters());
         text(body, [left_px, top_px - 9.0], head, &panel.title);
@@ -254,10 +277,12 @@ impl<'a> Laid<'a> {
 
     fn draw_axes(&self, body: &mut Vec<String>) {
         let (panel, frame) = (self.panel, &self.frame);
-        let x_title = frame.draw_x_labels(&panel.x.label, body);
-        let middle_px = frame.corner_px[0] + 0.5 * frame.size_px[0];
-        let below = [middle_px, frame.bottom_px() + 38.0];
-        text(body, below, ("middle", 12, INK), &x_title);
+        if !panel.is_x_shared {
+            let x_title = frame.draw_x_labels(&panel.x.label, body);
+            let middle_px = frame.corner_px[0] + 0.5 * frame.size_px[0];
+            let below = [middle_px, frame.bottom_px() + 38.0];
+            text(body, below, ("middle", 12, INK), &x_title);
+        }
         if panel.upright != Upright::Shared {
             let y_title = frame.draw_y_labels(&panel.y.label, body);
             let middle_px = frame.corner_px[1] + 0.5 * frame.size_px[1];
@@ -270,51 +295,79 @@ impl<'a> Laid<'a> {
         let frame = &self.frame;
         let [left_px, top_px] = frame.corner_px;
         let (right_px, bottom_px) = (frame.right_px(), frame.bottom_px());
-        let (at, from, to, label_at, anchor) = match rule.at {
+        let is_edge = rule.extent == Extent::Edge;
+        let (start, end, label) = match rule.at {
             At::X(value) => {
                 let Some(x) = frame.x_px(value) else { return };
-                let ends = match rule.extent {
-                    Extent::Edge => [top_px - 5.0, top_px],
-                    Extent::Across | Extent::Dashed => [top_px, bottom_px],
+                let end_px = if is_edge { top_px - 5.0 } else { bottom_px };
+                let is_crowded = x > right_px - 48.0;
+                let label = if is_crowded {
+                    ([x - 4.0, top_px + 14.0], "end")
+                } else {
+                    ([x + 4.0, top_px + 14.0], "start")
                 };
-                let label_at = [x, top_px - 8.0];
-                ([x, top_px], [x, ends[0]], [x, ends[1]], label_at, "middle")
+                ([x, top_px], [x, end_px], label)
             }
             At::Y(value) => {
                 let Some(y) = frame.y_px(value) else { return };
-                let ends = match rule.extent {
-                    Extent::Edge => [right_px, right_px + 5.0],
-                    Extent::Across | Extent::Dashed => [left_px, right_px],
-                };
-                let label_at = [right_px - 6.0, y - 5.0];
-                ([left_px, y], [ends[0], y], [ends[1], y], label_at, "end")
+                let end_px = if is_edge { right_px + 5.0 } else { left_px };
+                (
+                    [right_px, y],
+                    [end_px, y],
+                    ([right_px - 6.0, y - 5.0], "end"),
+                )
             }
         };
-        if !frame.has(at) {
+        if !frame.has(start) {
             return;
         }
-        let dashes = match rule.extent {
-            Extent::Dashed => " stroke-dasharray=\"4 4\"",
-            Extent::Across | Extent::Edge => "",
-        };
-        let width = if rule.extent == Extent::Edge { 2.0 } else { 1.0 };
-        let colour = rule.ink.colour().unwrap_or(GREY);
-        let ([x1, y1], [x2, y2]) = (from, to);
-        body.push(format!(
-            "<path d=\"M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}\" stroke=\"{colour}\" \
-             stroke-width=\"{width}\"{dashes}/>\n"
-        ));
-        text(body, label_at, (anchor, 11, rule.ink.letters()), &rule.label);
+        body.push(line_of(rule, start, end));
+        let (at, anchor) = label;
+        text(body, at, (anchor, 11, rule.ink.letters()), &rule.label);
     }
 
-    fn draw_words(&self, words: &Words, body: &mut Vec<String>) {
-        let Some([x, y]) = self.frame.place(words.at) else {
-            return;
-        };
-        match words.tone {
-            Tone::Dark => text(body, [x, y + 4.0], ("middle", 11, INK), &words.text),
-            Tone::Light => text(body, [x, y + 4.0], ("middle", 11, "#ffffff"), &words.text),
-            Tone::Aside => text(body, [x + 7.0, y + 4.0], ("start", 10, GREY), &words.text),
+    /// Words at their places; the names of dots below one another where they would touch.
+    fn draw_words(&self, body: &mut Vec<String>) {
+        let mut taken: Vec<[f64; 2]> = Vec::new();
+        for Words {
+            at,
+            text: words,
+            tone,
+        } in &self.panel.words
+        {
+            let Some([x, y]) = self.frame.place(*at) else {
+                continue;
+            };
+            match tone {
+                Tone::Dark => text(body, [x, y + 4.0], ("middle", 11, INK), words),
+                Tone::Light => text(body, [x, y + 4.0], ("middle", 11, "#ffffff"), words),
+                Tone::Aside => {
+                    let mut at = [x + 8.0, y + 14.0];
+                    let touches = |at: &[f64; 2], [x, y]: &[f64; 2]| {
+                        (at[0] - x).abs() < NAME_PX[0] && (at[1] - y).abs() < NAME_PX[1]
+                    };
+                    while taken.iter().any(|other| touches(&at, other)) {
+                        at[1] += NAME_PX[1];
+                    }
+                    taken.push(at);
+                    haloed(body, at, words);
+                }
+            }
         }
     }
+}
+
+fn line_of(rule: &Rule, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> String {
+    let dashes = match (rule.extent, rule.ink) {
+        // Two rules may coincide: each fills the other's gaps.
+        (Extent::Dashed, Ink::Cyan) => " stroke-dasharray=\"4 4\" stroke-dashoffset=\"4\"",
+        (Extent::Dashed, _) => " stroke-dasharray=\"4 4\"",
+        (Extent::Across | Extent::Edge, _) => "",
+    };
+    let width = if rule.extent == Extent::Edge { 2 } else { 1 };
+    let colour = rule.ink.colour().unwrap_or(GREY);
+    format!(
+        "<path d=\"M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}\" stroke=\"{colour}\" \
+         stroke-width=\"{width}\"{dashes}/>\n"
+    )
 }

@@ -64,10 +64,20 @@ impl Frame {
     pub(super) fn draw_hairlines(&self, body: &mut Vec<String>) {
         let [left_px, top_px] = self.corner_px;
         let (right_px, bottom_px) = (self.right_px(), self.bottom_px());
-        for x_px in self.x.hairlines.iter().filter_map(|value| self.x_px(*value)) {
+        for x_px in self
+            .x
+            .hairlines
+            .iter()
+            .filter_map(|value| self.x_px(*value))
+        {
             hairline(body, GRID, [x_px, top_px], [x_px, bottom_px]);
         }
-        for y_px in self.y.hairlines.iter().filter_map(|value| self.y_px(*value)) {
+        for y_px in self
+            .y
+            .hairlines
+            .iter()
+            .filter_map(|value| self.y_px(*value))
+        {
             hairline(body, GRID, [left_px, y_px], [right_px, y_px]);
         }
     }

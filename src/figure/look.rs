@@ -50,7 +50,7 @@ impl Weight {
         match self {
             Self::Thin => 0.8,
             Self::Normal => 1.6,
-            Self::Bold => 2.6,
+            Self::Bold => 2.0,
         }
     }
 }
@@ -88,9 +88,14 @@ pub(super) fn looks(series: &[Series]) -> Vec<Look> {
             let weight = series.weight;
             let given = series.ink.colour();
             if let Some(colour) = given.or_else(|| colour_of_band(&series.name)) {
+                let dot = if series.ink == Ink::Grey {
+                    Dot::Square
+                } else {
+                    Dot::Disc
+                };
                 return Look {
                     colour,
-                    dot: Dot::Disc,
+                    dot,
                     weight,
                 };
             }

@@ -1,6 +1,6 @@
 //! The small pieces that figures are drawn with: dots, hairlines, texts.
 
-use super::look::{Dot, Look};
+use super::look::{Dot, GREY, Look};
 use super::text::escaped;
 
 /// A dot of a series; the legend draws the same.
@@ -42,6 +42,15 @@ pub(super) fn upward_text(body: &mut Vec<String>, [x, y]: [f64; 2], colour: &str
     body.push(format!(
         "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\" \
          font-size=\"12\" fill=\"{colour}\">{what}</text>\n"
+    ));
+}
+
+/// The name of a dot, on a rim of paper that parts it from lines behind.
+pub(super) fn haloed(body: &mut Vec<String>, [x, y]: [f64; 2], what: &str) {
+    let what = escaped(what);
+    body.push(format!(
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\" fill=\"{GREY}\" stroke=\"#ffffff\" \
+         stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">{what}</text>\n"
     ));
 }
 

@@ -38,6 +38,4 @@ mod ticks;
 pub(crate) use pixels::is_well_formed;
 pub use pixels::{FigureError, Pixels};
 pub use plot::{Axis, Ink, Plot, Scale, Series, Style, Weight};
-pub use sheet::{
-    At, ColourBar, Extent, Figure, Panel, Raster, Row, Rule, Tone, Upright, Words,
-};
+pub use sheet::{At, ColourBar, Extent, Figure, Panel, Raster, Row, Rule, Tone, Upright, Words};

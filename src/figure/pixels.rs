@@ -60,7 +60,8 @@ impl Figure {
         );
         let layers = [ground.as_str(), &page.document("")];
         let pixmap = drawn(&layers, width, |pixmap, scale| {
-            page.pictures().try_for_each(|one| enlarge(&one, pixmap, scale))
+            page.pictures()
+                .try_for_each(|one| enlarge(&one, pixmap, scale))
         })?;
         Ok(pixmap.into())
     }

@@ -31,7 +31,8 @@ impl Placed<'_> {
             self.size_px[0] / (*n_columns).max(1) as f64,
             self.size_px[1] / n_rows,
         ];
-        let mut out = String::new();
+        // Edges on whole pixels: smoothed ones would leave seams between neighbours.
+        let mut out = String::from("<g shape-rendering=\"crispEdges\">\n");
         for (row, cells) in cells.chunks_exact((*n_columns).max(1)).enumerate() {
             let mut column = 0;
             for run in cells.chunk_by(|one, other| one == other) {
@@ -48,7 +49,7 @@ impl Placed<'_> {
                 column += run.len();
             }
         }
-        out
+        out + "</g>\n"
     }
 
     /// An image with its pixels within.
@@ -118,7 +119,9 @@ mod tests {
         let svg = placed.rectangles();
         assert_eq!(svg.matches("<rect").count(), 3, "{svg}");
         assert!(
-            svg.contains("x=\"20.00\" y=\"24.00\" width=\"20.00\" height=\"4.00\" fill=\"#0000ff\""),
+            svg.contains(
+                "x=\"20.00\" y=\"24.00\" width=\"20.00\" height=\"4.00\" fill=\"#0000ff\""
+            ),
             "{svg}"
         );
     }

@@ -42,6 +42,8 @@ pub struct Panel {
     pub y: Axis,
     /// How the vertical axis is drawn.
     pub upright: Upright,
+    /// Whether the horizontal axis has no labels: it is that of the panel below.
+    pub is_x_shared: bool,
     /// Colours over the whole frame, below everything else.
     pub raster: Option<Raster>,
     /// Lines and dots, the first below the others; those with a name are in the legend.
@@ -141,7 +143,7 @@ pub enum Tone {
     Dark,
     /// White, on dark colours.
     Light,
-    /// Grey, right of their place: the name of a dot.
+    /// Grey, right of their place and below it: the name of a dot.
     Aside,
 }
 

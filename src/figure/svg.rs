@@ -20,7 +20,7 @@ const BELOW_PX: f64 = 56.0;
 /// Around everything, px.
 pub(super) const MARGIN_PX: f64 = 20.0;
 /// Characters of a footnote that fit in a line.
-pub(super) const FOOTNOTE_CHARACTERS: usize = 130;
+const FOOTNOTE_CHARACTERS: usize = 130;
 
 impl Plot {
     /// The picture as SVG text. The same plot gives the same bytes.
@@ -72,10 +72,7 @@ impl Plot {
         frame.draw_edge(body);
         let x_title = frame.draw_x_labels(&self.x.label, body);
         let y_title = frame.draw_y_labels(&self.y.label, body);
-        let below = [
-            LEFT_PX + 0.5 * frame.size_px[0],
-            frame.bottom_px() + 40.0,
-        ];
+        let below = [LEFT_PX + 0.5 * frame.size_px[0], frame.bottom_px() + 40.0];
         text(body, below, ("middle", 12, INK), &x_title);
         let above = [MARGIN_PX, TOP_PX - 12.0];
         text(body, above, ("start", 12, INK), &y_title);

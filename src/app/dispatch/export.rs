@@ -31,7 +31,10 @@ impl Workbench {
         let last = self.transient.exports.last.clone();
         let beside = || {
             let scene = self.document.path().and_then(|path| path.parent());
-            (scene.map(Path::to_owned).unwrap_or_default(), Kind::default())
+            (
+                scene.map(Path::to_owned).unwrap_or_default(),
+                Kind::default(),
+            )
         };
         let (folder, kind) = last.unwrap_or_else(beside);
         folder.join(what.file_name(kind))
@@ -75,7 +78,11 @@ impl Workbench {
         }
     }
 
-    fn begin_export(&mut self, ctx: &egui::Context, work: impl FnOnce() -> Outcome + Send + 'static) {
+    fn begin_export(
+        &mut self,
+        ctx: &egui::Context,
+        work: impl FnOnce() -> Outcome + Send + 'static,
+    ) {
         if self.is_stepped {
             return self.take_exported(ctx, work());
         }

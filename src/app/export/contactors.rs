@@ -30,8 +30,8 @@ pub(super) fn heatmaps(
         height_px: (CELL_PX * n_rows as f64).clamp(least, most),
         bar: Some(bar(style.map, axis("peak amplitude, µm", Scale::Log, ends))),
     };
-    let note = "Peak amplitudes after gains and before output limits; a dash marks a contactor off \
-                every textile. Row 0 is the fingertip's end, column 0 its left.";
+    let note = "Peak amplitudes after gains and before output limits; a dash: off every textile. \
+                Row 0 is at the fingertip, column 0 on its left.";
     let origin = origin
         .by_method(live.status.method, live.status.bound_db)
         .in_ticks(std::iter::once(live.tick));

@@ -31,7 +31,11 @@ pub(super) fn waveform(
     let sum = column(&|wave| wave[0] + wave[1]);
     let series = |name: &str, ink, weight, values: &[f64]| Series {
         name: name.to_owned(),
-        points: times_s.iter().zip(values).map(|(t, um)| [*t, *um]).collect(),
+        points: times_s
+            .iter()
+            .zip(values)
+            .map(|(t, um)| [*t, *um])
+            .collect(),
         style: Style::Line,
         ink,
         weight,
@@ -42,8 +46,18 @@ pub(super) fn waveform(
         x: axis("time, s", Scale::Linear, [0.0, f64::from(SHOWN_MS) * 1e-3]),
         y: axis("displacement, µm", Scale::Linear, [-most_um, most_um]),
         series: vec![
-            series("40 Hz", Ink::Amber, Weight::Normal, &column(&|wave| wave[0])),
-            series("320 Hz", Ink::Cyan, Weight::Normal, &column(&|wave| wave[1])),
+            series(
+                "40 Hz",
+                Ink::Amber,
+                Weight::Normal,
+                &column(&|wave| wave[0]),
+            ),
+            series(
+                "320 Hz",
+                Ink::Cyan,
+                Weight::Normal,
+                &column(&|wave| wave[1]),
+            ),
             series("sum", Ink::Black, Weight::Thin, &sum),
         ],
         rules: limits(view.limit_um, most_um),

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use super::write::ExportError;
 use super::{
     Exportable, Exported, Kind, Origin, compression, contactors, drive, spatial, spectrograms,
     timeline, why,
 };
-use super::write::ExportError;
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
 use crate::app::window::Workbench;
@@ -162,7 +162,10 @@ impl Workbench {
             contactor,
             pose: self.transient.live.pose,
         };
-        let view = self.transient.spatial.shown(&mut self.eye.inspector, &source);
+        let view = self
+            .transient
+            .spatial
+            .shown(&mut self.eye.inspector, &source);
         let view = view.ok_or(
             "There is nothing to export: the chosen contactor is off every textile; move over one",
         )?;

@@ -94,7 +94,9 @@ impl Exported {
         let figure = Figure {
             title,
             rows,
-            notes: vec![note.to_owned(), origin.line()],
+            notes: std::iter::once(note.to_owned())
+                .chain(origin.lines())
+                .collect(),
             about: origin.pairs(),
         };
         Self {

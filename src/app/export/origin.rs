@@ -9,6 +9,8 @@ use crate::tactile::{Filters, Tuning};
 
 /// Characters of a hash that tell scenes apart for people.
 const BRIEF_HASH: usize = 12;
+/// Characters of a line below a figure.
+const LINE: usize = 136;
 
 /// One thing that is known of where numbers come from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +36,11 @@ impl Origin {
         let short: String = hash.chars().take(BRIEF_HASH).collect();
         let placed = scene.textiles.iter();
         let textiles: Vec<String> = placed
-            .map(|textile| format!("{} {}", textile.label, textile.id).trim().to_owned())
+            .map(|textile| {
+                format!("{} {}", textile.label, textile.id)
+                    .trim()
+                    .to_owned()
+            })
             .collect();
         let textiles = textiles.join(", ");
         let display = scene.displays.first();
@@ -135,11 +141,21 @@ impl Origin {
         self.facts.iter().map(pair).collect()
     }
 
-    /// In one line, for people.
-    pub(crate) fn line(&self) -> String {
+    /// In lines for people, none of them broken within a fact.
+    pub(crate) fn lines(&self) -> Vec<String> {
         let briefs = self.facts.iter().map(|fact| fact.brief.as_str());
-        let briefs: Vec<&str> = briefs.filter(|brief| !brief.is_empty()).collect();
-        briefs.join(" · ")
+        let mut lines: Vec<String> = Vec::new();
+        for brief in briefs.filter(|brief| !brief.is_empty()) {
+            let n = brief.chars().count() + 3;
+            match lines.last_mut() {
+                Some(line) if line.chars().count() + n <= LINE => {
+                    line.push_str(" · ");
+                    line.push_str(brief);
+                }
+                _ => lines.push(brief.to_owned()),
+            }
+        }
+        lines
     }
 }
 
@@ -164,7 +180,10 @@ mod tests {
 
     #[test]
     fn a_scene_is_known_by_its_content_wherever_its_library_lies() {
-        let scene = crate::scene::LoadedScene::shipped().unwrap().scene().clone();
+        let scene = crate::scene::LoadedScene::shipped()
+            .unwrap()
+            .scene()
+            .clone();
         let elsewhere = Scene {
             library: Some("/somewhere/textiles".into()),
             ..scene.clone()
@@ -174,10 +193,14 @@ mod tests {
         let mut moved = scene.clone();
         moved.textiles[0].origin_mm.x_mm += 1.0;
         assert_ne!(of(&scene), of(&moved));
-        let line = of(&scene).line();
+        let line = of(&scene).lines().join("\n");
         assert!(line.starts_with("selvedge "), "{line}");
         assert!(line.contains(&scene.textiles[0].id), "{line}");
-        assert!(!line.contains('/') && !line.contains('\n'), "{line}");
+        assert!(!line.contains('/'), "no path: {line}");
+        assert!(
+            line.lines().all(|line| line.chars().count() <= LINE),
+            "{line}"
+        );
     }
 
     #[test]
@@ -186,9 +209,15 @@ mod tests {
             .and("scene", "one\ntwo", "one\u{2028}two")
             .and("empty", "  ", "never");
         let pair = ("scene".to_owned(), "one two".to_owned());
-        assert_eq!((origin.pairs(), origin.line()), (vec![pair], "one two".to_owned()));
+        assert_eq!(
+            (origin.pairs(), origin.lines()),
+            (vec![pair], vec!["one two".to_owned()])
+        );
         let ticks = Origin::default().in_ticks([9_u64, 3, 5].into_iter());
-        assert_eq!(ticks.line(), "ticks 3 to 9");
-        assert_eq!(Origin::default().in_ticks([].into_iter()), Origin::default());
+        assert_eq!(ticks.lines(), ["ticks 3 to 9"]);
+        assert_eq!(
+            Origin::default().in_ticks([].into_iter()),
+            Origin::default()
+        );
     }
 }

@@ -88,7 +88,9 @@ impl Sheet {
     /// None that a text in memory could have.
     pub(crate) fn to_csv(&self, origin: &Origin, path: &Path) -> Result<Vec<u8>, FileError> {
         let told = origin.pairs().into_iter();
-        let told: String = told.map(|(key, value)| format!("# {key} = {value}\n")).collect();
+        let told: String = told
+            .map(|(key, value)| format!("# {key} = {value}\n"))
+            .collect();
         let header: Vec<&str> = self.columns.iter().map(|(name, _)| *name).collect();
         let mut writer = TableWriter::new(told.into_bytes(), path, &header)?;
         for row in 0..self.n_rows() {

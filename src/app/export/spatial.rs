@@ -2,15 +2,19 @@
 
 use super::spectrograms::ink;
 use super::{Exported, Origin, Sheet, axis};
-use crate::app::panes::{SPATIAL_LEVELS_DB, density_db, wavenumber_per_mm};
+use crate::app::panes::{SPATIAL_LEVELS_DB, density_db, means_of, wavenumber_per_mm};
 use crate::app::signals::{SpatialCurve, SpatialView};
 use crate::figure::{At, Extent, Ink, Panel, Row, Rule, Scale, Series, Style, Weight};
+use crate::quantity;
 use crate::surface::{Direction, N_BINS};
 use crate::tactile::Band;
 
+/// Places of the drawing to a factor of e of wavenumber, each with one point of a curve at most.
+const STEPS_PER_E: f64 = 60.0;
+
 /// The spectra with the bins that sound in bold.
 pub(super) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: Origin) -> Exported {
-    let mut series: Vec<Series> = Vec::new();
+    let mut series: Vec<Series> = names(view).collect();
     for curve in view.curves.iter().rev() {
         series.extend(lines(view, curve));
     }
@@ -34,11 +38,13 @@ pub(super) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: O
         height_px: 340.0,
         bar: None,
     };
-    let note = "One-sided power density of the textile's height at the nearest points of its four \
-                profiles: the power of a bin over 0.23 cycles/mm. Bold: what sounds between 10 Hz \
-                and 1 kHz at the present speed. Marked: what sounds at 40 and 320 Hz at the faster \
-                of the two speeds.";
-    let mut origin = origin.of_contactor(contactor).in_ticks(std::iter::once(tick));
+    let note = "One-sided power density of the heights at the nearest points of the four profiles: \
+                the power of a bin over 0.23 cycles/mm; bins that fall together as their mean. \
+                Bold: what sounds between 10 Hz and 1 kHz at the present speed; marked: what sounds \
+                at 40 and 320 Hz at the faster of the two.";
+    let mut origin = origin
+        .of_contactor(contactor)
+        .in_ticks(std::iter::once(tick));
     for felt in view.felt.iter().flatten() {
         let key = if felt.direction.index() >= 2 {
             "speed_weft_mm_per_s"
@@ -46,7 +52,7 @@ pub(super) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: O
             "speed_warp_mm_per_s"
         };
         let name = felt.direction.label();
-        let speed = crate::quantity::with_unit(felt.speed_mm_per_s, 1, "mm/s");
+        let speed = quantity::with_unit(felt.speed_mm_per_s, 1, "mm/s");
         let brief = format!("{name} {speed}");
         origin = origin.and(key, &felt.speed_mm_per_s.to_string(), &brief);
     }
@@ -58,7 +64,11 @@ pub(super) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: O
 fn sheet(view: &SpatialView) -> Sheet {
     let bins = || {
         let curves = view.curves.iter();
-        curves.flat_map(|curve| (1..).zip(&curve.density_um2_mm).map(move |bin| (curve, bin)))
+        curves.flat_map(|curve| {
+            (1..)
+                .zip(&curve.density_um2_mm)
+                .map(move |bin| (curve, bin))
+        })
     };
     let words = |of: &dyn Fn(&SpatialCurve) -> Direction| -> Vec<String> {
         let names = bins().map(|(curve, _)| of(curve).label().to_owned());
@@ -87,38 +97,57 @@ fn sheet(view: &SpatialView) -> Sheet {
         .with("sounds_at_hz", number(&frequency_hz))
 }
 
-/// A curve, and over it in bold what sounds of it.
+/// The names of the curves in their order, each as it is drawn.
+fn names(view: &SpatialView) -> impl Iterator<Item = Series> {
+    view.curves.iter().map(|curve| {
+        let weight = match view.felt_in(curve.direction) {
+            Some(_) => Weight::Bold,
+            None => Weight::Thin,
+        };
+        Series {
+            name: curve.direction.label().to_owned(),
+            ..line(curve.direction, Vec::new(), weight)
+        }
+    })
+}
+
+/// A curve, and over it in bold what sounds of it; bins that fall together as their mean.
 fn lines(view: &SpatialView, curve: &SpatialCurve) -> Vec<Series> {
     let direction = curve.direction;
-    let point = |(k, density): (usize, &f64)| [wavenumber_per_mm(k), density_db(*density)];
-    let points: Vec<[f64; 2]> = (1..).zip(&curve.density_um2_mm).map(point).collect();
-    let felt = view.felt_in(direction);
-    let ink = if direction.index() >= 2 {
-        Ink::Grey
-    } else {
-        Ink::Black
+    let level = |[wavenumber, density]: [f64; 2]| [wavenumber, density_db(density)];
+    #[expect(clippy::cast_possible_truncation, reason = "a place on paper")]
+    let x = |wavenumber: f64| (wavenumber.ln() * STEPS_PER_E) as f32;
+    let means = means_of(&curve.density_um2_mm, 1.0, x);
+    let points: Vec<[f64; 2]> = means.into_iter().map(level).collect();
+    let Some(felt) = view.felt_in(direction) else {
+        return vec![line(direction, points, Weight::Thin)];
     };
-    let line = |name: &str, points, weight| Series {
-        name: name.to_owned(),
+    let lit = points
+        .iter()
+        .filter(|[wavenumber, _]| felt.sounds(*wavenumber));
+    let lit: Vec<[f64; 2]> = lit.copied().collect();
+    vec![
+        line(direction, points, Weight::Thin),
+        line(direction, lit, Weight::Bold),
+    ]
+}
+
+fn line(direction: Direction, points: Vec<[f64; 2]>, weight: Weight) -> Series {
+    Series {
         points,
         style: if direction.is_reverse() {
             Style::Dashed
         } else {
             Style::Line
         },
-        ink,
+        ink: if direction.index() >= 2 {
+            Ink::Grey
+        } else {
+            Ink::Black
+        },
         weight,
         ..Series::default()
-    };
-    let Some(felt) = felt else {
-        return vec![line(direction.label(), points, Weight::Thin)];
-    };
-    let lit = points.iter().filter(|[wavenumber, _]| felt.sounds(*wavenumber));
-    let lit: Vec<[f64; 2]> = lit.copied().collect();
-    vec![
-        line("", points, Weight::Thin),
-        line(direction.label(), lit, Weight::Bold),
-    ]
+    }
 }
 
 fn carriers(view: &SpatialView) -> Vec<Rule> {
@@ -127,9 +156,9 @@ fn carriers(view: &SpatialView) -> Vec<Rule> {
     };
     let rule = |band: Band| Rule {
         at: At::X(felt.wavenumber_per_mm(band.carrier_hz())),
+        label: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
         ink: ink(band),
         extent: Extent::Across,
-        ..Rule::default()
     };
     Band::ALL.map(rule).to_vec()
 }

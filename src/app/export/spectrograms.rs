@@ -5,7 +5,9 @@ use crate::app::amplitude::AmplitudeScale;
 use crate::app::panes::{CONTACT_LEVELS_DB, ContactSpectrumView, ShownColumn, contact_share};
 use crate::app::signals::{LEAST_HZ, MOST_HZ, N_COLUMNS, N_ROWS, row_centre_hz};
 use crate::app::theme::ColourMap;
-use crate::figure::{At, Axis, Extent, Ink, Panel, Raster, Row, Rule, Scale, Series, Style, Upright};
+use crate::figure::{
+    At, Axis, Extent, Ink, Panel, Raster, Row, Rule, Scale, Series, Style, Upright,
+};
 use crate::scene::TICKS_PER_S;
 use crate::tactile::{Band, Filters};
 
@@ -26,7 +28,10 @@ pub(super) fn contact(
         width: 9.0,
         ..picture(columns, colour)
     };
-    let bar = bar(map, axis("level, dB re 1 µm", Scale::Linear, CONTACT_LEVELS_DB));
+    let bar = bar(
+        map,
+        axis("level, dB re 1 µm", Scale::Linear, CONTACT_LEVELS_DB),
+    );
     let row = Row {
         panels: vec![picture, filters(view.filters)],
         height_px: HEIGHT_PX,
@@ -35,7 +40,7 @@ pub(super) fn contact(
     let title = format!("Vibration that arrives at contactor {}", view.contactor);
     let note = "Peak amplitude at the surface, before filters and gains, in rows 4.9 % of the \
                 frequency wide; each column is a tick of 25 ms, white where nothing was felt. \
-                Right: the filters.";
+                Right: amplitude gain of the filters.";
     let ticks = columns.iter().map(|column| column.tick);
     let origin = origin.of_contactor(view.contactor).in_ticks(ticks);
     Exported::new(title, sheet(columns, "level_db"), vec![row], note, origin)
@@ -71,7 +76,13 @@ pub(super) fn drive(
                 the frequency wide. Marks on the right: 40 and 320 Hz.";
     let ticks = columns.iter().map(|column| column.tick);
     let origin = origin.of_contactor(contactor).in_ticks(ticks);
-    Exported::new(title, sheet(columns, "amplitude_um"), vec![row], note, origin)
+    Exported::new(
+        title,
+        sheet(columns, "amplitude_um"),
+        vec![row],
+        note,
+        origin,
+    )
 }
 
 /// What a band is drawn with.

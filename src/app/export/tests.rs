@@ -137,7 +137,11 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
                 Kind::Png => {
                     let picture = files::decode_png(&bytes, path).unwrap();
                     assert_eq!(picture.width, 1720, "{name}");
-                    let n_white = picture.pixels.iter().filter(|rgb| **rgb == [255; 3]).count();
+                    let n_white = picture
+                        .pixels
+                        .iter()
+                        .filter(|rgb| **rgb == [255; 3])
+                        .count();
                     assert!(n_white < picture.pixels.len() * 98 / 100, "{name} is empty");
                 }
                 Kind::Svg => {
@@ -165,10 +169,16 @@ fn heatmaps_hold_the_amplitudes_of_every_contactor() {
         let shown: Vec<f64> = dots.iter().map(|dot| dot.amplitude_um[band]).collect();
         assert_eq!(column(&exported, name), shown);
     }
-    assert!(column(&exported, "a40_um").iter().any(|um| *um > 0.0), "felt");
+    assert!(
+        column(&exported, "a40_um").iter().any(|um| *um > 0.0),
+        "felt"
+    );
     let textile = table_of(&exported).text("textile").unwrap()[0].to_owned();
     let scene = desk.bench.scene();
-    assert!(scene.textiles.iter().any(|placed| placed.id == textile), "{textile}");
+    assert!(
+        scene.textiles.iter().any(|placed| placed.id == textile),
+        "{textile}"
+    );
     let words = exported.figure.rows[0].panels[0].words.len();
     assert_eq!(words, 24, "a number in every cell");
 }
@@ -186,13 +196,19 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
         let newest = desk.bench.transient.history.newest().unwrap().glimpse;
         assert_eq!(ticks.last().copied(), Some(newest.tick as f64));
         let times = column(&exported, "t_s");
-        assert_eq!((times[0], times.last().copied()), (-319.0 / 40.0, Some(0.0)));
+        assert_eq!(
+            (times[0], times.last().copied()),
+            (-319.0 / 40.0, Some(0.0))
+        );
         let last = &values[values.len() - N_ROWS..];
         if what == Pane::DriveSpectrum {
             let largest = last.iter().copied().fold(0.0, f64::max);
             let louder = newest.watched_um.map(f64::from);
             let most = louder[0].max(louder[1]);
-            assert!(largest > 0.3 * most && largest < 3.0 * most, "{largest} of {most}");
+            assert!(
+                largest > 0.3 * most && largest < 3.0 * most,
+                "{largest} of {most}"
+            );
         } else {
             let contactor = desk.bench.workspace.contactor.unwrap();
             let mut expected = [0.0; N_ROWS];
@@ -225,7 +241,10 @@ fn the_waveform_is_the_sum_of_both_bands_with_their_amplitudes() {
         let second = times.iter().position(|t_s| *t_s >= 0.025).unwrap();
         let most = wave[second..].iter().copied().fold(0.0, f64::max);
         let amplitude = shown.now_um[band];
-        assert!((most - amplitude).abs() < 0.02 * amplitude, "{most} of {amplitude}");
+        assert!(
+            (most - amplitude).abs() < 0.02 * amplitude,
+            "{most} of {amplitude}"
+        );
     }
     let waves = ["wave_40_um", "wave_320_um", "sum_um"].map(|name| column(&exported, name));
     for ((low, high), sum) in waves[0].iter().zip(&waves[1]).zip(&waves[2]) {
@@ -242,7 +261,11 @@ fn spatial_spectra_hold_every_bin_of_every_direction() {
         column(&exported, "level_db"),
     );
     assert_eq!(density.len(), 4 * 500);
-    for (density, level) in density.iter().zip(&level).filter(|(density, _)| **density > 0.0) {
+    for (density, level) in density
+        .iter()
+        .zip(&level)
+        .filter(|(density, _)| **density > 0.0)
+    {
         assert!((density_db(*density) - level).abs() < 1e-9, "{level}");
     }
     let sounds = column(&exported, "sounds_at_hz");
@@ -265,7 +288,10 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
     assert_eq!(before.len(), desk.bench.library.len());
     let reference = desk.bench.transient.reference_db.unwrap();
     for (before, after) in before.iter().zip(after) {
-        assert!((after - 0.5 * (before + reference)).abs() < 1e-9, "{before} → {after}");
+        assert!(
+            (after - 0.5 * (before + reference)).abs() < 1e-9,
+            "{before} → {after}"
+        );
     }
 }
 
@@ -319,16 +345,26 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
         desk.file(FileCommand::Use(purpose, path));
         let notices = desk.notices();
         assert!(notices.contains(name), "{notices}");
-        assert!(notices.contains("end its name in .png, .svg or .csv"), "{notices}");
+        assert!(
+            notices.contains("end its name in .png, .svg or .csv"),
+            "{notices}"
+        );
         assert!(desk.bench.transient.ask.is_some(), "the field stays");
     }
     assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 0);
     let path = folder.0.join("WAVE.SVG");
     desk.file(FileCommand::Use(purpose, path.clone()));
-    assert!(figure::is_well_formed(&fs::read_to_string(path).unwrap()), "mended");
+    assert!(
+        figure::is_well_formed(&fs::read_to_string(path).unwrap()),
+        "mended"
+    );
     let nowhere = folder.0.join("missing/wave.csv");
     desk.file(FileCommand::Use(purpose, nowhere));
-    assert!(desk.notices().contains("cannot write"), "{}", desk.notices());
+    assert!(
+        desk.notices().contains("cannot write"),
+        "{}",
+        desk.notices()
+    );
 }
 
 #[test]
@@ -337,7 +373,10 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
     desk.bench.workspace.contactor = None;
     for what in ALL {
         let words = desk.bench.exported(what).expect_err("nothing is shown yet");
-        assert!(words.starts_with("There is nothing to export"), "{what:?}: {words}");
+        assert!(
+            words.starts_with("There is nothing to export"),
+            "{what:?}: {words}"
+        );
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         assert!(desk.notices().contains(words), "{what:?}");
         assert!(desk.bench.transient.exports.seen.is_none(), "{what:?}");

@@ -18,6 +18,7 @@ pub(super) fn strips(timeline: &Timeline, origin: Origin) -> Exported {
     let speed = |tick: &StripTick| Some(tick.felt.speed_mm_per_s);
     let speeds = Panel {
         x: x.clone(),
+        is_x_shared: timeline.has_levels,
         y: axis("speed, mm/s", Scale::Linear, [0.0, timeline.top_mm_per_s]),
         series: vec![Series {
             points: line(&timeline.ticks, speed),
@@ -76,7 +77,10 @@ fn sheet(timeline: &Timeline) -> Sheet {
     let ticks = &timeline.ticks;
     let number = |of: &dyn Fn(&StripTick) -> f64| -> Vec<f64> { ticks.iter().map(of).collect() };
     let sheet = Sheet::default()
-        .with("tick", ticks.iter().map(|tick| tick.tick).collect::<Vec<u64>>())
+        .with(
+            "tick",
+            ticks.iter().map(|tick| tick.tick).collect::<Vec<u64>>(),
+        )
         .with("t_s", number(&|tick| tick.t_s))
         .with("speed_mm_per_s", number(&|tick| tick.felt.speed_mm_per_s));
     if !timeline.has_levels {
@@ -99,12 +103,18 @@ fn line(ticks: &[StripTick], value: impl Fn(&StripTick) -> Option<f64>) -> Vec<[
         }
         let at = |tick: &StripTick| value(tick).map(|value| [tick.t_s, value]);
         let values = group.iter().filter_map(at);
-        let least = values.clone().min_by(|one, other| one[1].total_cmp(&other[1]));
+        let least = values
+            .clone()
+            .min_by(|one, other| one[1].total_cmp(&other[1]));
         let most = values.max_by(|one, other| one[1].total_cmp(&other[1]));
         match (least, most) {
             (Some(least), Some(most)) if group.len() > 1 => {
                 let is_later = least[0] > most[0];
-                let (first, second) = if is_later { (most, least) } else { (least, most) };
+                let (first, second) = if is_later {
+                    (most, least)
+                } else {
+                    (least, most)
+                };
                 points.extend([first, second]);
             }
             (Some(only), _) => points.push(only),
@@ -134,9 +144,18 @@ mod tests {
         let points = line(&ticks, |tick| Some(tick.felt.speed_mm_per_s));
         assert!(points.len() <= MOST_POINTS + 3, "{}", points.len());
         assert!(points.iter().any(|[_, speed]| *speed > 899.0), "the peak");
-        assert!(points.windows(2).all(|pair| !(pair[0][0] > pair[1][0])), "in order");
-        let few = line(&ticks[49_999..50_002], |tick| Some(tick.felt.speed_mm_per_s));
+        assert!(
+            points.windows(2).all(|pair| !(pair[0][0] > pair[1][0])),
+            "in order"
+        );
+        let few = line(&ticks[49_999..50_002], |tick| {
+            Some(tick.felt.speed_mm_per_s)
+        });
         assert_eq!(few.len(), 4, "three ticks and the break");
-        assert!(line(&ticks[..3], |_| None).iter().all(|[t_s, _]| t_s.is_nan()));
+        assert!(
+            line(&ticks[..3], |_| None)
+                .iter()
+                .all(|[t_s, _]| t_s.is_nan())
+        );
     }
 }

@@ -26,7 +26,11 @@ pub(super) fn explanation(why: &Why, filters: &Filters, origin: Origin) -> Expor
         points: energies
             .iter()
             .map(|(hz, taken)| {
-                let apart = if band == Band::Low { 1.0 / APART } else { APART };
+                let apart = if band == Band::Low {
+                    1.0 / APART
+                } else {
+                    APART
+                };
                 [hz * apart, taken[band.index()]]
             })
             .collect(),
@@ -37,6 +41,7 @@ pub(super) fn explanation(why: &Why, filters: &Filters, origin: Origin) -> Expor
     let frequency = || axis("frequency, Hz", Scale::Log, FREQUENCIES_HZ);
     let energy = Panel {
         x: frequency(),
+        is_x_shared: true,
         y: axis("energy of a bin, µm²", Scale::Linear, [0.0, most_um2]),
         series: Band::ALL.map(stems).to_vec(),
         ..Panel::default()
@@ -52,7 +57,10 @@ pub(super) fn explanation(why: &Why, filters: &Filters, origin: Origin) -> Expor
         height_px,
         bar: None,
     };
-    let [low, high] = why.trace.amplitudes_um.map(|um| quantity::with_unit(um, 3, "µm"));
+    let [low, high] = why
+        .trace
+        .amplitudes_um
+        .map(|um| quantity::with_unit(um, 3, "µm"));
     let note = format!(
         "Energy that each band takes of every bin that sounds below 1 kHz: its power times the \
          filter's power gain. With gains the contactor's amplitudes are {low} at 40 Hz and {high} \

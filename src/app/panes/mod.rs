@@ -43,7 +43,7 @@ pub(crate) use menu::Appearance;
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use question::show as show_question;
 pub(crate) use spatial::{
-    LEVELS_DB as SPATIAL_LEVELS_DB, SpatialSource, SpatialSpectra, density_db,
+    LEVELS_DB as SPATIAL_LEVELS_DB, SpatialSource, SpatialSpectra, density_db, means_of,
     show as show_spatial, wavenumber_per_mm,
 };
 pub(crate) use spectrogram::ShownColumn;

@@ -9,10 +9,9 @@ use egui_kittest::kittest::Queryable as _;
 use super::*;
 
 fn choose(harness: &mut Harness<'_, Workbench>, button: &str, entry: &str) {
-    harness
-        .get_by_role_and_label(Role::Button, button)
-        .click();
+    harness.get_by_role_and_label(Role::Button, button).click();
     harness.run_steps(3);
+    harness.render().unwrap().save(format!("/tmp/exports/menu-{}.png", button.replace(' ', "-"))).unwrap();
     harness.get_by_role_and_label(Role::Button, entry).click();
     harness.run_steps(2);
 }
@@ -34,13 +33,24 @@ fn a_pane_is_saved_from_its_button_as_the_kind_that_was_typed() {
         choose(&mut harness, button, "Save as PNG, SVG or CSV…");
         let field = harness.get_by_role_and_label(Role::TextInput, "Export as PNG, SVG or CSV");
         let suggested = field.value().unwrap_or_default();
-        assert!(suggested.starts_with(&folder.0.display().to_string()), "{suggested}");
+        assert!(
+            suggested.starts_with(&folder.0.display().to_string()),
+            "{suggested}"
+        );
         let path = folder.0.join(name);
         type_path(&mut harness, &path.display().to_string());
         let bytes = fs::read(&path).unwrap_or_default();
-        assert!(bytes.starts_with(begins), "{button}: {:?}", harness.state().notices());
+        assert!(
+            bytes.starts_with(begins),
+            "{button}: {:?}",
+            harness.state().notices()
+        );
     }
-    assert!(harness.state().notices().is_empty(), "{:?}", harness.state().notices());
+    assert!(
+        harness.state().notices().is_empty(),
+        "{:?}",
+        harness.state().notices()
+    );
 }
 
 #[test]
@@ -53,7 +63,9 @@ fn a_table_is_copied_from_its_button() {
         .get_by_role_and_label(Role::Button, "Export Contactors")
         .click();
     harness.run_steps(3);
-    harness.get_by_role_and_label(Role::Button, "Copy as CSV").click();
+    harness
+        .get_by_role_and_label(Role::Button, "Copy as CSV")
+        .click();
     let mut copied = String::new();
     for _ in 0..4 {
         harness.step();
@@ -71,7 +83,11 @@ fn before_anything_is_felt_the_button_says_what_to_do() {
     let folder = Folder::new("nothing");
     let mut harness = window(&folder.scene());
     harness.run();
-    choose(&mut harness, "Export Contact spectrum", "Save as PNG, SVG or CSV…");
+    choose(
+        &mut harness,
+        "Export Contact spectrum",
+        "Save as PNG, SVG or CSV…",
+    );
     let notices = harness.state().notices().join("\n");
     assert!(notices.contains("move over a textile"), "{notices}");
 }

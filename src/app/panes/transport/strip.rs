@@ -54,7 +54,7 @@ impl TransportView<'_> {
             felt: one.felt(),
         };
         Timeline {
-            name: "felt last".to_owned(),
+            name: "what was felt last".to_owned(),
             time_label: "felt time before the newest tick, s",
             range_s: [-(N_TICKS as f64) / TICKS_PER_S, 0.0],
             top_mm_per_s: round_above(live::speeds(&placed).most),
