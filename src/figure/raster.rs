@@ -41,10 +41,11 @@ impl Placed<'_> {
                     let y = self.corner_px[1] + row as f64 * row_px;
                     let width = run.len() as f64 * cell_px;
                     let fill = hex(colour);
-                    out.push_str(&format!(
+                    let rect = format!(
                         "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" \
                          height=\"{row_px:.2}\" fill=\"{fill}\"/>\n"
-                    ));
+                    );
+                    out.push_str(&rect);
                 }
                 column += run.len();
             }

@@ -115,7 +115,11 @@ fn pixels_show_every_cell_of_a_raster_with_its_axes() {
         let more_blue = blue as f64 / red as f64;
         // Of 4 columns one is nothing, one red and two blue. Of 320 half are of either, and each is
         // three or four pixels wide.
-        let (expected, within) = if n_columns == 4 { (2.0, 0.02) } else { (1.0, 0.35) };
+        let (expected, within) = if n_columns == 4 {
+            (2.0, 0.02)
+        } else {
+            (1.0, 0.35)
+        };
         assert!((more_blue - expected).abs() < within, "{more_blue}");
         assert_eq!(figure.to_pixels(1720).unwrap(), pixels, "the same bytes");
     }

@@ -12,6 +12,9 @@ const SAMPLES_PER_MS: u32 = 20;
 /// What is shown, ms.
 const SHOWN_MS: u32 = 50;
 
+/// Time, s, and both waves, µm.
+type Sample = [f64; 3];
+
 /// The waveform on the axis that the pane has.
 pub(super) fn waveform(
     view: &DriveWaveView,
@@ -21,58 +24,24 @@ pub(super) fn waveform(
     origin: Origin,
 ) -> Exported {
     let view = view.finite();
-    let samples = 0..=SHOWN_MS * SAMPLES_PER_MS;
-    let times_ms: Vec<f64> = samples
-        .map(|sample| f64::from(sample) / f64::from(SAMPLES_PER_MS))
+    let samples: Vec<Sample> = (0..=SHOWN_MS * SAMPLES_PER_MS)
+        .map(|sample| {
+            let t_ms = f64::from(sample) / f64::from(SAMPLES_PER_MS);
+            let waves_um = view.waves_um(t_ms);
+            [t_ms * 1e-3, waves_um[0], waves_um[1]]
+        })
         .collect();
-    let waves: Vec<[f64; 2]> = times_ms.iter().map(|t_ms| view.waves_um(*t_ms)).collect();
-    let times_s: Vec<f64> = times_ms.iter().map(|t_ms| t_ms * 1e-3).collect();
-    let column = |of: &dyn Fn(&[f64; 2]) -> f64| -> Vec<f64> { waves.iter().map(of).collect() };
-    let sum = column(&|wave| wave[0] + wave[1]);
-    let series = |name: &str, ink, weight, values: &[f64]| Series {
-        name: name.to_owned(),
-        points: times_s
-            .iter()
-            .zip(values)
-            .map(|(t, um)| [*t, *um])
-            .collect(),
-        style: Style::Line,
-        ink,
-        weight,
-        ..Series::default()
-    };
-    let most_um = scale.most_um().max(view.reach_um());
-    let panel = Panel {
-        x: axis("time, s", Scale::Linear, [0.0, f64::from(SHOWN_MS) * 1e-3]),
-        y: axis("displacement, µm", Scale::Linear, [-most_um, most_um]),
-        series: vec![
-            series(
-                "40 Hz",
-                Ink::Amber,
-                Weight::Normal,
-                &column(&|wave| wave[0]),
-            ),
-            series(
-                "320 Hz",
-                Ink::Cyan,
-                Weight::Normal,
-                &column(&|wave| wave[1]),
-            ),
-            series("sum", Ink::Black, Weight::Thin, &sum),
-        ],
-        rules: limits(view.limit_um, most_um),
-        ..Panel::default()
-    };
+    let column = |of: &dyn Fn(&Sample) -> f64| -> Vec<f64> { samples.iter().map(of).collect() };
+    let sheet = Sheet::default()
+        .with("t_s", column(&|sample| sample[0]))
+        .with("wave_40_um", column(&|sample| sample[1]))
+        .with("wave_320_um", column(&|sample| sample[2]))
+        .with("sum_um", column(&|sample| sample[1] + sample[2]));
     let row = Row {
-        panels: vec![panel],
+        panels: vec![panel(&samples, &view, scale.most_um().max(view.reach_um()))],
         height_px: 300.0,
         bar: None,
     };
-    let sheet = Sheet::default()
-        .with("t_s", times_s.clone())
-        .with("wave_40_um", column(&|wave| wave[0]))
-        .with("wave_320_um", column(&|wave| wave[1]))
-        .with("sum_um", sum);
     let [low, high] = view.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
     let note = format!(
         "The last two ticks of the drive, after gains and before output limits ({low} at 40 Hz, \
@@ -83,6 +52,33 @@ pub(super) fn waveform(
     let origin = origin.in_ticks([tick.saturating_sub(1), tick].into_iter());
     let title = format!("Waveform that drives contactor {contactor}");
     Exported::new(title, sheet, vec![row], &note, origin)
+}
+
+fn panel(samples: &[Sample], view: &DriveWaveView, most_um: f64) -> Panel {
+    let series = |name: &str, ink, weight, of: &dyn Fn(&Sample) -> f64| Series {
+        name: name.to_owned(),
+        points: samples
+            .iter()
+            .map(|sample| [sample[0], of(sample)])
+            .collect(),
+        style: Style::Line,
+        ink,
+        weight,
+        ..Series::default()
+    };
+    Panel {
+        x: axis("time, s", Scale::Linear, [0.0, f64::from(SHOWN_MS) * 1e-3]),
+        y: axis("displacement, µm", Scale::Linear, [-most_um, most_um]),
+        series: vec![
+            series("40 Hz", Ink::Amber, Weight::Normal, &|sample| sample[1]),
+            series("320 Hz", Ink::Cyan, Weight::Normal, &|sample| sample[2]),
+            series("sum", Ink::Black, Weight::Thin, &|sample| {
+                sample[1] + sample[2]
+            }),
+        ],
+        rules: limits(view.limit_um, most_um),
+        ..Panel::default()
+    }
 }
 
 /// The amplitudes of both ticks.

@@ -89,7 +89,8 @@ impl Workbench {
     }
 
     fn gather_heatmaps(&mut self) -> Result<Exported, &'static str> {
-        if self.transient.live.centre.is_none() {
+        let dots = &self.transient.live.dots;
+        if dots.iter().all(|dot| dot.cloth.is_none()) {
             return Err(NOTHING_FELT);
         }
         let scene = self.plain_scene_view();
@@ -120,7 +121,8 @@ impl Workbench {
         };
         let state = &mut self.transient.contact_spectrogram;
         let columns = state.shown(&self.ctx, &mut self.eye.inspector, &view);
-        if columns.is_empty() {
+        let mut levels_db = columns.iter().flat_map(|column| column.rows);
+        if !levels_db.any(f32::is_finite) {
             return Err(NOTHING_FELT);
         }
         Ok(spectrograms::contact(&columns, &view, origin))
@@ -135,7 +137,8 @@ impl Workbench {
             map: self.settings.kept.colour_map,
         };
         let columns = self.transient.drive_spectrogram.shown(&self.ctx, &view);
-        if columns.is_empty() {
+        let mut amplitudes_um = columns.iter().flat_map(|column| column.rows);
+        if !amplitudes_um.any(|um| um > 0.0) {
             return Err(NOTHING_FELT);
         }
         let colours = (view.scale, view.map);
@@ -144,7 +147,12 @@ impl Workbench {
 
     fn gather_drive_wave(&mut self) -> Result<Exported, &'static str> {
         let contactor = self.contactor()?;
-        if self.transient.history.newest().is_none() {
+        let mut felt_um = self
+            .transient
+            .history
+            .glimpses()
+            .flat_map(|one| one.watched_um);
+        if !felt_um.any(|um| um > 0.0) {
             return Err(NOTHING_FELT);
         }
         let origin = self.rendered_origin();
@@ -187,7 +195,11 @@ impl Workbench {
         let transient = &self.transient;
         let take = self.take.as_ref();
         let view = frame::transport_view(transient, take);
-        let timeline = view.timeline().ok_or(NOTHING_FELT)?;
+        let timeline = view.timeline();
+        let mut ticks = timeline.ticks.iter();
+        if !ticks.any(|tick| tick.felt.speed_mm_per_s > 0.0) {
+            return Err(NOTHING_FELT);
+        }
         Ok(timeline::strips(&timeline, origin))
     }
 

@@ -87,10 +87,10 @@ impl Sheet {
     /// # Errors
     /// None that a text in memory could have.
     pub(crate) fn to_csv(&self, origin: &Origin, path: &Path) -> Result<Vec<u8>, FileError> {
-        let told = origin.pairs().into_iter();
-        let told: String = told
-            .map(|(key, value)| format!("# {key} = {value}\n"))
-            .collect();
+        let mut told = String::new();
+        for (key, value) in origin.pairs() {
+            told.extend(["# ", &key, " = ", &value, "\n"]);
+        }
         let header: Vec<&str> = self.columns.iter().map(|(name, _)| *name).collect();
         let mut writer = TableWriter::new(told.into_bytes(), path, &header)?;
         for row in 0..self.n_rows() {

@@ -1,5 +1,6 @@
 //! An export as bytes of a file: CSV, SVG or PNG by the ending of its name.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::Exported;
@@ -44,7 +45,7 @@ impl Kind {
     /// # Errors
     /// It ends in none that is known.
     pub(crate) fn of(path: &Path) -> Result<Self, ExportError> {
-        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+        let ending = path.extension().map(OsStr::to_ascii_lowercase);
         let is_meant = |kind: &Self| ending.as_deref() == Some(kind.ending().as_ref());
         let known = Self::ALL.into_iter().find(is_meant);
         known.ok_or_else(|| ExportError::Ending(path.to_owned()))

@@ -57,6 +57,6 @@ fn paint(ui: &Ui, rect: Rect, stroke: Stroke) {
 
 /// Where the button stands at the upper right corner of a picture without a row of tabs.
 pub(super) fn place_in(rect: Rect) -> Rect {
-    let corner = pos2(rect.right() - SIZE, rect.top() - 2.0);
+    let corner = pos2(rect.right() - SIZE, rect.top() - 6.0);
     Rect::from_min_size(corner, vec2(SIZE, SIZE))
 }

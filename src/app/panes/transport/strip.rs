@@ -39,10 +39,9 @@ pub(crate) struct Timeline {
 }
 
 impl TransportView<'_> {
-    /// What the timeline shows; `None` where nothing was felt yet.
-    pub(crate) fn timeline(&self) -> Option<Timeline> {
-        let timeline = self.shown_take().map_or_else(|| self.felt_last(), of_take);
-        (!timeline.ticks.is_empty()).then_some(timeline)
+    /// What the timeline shows.
+    pub(crate) fn timeline(&self) -> Timeline {
+        self.shown_take().map_or_else(|| self.felt_last(), of_take)
     }
 
     fn felt_last(&self) -> Timeline {
