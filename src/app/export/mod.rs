@@ -1,7 +1,7 @@
 //! Export: what a pane shows, as a table and as a figure, with where it comes from.
 //!
 //! ```text
-//! a pane's button ─▶ FileCommand::Ask(Purpose::Export(what)) ─▶ gather: the pane's own view
+//! button ─▶ FileCommand::Ask(Purpose::Export(what)) ─▶ gather: the pane's own view
 //!      ─▶ one function a pane: view ─▶ Exported { sheet, figure, origin } ─▶ kept while the path is
 //!      asked for ─▶ .csv, .svg or .png by the name's ending, written whole by a job
 //! ```

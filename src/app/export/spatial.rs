@@ -40,8 +40,8 @@ pub(super) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: O
     };
     let note = "One-sided power density of the heights at the nearest points of the four profiles: \
                 the power of a bin over 0.23 cycles/mm; bins that fall together as their mean. \
-                Bold: what sounds between 10 Hz and 1 kHz at the present speed; marked: what sounds \
-                at 40 and 320 Hz at the faster of the two.";
+                Bold: what sounds between 10 Hz and 1 kHz at the present speed; marked: what \
+                sounds at 40 and 320 Hz at the faster of the two.";
     let mut origin = origin
         .of_contactor(contactor)
         .in_ticks(std::iter::once(tick));

@@ -26,12 +26,15 @@ const ALL: [Exportable; 8] = [
     Exportable::Timeline,
 ];
 
-/// A window without a screen, at 40 frames a second of simulated time.
+/// Ticks between two frames: 10 frames a second of simulated time.
+const TICKS_A_FRAME: u32 = 4;
+
+/// A window without a screen.
 struct Desk {
     ctx: Context,
     bench: Workbench,
     frame: eframe::Frame,
-    n_frames: u32,
+    n_ticks: u32,
 }
 
 impl Desk {
@@ -43,7 +46,7 @@ impl Desk {
             ctx,
             bench,
             frame: eframe::Frame::_new_kittest(),
-            n_frames: 0,
+            n_ticks: 0,
         }
     }
 
@@ -58,11 +61,12 @@ impl Desk {
 
     fn go_on(&mut self, n_ticks: u32) {
         let ctx = self.ctx.clone();
-        for _ in 0..n_ticks {
-            self.n_frames += 1;
+        let end = self.n_ticks + n_ticks;
+        while self.n_ticks < end {
+            self.n_ticks = end.min(self.n_ticks + TICKS_A_FRAME);
             let input = RawInput {
                 screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(1400.0, 900.0))),
-                time: Some(f64::from(self.n_frames) / 40.0),
+                time: Some(f64::from(self.n_ticks) / 40.0),
                 ..RawInput::default()
             };
             let output = ctx.run_ui(input, |ui| {
@@ -398,20 +402,5 @@ fn every_export_has_a_name_of_its_own() {
     let is_listed = |pane: &Pane| ALL.contains(&Exportable::Pane(*pane));
     for pane in Pane::ALL {
         assert_eq!(is_exportable(pane), is_listed(&pane), "{pane:?}");
-    }
-}
-
-#[test]
-fn temporary_pictures() {
-    let mut desk = Desk::explored(400);
-    let edit = crate::app::command::Edit::Compression(0.35);
-    desk.bench.dispatch(&desk.ctx.clone(), edit.into());
-    desk.go_on(14);
-    fs::create_dir_all("/tmp/exports").unwrap();
-    for what in ALL {
-        for kind in Kind::ALL {
-            let path = Path::new("/tmp/exports").join(what.file_name(kind));
-            desk.exported(what).write(&path).unwrap();
-        }
     }
 }

@@ -139,8 +139,8 @@ pub(crate) fn density_db(density_um2_mm: f64) -> f64 {
     10.0 * density_um2_mm.log10()
 }
 
-/// The curve of a density as `[wavenumber, density]`: bins that are drawn nearer to one another than
-/// `least_step` as their mean. `x` is where a wavenumber is drawn.
+/// The curve of a density as `[wavenumber, density]`: bins that are drawn nearer to one another
+/// than `least_step` as their mean. `x` is where a wavenumber is drawn.
 pub(crate) fn means_of(
     density_um2_mm: &[f64],
     least_step: f32,
