@@ -360,8 +360,8 @@ impl<'a> Laid<'a> {
 fn line_of(rule: &Rule, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> String {
     let dashes = match (rule.extent, rule.ink) {
         // Two rules may coincide: each fills the other's gaps.
-        (Extent::Dashed, Ink::Cyan) => " stroke-dasharray=\"4 4\" stroke-dashoffset=\"4\"",
-        (Extent::Dashed, _) => " stroke-dasharray=\"4 4\"",
+        (Extent::Dashed, Ink::Cyan) => " stroke-dasharray=\"8 8\" stroke-dashoffset=\"8\"",
+        (Extent::Dashed, _) => " stroke-dasharray=\"8 8\"",
         (Extent::Across | Extent::Edge, _) => "",
     };
     let width = if rule.extent == Extent::Edge { 2 } else { 1 };

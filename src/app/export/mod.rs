@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! button ─▶ FileCommand::Ask(Purpose::Export(what)) ─▶ gather: the pane's own view
-//!      ─▶ one function a pane: view ─▶ Exported { sheet, figure, origin } ─▶ kept while the path is
-//!      asked for ─▶ .csv, .svg or .png by the name's ending, written whole by a job
+//!      ─▶ one function a pane: view ─▶ Exported { sheet, figure, origin }, kept while the path
+//!      is asked for ─▶ .csv, .svg or .png by the name's ending, written whole by a job
 //! ```
 //!
 //! To export another pane: write a function from its view to an [`Exported`] in a file here, and

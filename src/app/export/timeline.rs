@@ -144,10 +144,8 @@ mod tests {
         let points = line(&ticks, |tick| Some(tick.felt.speed_mm_per_s));
         assert!(points.len() <= MOST_POINTS + 3, "{}", points.len());
         assert!(points.iter().any(|[_, speed]| *speed > 899.0), "the peak");
-        assert!(
-            points.windows(2).all(|pair| !(pair[0][0] > pair[1][0])),
-            "in order"
-        );
+        let times = points.iter().map(|[t_s, _]| *t_s);
+        assert!(times.filter(|t_s| !t_s.is_nan()).is_sorted(), "in order");
         let few = line(&ticks[49_999..50_002], |tick| {
             Some(tick.felt.speed_mm_per_s)
         });
