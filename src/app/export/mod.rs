@@ -7,7 +7,7 @@
 //! ```
 //!
 //! To export another pane: write a function from its view to an [`Exported`] in a file here, and
-//! give [`gather_of`] an arm that fetches the view and calls it. Button, menu, dialog, notices,
+//! give `gather_of` (gather.rs) an arm that fetches the view and calls it. Button, menu, dialog, notices,
 //! kinds of files and provenance come with that.
 //!
 //! # Tables
