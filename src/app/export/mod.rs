@@ -7,8 +7,8 @@
 //! ```
 //!
 //! To export another pane: write a function from its view to an [`Exported`] in a file here, and
-//! give `gather_of` (gather.rs) an arm that fetches the view and calls it. Button, menu, dialog, notices,
-//! kinds of files and provenance come with that.
+//! give `gather_of` (gather.rs) an arm that fetches the view and calls it. Button, menu, dialog,
+//! notices, kinds of files and provenance come with that.
 //!
 //! # Tables
 //! UTF-8, comma, decimal point, one header line with units in the names, one row an observation,
