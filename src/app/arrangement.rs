@@ -19,7 +19,7 @@ const PICTURES: f32 = 236.0;
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// A part of the window that can be moved, stacked and hidden.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub(crate) enum Pane {
     /// The scene in mm with the display moving over it.
     Workspace,

@@ -10,6 +10,7 @@ use eframe::egui;
 use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
+use super::export::Exportable;
 use super::theme::ColourMap;
 use crate::geometry::Point;
 use crate::tactile::{Band, Filters};
@@ -126,6 +127,8 @@ pub(crate) enum FileCommand {
     OpenShipped,
     /// Save the scene where it came from, or ask where.
     Save,
+    /// Copy what a pane shows as a table.
+    CopyTable(Exportable),
     /// Close the window; asks first when the scene is not saved.
     Close,
     /// Go on with what was asked for and let the changes go.
@@ -143,8 +146,8 @@ pub(crate) enum Purpose {
     OpenRecording,
     /// Save the recorded exploration.
     SaveRecording,
-    /// Save the explanation of the chosen contactor as a table.
-    SaveWhy,
+    /// Save what a pane shows as a picture or a table.
+    Export(Exportable),
 }
 
 /// What moves the display, and how that is recorded.

@@ -11,6 +11,7 @@ use egui_tiles::{
 };
 
 use super::arrangement::Pane;
+use super::export::{Exportable, is_exportable};
 use super::panes::{
     self, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle,
     SpatialSource, Wishes,
@@ -101,21 +102,10 @@ impl Desk<'_> {
         );
     }
 
-    fn heatmap_style(&self) -> HeatmapStyle {
-        let bench = &*self.bench;
-        HeatmapStyle {
-            map: bench.settings.kept.colour_map,
-            scale: bench.workspace.scale,
-            has_numbers: bench.settings.kept.has_numbers,
-            greys_below: bench.workspace.greys_below,
-            selected: bench.workspace.contactor.unwrap_or(usize::MAX),
-        }
-    }
-
     fn show_heatmaps(&mut self, ui: &mut Ui) {
-        let style = self.heatmap_style();
-        let live = &self.bench.transient.live;
-        panes::show_heatmaps(ui, self.scene, live, style, self.wishes);
+        let bench = &*self.bench;
+        let style = bench.heatmap_style();
+        panes::show_heatmaps(ui, self.scene, &bench.transient.live, style, self.wishes);
     }
 }
 
@@ -151,17 +141,8 @@ impl Desk<'_> {
     }
 
     fn show_drive_wave(&mut self, ui: &mut Ui) {
-        let contactor = self.contactor();
-        let limit_um = self.bench.engine.profile().limit_um;
-        let transient = &mut self.bench.transient;
-        let (history, tick) = (&transient.history, transient.live.tick);
-        let contactor = u32::try_from(contactor).unwrap_or(u32::MAX);
-        let view = DriveWaveView {
-            before_um: drive_um(history, contactor, tick.saturating_sub(1)),
-            now_um: drive_um(history, contactor, tick),
-            limit_um,
-        };
-        panes::show_drive_wave(ui, &mut transient.wave_scale, &view);
+        let view = self.bench.drive_wave_view();
+        panes::show_drive_wave(ui, &mut self.bench.transient.wave_scale, &view);
     }
 
     fn show_spatial(&mut self, ui: &mut Ui) {
@@ -201,12 +182,41 @@ impl Desk<'_> {
     }
 }
 
+/// Views that are drawn and exported.
+impl Workbench {
+    /// How the heatmaps are drawn.
+    pub(crate) fn heatmap_style(&self) -> HeatmapStyle {
+        HeatmapStyle {
+            map: self.settings.kept.colour_map,
+            scale: self.workspace.scale,
+            has_numbers: self.settings.kept.has_numbers,
+            greys_below: self.workspace.greys_below,
+            selected: self.workspace.contactor.unwrap_or(usize::MAX),
+        }
+    }
+
+    /// What drove the chosen contactor in the last two ticks.
+    pub(crate) fn drive_wave_view(&self) -> DriveWaveView {
+        let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
+        let contactor = u32::try_from(contactor).unwrap_or(u32::MAX);
+        let (history, tick) = (&self.transient.history, self.transient.live.tick);
+        DriveWaveView {
+            before_um: drive_um(history, contactor, tick.saturating_sub(1)),
+            now_um: drive_um(history, contactor, tick),
+            limit_um: self.engine.profile().limit_um,
+        }
+    }
+}
+
 /// The right end of a row of tabs: what belongs to the pane in front.
 impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
+        if is_exportable(pane) {
+            panes::show_export(ui, Exportable::Pane(pane), self.wishes);
+        }
         match pane {
             Pane::Heatmaps => {
-                let style = self.heatmap_style();
+                let style = self.bench.heatmap_style();
                 let audition = &self.bench.transient.audition;
                 panes::show_heatmap_corner(ui, style, audition, self.wishes);
             }

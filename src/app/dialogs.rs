@@ -158,7 +158,7 @@ fn has_desktop(
 fn is_save(purpose: Purpose) -> bool {
     matches!(
         purpose,
-        Purpose::SaveScene | Purpose::SaveRecording | Purpose::SaveWhy
+        Purpose::SaveScene | Purpose::SaveRecording | Purpose::Export(_)
     )
 }
 
@@ -173,7 +173,10 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::OpenRecording | Purpose::SaveRecording => {
             dialog.add_filter("Recordings", &["csv"])
         }
-        Purpose::SaveWhy => dialog.add_filter("Tables", &["csv"]),
+        Purpose::Export(_) => dialog
+            .add_filter("Pictures", &["png"])
+            .add_filter("Drawings", &["svg"])
+            .add_filter("Tables", &["csv"]),
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());
@@ -198,10 +201,10 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         return path;
     };
     let mut name = name.to_owned();
-    name.push(if purpose == Purpose::SaveScene {
-        ".scene.toml"
-    } else {
-        ".csv"
+    name.push(match purpose {
+        Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
+        Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
+        Purpose::Export(_) => ".png",
     });
     let longer = path.with_file_name(name);
     if longer.exists() { path } else { longer }

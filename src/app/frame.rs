@@ -10,8 +10,9 @@ use super::command::PlaySource;
 use super::desk::Desk;
 use super::panes::{self, Wishes};
 use super::pointer::Ground;
-use super::state::After;
+use super::state::{After, Transient};
 use super::tab_row::TabRow;
+use super::take::Take;
 use super::theme::Palette;
 use super::view::{SceneView, Source};
 use super::window::Workbench;
@@ -54,25 +55,34 @@ fn show_header(bench: &Workbench, ui: &mut Ui, scene: &SceneView, wishes: &mut W
 fn show_transport(bench: &mut Workbench, ui: &mut Ui, wishes: &mut Wishes) {
     let bottom = Panel::bottom("transport").resizable(false);
     bottom.frame(panel(ui, 12, 6)).show(ui, |ui| {
-        let transient = &mut bench.transient;
-        let live = &transient.live;
-        let view = panes::TransportView {
-            source: match live.play.source {
-                Source::Pointer | Source::Lines => PlaySource::Pointer,
-                Source::Stroke => PlaySource::Stroke,
-                Source::Recording => PlaySource::Recording,
-            },
-            is_playing: live.play.is_playing,
-            does_loop: transient.does_loop,
-            is_stopped: live.is_stopped,
-            recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
-            tick: live.play.tick,
-            speed_mm_per_s: live.speed_mm_per_s,
-            take: bench.take.as_ref(),
-            live: &transient.history,
-        };
-        panes::show_transport(ui, &view, &mut transient.transport, wishes);
+        let mut state = std::mem::take(&mut bench.transient.transport);
+        let view = transport_view(&bench.transient, bench.take.as_ref());
+        panes::show_transport(ui, &view, &mut state, wishes);
+        bench.transient.transport = state;
     });
+}
+
+/// What the timeline shows; `take` is the recording at hand.
+pub(crate) fn transport_view<'a>(
+    transient: &'a Transient,
+    take: Option<&'a Take>,
+) -> panes::TransportView<'a> {
+    let live = &transient.live;
+    panes::TransportView {
+        source: match live.play.source {
+            Source::Pointer | Source::Lines => PlaySource::Pointer,
+            Source::Stroke => PlaySource::Stroke,
+            Source::Recording => PlaySource::Recording,
+        },
+        is_playing: live.play.is_playing,
+        does_loop: transient.does_loop,
+        is_stopped: live.is_stopped,
+        recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
+        tick: live.play.tick,
+        speed_mm_per_s: live.speed_mm_per_s,
+        take,
+        live: &transient.history,
+    }
 }
 
 /// The panes in their tiles.

@@ -33,6 +33,7 @@ mod dispatch;
 mod document;
 mod editing;
 mod error;
+mod export;
 mod felt;
 mod frame;
 mod headless;

@@ -6,6 +6,7 @@ use super::accuracy::AccuracyWatch;
 use super::audition::Audition;
 use super::compare::Comparison;
 use super::dialogs::Dialogs;
+use super::export::Exports;
 use super::history::Moment;
 use super::job::Job;
 use super::opening::{Opening, Origin};
@@ -50,6 +51,8 @@ pub(crate) struct Transient {
     pub(crate) reading: Option<Job<Result<Take, SceneError>>>,
     /// A recorded exploration on its way into a file.
     pub(crate) saving: Option<Job<Result<Take, SceneError>>>,
+    /// What is being exported.
+    pub(crate) exports: Exports,
     /// The engine as it was seen last.
     pub(crate) live: Live,
     /// Where the display was.

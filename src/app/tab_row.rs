@@ -3,6 +3,8 @@
 use eframe::egui::{Color32, Ui};
 
 use super::arrangement::Pane;
+use super::export::is_exportable;
+use super::panes::EXPORT_SIZE;
 use super::theme;
 
 /// Space on both sides of a title, points.
@@ -44,15 +46,21 @@ impl TabRow {
 
 /// Width of what stands at the right end of a row of tabs, points.
 pub(crate) fn corner_width(pane: Pane) -> f32 {
-    match pane {
+    let export = if is_exportable(pane) {
+        EXPORT_SIZE + TITLE_SPACING
+    } else {
+        0.0
+    };
+    let own = match pane {
         Pane::Heatmaps => 184.0,
         Pane::ContactSpectrum | Pane::DriveSpectrum | Pane::DriveWave | Pane::SpatialSpectra => {
             112.0
         }
-        Pane::Why => 128.0,
+        Pane::Why => 88.0,
         Pane::Compare => 124.0,
         Pane::Accuracy => 108.0,
         Pane::Workspace => 300.0,
         Pane::Library | Pane::Tuning | Pane::Bridge => 0.0,
-    }
+    };
+    own + export
 }

@@ -43,9 +43,11 @@ impl Labels {
                 what,
                 numbers.map(|value| with_prefix(value, unit)).collect(),
             ),
-            (Some((what, unit)), Scale::Linear) => (what, with_one_prefix(ruler, unit)),
+            (Some((what, unit)), Scale::Linear | Scale::Whole) => {
+                (what, with_one_prefix(ruler, unit))
+            }
             (None, Scale::Log) => (label, numbers.map(plain).collect()),
-            (None, Scale::Linear) => (
+            (None, Scale::Linear | Scale::Whole) => (
                 label,
                 numbers.map(|value| stepped(value, ruler.step)).collect(),
             ),

@@ -1,7 +1,7 @@
-//! The legend: right of the frame, one line a series that has a name.
+//! The legend: right of the frame, one line a series that has a name; or above it, in one line.
 
 use super::look::{INK, Look};
-use super::svg::{draw_dot, text};
+use super::marks::{draw_dot, text};
 use super::text::shortened;
 use super::{Series, Style};
 
@@ -12,6 +12,8 @@ const CHARACTER_PX: f64 = 6.4;
 /// From the legend's edge to its names, px.
 const SAMPLE_PX: f64 = 32.0;
 const LONGEST_NAME: usize = 38;
+/// From one name to the next where they stand side by side, px.
+const BETWEEN_PX: f64 = 14.0;
 
 /// What the legend takes of a figure's width, px: nothing without names.
 pub(super) fn width_px(series: &[Series]) -> f64 {
@@ -35,20 +37,7 @@ pub(super) fn draw(
             continue;
         }
         let middle_px = y + height_px;
-        if series.style != Style::Dots {
-            let dashes = match series.style {
-                Style::Dashed => " stroke-dasharray=\"6 4\"",
-                _ => "",
-            };
-            let (colour, right_px) = (look.colour, x + 24.0);
-            body.push(format!(
-                "<path d=\"M{x:.1} {middle_px:.1}L{right_px:.1} {middle_px:.1}\" \
-                 stroke=\"{colour}\" stroke-width=\"1.6\"{dashes}/>\n"
-            ));
-        }
-        if matches!(series.style, Style::Dots | Style::LineAndDots) {
-            draw_dot(body, [x + 12.0, middle_px], *look);
-        }
+        draw_sample(series.style, *look, [x, middle_px], body);
         let at = [x + SAMPLE_PX, middle_px + 4.0];
         text(
             body,
@@ -59,4 +48,42 @@ pub(super) fn draw(
         height_px += LINE_PX;
     }
     height_px
+}
+
+/// Draws the legend in one line above a frame; `right` is its end.
+pub(super) fn draw_across(
+    series: &[Series],
+    looks: &[Look],
+    [right, y]: [f64; 2],
+    body: &mut Vec<String>,
+) {
+    let mut right_px = right;
+    for (series, look) in series.iter().zip(looks).rev() {
+        if series.name.is_empty() {
+            continue;
+        }
+        let name = shortened(&series.name, LONGEST_NAME);
+        let start_px = right_px - CHARACTER_PX * name.chars().count() as f64;
+        text(body, [start_px, y + 4.0], ("start", 12, INK), &name);
+        draw_sample(series.style, *look, [start_px - SAMPLE_PX, y], body);
+        right_px = start_px - SAMPLE_PX - BETWEEN_PX;
+    }
+}
+
+/// The sample of a series, 24 px wide from its left end.
+fn draw_sample(style: Style, look: Look, [x, y]: [f64; 2], body: &mut Vec<String>) {
+    if style != Style::Dots {
+        let dashes = match style {
+            Style::Dashed => " stroke-dasharray=\"6 4\"",
+            _ => "",
+        };
+        let (colour, width, right_px) = (look.colour, look.weight.width_px(), x + 24.0);
+        body.push(format!(
+            "<path d=\"M{x:.1} {y:.1}L{right_px:.1} {y:.1}\" stroke=\"{colour}\" \
+             stroke-width=\"{width}\"{dashes}/>\n"
+        ));
+    }
+    if matches!(style, Style::Dots | Style::LineAndDots) {
+        draw_dot(body, [x + 12.0, y], look);
+    }
 }

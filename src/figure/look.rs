@@ -3,7 +3,7 @@
 //! The palette is that of Okabe and Ito. Amber and cyan mean 40 Hz and 320 Hz and nothing else;
 //! shapes of dots differ too, so that a print in grey can be read.
 
-use super::{Series, Style};
+use super::{Ink, Series, Style, Weight};
 
 /// Texts and the frame.
 pub(super) const INK: &str = "#222222";
@@ -14,6 +14,9 @@ pub(super) const GRID: &str = "#e4e4e4";
 
 const AMBER: &str = "#e69f00";
 const CYAN: &str = "#56b4e9";
+/// The same hues where letters are written in them: 4.5 : 1 on white.
+const DARK_AMBER: &str = "#8f5a00";
+const DARK_CYAN: &str = "#0b6a9e";
 /// Blue, vermilion, bluish green, reddish purple, black.
 const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", INK];
 
@@ -37,6 +40,42 @@ pub(super) struct Look {
     pub(super) colour: &'static str,
     /// Its dots.
     pub(super) dot: Dot,
+    /// Its line.
+    pub(super) weight: Weight,
+}
+
+impl Weight {
+    /// How wide a line is, px.
+    pub(super) fn width_px(self) -> f64 {
+        match self {
+            Self::Thin => 0.8,
+            Self::Normal => 1.6,
+            Self::Bold => 2.0,
+        }
+    }
+}
+
+impl Ink {
+    /// Its colour, if it is not one that is given out.
+    pub(super) fn colour(self) -> Option<&'static str> {
+        match self {
+            Self::Own => None,
+            Self::Amber => Some(AMBER),
+            Self::Cyan => Some(CYAN),
+            Self::Black => Some(INK),
+            Self::Grey => Some(GREY),
+        }
+    }
+
+    /// The same for letters, which need more contrast with the paper.
+    pub(super) fn letters(self) -> &'static str {
+        match self {
+            Self::Amber => DARK_AMBER,
+            Self::Cyan => DARK_CYAN,
+            Self::Grey => GREY,
+            Self::Own | Self::Black => INK,
+        }
+    }
 }
 
 /// How every series looks, in their order.
@@ -46,10 +85,18 @@ pub(super) fn looks(series: &[Series]) -> Vec<Look> {
         .iter()
         .map(|series| {
             let dots = [Dot::Disc, Dot::Square, Dot::Triangle, Dot::Diamond];
-            if let Some(colour) = colour_of_band(&series.name) {
+            let weight = series.weight;
+            let given = series.ink.colour();
+            if let Some(colour) = given.or_else(|| colour_of_band(&series.name)) {
+                let dot = if series.ink == Ink::Grey {
+                    Dot::Square
+                } else {
+                    Dot::Disc
+                };
                 return Look {
                     colour,
-                    dot: Dot::Disc,
+                    dot,
+                    weight,
                 };
             }
             if series.style == Style::Dashed {
@@ -58,12 +105,14 @@ pub(super) fn looks(series: &[Series]) -> Vec<Look> {
                     return Look {
                         colour: GREY,
                         dot: Dot::Disc,
+                        weight,
                     };
                 }
             }
             let look = Look {
                 colour: COLOURS[n_plain % COLOURS.len()],
                 dot: dots[n_plain % dots.len()],
+                weight,
             };
             n_plain += 1;
             look

@@ -4,11 +4,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
+use resvg::tiny_skia::{FilterQuality, Pixmap, PixmapPaint, PremultipliedColorU8, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-use super::Plot;
-use super::svg::WIDTH_PX;
+use super::compose::Page;
+use super::raster::Placed;
+use super::svg::{WIDTH_PX, paper};
+use super::{Figure, Plot, Raster};
 
 /// A picture of red, green, blue and alpha, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,34 +40,125 @@ impl Plot {
     /// # Errors
     /// A width below 64 or above 8192.
     pub fn to_pixels(&self, width: u32) -> Result<Pixels, FigureError> {
-        if !(64..=8192).contains(&width) {
-            return Err(FigureError::Width(width));
-        }
-        let options = Options {
-            fontdb: Arc::clone(fonts()),
-            ..Options::default()
-        };
-        let tree = Tree::from_str(&self.to_svg(), &options)
-            .map_err(|error| FigureError::Drawing(error.to_string()))?;
-        let scale = f64::from(width) / WIDTH_PX;
-        let height = rows(f64::from(tree.size().height()) * scale);
-        let mut pixmap = Pixmap::new(width, height).ok_or(FigureError::Width(width))?;
-        let scale = single(scale);
-        resvg::render(
-            &tree,
-            Transform::from_scale(scale, scale),
-            &mut pixmap.as_mut(),
+        Ok(drawn(&[&self.to_svg()], width, |_, _| Ok(()))?.into())
+    }
+}
+
+impl Figure {
+    /// The picture of [`Figure::to_svg`], `width` pixels wide.
+    ///
+    /// # Errors
+    /// A width below 64 or above 8192; a raster without cells.
+    pub fn to_pixels(&self, width: u32) -> Result<Pixels, FigureError> {
+        let page = Page::of(self);
+        let height_px = page.height_px();
+        // The renderer draws no rasters: they are put between the paper and the rest.
+        let ground = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX}\" \
+             height=\"{height_px:.0}\">{}</svg>",
+            paper(height_px)
         );
+        let layers = [ground.as_str(), &page.document("")];
+        let pixmap = drawn(&layers, width, |pixmap, scale| {
+            page.pictures()
+                .try_for_each(|one| enlarge(&one, pixmap, scale))
+        })?;
+        Ok(pixmap.into())
+    }
+}
+
+/// SVG documents of one size drawn over one another, `width` pixels wide; `after_first` draws onto
+/// the first, which is as many times as large as its SVG.
+fn drawn(
+    layers: &[&str],
+    width: u32,
+    after_first: impl Fn(&mut Pixmap, f64) -> Result<(), FigureError>,
+) -> Result<Pixmap, FigureError> {
+    if !(64..=8192).contains(&width) {
+        return Err(FigureError::Width(width));
+    }
+    let options = Options {
+        fontdb: Arc::clone(fonts()),
+        ..Options::default()
+    };
+    let scale = f64::from(width) / WIDTH_PX;
+    let mut page: Option<Pixmap> = None;
+    for svg in layers {
+        let tree = Tree::from_str(svg, &options)
+            .map_err(|error| FigureError::Drawing(error.to_string()))?;
+        let is_first = page.is_none();
+        let height = rows(f64::from(tree.size().height()) * scale);
+        let mut pixmap = match page.take() {
+            Some(pixmap) => pixmap,
+            None => Pixmap::new(width, height).ok_or(FigureError::Width(width))?,
+        };
+        let factor = single(scale);
+        let transform = Transform::from_scale(factor, factor);
+        resvg::render(&tree, transform, &mut pixmap.as_mut());
+        if is_first {
+            after_first(&mut pixmap, scale)?;
+        }
+        page = Some(pixmap);
+    }
+    page.ok_or(FigureError::Width(width))
+}
+
+/// One pixel a cell.
+fn pixmap_of(raster: &Raster) -> Result<Pixmap, FigureError> {
+    let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let (columns, rows) = (side(raster.n_columns), side(raster.n_rows()));
+    let mut pixmap = Pixmap::new(columns, rows)
+        .ok_or_else(|| FigureError::Drawing(format!("it has {columns} × {rows} cells")))?;
+    for (pixel, cell) in pixmap.pixels_mut().iter_mut().zip(&raster.cells) {
+        let opaque = cell.and_then(|[r, g, b]| PremultipliedColorU8::from_rgba(r, g, b, u8::MAX));
+        *pixel = opaque.unwrap_or(PremultipliedColorU8::TRANSPARENT);
+    }
+    Ok(pixmap)
+}
+
+/// A raster as PNG, one pixel a cell.
+pub(super) fn png(raster: &Raster) -> Result<Vec<u8>, FigureError> {
+    let png = pixmap_of(raster)?.encode_png();
+    png.map_err(|error| FigureError::Drawing(error.to_string()))
+}
+
+/// Draws a raster onto a page that is `scale` times as large, every cell with sharp edges.
+fn enlarge(placed: &Placed<'_>, page: &mut Pixmap, scale: f64) -> Result<(), FigureError> {
+    let pixmap = pixmap_of(placed.raster)?;
+    let along = |axis: usize, n_cells: u32| {
+        let size_px = placed.size_px[axis] * scale;
+        let start_px = placed.corner_px[axis] * scale;
+        (single(size_px / f64::from(n_cells)), single(start_px))
+    };
+    let (across, left) = along(0, pixmap.width());
+    let (down, top) = along(1, pixmap.height());
+    let paint = PixmapPaint {
+        quality: FilterQuality::Nearest,
+        ..PixmapPaint::default()
+    };
+    let place = Transform::from_row(across, 0.0, 0.0, down, left, top);
+    page.draw_pixmap(0, 0, pixmap.as_ref(), &paint, place, None);
+    Ok(())
+}
+
+impl From<Pixmap> for Pixels {
+    fn from(pixmap: Pixmap) -> Self {
         let straight = |pixel: &PremultipliedColorU8| {
             let colour = pixel.demultiply();
             [colour.red(), colour.green(), colour.blue(), colour.alpha()]
         };
-        Ok(Pixels {
+        Self {
             width: pixmap.width() as usize,
             height: pixmap.height() as usize,
             rgba: pixmap.pixels().iter().flat_map(straight).collect(),
-        })
+        }
     }
+}
+
+/// Whether a text is SVG that can be drawn.
+#[cfg(test)]
+pub(crate) fn is_well_formed(svg: &str) -> bool {
+    Tree::from_str(svg, &Options::default()).is_ok()
 }
 
 /// The program's own fonts: a sans-serif, and one with more signs to fall back to.

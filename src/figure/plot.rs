@@ -8,6 +8,8 @@ pub enum Scale {
     Linear,
     /// By their logarithm; values that are not above zero have no place.
     Log,
+    /// Evenly, with a label at whole numbers alone: rows, columns, counts.
+    Whole,
 }
 
 /// One axis.
@@ -33,6 +35,36 @@ pub enum Style {
     LineAndDots,
     /// A dashed line: what was promised, or expected.
     Dashed,
+    /// A line upright from the axis to every point.
+    Stems,
+}
+
+/// What a series is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ink {
+    /// A colour of its own; what is called 40 Hz is amber and what is called 320 Hz cyan.
+    #[default]
+    Own,
+    /// Amber: 40 Hz.
+    Amber,
+    /// Cyan: 320 Hz.
+    Cyan,
+    /// Nearly black.
+    Black,
+    /// Grey.
+    Grey,
+}
+
+/// How heavy a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Weight {
+    /// As lines usually are.
+    #[default]
+    Normal,
+    /// Thin: what stands behind.
+    Thin,
+    /// Bold: what stands out.
+    Bold,
 }
 
 /// Points that belong together.
@@ -46,6 +78,10 @@ pub struct Series {
     pub style: Style,
     /// Points that stand out, by their places in `points`: what nothing else beats.
     pub marked: Vec<usize>,
+    /// What it is drawn with.
+    pub ink: Ink,
+    /// How heavy its line is.
+    pub weight: Weight,
 }
 
 /// A plot.

@@ -7,7 +7,7 @@ fn sample() -> Plot {
         name: name.to_owned(),
         points: points.to_vec(),
         style,
-        marked: Vec::new(),
+        ..Series::default()
     };
     let mut table = line("table", &[[2e-7, 0.04], [4e-7, 0.005]], Style::LineAndDots);
     table.marked = vec![0];
@@ -104,6 +104,7 @@ fn empty_and_senseless_plots_are_still_figures() {
         points: vec![[f64::NAN; 2]; 3],
         style: Style::Line,
         marked: vec![0, 99],
+        ..Series::default()
     };
     let senseless = Plot {
         title: "a < b & \"c\"".to_owned(),

@@ -10,6 +10,8 @@ const DECADES_WITH_ALL_LABELS: f64 = 3.0;
 const DECADES_WITH_LABELS: f64 = 10.0;
 /// Steps that a linear axis is divided into, about.
 const N_STEPS: f64 = 5.0;
+/// The same where every whole number ought to have a label.
+const N_WHOLE_STEPS: f64 = 12.0;
 
 /// An axis with its ends and ticks.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +43,10 @@ impl Ruler {
             });
         match axis.scale {
             Scale::Log => Self::log(given, seen.unwrap_or([1.0, 10.0])),
-            Scale::Linear => Self::linear(given, seen.unwrap_or([0.0, 1.0])),
+            Scale::Linear | Scale::Whole => {
+                let seen = seen.unwrap_or([0.0, 1.0]);
+                Self::even(axis.scale, given, seen)
+            }
         }
     }
 
@@ -93,14 +98,18 @@ impl Ruler {
         }
     }
 
-    fn linear(given: Option<[f64; 2]>, [least, most]: [f64; 2]) -> Self {
+    fn even(scale: Scale, given: Option<[f64; 2]>, [least, most]: [f64; 2]) -> Self {
         let mut ends = given.unwrap_or([least, most]);
         let largest = ends[0].abs().max(ends[1].abs());
         if ends[1] - ends[0] <= 1e-9 * largest || ends[0] >= ends[1] {
             let around = if largest > 0.0 { 0.1 * largest } else { 1.0 };
             ends = [ends[0] - around, ends[1] + around];
         }
-        let step = step_near((ends[1] - ends[0]) / N_STEPS);
+        let step = if scale == Scale::Whole {
+            step_near((ends[1] - ends[0]) / N_WHOLE_STEPS).max(1.0)
+        } else {
+            step_near((ends[1] - ends[0]) / N_STEPS)
+        };
         let (first, last) = if given.is_some() {
             let (low, high) = (ends[0] / step - 1e-9, ends[1] / step + 1e-9);
             (low.ceil(), high.floor())
@@ -116,7 +125,7 @@ impl Ruler {
             at += 1.0;
         }
         Self {
-            scale: Scale::Linear,
+            scale,
             ends,
             hairlines: labelled.clone(),
             labelled,
@@ -129,7 +138,7 @@ impl Ruler {
 fn position(scale: Scale, value: f64) -> Option<f64> {
     match scale {
         _ if !value.is_finite() => None,
-        Scale::Linear => Some(value),
+        Scale::Linear | Scale::Whole => Some(value),
         Scale::Log => (value >= f64::MIN_POSITIVE).then(|| value.log10()),
     }
 }

@@ -78,7 +78,7 @@ fn promises(rows: &[Row], [soonest_s, latest_s]: [f64; 2], unit: &str) -> Vec<Se
         name: format!("promised: {promise} {unit}").trim().to_owned(),
         points: vec![[soonest_s, promise], [latest_s, promise]],
         style: Style::Dashed,
-        marked: Vec::new(),
+        ..Series::default()
     };
     promised.into_iter().map(line).collect()
 }

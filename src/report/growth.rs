@@ -70,7 +70,7 @@ impl Study for GrowthStudy {
                     name: method.name().to_owned(),
                     points,
                     style: Style::LineAndDots,
-                    marked: Vec::new(),
+                    ..Series::default()
                 });
                 findings.rows.extend(rows);
             }
@@ -257,7 +257,7 @@ fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
             name: "in proportion".to_owned(),
             points: ends.map(in_proportion).collect(),
             style: Style::Dashed,
-            marked: Vec::new(),
+            ..Series::default()
         });
     }
     let axis = |label: &str| Axis {

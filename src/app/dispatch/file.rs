@@ -12,15 +12,14 @@ use crate::app::opening::{Opened, Opening, Origin, open};
 use crate::app::panes::Ask;
 use crate::app::state::After;
 use crate::app::take::Take;
-use crate::app::why::to_csv;
 use crate::app::window::Workbench;
 use crate::engine;
-use crate::files;
 use crate::scene::{ExplorationPath, SceneError};
 
 impl Workbench {
     pub(super) fn dispatch_file(&mut self, ctx: &egui::Context, command: FileCommand) {
         match command {
+            FileCommand::Ask(Purpose::Export(what)) => self.ask_export(ctx, what),
             FileCommand::Ask(purpose) => self.ask(ctx, purpose),
             FileCommand::Use(Purpose::OpenScene, path) => {
                 self.unless_unsaved(ctx, After::Open(Origin::File(path)));
@@ -30,7 +29,8 @@ impl Workbench {
             FileCommand::Use(Purpose::SaveScene, path) => self.save_scene(ctx, &path),
             FileCommand::Use(Purpose::OpenRecording, path) => self.open_recording(ctx, path),
             FileCommand::Use(Purpose::SaveRecording, path) => self.save_recording(ctx, path),
-            FileCommand::Use(Purpose::SaveWhy, path) => self.save_why(&path),
+            FileCommand::Use(Purpose::Export(what), path) => self.export_to(ctx, what, path),
+            FileCommand::CopyTable(what) => self.copy_table(ctx, what),
             FileCommand::Save => match self.document.path().cloned() {
                 Some(path) => self.save_scene(ctx, &path),
                 None => self.ask(ctx, Purpose::SaveScene),
@@ -59,7 +59,7 @@ impl Workbench {
     fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
         match purpose {
             Purpose::OpenScene | Purpose::SaveScene => self.document.path().cloned(),
-            Purpose::SaveWhy => None,
+            Purpose::Export(what) => Some(self.export_path(what)),
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = self.take.as_ref()?;
                 take.file().map(Path::to_owned)
@@ -190,18 +190,6 @@ impl Workbench {
                 }
             }
             Err(error) => self.transient.notices.give(error.to_string()),
-        }
-    }
-
-    /// Saves the explanation that is shown: a page of numbers, written at once.
-    fn save_why(&mut self, path: &Path) {
-        self.transient.ask = None;
-        let Some(why) = &self.transient.why.0 else {
-            let words = "There is nothing to explain: choose a contactor first";
-            return self.transient.notices.give(words);
-        };
-        if let Err(error) = files::write_atomic(path, to_csv(why).as_bytes()) {
-            self.transient.notices.give(error.to_string());
         }
     }
 

@@ -4,6 +4,7 @@ mod accuracy;
 mod compare;
 mod device;
 mod edit;
+mod export;
 mod file;
 mod play;
 mod show;
@@ -59,6 +60,7 @@ impl Workbench {
 
     fn dismiss(&mut self) {
         self.transient.ask = None;
+        self.transient.exports.seen = None;
         self.transient.question = None;
         self.workspace.is_calibrating = false;
         self.transient.is_help_shown = false;

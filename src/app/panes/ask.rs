@@ -66,12 +66,13 @@ impl AskWords {
                 verb: "Save",
                 ..recording
             },
-            Purpose::SaveWhy => Self {
-                title: "Save explanation as",
-                verb: "Save",
-                missing: "Type where to save the table first",
-                name: "why.csv",
-                ..recording
+            Purpose::Export(_) => Self {
+                title: "Export as PNG, SVG or CSV",
+                verb: "Export",
+                hint: "/path/to/NAME.png",
+                missing: "Type where to export to first",
+                name: "export.png",
+                ending: ".png",
             },
         }
     }

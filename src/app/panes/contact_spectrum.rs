@@ -7,7 +7,7 @@ use eframe::egui::{
     self, Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
 };
 
-use super::spectrogram::{self, ColourScale, Layout, Under, Waterfall};
+use super::spectrogram::{self, ColourScale, Layout, ShownColumn, Under, Waterfall};
 use crate::app::signals::{ContactColumns, History};
 use crate::app::theme::{ColourMap, Palette};
 use crate::app::widgets::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
@@ -15,10 +15,8 @@ use crate::quantity;
 use crate::render::array::ContactInspector;
 use crate::tactile::{Band, Filters};
 
-/// Lower end of the colour scale, dB re 1 µm.
-const LEAST_DB: f64 = -40.0;
-/// Upper end of the colour scale, dB re 1 µm.
-const MOST_DB: f64 = 20.0;
+/// Ends of the colour scale, dB re 1 µm.
+pub(crate) const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
 /// Width of the filters' strip, points.
 const STRIP: f32 = 40.0;
 /// The same where the pane is narrow.
@@ -62,12 +60,24 @@ impl ContactSpectrogram {
         self.waterfall.image.n_uploads()
     }
 
+    /// The columns that are shown, old to new, all of them caught up.
+    pub(crate) fn shown(
+        &mut self,
+        ctx: &egui::Context,
+        inspector: &mut ContactInspector,
+        view: &ContactSpectrumView<'_>,
+    ) -> Vec<ShownColumn> {
+        while self.catch_up(ctx, inspector, view) {}
+        self.waterfall.shown(view.history)
+    }
+
+    /// Computes what is new, as much as one frame may; says whether more is due.
     fn catch_up(
         &mut self,
         ctx: &egui::Context,
         inspector: &mut ContactInspector,
         view: &ContactSpectrumView<'_>,
-    ) {
+    ) -> bool {
         let ContactSpectrumView {
             history, contactor, ..
         } = *view;
@@ -78,7 +88,7 @@ impl ContactSpectrogram {
         self.waterfall
             .catch_up(name, (history, key), colour, |entry, levels_db| {
                 columns.levels_db(inspector, contactor, &entry.glimpse.pose, levels_db);
-            });
+            })
     }
 }
 
@@ -121,12 +131,13 @@ pub(crate) fn show(
 }
 
 /// Where a level stands on the colour scale, 0…1.
-fn share_of(level_db: f32) -> f64 {
-    (f64::from(level_db) - LEAST_DB) / (MOST_DB - LEAST_DB)
+pub(crate) fn share_of(level_db: f32) -> f64 {
+    let [least_db, most_db] = LEVELS_DB;
+    (f64::from(level_db) - least_db) / (most_db - least_db)
 }
 
 fn scale(map: ColourMap) -> ColourScale {
-    let levels_db = Axis::linear(LEAST_DB, MOST_DB);
+    let levels_db = Axis::linear(LEVELS_DB[0], LEVELS_DB[1]);
     let mark = |tick: Tick| Tick {
         value: levels_db.share(tick.value),
         ..tick

@@ -27,6 +27,19 @@ pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f
     })
 }
 
+/// The ends of both axes: whole tens of decibels around every level.
+pub(crate) fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
+    let levels = library.iter().map(|dot| dot.level_db).chain([reference_db]);
+    let (least, most) = levels.fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(least, most), level| (least.min(level), most.max(level)),
+    );
+    [
+        (least / 10.0 - 0.2).floor() * 10.0,
+        (most / 10.0 + 0.2).ceil() * 10.0,
+    ]
+}
+
 /// Shows the curve, or what it waits for.
 pub(crate) fn show(ui: &mut Ui, scene: &SceneView) {
     let palette = Palette::in_ui(ui);
@@ -72,15 +85,11 @@ struct Plot {
 
 impl Plot {
     fn new(rect: Rect, library: &[LibraryDot], reference_db: f64) -> Self {
-        let levels = library.iter().map(|dot| dot.level_db).chain([reference_db]);
-        let (least, most) = levels.fold(
-            (f64::INFINITY, f64::NEG_INFINITY),
-            |(least, most), level| (least.min(level), most.max(level)),
-        );
+        let [least_db, most_db] = ends_db(library, reference_db);
         Self {
             area: Rect::from_min_max(rect.min + vec2(30.0, 6.0), rect.max - vec2(6.0, 18.0)),
-            least_db: (least / 10.0 - 0.2).floor() * 10.0,
-            most_db: (most / 10.0 + 0.2).ceil() * 10.0,
+            least_db,
+            most_db,
             reference_db,
         }
     }

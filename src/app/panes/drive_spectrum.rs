@@ -4,7 +4,7 @@
 
 use eframe::egui::{self, Sense, Ui, WidgetInfo};
 
-use super::spectrogram::{self, ColourScale, Layout, Under, Waterfall};
+use super::spectrogram::{self, ColourScale, Layout, ShownColumn, Under, Waterfall};
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::signals::{DriveSpectrum, History};
 use crate::app::theme::ColourMap;
@@ -44,7 +44,18 @@ impl DriveSpectrogram {
         self.waterfall.image.n_uploads()
     }
 
-    fn catch_up(&mut self, ctx: &egui::Context, view: &DriveSpectrumView<'_>) {
+    /// The columns that are shown, old to new, all of them caught up.
+    pub(crate) fn shown(
+        &mut self,
+        ctx: &egui::Context,
+        view: &DriveSpectrumView<'_>,
+    ) -> Vec<ShownColumn> {
+        while self.catch_up(ctx, view) {}
+        self.waterfall.shown(view.history)
+    }
+
+    /// Computes what is new, as much as one frame may; says whether more is due.
+    fn catch_up(&mut self, ctx: &egui::Context, view: &DriveSpectrumView<'_>) -> bool {
         let DriveSpectrumView {
             history,
             scale,
@@ -62,7 +73,7 @@ impl DriveSpectrogram {
                 if Some(glimpse.watched) == watched {
                     spectrum.rows_um(history, glimpse.watched, glimpse.tick, rows_um);
                 }
-            });
+            })
     }
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct DriveWaveView {
 
 impl DriveWaveView {
     /// Amplitudes and limits with 0 for what is no number.
-    fn finite(self) -> Self {
+    pub(crate) fn finite(self) -> Self {
         let finite = |pair: [f64; 2]| pair.map(|um| if um.is_finite() { um } else { 0.0 });
         Self {
             before_um: finite(self.before_um),
@@ -41,13 +41,13 @@ impl DriveWaveView {
     }
 
     /// The farthest that the sum of both waves can reach, µm.
-    fn reach_um(&self) -> f64 {
+    pub(crate) fn reach_um(&self) -> f64 {
         let reach = |pair: [f64; 2]| pair[0].abs() + pair[1].abs();
         reach(self.before_um).max(reach(self.now_um))
     }
 
     /// Both waves at a time of the window, µm.
-    fn waves_um(&self, t_ms: f64) -> [f64; 2] {
+    pub(crate) fn waves_um(&self, t_ms: f64) -> [f64; 2] {
         let amplitudes_um = if t_ms < TICK_MS {
             self.before_um
         } else {

@@ -237,9 +237,7 @@ fn paint_cell(
         painter.circle(corner, 2.0, palette.selection, rim);
     }
     if style.has_numbers && rect.width() >= NUMBER_WIDTH {
-        // Three signs fit into the narrowest cell that holds numbers.
-        let decimals = usize::from(amplitude_um < 9.95);
-        let digits = quantity::fixed(amplitude_um, decimals);
+        let digits = digits(amplitude_um);
         let ink = if is_grey {
             palette.dim
         } else {
@@ -248,6 +246,12 @@ fn paint_cell(
         let font = theme::small_number();
         painter.text(rect.center(), Align2::CENTER_CENTER, digits, font, ink);
     }
+}
+
+/// An amplitude in µm as cells show it: three signs fit into the narrowest that holds numbers.
+pub(crate) fn digits(amplitude_um: f64) -> String {
+    let decimals = usize::from(amplitude_um < 9.95);
+    quantity::fixed(amplitude_um, decimals)
 }
 
 /// Says what is under the pointer, and takes clicks on it.

@@ -11,6 +11,7 @@ mod contact_spectrum;
 mod curve;
 mod drive_spectrum;
 mod drive_wave;
+mod export;
 mod header;
 mod heatmap;
 mod help;
@@ -29,19 +30,31 @@ pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
 pub(crate) use compare::{CompareView, show as show_compare, show_corner as show_compare_corner};
 pub(crate) use contact_spectrum::{
-    ContactSpectrogram, ContactSpectrumView, show as show_contact_spectrum,
+    ContactSpectrogram, ContactSpectrumView, LEVELS_DB as CONTACT_LEVELS_DB,
+    share_of as contact_share, show as show_contact_spectrum,
 };
+pub(crate) use curve::ends_db as compression_ends_db;
 pub(crate) use drive_spectrum::{DriveSpectrogram, DriveSpectrumView, show as show_drive_spectrum};
 pub(crate) use drive_wave::{DriveWaveView, WaveScale, show as show_drive_wave};
+pub(crate) use export::{SIZE as EXPORT_SIZE, show as show_export};
 pub(crate) use header::show as show_header;
-pub(crate) use heatmap::{HeatmapStyle, show as show_heatmaps, show_corner as show_heatmap_corner};
+pub(crate) use heatmap::{
+    HeatmapStyle, digits as cell_digits, show as show_heatmaps, show_corner as show_heatmap_corner,
+};
 pub(crate) use help::show as show_help;
 pub(crate) use library::show as show_library;
 pub(crate) use menu::Appearance;
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use question::show as show_question;
-pub(crate) use spatial::{SpatialSource, SpatialSpectra, show as show_spatial};
-pub(crate) use transport::{TransportState, TransportView, show as show_transport};
+pub(crate) use spatial::{
+    LEVELS_DB as SPATIAL_LEVELS_DB, SpatialSource, SpatialSpectra, density_db, means_of,
+    show as show_spatial, wavenumber_per_mm,
+};
+pub(crate) use spectrogram::ShownColumn;
+pub(crate) use transport::{
+    LEVELS_DB as TIMELINE_LEVELS_DB, StripTick, Timeline, TransportState, TransportView,
+    show as show_transport,
+};
 pub(crate) use tuning::show as show_tuning;
 pub(crate) use why::{show as show_why, show_corner as show_why_corner};
 

@@ -19,10 +19,8 @@ use crate::scene::Pose;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, N_BINS};
 use crate::tactile::Band;
 
-/// Lower end of the densities, dB re 1 µm² per cycle/mm.
-const LEAST_DB: f64 = -60.0;
-/// Upper end of the densities, dB re 1 µm² per cycle/mm.
-const MOST_DB: f64 = 40.0;
+/// Ends of the densities, dB re 1 µm² per cycle/mm.
+pub(crate) const LEVELS_DB: [f64; 2] = [-60.0, 40.0];
 /// Bins nearer to one another on the screen than this are drawn as their mean, points.
 const LEAST_STEP: f32 = 1.5;
 /// How bright a curve is where it does not sound.
@@ -59,6 +57,16 @@ impl SpatialSpectra {
     #[cfg(test)]
     pub(crate) fn n_views_computed(&self) -> u64 {
         self.n_views_computed
+    }
+
+    /// The spectra that are shown; `None` where the contactor is off every textile.
+    pub(crate) fn shown(
+        &mut self,
+        inspector: &mut ContactInspector,
+        source: &SpatialSource<'_>,
+    ) -> Option<&SpatialView> {
+        self.catch_up(inspector, source);
+        self.view.as_ref()
     }
 
     fn catch_up(&mut self, inspector: &mut ContactInspector, source: &SpatialSource<'_>) {
@@ -122,12 +130,37 @@ pub(crate) fn show(
 }
 
 /// The wavenumber of bin k = 1 … 500, cycles/mm.
-fn wavenumber_per_mm(k: usize) -> f64 {
+pub(crate) fn wavenumber_per_mm(k: usize) -> f64 {
     BIN_SPACING_PER_MM * k as f64
 }
 
-fn density_db(density_um2_mm: f64) -> f64 {
+/// The level of a density in µm² per cycle/mm, dB.
+pub(crate) fn density_db(density_um2_mm: f64) -> f64 {
     10.0 * density_um2_mm.log10()
+}
+
+/// The curve of a density as `[wavenumber, density]`: bins that are drawn nearer to one another
+/// than `least_step` as their mean. `x` is where a wavenumber is drawn.
+pub(crate) fn means_of(
+    density_um2_mm: &[f64],
+    least_step: f32,
+    x: impl Fn(f64) -> f32,
+) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    let (mut n_bins, mut wavenumbers, mut densities) = (0.0, 0.0, 0.0);
+    let mut next_x = f32::NEG_INFINITY;
+    for (k, density) in (1..).zip(density_um2_mm) {
+        n_bins += 1.0;
+        wavenumbers += wavenumber_per_mm(k);
+        densities += density;
+        let at = x(wavenumbers / n_bins);
+        if at >= next_x {
+            points.push([wavenumbers / n_bins, densities / n_bins]);
+            (n_bins, wavenumbers, densities) = (0.0, 0.0, 0.0);
+            next_x = at + least_step;
+        }
+    }
+    points
 }
 
 fn is_weft(direction: Direction) -> bool {
@@ -183,7 +216,7 @@ impl Plot {
         Self {
             area,
             wavenumbers: Axis::log(wavenumber_per_mm(1), wavenumber_per_mm(N_BINS)),
-            levels_db: Axis::linear(LEAST_DB, MOST_DB),
+            levels_db: Axis::linear(LEVELS_DB[0], LEVELS_DB[1]),
         }
     }
 
@@ -289,35 +322,20 @@ impl Plot {
         let painter = painter.with_clip_rect(self.area);
         let ink = ink_of(palette, curve.direction);
         let is_dashed = curve.direction.is_reverse();
-        let means = self.means_of(&curve.density_um2_mm);
-        let points: Vec<Pos2> = means.iter().map(|(_, at)| *at).collect();
+        let means = means_of(&curve.density_um2_mm, LEAST_STEP, |wavenumber| {
+            self.x(wavenumber)
+        });
+        let at = |[wavenumber, density]: &[f64; 2]| pos2(self.x(*wavenumber), self.y(*density));
+        let points: Vec<Pos2> = means.iter().map(at).collect();
         let unlit = Stroke::new(1.0, ink.gamma_multiply(UNLIT));
         add_line(&painter, &points, unlit, is_dashed);
         if let Some(felt) = view.felt_in(curve.direction) {
-            let lit = means.iter().filter(|(k, _)| felt.sounds(*k));
-            let points: Vec<Pos2> = lit.map(|(_, at)| *at).collect();
+            let lit = means
+                .iter()
+                .filter(|[wavenumber, _]| felt.sounds(*wavenumber));
+            let points: Vec<Pos2> = lit.map(at).collect();
             add_line(&painter, &points, Stroke::new(2.0, ink), is_dashed);
         }
-    }
-
-    /// The points of a curve with their wavenumbers; bins that fall together as their mean.
-    fn means_of(&self, density_um2_mm: &[f64]) -> Vec<(f64, Pos2)> {
-        let mut points = Vec::new();
-        let (mut n_bins, mut wavenumbers, mut densities) = (0.0, 0.0, 0.0);
-        let mut next_x = f32::NEG_INFINITY;
-        for (k, density) in (1..).zip(density_um2_mm) {
-            n_bins += 1.0;
-            wavenumbers += wavenumber_per_mm(k);
-            densities += density;
-            let x = self.x(wavenumbers / n_bins);
-            if x >= next_x {
-                let at = pos2(x, self.y(densities / n_bins));
-                points.push((wavenumbers / n_bins, at));
-                (n_bins, wavenumbers, densities) = (0.0, 0.0, 0.0);
-                next_x = x + LEAST_STEP;
-            }
-        }
-        points
     }
 
     /// Names the curves, and lights those that are felt.
@@ -378,10 +396,11 @@ mod tests {
     fn a_flat_density_stays_flat_however_many_bins_fall_together() {
         for width in [60.0, 350.0, 3_000.0] {
             let plot = plot(width);
-            let points = plot.means_of(&[0.1; N_BINS]);
-            let y = plot.y(0.1);
+            let points = means_of(&[0.1; N_BINS], LEAST_STEP, |wavenumber| plot.x(wavenumber));
             assert!(
-                points.iter().all(|(_, at)| (at.y - y).abs() < 1e-3),
+                points
+                    .iter()
+                    .all(|[_, density]| (density - 0.1).abs() < 1e-12),
                 "{width}"
             );
             assert!(
@@ -390,11 +409,13 @@ mod tests {
                 points.len()
             );
             assert!(
-                points.windows(2).all(|pair| pair[0].0 < pair[1].0),
+                points.windows(2).all(|pair| pair[0][0] < pair[1][0]),
                 "rising"
             );
         }
-        assert_eq!(plot(3e5).means_of(&[0.1; N_BINS]).len(), N_BINS);
+        let wide = plot(3e5);
+        let points = means_of(&[0.1; N_BINS], LEAST_STEP, |wavenumber| wide.x(wavenumber));
+        assert_eq!(points.len(), N_BINS);
     }
 
     #[test]

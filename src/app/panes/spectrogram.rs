@@ -43,6 +43,17 @@ pub(super) fn frequency_axis() -> Axis {
     Axis::log(LEAST_HZ, MOST_HZ)
 }
 
+/// A column of a spectrogram as it is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ShownColumn {
+    /// Columns to the left of the newest.
+    pub(crate) ago: u64,
+    /// Its tick.
+    pub(crate) tick: u64,
+    /// Its values, low frequencies first.
+    pub(crate) rows: Rows,
+}
+
 /// The texture of a ring of columns.
 #[derive(Clone, Default)]
 pub(super) struct RingImage {
@@ -125,14 +136,14 @@ impl<K> Default for Waterfall<K> {
 
 impl<K: PartialEq> Waterfall<K> {
     /// Catches up with the history: computes what is new (everything, under a new key), sends it to
-    /// the graphics card, and asks for another frame while more is due.
+    /// the graphics card, and asks for another frame while more is due, which it says.
     pub(super) fn catch_up(
         &mut self,
         (ctx, name): (&Context, &str),
         (history, key): (&History, K),
         colour: impl Fn(f32) -> Color32,
         fill: impl FnMut(&Entry, &mut Rows),
-    ) {
+    ) -> bool {
         if self.key.as_ref() != Some(&key) {
             self.key = Some(key);
             self.ring.restart();
@@ -144,6 +155,24 @@ impl<K: PartialEq> Waterfall<K> {
         if progress.is_behind {
             ctx.request_repaint();
         }
+        progress.is_behind
+    }
+
+    /// The columns that are shown, old to new, without pauses and what was not computed.
+    pub(super) fn shown(&self, history: &History) -> Vec<ShownColumn> {
+        let next = self.ring.next();
+        let first = next.saturating_sub(N_COLUMNS as u64);
+        let of = |column: u64| {
+            let rows = *self.ring.column(column)?;
+            let entry = history.at_column(column)?;
+            let is_empty = rows.iter().all(|value| value.is_nan());
+            (!is_empty).then_some(ShownColumn {
+                ago: next - 1 - column,
+                tick: entry.glimpse.tick,
+                rows,
+            })
+        };
+        (first..next).filter_map(of).collect()
     }
 
     /// Reads the picture at a place.

@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use super::Wishes;
-use crate::app::command::{FileCommand, Purpose, ShowCommand};
+use crate::app::command::ShowCommand;
 use crate::app::sensation::SOURCE;
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::why::{Why, lines};
@@ -52,18 +52,10 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
     );
 }
 
-/// What stands over the chain: freeze, copy, save.
+/// What stands over the chain: freeze and copy.
 pub(crate) fn show_corner(ui: &mut Ui, is_frozen: bool, why: Option<&Why>, wishes: &mut Wishes) {
     if why.is_none() {
         return;
-    }
-    if toggle(
-        ui,
-        "CSV…",
-        false,
-        "Save every number and every bin as a table",
-    ) {
-        wishes.push(FileCommand::Ask(Purpose::SaveWhy).into());
     }
     if toggle(ui, "copy", false, "Copy the chain as text") {
         wishes.push(ShowCommand::CopyWhy.into());

@@ -14,5 +14,5 @@ pub(crate) use contact::ContactColumns;
 pub(crate) use drive::{DriveSpectrum, drive_um, wave_um};
 pub(crate) use history::{Entry, History};
 pub(crate) use ring::{ColumnRing, N_COLUMNS, N_SLOTS, slot_of};
-pub(crate) use rows::{LEAST_HZ, MOST_HZ, N_ROWS, Rows, row_of};
+pub(crate) use rows::{LEAST_HZ, MOST_HZ, N_ROWS, Rows, row_centre_hz, row_of};
 pub(crate) use spatial::{Felt, SpatialCurve, SpatialView};

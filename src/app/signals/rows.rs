@@ -64,6 +64,11 @@ fn edge_hz(row: usize) -> f64 {
     LEAST_HZ * (MOST_HZ / LEAST_HZ).powf(row as f64 / N_ROWS as f64)
 }
 
+/// The middle of a row on the logarithmic axis, Hz.
+pub(crate) fn row_centre_hz(row: usize) -> f64 {
+    (edge_hz(row) * edge_hz(row + 1)).sqrt()
+}
+
 /// The row that a share of the frequency axis (0 at 10 Hz, 1 at 1 kHz) lies in; the nearest beyond.
 #[expect(
     clippy::cast_possible_truncation,

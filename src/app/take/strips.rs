@@ -87,6 +87,11 @@ impl Strips {
         self.n_ticks
     }
 
+    /// Ticks that one entry stands for: 1 in all but the longest explorations.
+    pub(crate) fn ticks_per_entry(&self) -> u64 {
+        self.ticks_per_entry.max(1)
+    }
+
     /// Whether amplitudes are known.
     pub(crate) fn has_levels(&self) -> bool {
         !self.mean_um.is_empty()

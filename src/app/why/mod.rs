@@ -8,7 +8,7 @@
 
 mod text;
 
-pub(crate) use text::{lines, to_csv, to_text};
+pub(crate) use text::{lines, sheet, to_text};
 
 use super::command::Part;
 use super::sensation::Sensation;

@@ -118,7 +118,7 @@ fn what_it_feels_like_is_told_and_marked_as_a_model() {
     );
     assert!(text.contains("dB SL (model)"), "{text}");
     assert!(text.contains("Display feels intensity "), "{text}");
-    let csv = to_csv(&explained);
+    let csv = csv_of(&explained);
     assert!(csv.contains("\nsensation level by model,,,15.9"), "{csv}");
     assert!(to_text(&why([5.0, 5.0], [0.0, 0.0])).contains("silent / silent dB SL (model)"));
 }
@@ -134,10 +134,16 @@ fn outside_at_rest_and_silent_are_said() {
     assert!(to_text(&held).contains("silent now"));
 }
 
+fn csv_of(explained: &Why) -> String {
+    let path = std::path::Path::new("why.csv");
+    let origin = crate::app::export::Origin::default();
+    String::from_utf8(sheet(explained).to_csv(&origin, path).unwrap()).unwrap()
+}
+
 #[test]
 fn the_table_holds_every_bin_and_its_powers_add_up() {
     let explained = why([10.2, 20.0], [40.0, 0.0]);
-    let csv = to_csv(&explained);
+    let csv = csv_of(&explained);
     assert_eq!(
         csv.lines()
             .filter(|line| line.starts_with("power,"))

@@ -1,6 +1,7 @@
 //! The explanation as text to be copied, and as a table to be saved.
 
 use super::{FULL_CODE, Why};
+use crate::app::export::Sheet;
 use crate::app::sensation::felt_words;
 use crate::quantity::{fixed, with_unit};
 use crate::render::GainTerms;
@@ -123,60 +124,61 @@ pub(crate) fn to_text(why: &Why) -> String {
     joined([head].into_iter().chain(lines))
 }
 
-/// Every number and every bin as a table: `quantity,axis,bin,value_40,value_320,unit`, with all
-/// digits.
-pub(crate) fn to_csv(why: &Why) -> String {
-    let mut rows = vec!["quantity,axis,bin,value_40,value_320,unit".to_owned()];
-    let mut row = |quantity: &str, axis: &str, bin: String, [low, high]: [f64; 2], unit: &str| {
-        rows.push(format!("{quantity},{axis},{bin},{low},{high},{unit}"));
+/// A row of the table: quantity, axis, bin, its values for 40 and 320 Hz, unit.
+type TableRow = (String, &'static str, Option<u64>, [f64; 2], &'static str);
+
+/// Every number and every bin as a table: `quantity,axis,bin,value_40,value_320,unit`.
+pub(crate) fn sheet(why: &Why) -> Sheet {
+    let rows = rows(why);
+    let words = |of: &dyn Fn(&TableRow) -> String| -> Vec<String> { rows.iter().map(of).collect() };
+    let bin = |row: &TableRow| row.2.map_or_else(String::new, |k| k.to_string());
+    let value = |band: usize| -> Vec<f64> { rows.iter().map(|row| row.3[band]).collect() };
+    Sheet::default()
+        .with("quantity", words(&|row| row.0.clone()))
+        .with("axis", words(&|row| row.1.to_owned()))
+        .with("bin", words(&bin))
+        .with("value_40", value(0))
+        .with("value_320", value(1))
+        .with("unit", words(&|row| row.4.to_owned()))
+}
+
+fn rows(why: &Why) -> Vec<TableRow> {
+    let mut rows = Vec::new();
+    let mut row = |quantity: &str, axis, bin, values, unit| {
+        rows.push((quantity.to_owned(), axis, bin, values, unit));
     };
     let at = why.trace.position;
-    row("x", "", String::new(), [at.x_mm; 2], "mm");
-    row("y", "", String::new(), [at.y_mm; 2], "mm");
+    row("x", "", None, [at.x_mm; 2], "mm");
+    row("y", "", None, [at.y_mm; 2], "mm");
     if let Some(touch) = why.touch() {
         for (axis, name) in ["warp", "weft"].into_iter().enumerate() {
             let [place, speed] = [touch.place_mm[axis], touch.velocity_mm_per_s[axis]];
-            row("place", name, String::new(), [place; 2], "mm");
-            row("velocity", name, String::new(), [speed; 2], "mm/s");
+            row("place", name, None, [place; 2], "mm");
+            row("velocity", name, None, [speed; 2], "mm/s");
         }
         for direction in touch.directions.iter().flatten() {
             let name = direction.direction.label();
-            let none = String::new;
-            row("band power", name, none(), direction.band_powers_um2, "um2");
+            row("band power", name, None, direction.band_powers_um2, "um2");
             for (k, bin) in (1..).zip(&direction.bins) {
-                let k = || format!("{k}");
-                row("frequency", name, k(), [bin.frequency_hz; 2], "Hz");
-                row("power", name, k(), [bin.power_um2; 2], "um2");
-                row("filter gain", name, k(), bin.filter_gains, "1");
+                row("frequency", name, Some(k), [bin.frequency_hz; 2], "Hz");
+                row("power", name, Some(k), [bin.power_um2; 2], "um2");
+                row("filter gain", name, Some(k), bin.filter_gains, "1");
             }
         }
         let [low, high] = touch.gains.map(|terms| gain_terms(&terms));
         for ((name, low_db), (_, high_db)) in low.into_iter().zip(high) {
-            let quantity = format!("gain {name}");
-            row(&quantity, "", String::new(), [low_db, high_db], "dB");
+            row(&format!("gain {name}"), "", None, [low_db, high_db], "dB");
         }
     }
     let amplitudes = why.trace.amplitudes_um;
-    row("amplitude", "", String::new(), amplitudes, "um");
+    row("amplitude", "", None, amplitudes, "um");
     let above_db = why.sensation.above_db(amplitudes);
-    row(
-        "sensation level by model",
-        "",
-        String::new(),
-        above_db,
-        "dB",
-    );
-    row("limit", "", String::new(), why.output.limit_um, "um");
-    row(
-        "soft-start gain",
-        "",
-        String::new(),
-        [why.output.gain; 2],
-        "1",
-    );
+    row("sensation level by model", "", None, above_db, "dB");
+    row("limit", "", None, why.output.limit_um, "um");
+    row("soft-start gain", "", None, [why.output.gain; 2], "1");
     let codes = why.output.codes.map(f64::from);
-    row("drive code", "", String::new(), codes, "1");
-    joined(rows.into_iter())
+    row("drive code", "", None, codes, "1");
+    rows
 }
 
 /// Lines, each with its end.

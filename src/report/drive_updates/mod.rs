@@ -250,7 +250,7 @@ fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Plot {
         name: [switching.label(), &switching.setting()].join(" "),
         points: spectrum.cells_db(),
         style: Style::Line,
-        marked: Vec::new(),
+        ..Series::default()
     });
     Plot {
         title: format!("Spectrum of the drive waveform, {case}"),

@@ -201,7 +201,7 @@ pub(super) fn plot() -> Plot {
             } else {
                 Style::Line
             },
-            marked: Vec::new(),
+            ..Series::default()
         }
     });
     Plot {

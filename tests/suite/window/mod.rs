@@ -4,6 +4,7 @@ mod accuracy;
 mod around;
 mod basics;
 mod compare;
+mod export;
 #[cfg(unix)]
 mod ports;
 mod views;

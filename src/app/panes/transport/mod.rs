@@ -10,15 +10,21 @@ mod icons;
 mod live;
 mod picture;
 mod plot;
+mod strip;
 mod timeline;
 
 use std::fmt;
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
+pub(crate) use self::plot::LEVELS_DB;
+pub(crate) use self::strip::{StripTick, Timeline};
+
 use self::picture::Picture;
 use super::Wishes;
+use super::export::{place_in, show as show_export};
 use crate::app::command::PlaySource;
+use crate::app::export::Exportable;
 use crate::app::signals::History;
 use crate::app::take::Take;
 use crate::app::theme::{self, Palette, STEP};
@@ -116,6 +122,10 @@ pub(crate) fn show(
         pos2(middle.right() - 4.0 * STEP, middle.bottom()),
     );
     timeline::show(ui, timeline, view, state, wishes);
+    let export = UiBuilder::new().max_rect(place_in(timeline));
+    ui.scope_builder(export, |ui| {
+        show_export(ui, Exportable::Timeline, wishes);
+    });
     show_numbers(ui, numbers, view);
 }
 

@@ -8,16 +8,12 @@ use eframe::egui::{
     pos2, vec2,
 };
 
-use crate::app::take::Extent;
 use crate::app::theme::{self, Palette};
 use crate::app::widgets::corners;
 use crate::quantity;
 
 /// Ends of the level axis, dB re 1 µm.
-pub(super) const LEVELS_DB: Extent = Extent {
-    least: -10.0,
-    most: 40.0,
-};
+pub(crate) const LEVELS_DB: [f64; 2] = [-10.0, 40.0];
 /// Space for the numbers on the left and on the right, points.
 const AXES: [f32; 2] = [26.0, 34.0];
 /// Space for the title above and for the time below, points.
@@ -95,7 +91,7 @@ impl Plot {
 
     /// How high a level stands.
     pub(super) fn y_of_level(&self, level_db: f64) -> f32 {
-        let Extent { least, most } = LEVELS_DB;
+        let [least, most] = LEVELS_DB;
         self.y_at((level_db - least) / (most - least))
     }
 
@@ -131,9 +127,9 @@ impl Plot {
         let (top, middle, bottom) = (area.top() + 2.0, area.center().y, area.bottom() - 2.0);
         if has_levels {
             let digits = |level_db| quantity::fixed(level_db, 0);
-            write(left, top, Align2::RIGHT_CENTER, &digits(LEVELS_DB.most));
+            write(left, top, Align2::RIGHT_CENTER, &digits(LEVELS_DB[1]));
             write(left, middle, Align2::RIGHT_CENTER, "dB");
-            write(left, bottom, Align2::RIGHT_CENTER, &digits(LEVELS_DB.least));
+            write(left, bottom, Align2::RIGHT_CENTER, &digits(LEVELS_DB[0]));
         }
         let digits = quantity::fixed(self.top_mm_per_s, 0);
         write(right, top, Align2::LEFT_CENTER, &digits);
@@ -193,7 +189,7 @@ pub(super) fn time_words(time_ms: u64, step_ms: u64) -> String {
 
 /// The smallest of 100, 200, 500, 1000 … that is no less; a slow exploration has the same axis as
 /// most others.
-fn round_above(speed_mm_per_s: f64) -> f64 {
+pub(super) fn round_above(speed_mm_per_s: f64) -> f64 {
     let rounds = (2..6).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10_f64.powi(power)));
     let last = 1e6;
     rounds
