@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::arrangement::Pane;
+use super::probe::Probe;
 use super::theme::ColourMap;
 use crate::geometry::Point;
 use crate::tactile::{Band, Filters};
@@ -206,6 +207,13 @@ pub(crate) enum ShowCommand {
     ScaleTop(f64),
     /// What the contactors' dots show by what.
     DotStyle(DotStyle),
+    /// Draw this over the cloth, or no longer.
+    Overlay(Overlay),
+    /// Ask what textiles would give at this velocity.
+    Probe(Probe),
+    /// The pointer rests on this: every view marks it. Said with every frame, and done without a
+    /// dispatch, so that nothing is drawn anew while the pointer stays.
+    Hover(Part),
     /// Begin to calibrate the screen to true size.
     Calibrate,
     /// The screen has this many pixels per millimetre.
@@ -253,6 +261,19 @@ pub(crate) enum DotStyle {
     Size,
     /// Both by brightness: the larger of the two.
     Brightness,
+}
+
+/// Something that is drawn over the cloth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Overlay {
+    /// The points of the profiles, 1 mm apart.
+    Points,
+    /// The points that the contactors read.
+    ChosenPoints,
+    /// How the contactors move, and along which directions that is felt.
+    Motion,
+    /// The amplitude of a band that textiles would give all over at the chosen velocity.
+    Map(Band),
 }
 
 /// Something that can be muted or felt alone.

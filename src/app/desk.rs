@@ -12,15 +12,15 @@ use egui_tiles::{
 
 use super::arrangement::Pane;
 use super::panes::{
-    self, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle, SpatialSource,
-    Wishes,
+    self, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle, ResponseView,
+    SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::{TITLE_SPACING, TabRow, corner_width};
 use super::theme::{self, Palette};
 use super::view::SceneView;
 use super::window::Workbench;
-use super::workspace;
+use super::workspace::{self, Layers};
 
 /// Height of a row of tabs, points.
 const TABS: f32 = 24.0;
@@ -70,14 +70,23 @@ impl Desk<'_> {
                 let why = self.bench.transient.why.0.as_ref();
                 panes::show_why(ui, why, &self.scene.filters);
             }),
+            Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
         }
     }
 
     fn show_workspace(&mut self, ui: &mut Ui) {
+        self.bench.prepare_overlays(ui.ctx());
         let bench = &*self.bench;
-        let (live, trail) = (&bench.transient.live, &bench.transient.trail);
-        let state = &bench.workspace;
-        let shown = workspace::show(ui, self.scene, live, trail, state, self.wishes);
+        let transient = &bench.transient;
+        let layers = Layers {
+            readings: &transient.readings,
+            maps: &transient.maps,
+            lattice: &transient.lattice,
+            colours: bench.settings.kept.colour_map,
+        };
+        let (live, state) = (&transient.live, &bench.workspace);
+        let over = (&transient.trail, layers);
+        let shown = workspace::show(ui, self.scene, live, over, state, self.wishes);
         self.shown = Some(shown);
     }
 
@@ -152,6 +161,24 @@ impl Desk<'_> {
         panes::show_drive_wave(ui, &mut transient.wave_scale, &view);
     }
 
+    fn show_response(&mut self, ui: &mut Ui) {
+        let asked = self.bench.ask_response(ui.ctx());
+        let bench = &*self.bench;
+        let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));
+        let name = cloth.map(|(_, cloth)| format!("{} {}", cloth.label, cloth.name));
+        let view = cloth.map(|(asked, cloth)| ResponseView {
+            textile: name.as_deref().map_or("", str::trim),
+            rotation_deg: cloth.rotation_deg,
+            factors: asked.factors,
+            place: asked.place,
+            curves: &bench.transient.curves,
+            probe: bench.workspace.probe,
+            moving: asked.moving,
+            scale: bench.workspace.scale,
+        });
+        panes::show_response(ui, view.as_ref(), self.wishes);
+    }
+
     fn show_spatial(&mut self, ui: &mut Ui) {
         let contactor = self.contactor();
         let bench = &mut *self.bench;
@@ -191,7 +218,12 @@ impl Desk<'_> {
             }
             Pane::Why => {
                 let (why, is_frozen) = &self.bench.transient.why;
-                panes::show_why_corner(ui, *is_frozen, why.as_ref(), self.wishes);
+                let why = (why.as_ref(), self.bench.transient.live.dots.len());
+                panes::show_why_corner(ui, *is_frozen, why, self.wishes);
+            }
+            Pane::Response => {
+                let probe = self.bench.workspace.probe;
+                panes::show_response_corner(ui, probe, self.wishes);
             }
             Pane::Workspace => {
                 let bench = &*self.bench;

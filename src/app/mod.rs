@@ -21,10 +21,12 @@
 
 mod amplitude;
 mod arrangement;
+mod asked;
 mod audition;
 mod backlog;
 mod command;
 mod completion;
+mod curves;
 mod desk;
 mod dialogs;
 mod dispatch;
@@ -37,6 +39,7 @@ mod history;
 mod inbox;
 mod inspect;
 mod job;
+mod maps;
 mod native;
 mod opening;
 mod panes;
@@ -45,6 +48,7 @@ mod pointer;
 mod pointer_x11;
 mod ports;
 mod preparing;
+mod probe;
 mod query;
 mod raster;
 mod screenshot;

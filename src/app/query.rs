@@ -6,8 +6,8 @@ use super::command::Part;
 use super::document::Document;
 use super::shelf::Shelf;
 use super::view::{
-    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, PlayView, SceneView, ShelfItem, Source,
-    Status,
+    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, Marks, PlayView, SceneView, ShelfItem,
+    Source, Status,
 };
 use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
@@ -52,6 +52,7 @@ pub(crate) fn scene_view(
         library: library.to_vec(),
         undo: document.undo_name(),
         redo: document.redo_name(),
+        marks: Marks::default(),
     }
 }
 
@@ -64,6 +65,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDo
     if has_index && scene.filters == Filters::default() {
         let dot = |item: &ShelfItem| {
             Some(LibraryDot {
+                id: item.id.clone(),
                 name: item.name.clone(),
                 mean_um: item.mean_um,
                 gain_db: item.gain_db,
@@ -82,6 +84,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDo
         seen.push(textile.id());
         let levels = Levels::of(textile.surface(), &scene.filters);
         dots.extend(levels.level_db().map(|level_db| LibraryDot {
+            id: textile.id().to_owned(),
             name: textile.manifest().name.clone(),
             mean_um: levels.mean_um,
             gain_db: textile.manifest().gain_db,

@@ -3,9 +3,11 @@
 use eframe::egui::{Rect, Vec2};
 
 use super::audition::Audition;
+use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::history::Moment;
 use super::job::Job;
+use super::maps::Maps;
 use super::opening::{Opening, Origin};
 use super::panes::{
     Ask, ContactSpectrogram, DriveSpectrogram, Notices, SpatialSpectra, TransportState, WaveScale,
@@ -14,9 +16,10 @@ use super::ports::Ports;
 use super::query::IntervalMeter;
 use super::signals::History;
 use super::take::Take;
-use super::view::{BridgeView, Live};
+use super::view::{BridgeView, Hovered, Live};
 use super::why::Why;
-use super::workspace::Trail;
+use super::workspace::{Lattice, Trail};
+use crate::render::array::ContactorReading;
 use crate::scene::SceneError;
 
 /// What is neither saved nor undoable.
@@ -64,6 +67,16 @@ pub(crate) struct Transient {
     pub(crate) spatial: SpatialSpectra,
     /// The explanation that is shown, and whether it is held.
     pub(crate) why: (Option<Why>, bool),
+    /// Maps of the textiles at the chosen velocity.
+    pub(crate) maps: Maps,
+    /// Pictures of the points 1 mm apart.
+    pub(crate) lattice: Lattice,
+    /// What the contactors read and how they move, while that is drawn.
+    pub(crate) readings: Vec<ContactorReading>,
+    /// A textile's amplitudes over direction and speed.
+    pub(crate) curves: Curves,
+    /// What the pointer rests on.
+    pub(crate) hovered: Hovered,
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.

@@ -21,7 +21,7 @@ use super::settings::Settings;
 use super::shelf::Shelf;
 use super::state::Transient;
 use super::take::Take;
-use super::view::{LibraryDot, SceneView};
+use super::view::{LibraryDot, Marks, SceneView};
 use super::workspace::{Trail, WorkspaceState};
 use super::{frame, query, theme};
 use crate::engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
@@ -159,6 +159,7 @@ impl Workbench {
         }
         self.workspace.scale = kept.amplitude;
         self.workspace.dot_style = kept.dots;
+        self.workspace.overlays = kept.overlays;
         self.workspace.true_pixels_per_mm = kept.pixels_per_mm;
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
@@ -226,13 +227,18 @@ impl Workbench {
         for flaw in self.shelf.work(&self.ctx, self.is_stepped) {
             self.transient.notices.give(flaw);
         }
-        query::scene_view(
+        let mut view = query::scene_view(
             &self.document,
             &self.shelf,
             &self.library,
             &self.transient.audition,
             self.transient.reference_db,
-        )
+        );
+        view.marks = Marks {
+            cloth: self.workspace.cloth,
+            hovered: self.transient.hovered,
+        };
+        view
     }
 }
 

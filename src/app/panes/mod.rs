@@ -16,6 +16,7 @@ mod library;
 mod menu;
 mod notices;
 mod question;
+mod response;
 mod spatial;
 mod spectrogram;
 mod transport;
@@ -33,9 +34,12 @@ pub(crate) use header::show as show_header;
 pub(crate) use heatmap::{HeatmapStyle, show as show_heatmaps, show_corner as show_heatmap_corner};
 pub(crate) use help::show as show_help;
 pub(crate) use library::show as show_library;
-pub(crate) use menu::Appearance;
+pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use question::show as show_question;
+pub(crate) use response::{
+    ResponseView, show as show_response, show_corner as show_response_corner,
+};
 pub(crate) use spatial::{SpatialSource, SpatialSpectra, show as show_spatial};
 pub(crate) use transport::{TransportState, TransportView, show as show_transport};
 pub(crate) use tuning::show as show_tuning;

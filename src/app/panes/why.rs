@@ -52,7 +52,12 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
 }
 
 /// What stands over the chain: freeze, copy, save.
-pub(crate) fn show_corner(ui: &mut Ui, is_frozen: bool, why: Option<&Why>, wishes: &mut Wishes) {
+pub(crate) fn show_corner(
+    ui: &mut Ui,
+    is_frozen: bool,
+    (why, n_contactors): (Option<&Why>, usize),
+    wishes: &mut Wishes,
+) {
     if why.is_none() {
         return;
     }
@@ -70,6 +75,33 @@ pub(crate) fn show_corner(ui: &mut Ui, is_frozen: bool, why: Option<&Why>, wishe
     let tip = "Hold the explanation while everything else goes on";
     if toggle(ui, "freeze", is_frozen, tip) {
         wishes.push(ShowCommand::FreezeWhy.into());
+    }
+    show_neighbours(ui, why.map(|why| why.contactor), n_contactors, wishes);
+}
+
+/// Steps to the contactor before and the one behind, around all of them.
+fn show_neighbours(
+    ui: &mut Ui,
+    contactor: Option<usize>,
+    n_contactors: usize,
+    wishes: &mut Wishes,
+) {
+    let Some(contactor) = contactor.filter(|contactor| *contactor < n_contactors) else {
+        return;
+    };
+    let steps = [
+        ("›", 1, "Choose the next contactor, in every view"),
+        (
+            "‹",
+            n_contactors - 1,
+            "Choose the contactor before, in every view",
+        ),
+    ];
+    for (sign, step, tip) in steps {
+        if toggle(ui, sign, false, tip) {
+            let next = (contactor + step) % n_contactors;
+            wishes.push(ShowCommand::SelectContactor(next).into());
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use eframe::egui::ThemePreference;
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::command::DotStyle;
 use crate::app::theme::ColourMap;
+use crate::app::workspace::Overlays;
 
 /// Most scenes that are remembered.
 const MAX_RECENT: usize = 10;
@@ -30,6 +31,8 @@ pub(crate) struct Kept {
     pub(crate) zoom: f32,
     /// How contactors are drawn.
     pub(crate) dots: DotStyle,
+    /// What is drawn over the cloth.
+    pub(crate) overlays: Overlays,
     /// Whether heatmaps show numbers.
     pub(crate) has_numbers: bool,
     /// The scale of amplitudes.
@@ -51,6 +54,7 @@ impl Default for Kept {
             colour_map: ColourMap::default(),
             zoom: ZOOM[0],
             dots: DotStyle::default(),
+            overlays: Overlays::default(),
             has_numbers: false,
             amplitude: AmplitudeScale::default(),
             pixels_per_mm: None,

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::kept::Kept;
 use crate::app::command::DotStyle;
 use crate::app::theme::ColourMap;
+use crate::app::workspace::Overlays;
 use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
 
 const THEMES: [(ThemePreference, &str); 3] = [
@@ -33,6 +34,7 @@ struct Keys {
     zoom_percent: Value<f32>,
     colour_map: Value<String>,
     dots: Value<String>,
+    overlays: Value<Vec<String>>,
     numbers: Value<bool>,
     amplitude_top_um: Value<f64>,
     amplitude_locked: Value<bool>,
@@ -98,6 +100,11 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             odd.push(key);
         }
     }
+    let overlays = taken("overlays", keys.overlays, odd);
+    let overlays = overlays.map_or(Some(first.overlays), |words| Overlays::from_words(&words));
+    if overlays.is_none() {
+        odd.push("overlays");
+    }
     let zoom_percent = taken("zoom_percent", keys.zoom_percent, odd);
     let top_um = taken("amplitude_top_um", keys.amplitude_top_um, odd);
     let is_locked = taken("amplitude_locked", keys.amplitude_locked, odd);
@@ -108,6 +115,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         colour_map: map.ok().flatten().unwrap_or(first.colour_map),
         zoom: zoom_percent.map_or(first.zoom, |percent| percent / 100.0),
         dots: dots.ok().flatten().unwrap_or(first.dots),
+        overlays: overlays.unwrap_or(first.overlays),
         has_numbers: taken("numbers", keys.numbers, odd).unwrap_or(first.has_numbers),
         amplitude: scale.with_lock(is_locked.unwrap_or_else(|| scale.is_locked())),
         pixels_per_mm: taken("pixels_per_mm", keys.pixels_per_mm, odd),
@@ -156,6 +164,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         zoom_percent: Value::Known((kept.zoom * 100.0).round()),
         colour_map: word(&kept.colour_map, &colour_maps()).into(),
         dots: word(&kept.dots, &DOTS).into(),
+        overlays: Value::Known(kept.overlays.words()),
         numbers: Value::Known(kept.has_numbers),
         amplitude_top_um: Value::Known(kept.amplitude.most_um()),
         amplitude_locked: Value::Known(kept.amplitude.is_locked()),
@@ -171,6 +180,8 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
 mod tests {
     use super::*;
     use crate::app::amplitude::AmplitudeScale;
+    use crate::app::command::Overlay;
+    use crate::tactile::Band;
 
     fn path() -> &'static Path {
         Path::new("settings.toml")
@@ -183,6 +194,9 @@ mod tests {
             colour_map: ColourMap::Cividis,
             zoom: 1.5,
             dots: DotStyle::Brightness,
+            overlays: Overlays::default()
+                .toggled(Overlay::Motion)
+                .toggled(Overlay::Map(Band::High)),
             has_numbers: true,
             amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
             pixels_per_mm: Some(3.78),
@@ -213,7 +227,8 @@ mod tests {
 
     #[test]
     fn a_value_that_is_not_understood_spoils_only_itself() {
-        let text = "zoom_percent = 150\ntheme = \"sepia\"\nnumbers = 3\nwindow_size = [1400]\n";
+        let text = "zoom_percent = 150\ntheme = \"sepia\"\nnumbers = 3\nwindow_size = [1400]\n\
+                    overlays = [\"points\", \"ghosts\"]\n";
         let (kept, odd) = read(text, path()).unwrap();
         assert_eq!((kept.zoom, odd), (1.5, Some(2)));
         let others = Kept { zoom: 1.0, ..kept };

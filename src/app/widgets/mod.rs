@@ -12,7 +12,7 @@ mod text;
 pub(crate) use axis::{
     Axis, Side, Tick, paint_label, paint_outer_ticks, paint_ticks, paint_unit, round_step,
 };
-pub(crate) use bar::colour_bar;
+pub(crate) use bar::amplitude_bar;
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
-pub(crate) use slider::{Scale, slider_row, tip_beside};
+pub(crate) use slider::{Scale, asked_value, declare, key_steps, slider_row, tip_beside};
 pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};

@@ -170,7 +170,8 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
     asked_value(ui, response.id).map(|asked| (asked / scale.factor).clamp(scale.least, scale.most))
 }
 
-fn key_steps(ui: &Ui, response: &Response) -> i32 {
+/// Steps asked for by the arrow keys and by assistive tools: up less down.
+pub(crate) fn key_steps(ui: &Ui, response: &Response) -> i32 {
     let requests =
         |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action));
     let mut ups = requests(accesskit::Action::Increment);
@@ -188,7 +189,8 @@ fn key_steps(ui: &Ui, response: &Response) -> i32 {
     count(ups) - count(downs)
 }
 
-fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
+/// The number that an assistive tool asks for.
+pub(crate) fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|input| {
         let requests = input.accesskit_action_requests(id, accesskit::Action::SetValue);
         requests
@@ -201,7 +203,8 @@ fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
     .filter(|value| value.is_finite())
 }
 
-fn declare(ui: &Ui, id: Id, scale: &Scale) {
+/// Tells assistive tools what numbers a widget takes.
+pub(crate) fn declare(ui: &Ui, id: Id, scale: &Scale) {
     ui.ctx().accesskit_node_builder(id, |node| {
         node.set_min_numeric_value(scale.least * scale.factor);
         node.set_max_numeric_value(scale.most * scale.factor);

@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use super::{Stage, Trail, ViewTransform, display, paint_cloths, paint_display, tips};
-use crate::app::command::ShowCommand;
+use crate::app::command::{Part, ShowCommand};
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
@@ -100,6 +100,7 @@ fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, wishes: 
         return;
     };
     response.ctx.set_cursor_icon(CursorIcon::PointingHand);
+    wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
     if response.clicked() {
         wishes.push(ShowCommand::SelectContactor(index).into());
     }

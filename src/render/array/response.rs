@@ -54,6 +54,20 @@ pub struct PointSpread {
     pub most_um: [f64; 2],
 }
 
+impl PointSpread {
+    /// The same after gains: every amplitude times the factor of its band.
+    #[must_use]
+    pub fn scaled(&self, factors: [f64; 2]) -> Self {
+        let scaled = |um: [f64; 2]| [0, 1].map(|b| um[b] * factors[b]);
+        Self {
+            at_place_um: self.at_place_um.map(scaled),
+            rms_um: scaled(self.rms_um),
+            least_um: scaled(self.least_um),
+            most_um: scaled(self.most_um),
+        }
+    }
+}
+
 /// Squared amplitudes along one axis, µm², before gains.
 #[derive(Debug, Clone, Copy, Default)]
 struct Powers {
@@ -94,6 +108,13 @@ impl TextileResponse {
             .all(|(own, other)| Arc::ptr_eq(own, other))
             && self.filters == other.filters
             && self.textile_from_workspace == other.textile_from_workspace
+    }
+
+    /// The same without its gains: amplitudes as the surface gives them.
+    #[must_use]
+    pub fn without_gains(mut self) -> Self {
+        self.factors = [1.0; 2];
+        self
     }
 
     /// The amplitude factors of its gains, by band.

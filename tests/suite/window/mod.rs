@@ -1,6 +1,7 @@
 //! The real window under test: no display, no graphics card, simulated time, our own rasteriser.
 
 mod basics;
+mod overlays;
 #[cfg(unix)]
 mod ports;
 mod views;
