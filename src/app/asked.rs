@@ -69,7 +69,7 @@ impl Workbench {
         let textile = self
             .workspace
             .cloth
-            .or(under.map(|reading| reading.textile))?;
+            .or_else(|| under.map(|reading| reading.textile))?;
         let response = self.eye.inspector.response(textile)?;
         let on_it = under.filter(|reading| reading.textile == textile);
         let place = contactor.zip(on_it.map(|reading| reading.points));

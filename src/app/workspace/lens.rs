@@ -93,6 +93,15 @@ pub(super) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, trail: &Trail, wish
     );
 }
 
+/// The part of the lens's column below its readings; `None` where little is left.
+pub(super) fn room_below(column: Rect) -> Option<Rect> {
+    let taken = MARGIN + 14.0 + COLUMN - 2.0 * MARGIN + 20.0 + 24.0 + 4.0 * LINE;
+    let room = column
+        .with_min_y(column.top() + taken)
+        .shrink2(vec2(MARGIN, 0.0));
+    (room.height() >= 120.0).then_some(room)
+}
+
 /// Tells of the contactor under the pointer, and chooses the one that is clicked.
 fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, wishes: &mut Wishes) {
     let at = response.hover_pos();

@@ -118,7 +118,8 @@ pub(crate) fn show(
         lens::show(ui, lens, &stage, trail, wishes);
     }
     if let Some(band) = state.overlays.map() {
-        overlay::paint_legend(&ui.painter_at(ground), &stage, band);
+        let beside = lens.and_then(lens::room_below);
+        overlay::paint_legend(ui.painter(), &stage, (beside, band));
     }
     if live.is_stopped {
         paint_all_off(&ui.painter_at(ground), ground);
@@ -194,8 +195,9 @@ fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, tra
     display::paint_trail(painter, view, trail.aged());
     if stage.live.centre.is_some() {
         let pointed = stage.scene.marks.hovered.contactor;
-        display::paint(painter, view, &stage.live.dots, (stage.state, pointed));
         overlay::paint_motion(painter, view, stage);
+        display::paint(painter, view, &stage.live.dots, (stage.state, pointed));
+        overlay::paint_points(painter, view, stage);
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use selvedge::app::Workbench;
 
 use super::*;
@@ -54,7 +54,11 @@ fn overlays_are_switched_by_keys_and_a_still_window_stays_still() {
     assert!(harness.render().unwrap() == bare, "all of it is off again");
     let n_maps = maps_computed(&harness);
     stroke(&mut harness, 20);
-    assert_eq!(maps_computed(&harness), n_maps, "nothing is computed while off");
+    assert_eq!(
+        maps_computed(&harness),
+        n_maps,
+        "nothing is computed while off"
+    );
 }
 
 #[test]
@@ -146,16 +150,20 @@ fn what_is_pointed_at_or_chosen_in_one_view_is_marked_in_all() {
     assert!(cloth.is_none() && contactor.is_some(), "{contactor:?}");
     rest(&mut harness);
     assert_eq!(repaint_delay(&harness), Duration::MAX, "a resting pointer");
-    let row = harness.get_by_role_and_label(Role::ListItem, "1 Ripple").rect();
+    let row = harness
+        .get_by_role_and_label(Role::ListItem, "1 Ripple")
+        .rect();
     harness.hover_at(row.center());
     harness.run_steps(2);
     assert_eq!(harness.state().hovered(), [Some(0), None]);
-    harness.get_by_role_and_label(Role::ListItem, "1 Ripple").click();
+    harness
+        .get_by_role_and_label(Role::ListItem, "1 Ripple")
+        .click();
     harness.run_steps(2);
     assert_eq!(harness.state().chosen()[0], Some(0));
     let before = harness.state().chosen()[1].unwrap();
     harness.get_by_label("Why").click();
-    harness.run_steps(2);
+    harness.run_steps(4);
     harness
         .get_by_label_contains("Choose the next contactor")
         .click();
@@ -168,7 +176,7 @@ fn pictures_for_the_eye() {
     let Some(folder) = std::env::var_os("OVERLAY_PICTURES") else {
         return;
     };
-    let folder = std::path::PathBuf::from(folder);
+    let folder = PathBuf::from(folder);
     let mut harness = Harness::builder()
         .with_size(vec2(1400.0, 900.0))
         .with_step_dt(1.0 / 40.0)
@@ -179,21 +187,49 @@ fn pictures_for_the_eye() {
     harness.get_by_label("Response").click();
     press(&mut harness, Modifiers::NONE, Key::Space);
     harness.run_steps(180);
-    harness.render().unwrap().save(folder.join("response.png")).unwrap();
+    harness
+        .render()
+        .unwrap()
+        .save(folder.join("response.png"))
+        .unwrap();
     press(&mut harness, Modifiers::NONE, Key::K);
     harness.run_steps(3);
-    harness.render().unwrap().save(folder.join("map.png")).unwrap();
+    harness
+        .render()
+        .unwrap()
+        .save(folder.join("map.png"))
+        .unwrap();
     for key in [Key::K, Key::G, Key::C, Key::V] {
         press(&mut harness, Modifiers::NONE, key);
     }
     press(&mut harness, Modifiers::NONE, Key::A);
     harness.run_steps(3);
-    harness.render().unwrap().save(folder.join("motion.png")).unwrap();
-    let workspace = harness.get_by_label_contains("Workspace with").rect();
-    for _ in 0..12 {
-        press(&mut harness, Modifiers::NONE, Key::Plus);
-    }
-    let _ = workspace;
+    harness
+        .render()
+        .unwrap()
+        .save(folder.join("motion.png"))
+        .unwrap();
+    let lens = harness.get_by_label("Lens").rect();
+    harness.hover_at(lens.center() + vec2(30.0, 30.0));
     harness.run_steps(3);
-    harness.render().unwrap().save(folder.join("close.png")).unwrap();
+    harness
+        .render()
+        .unwrap()
+        .save(folder.join("close.png"))
+        .unwrap();
+    press(&mut harness, Modifiers::NONE, Key::K);
+    harness.ctx.set_theme(eframe::egui::Theme::Light);
+    harness.run_steps(3);
+    harness
+        .render()
+        .unwrap()
+        .save(folder.join("light.png"))
+        .unwrap();
+    harness.set_size(vec2(700.0, 450.0));
+    harness.run_steps(3);
+    harness
+        .render()
+        .unwrap()
+        .save(folder.join("small.png"))
+        .unwrap();
 }

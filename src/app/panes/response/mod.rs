@@ -55,7 +55,7 @@ pub(crate) struct ResponseView<'a> {
 }
 
 /// Shows both plots; without a textile, what to do.
-pub(crate) fn show(ui: &mut Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes) {
     let whole = ui.max_rect();
     let Some(view) = view else {
         let words = "Choose a textile in the workspace, or move the chosen contactor over one";
@@ -70,7 +70,7 @@ pub(crate) fn show(ui: &mut Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wi
     }
     let is_wide = below.width() > 1.2 * below.height();
     let (left, right) = if is_wide {
-        let side = below.height().min(0.48 * below.width());
+        let side = (below.height() + 40.0).min(0.5 * below.width());
         below.split_left_right_at_x(below.left() + side)
     } else {
         let side = below.width().min(0.5 * below.height());

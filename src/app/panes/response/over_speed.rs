@@ -13,6 +13,7 @@ use crate::app::theme::Palette;
 use crate::app::widgets::{
     Axis, Scale, Side, Tick, asked_value, declare, key_steps, paint_ticks, paint_unit,
 };
+use crate::geometry::Velocity;
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -138,8 +139,8 @@ impl Plot {
         paint_ticks(painter, self.area, (&self.levels_db, Side::Left), &levels);
         let speeds = NAMED_MM_PER_S.map(Tick::number);
         paint_ticks(painter, self.area, (&self.speeds, Side::Bottom), &speeds);
-        let unit_at = self.area.right_bottom() + vec2(0.0, 2.0);
-        paint_unit(painter, unit_at, Align2::RIGHT_TOP, "mm/s");
+        let unit_at = self.area.right_bottom() + vec2(-2.0, -1.0);
+        paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, "mm/s");
     }
 
     fn paint_curves(&self, painter: &Painter, view: &ResponseView<'_>, band: Band) {
@@ -165,9 +166,7 @@ impl Plot {
         let x = self.x(view.probe.speed_mm_per_s);
         let line = Stroke::new(1.0, palette.selection.gamma_multiply(0.6));
         painter.vline(painter.round_to_pixel_center(x), self.area.y_range(), line);
-        let speed_mm_per_s = view
-            .moving
-            .map_or(0.0, |velocity| velocity.speed_mm_per_s());
+        let speed_mm_per_s = view.moving.map_or(0.0, Velocity::speed_mm_per_s);
         let [least, most] = SPEEDS_MM_PER_S;
         if (least..=most).contains(&speed_mm_per_s) {
             let x = self.x(speed_mm_per_s);

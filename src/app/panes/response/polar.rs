@@ -1,7 +1,7 @@
 //! Level against direction of movement: directions as in the workspace, levels outwards.
 
 use eframe::egui::{
-    self, Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{ResponseView, ends_db, fill_between, levels_db, paint_handle, paint_moving, words_of};
@@ -14,8 +14,10 @@ use crate::quantity;
 use crate::render::array::PointSpread;
 use crate::tactile::Band;
 
-/// Space around the outermost ring, points.
+/// Space above and below the outermost ring, points.
 const MARGIN: f32 = 16.0;
+/// Space on either side of it, points.
+const BESIDE: f32 = 36.0;
 /// From one ring to the next, dB.
 const RING_DB: f64 = 20.0;
 /// Angles that assistive tools may ask for, degrees.
@@ -49,6 +51,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, wishes: &mut Wi
     for band in Band::ALL {
         plot.paint_curves(&painter, view, band);
     }
+    plot.name_rings(&painter);
     plot.paint_marks(&painter, view, response.is_pointer_button_down_on());
     super::paint_focus(ui, &response, rect.shrink(4.0));
     tell(response, &plot, view);
@@ -103,6 +106,7 @@ fn tell(response: Response, plot: &Plot, view: &ResponseView<'_>) {
 
 pub(super) struct Plot {
     centre: Pos2,
+    left: f32,
     radius: f32,
     rotation_deg: f64,
     ends_db: [f64; 2],
@@ -112,7 +116,8 @@ impl Plot {
     pub(super) fn new(rect: Rect, view: &ResponseView<'_>) -> Self {
         Self {
             centre: rect.center(),
-            radius: 0.5 * rect.size().min_elem() - MARGIN,
+            left: rect.left(),
+            radius: (0.5 * rect.width() - BESIDE).min(0.5 * rect.height() - MARGIN),
             rotation_deg: view.rotation_deg,
             ends_db: ends_db(view.scale),
         }
@@ -148,29 +153,17 @@ impl Plot {
     fn paint_ground(&self, painter: &Painter, view: &ResponseView<'_>) {
         let palette = Palette::of(painter.ctx().theme());
         let hairline = Stroke::new(1.0, palette.hairline);
-        let [least_db, most_db] = self.ends_db;
         painter.circle_stroke(self.centre, self.radius, hairline);
         for (axis, name) in [(0.0, "warp"), (90.0, "weft")] {
             let direction_deg = view.rotation_deg + axis;
             let ends = [direction_deg, direction_deg + 180.0].map(|d| self.on_ring(d, self.radius));
             painter.line_segment(ends, hairline);
-            let at = self.on_ring(direction_deg, self.radius + 9.0);
-            let ink = palette.dim;
-            painter.text(at, Align2::CENTER_CENTER, name, theme::small(), ink);
+            self.name_axis(painter, direction_deg, name);
         }
-        let first = (least_db / RING_DB).floor() + 1.0;
-        let levels = (0..4_u8).map(|i| (first + f64::from(i)) * RING_DB);
-        for level_db in levels.take_while(|level_db| *level_db < most_db - 2.0) {
+        for level_db in self.rings_db() {
             painter.circle_stroke(self.centre, self.distance(level_db), hairline);
-            let at = self.at(view.rotation_deg + 45.0, level_db);
-            let digits = quantity::fixed(level_db, 0);
-            let font = theme::small_number();
-            painter.text(at, Align2::CENTER_CENTER, digits, font, palette.dim);
         }
-        let corner = pos2(
-            self.centre.x - self.radius - 8.0,
-            self.centre.y - self.radius - 4.0,
-        );
+        let corner = pos2(self.left, self.centre.y - self.radius - 4.0);
         let unit = "dB re 1 µm";
         painter.text(
             corner,
@@ -179,6 +172,38 @@ impl Plot {
             theme::small(),
             palette.dim,
         );
+    }
+
+    /// Writes an axis's name behind its end, beyond the handles on the ring.
+    fn name_axis(&self, painter: &Painter, direction_deg: f64, name: &str) {
+        let palette = Palette::of(painter.ctx().theme());
+        let font = theme::small();
+        let text = painter.layout_no_wrap(name.to_owned(), font, palette.dim);
+        let end = self.on_ring(direction_deg, self.radius + 7.0);
+        let out = (end - self.centre).normalized();
+        let middle = end + 0.5 * out * text.size();
+        painter.galley(middle - 0.5 * text.size(), text, palette.dim);
+    }
+
+    /// The levels of the rings between the middle and the outermost, dB.
+    fn rings_db(&self) -> impl Iterator<Item = f64> {
+        let [least_db, most_db] = self.ends_db;
+        let first = (least_db / RING_DB).floor() + 1.0;
+        let levels = (0..4_u8).map(move |i| (first + f64::from(i)) * RING_DB);
+        levels.take_while(move |level_db| *level_db < most_db - 2.0)
+    }
+
+    /// Writes the levels of the rings, over the curves.
+    fn name_rings(&self, painter: &Painter) {
+        let palette = Palette::of(painter.ctx().theme());
+        for level_db in self.rings_db() {
+            let digits = quantity::fixed(level_db, 0);
+            let text = painter.layout_no_wrap(digits, theme::small_number(), palette.dim);
+            let at = self.at(self.rotation_deg + 45.0, level_db) - 0.5 * text.size();
+            let ground = Rect::from_min_size(at, text.size()).expand2(vec2(2.0, -1.0));
+            painter.rect_filled(ground, 2, palette.panel.gamma_multiply(0.8));
+            painter.galley(at, text, palette.dim);
+        }
     }
 
     fn paint_curves(&self, painter: &Painter, view: &ResponseView<'_>, band: Band) {
@@ -229,6 +254,6 @@ impl Plot {
             paint_moving(painter, at);
         }
         paint_handle(painter, rim, is_held);
-        painter.circle_filled(self.centre, 1.5, egui::Color32::from(palette.line));
+        painter.circle_filled(self.centre, 1.5, palette.line);
     }
 }

@@ -50,7 +50,7 @@ impl Lattice {
 
     /// Draws the points of a textile, if there is room for them.
     pub(super) fn paint(&self, painter: &Painter, view: &ViewTransform, cloth: &Cloth) {
-        let bounds: Rect = screen_bounds(view, cloth);
+        let bounds = screen_bounds(view, cloth);
         if !has_room(view.points_per_mm()) || !painter.clip_rect().intersects(bounds) {
             return;
         }

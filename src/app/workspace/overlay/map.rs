@@ -43,16 +43,27 @@ pub(super) fn paint(
     painter.add(Shape::mesh(mesh));
 }
 
-/// Draws what the colours mean, and at which velocity.
-pub(crate) fn paint_legend(painter: &Painter, stage: &Stage<'_>, band: Band) {
-    let ground = stage.ground;
-    let size = vec2(LEGEND[0], LEGEND[1]);
-    if ground.width() < 3.0 * size.x || ground.height() < size.y + 4.0 * AWAY {
-        return;
-    }
+/// Draws what the colours mean, and at which velocity: beside the ground where there is room, else
+/// on it.
+pub(crate) fn paint_legend(
+    painter: &Painter,
+    stage: &Stage<'_>,
+    (beside, band): (Option<Rect>, Band),
+) {
     let palette = Palette::of(painter.ctx().theme());
-    let card = Rect::from_min_size(ground.max - size - vec2(AWAY, AWAY), size);
-    painter.rect_filled(card, 6, palette.tag.gamma_multiply(0.92));
+    let size = vec2(LEGEND[0], LEGEND[1]);
+    let card = if let Some(room) = beside {
+        let height = size.y.min(room.height() - AWAY);
+        Rect::from_min_size(room.min - vec2(10.0, 0.0), vec2(size.x, height))
+    } else {
+        let ground = stage.ground;
+        if ground.width() < 3.0 * size.x || ground.height() < size.y + 4.0 * AWAY {
+            return;
+        }
+        let card = Rect::from_min_size(ground.max - size - vec2(AWAY, AWAY), size);
+        painter.rect_filled(card, 6, palette.tag.gamma_multiply(0.92));
+        card
+    };
     let left = card.left() + 10.0;
     let title = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
     let at = pos2(left, card.top() + 13.0);

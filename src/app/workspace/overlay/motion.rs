@@ -5,33 +5,63 @@
 
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2, vec2};
 
-use super::super::{Stage, ViewTransform};
+use super::super::{Stage, ViewTransform, cloth};
 use crate::app::command::Overlay;
 use crate::app::theme::Palette;
-use crate::geometry::{Point, Rotation, Velocity};
+use crate::geometry::{Displacement, Rotation, Velocity};
 use crate::render::array::{ContactorReading, Reading};
+use crate::surface::Direction;
 
 /// Points nearer to their contactors than this on the screen are left out, points a millimetre.
 const LEAST_FOR_POINTS: f32 = 6.0;
 /// An arrow is as long as the way of one tick: where its tip is, the contactor is next.
 const TICK_S: f64 = 0.025;
+/// From a contactor to the marks of its directions, mm.
+const MARK_MM: f64 = 0.9;
 /// Arrows shorter than this are left out, points.
 const LEAST_ARROW: f32 = 3.0;
 
-/// Draws what is switched on, over the contactors.
+/// Draws how the contactors move, below them.
 pub(crate) fn paint(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
-    let overlays = stage.state.overlays;
-    let palette = Palette::of(painter.ctx().theme());
-    let sight = painter.clip_rect().expand(view.length(3.0));
-    let has_points = view.length(1.0) >= LEAST_FOR_POINTS;
-    for (contactor, moving) in stage.layers.readings.iter().enumerate() {
+    if !stage.state.overlays.shows(Overlay::Motion) {
+        return;
+    }
+    for_each_in_sight((painter, view), stage, |brush, moving, axes| {
         let at = view.screen(moving.position);
-        if !sight.contains(at) {
+        brush.velocity(at, moving.velocity);
+        if let Some((reading, turn)) = axes {
+            brush.components(at, reading, turn);
+        }
+    });
+}
+
+/// Draws the points that the contactors read, over them, where there is room.
+pub(crate) fn paint_points(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+    let has_room = view.length(1.0) >= LEAST_FOR_POINTS;
+    if !has_room || !stage.state.overlays.shows(Overlay::ChosenPoints) {
+        return;
+    }
+    for_each_in_sight((painter, view), stage, |brush, moving, axes| {
+        if let Some((reading, turn)) = axes {
+            brush.points(moving, reading, turn);
+        }
+    });
+}
+
+/// Does something for every contactor in sight, with what it reads and how that textile is turned.
+fn for_each_in_sight(
+    (painter, view): (&Painter, &ViewTransform),
+    stage: &Stage<'_>,
+    act: impl Fn(&Brush<'_>, &ContactorReading, Option<(Reading, Rotation)>),
+) {
+    let sight = painter.clip_rect().expand(view.length(3.0));
+    for (contactor, moving) in stage.layers.readings.iter().enumerate() {
+        if !sight.contains(view.screen(moving.position)) {
             continue;
         }
         let brush = Brush {
             painter,
-            palette,
+            palette: Palette::of(painter.ctx().theme()),
             view,
             is_chosen: stage.state.contactor == Some(contactor),
         };
@@ -39,17 +69,7 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) 
             let cloth = stage.scene.cloths.get(reading.textile)?;
             Some((reading, cloth.workspace_from_textile.rotation))
         });
-        if let Some((reading, turn)) = axes.filter(|_| has_points)
-            && overlays.shows(Overlay::ChosenPoints)
-        {
-            brush.points(moving, reading, turn);
-        }
-        if overlays.shows(Overlay::Motion) {
-            if let Some((reading, turn)) = axes {
-                brush.components(at, reading, turn);
-            }
-            brush.velocity(at, moving.velocity);
-        }
+        act(&brush, moving, axes);
     }
 }
 
@@ -62,18 +82,23 @@ struct Brush<'a> {
 }
 
 impl Brush<'_> {
+    /// The contactors' green; white for the chosen one.
+    fn ink(&self) -> Color32 {
+        if self.is_chosen {
+            self.palette.selection
+        } else {
+            self.palette.lit
+        }
+    }
+
     /// The points that it reads: along warp and weft a line to each that is felt, and where both
     /// meet a ring.
     fn points(&self, moving: &ContactorReading, reading: Reading, turn: Rotation) {
         let at = self.view.screen(moving.position);
         let off = [0, 1].map(|axis| reading.nearest_mm[axis] - reading.place_mm[axis]);
-        let ink = if self.is_chosen {
-            self.palette.selection
-        } else {
-            self.palette.lit
-        };
+        let ink = self.ink();
         let turned = |u_mm: f64, w_mm: f64| {
-            let by = turn.turn(crate::geometry::Displacement::new(u_mm, w_mm));
+            let by = turn.turn(Displacement::new(u_mm, w_mm));
             self.view.screen(moving.position + by)
         };
         let ends = [turned(off[0], 0.0), turned(0.0, off[1])];
@@ -91,7 +116,8 @@ impl Brush<'_> {
             .circle_stroke(middle, radius, Stroke::new(width, ink));
     }
 
-    /// What of the velocity is felt along warp and weft: the directions that are in use.
+    /// The directions along warp and weft that are in use: small triangles beside the contactor;
+    /// for the chosen one, what of the velocity is felt along each.
     fn components(&self, at: Pos2, reading: Reading, turn: Rotation) {
         let [along_warp, along_weft] = reading.velocity_mm_per_s;
         let parts = [
@@ -103,21 +129,34 @@ impl Brush<'_> {
                 continue;
             };
             let along = self.way(turn.turn_velocity(velocity));
-            if along.length() < LEAST_ARROW {
-                continue;
+            if !self.is_chosen {
+                self.mark(at, along, ink);
+            } else if along.length() >= LEAST_ARROW {
+                self.component(at, along, (direction, ink));
             }
-            let ends = [at, at + along];
-            if direction.is_reverse() {
-                let rim = Stroke::new(2.5, self.palette.rim);
-                self.painter.line_segment(ends, rim);
-                let stroke = Stroke::new(1.0, ink);
-                self.painter
-                    .extend(Shape::dashed_line(&ends, stroke, 3.0, 2.0));
-            } else {
-                self.line(ends, 1.0, ink);
-            }
-            self.head(ends[1], along, ink);
         }
+    }
+
+    fn mark(&self, at: Pos2, along: Vec2, ink: Color32) {
+        let distance = self.view.length(MARK_MM);
+        if distance >= LEAST_ARROW {
+            let out = along.normalized();
+            self.head(at + distance * out, 7.0 * out, self.palette.rim);
+            self.head(at + distance * out, 5.0 * out, ink);
+        }
+    }
+
+    fn component(&self, at: Pos2, along: Vec2, (direction, ink): (Direction, Color32)) {
+        let ends = [at, at + along];
+        if direction.is_reverse() {
+            let rim = Stroke::new(2.5, self.palette.rim);
+            self.painter.line_segment(ends, rim);
+            let dashes = Shape::dashed_line(&ends, Stroke::new(1.0, ink), 3.0, 2.0);
+            self.painter.extend(dashes);
+        } else {
+            self.line(ends, 1.0, ink);
+        }
+        self.head(ends[1], along, ink);
     }
 
     fn velocity(&self, at: Pos2, velocity: Velocity) {
@@ -125,11 +164,7 @@ impl Brush<'_> {
         if along.length() < LEAST_ARROW {
             return;
         }
-        let ink = if self.is_chosen {
-            self.palette.selection
-        } else {
-            self.palette.lit
-        };
+        let ink = self.ink();
         self.line([at, at + along], 1.5, ink);
         self.head(at + along, along, ink);
     }
@@ -149,7 +184,7 @@ impl Brush<'_> {
 
     /// The tip of an arrow.
     fn head(&self, tip: Pos2, along: Vec2, ink: Color32) {
-        let size = (0.4 * along.length()).clamp(2.5, 5.0);
+        let size = (0.8 * along.length()).clamp(2.5, 6.0);
         let back = along.normalized() * size;
         let across = 0.5 * back.rot90();
         let corners = vec![
@@ -164,11 +199,6 @@ impl Brush<'_> {
 
 /// A velocity's direction on the screen, where y points down; its length means nothing.
 pub(super) fn on_screen(velocity: Velocity) -> Vec2 {
-    let tip = Point::new(velocity.x_mm_per_s, velocity.y_mm_per_s);
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the screen is drawn in single precision"
-    )]
-    let [x, y] = [tip.x_mm as f32, -tip.y_mm as f32];
+    let [x, y] = [velocity.x_mm_per_s, -velocity.y_mm_per_s].map(cloth::narrow);
     vec2(x, y)
 }
