@@ -1,11 +1,13 @@
-//! What the workspace's overlays and the Response pane ask of the scene: computed when they are
-//! drawn, and only what is switched on.
+//! The workspace with its overlays, and the Response pane: what they ask of the scene is computed
+//! when they are drawn, and only what is switched on.
 
-use eframe::egui;
+use eframe::egui::{self, Ui};
 
+use super::desk::Desk;
+use super::panes::{self, ResponseView};
 use super::window::Workbench;
+use super::workspace::{self, Layers, Overlay};
 use super::{curves, maps};
-use crate::app::command::Overlay;
 use crate::geometry::Velocity;
 
 /// What the Response pane shows curves of.
@@ -19,6 +21,42 @@ pub(crate) struct Asked {
     pub(crate) place: Option<(usize, [usize; 4])>,
     /// The chosen contactor's own velocity in the workspace.
     pub(crate) moving: Option<Velocity>,
+}
+
+impl Desk<'_> {
+    pub(crate) fn show_workspace(&mut self, ui: &mut Ui) {
+        self.bench.prepare_overlays(ui.ctx());
+        let bench = &*self.bench;
+        let transient = &bench.transient;
+        let layers = Layers {
+            readings: &transient.readings,
+            maps: &transient.maps,
+            lattice: &transient.lattice,
+            colours: bench.settings.kept.colour_map,
+        };
+        let (live, state) = (&transient.live, &bench.workspace);
+        let over = (&transient.trail, layers);
+        let shown = workspace::show(ui, self.scene, live, over, state, self.wishes);
+        self.shown = Some(shown);
+    }
+
+    pub(crate) fn show_response(&mut self, ui: &mut Ui) {
+        let asked = self.bench.ask_response(ui.ctx());
+        let bench = &*self.bench;
+        let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));
+        let name = cloth.map(|(_, cloth)| format!("{} {}", cloth.label, cloth.name));
+        let view = cloth.map(|(asked, cloth)| ResponseView {
+            textile: name.as_deref().map_or("", str::trim),
+            rotation_deg: cloth.rotation_deg,
+            factors: asked.factors,
+            place: asked.place,
+            curves: &bench.transient.curves,
+            probe: bench.workspace.probe,
+            moving: asked.moving,
+            scale: bench.workspace.scale,
+        });
+        panes::show_response(ui, view.as_ref(), self.wishes);
+    }
 }
 
 impl Workbench {
@@ -51,8 +89,8 @@ impl Workbench {
             .catch_up(ctx, inspector, wanted, self.is_stepped);
     }
 
-    /// Has the curves of the textile that is chosen, or else of the one under the chosen contactor;
-    /// `None` without either.
+    /// Has the curves of the textile that is chosen, or else of the one under the chosen contactor,
+    /// or which was there last; `None` without any.
     pub(crate) fn ask_response(&mut self, ctx: &egui::Context) -> Option<Asked> {
         let mut readings = std::mem::take(&mut self.transient.readings);
         let live = &self.transient.live;
@@ -69,7 +107,9 @@ impl Workbench {
         let textile = self
             .workspace
             .cloth
-            .or_else(|| under.map(|reading| reading.textile))?;
+            .or_else(|| under.map(|reading| reading.textile))
+            .or(self.transient.asked_textile)?;
+        self.transient.asked_textile = Some(textile);
         let response = self.eye.inspector.response(textile)?;
         let on_it = under.filter(|reading| reading.textile == textile);
         let place = contactor.zip(on_it.map(|reading| reading.points));

@@ -10,6 +10,7 @@ use eframe::egui;
 use super::arrangement::Pane;
 use super::probe::Probe;
 use super::theme::ColourMap;
+use super::workspace::Overlay;
 use crate::geometry::Point;
 use crate::tactile::{Band, Filters};
 
@@ -261,19 +262,6 @@ pub(crate) enum DotStyle {
     Size,
     /// Both by brightness: the larger of the two.
     Brightness,
-}
-
-/// Something that is drawn over the cloth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Overlay {
-    /// The points of the profiles, 1 mm apart.
-    Points,
-    /// The points that the contactors read.
-    ChosenPoints,
-    /// How the contactors move, and along which directions that is felt.
-    Motion,
-    /// The amplitude of a band that textiles would give all over at the chosen velocity.
-    Map(Band),
 }
 
 /// Something that can be muted or felt alone.

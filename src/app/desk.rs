@@ -12,15 +12,15 @@ use egui_tiles::{
 
 use super::arrangement::Pane;
 use super::panes::{
-    self, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle, ResponseView,
-    SpatialSource, Wishes,
+    self, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle, SpatialSource,
+    Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::{TITLE_SPACING, TabRow, corner_width};
 use super::theme::{self, Palette};
 use super::view::SceneView;
 use super::window::Workbench;
-use super::workspace::{self, Layers};
+use super::workspace;
 
 /// Height of a row of tabs, points.
 const TABS: f32 = 24.0;
@@ -72,22 +72,6 @@ impl Desk<'_> {
             }),
             Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
         }
-    }
-
-    fn show_workspace(&mut self, ui: &mut Ui) {
-        self.bench.prepare_overlays(ui.ctx());
-        let bench = &*self.bench;
-        let transient = &bench.transient;
-        let layers = Layers {
-            readings: &transient.readings,
-            maps: &transient.maps,
-            lattice: &transient.lattice,
-            colours: bench.settings.kept.colour_map,
-        };
-        let (live, state) = (&transient.live, &bench.workspace);
-        let over = (&transient.trail, layers);
-        let shown = workspace::show(ui, self.scene, live, over, state, self.wishes);
-        self.shown = Some(shown);
     }
 
     fn show_library(&mut self, ui: &mut Ui) {
@@ -159,24 +143,6 @@ impl Desk<'_> {
             limit_um,
         };
         panes::show_drive_wave(ui, &mut transient.wave_scale, &view);
-    }
-
-    fn show_response(&mut self, ui: &mut Ui) {
-        let asked = self.bench.ask_response(ui.ctx());
-        let bench = &*self.bench;
-        let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));
-        let name = cloth.map(|(_, cloth)| format!("{} {}", cloth.label, cloth.name));
-        let view = cloth.map(|(asked, cloth)| ResponseView {
-            textile: name.as_deref().map_or("", str::trim),
-            rotation_deg: cloth.rotation_deg,
-            factors: asked.factors,
-            place: asked.place,
-            curves: &bench.transient.curves,
-            probe: bench.workspace.probe,
-            moving: asked.moving,
-            scale: bench.workspace.scale,
-        });
-        panes::show_response(ui, view.as_ref(), self.wishes);
     }
 
     fn show_spatial(&mut self, ui: &mut Ui) {

@@ -3,9 +3,9 @@
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
 use super::command::{
-    Chosen, Command, FileCommand, Look, Overlay, PlayCommand, PlaySource, Purpose, ShowCommand,
-    Tool,
+    Chosen, Command, FileCommand, Look, PlayCommand, PlaySource, Purpose, ShowCommand, Tool,
 };
+use super::workspace::Overlay;
 use crate::tactile::Band;
 
 /// A key and what it does.

@@ -75,6 +75,8 @@ pub(crate) struct Transient {
     pub(crate) readings: Vec<ContactorReading>,
     /// A textile's amplitudes over direction and speed.
     pub(crate) curves: Curves,
+    /// The textile whose curves were shown last.
+    pub(crate) asked_textile: Option<usize>,
     /// What the pointer rests on.
     pub(crate) hovered: Hovered,
     /// What the timeline remembers.

@@ -177,6 +177,7 @@ impl Workbench {
         self.transient.audition = super::audition::Audition::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
+        self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.eye.n_scenes += 1;
         self.workspace.camera = super::workspace::Camera::default();

@@ -180,7 +180,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
 mod tests {
     use super::*;
     use crate::app::amplitude::AmplitudeScale;
-    use crate::app::command::Overlay;
+    use crate::app::workspace::Overlay;
     use crate::tactile::Band;
 
     fn path() -> &'static Path {

@@ -25,7 +25,7 @@ mod transform;
 
 pub(crate) use camera::Camera;
 pub(crate) use drop::LibraryItem;
-pub(crate) use overlay::{Lattice, Layers, Overlays};
+pub(crate) use overlay::{Lattice, Layers, Overlay, Overlays};
 pub(crate) use state::{Place, WorkspaceState};
 pub(crate) use tools::show as show_tools;
 pub(crate) use trail::Trail;

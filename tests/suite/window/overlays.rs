@@ -233,3 +233,58 @@ fn pictures_for_the_eye() {
         .save(folder.join("small.png"))
         .unwrap();
 }
+
+#[test]
+fn costs_for_the_eye() {
+    use selvedge::progress::thread_cpu_seconds;
+    if std::env::var_os("OVERLAY_PICTURES").is_none() {
+        return;
+    }
+    let mut harness = Harness::builder()
+        .with_size(vec2(1400.0, 900.0))
+        .with_step_dt(1.0 / 30.0)
+        .build_eframe(|cc| Workbench::new(&cc.egui_ctx, None, Drive::Stepped).unwrap());
+    harness.key_press(Key::Space);
+    harness.run_steps(20);
+    let mut measure = |harness: &mut Harness<'_, Workbench>, name: &str| {
+        let mut all: Vec<[f64; 2]> = Vec::new();
+        for frame in 0..300_u16 {
+            harness.hover_at(eframe::egui::pos2(300.0 + f32::from(frame % 200), 480.0));
+            let start = thread_cpu_seconds();
+            harness.step();
+            let mid = thread_cpu_seconds();
+            let out = harness.output();
+            let p = harness
+                .ctx
+                .tessellate(out.shapes.clone(), out.pixels_per_point);
+            std::hint::black_box(&p);
+            let end = thread_cpu_seconds();
+            all.push([(mid - start) * 1e3, (end - mid) * 1e3]);
+        }
+        let med = |i: usize| {
+            let mut v: Vec<f64> = all.iter().map(|a| a[i]).collect();
+            v.sort_by(f64::total_cmp);
+            (v[150], v[297])
+        };
+        println!("{name}: layout {:?} tess {:?} ms", med(0), med(1));
+    };
+    measure(&mut harness, "spatial in front");
+    harness.get_by_label("Response").click();
+    harness.run_steps(4);
+    measure(&mut harness, "response in front (computed in the frame)");
+    harness
+        .get_by_label_contains("Ask at the display's own")
+        .click();
+    harness.run_steps(4);
+    measure(&mut harness, "response following (computed in the frame)");
+    harness.get_by_label("Spatial spectra").click();
+    for key in [Key::G, Key::C, Key::V] {
+        press(&mut harness, Modifiers::NONE, key);
+        measure(&mut harness, &format!("spatial in front, and {key:?}"));
+    }
+    press(&mut harness, Modifiers::NONE, Key::K);
+    measure(
+        &mut harness,
+        "and the map, following (computed in the frame)",
+    );
+}

@@ -70,7 +70,7 @@ pub(crate) fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes
     }
     let is_wide = below.width() > 1.2 * below.height();
     let (left, right) = if is_wide {
-        let side = (below.height() + 40.0).min(0.5 * below.width());
+        let side = (below.height() + 30.0).min(0.55 * below.width());
         below.split_left_right_at_x(below.left() + side)
     } else {
         let side = below.width().min(0.5 * below.height());

@@ -17,7 +17,7 @@ use crate::tactile::Band;
 /// Space above and below the outermost ring, points.
 const MARGIN: f32 = 16.0;
 /// Space on either side of it, points.
-const BESIDE: f32 = 36.0;
+const BESIDE: f32 = 31.0;
 /// From one ring to the next, dB.
 const RING_DB: f64 = 20.0;
 /// Angles that assistive tools may ask for, degrees.

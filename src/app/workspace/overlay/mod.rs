@@ -14,13 +14,26 @@ use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, Painter, PopupCloseBehavior, RichText, Ui, vec2};
 
 use super::{Stage, ViewTransform, WorkspaceState};
-use crate::app::command::{Overlay, ShowCommand};
+use crate::app::command::ShowCommand;
 use crate::app::maps::Maps;
 use crate::app::panes::{Wishes, menu_choice};
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::Cloth;
 use crate::render::array::ContactorReading;
 use crate::tactile::Band;
+
+/// Something that is drawn over the cloth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Overlay {
+    /// The points of the profiles, 1 mm apart.
+    Points,
+    /// The points that the contactors read.
+    ChosenPoints,
+    /// How the contactors move, and along which directions that is felt.
+    Motion,
+    /// The amplitude of a band that textiles would give all over at the chosen velocity.
+    Map(Band),
+}
 
 /// What is drawn over the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -6,7 +6,7 @@
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2, vec2};
 
 use super::super::{Stage, ViewTransform, cloth};
-use crate::app::command::Overlay;
+use super::Overlay;
 use crate::app::theme::Palette;
 use crate::geometry::{Displacement, Rotation, Velocity};
 use crate::render::array::{ContactorReading, Reading};
