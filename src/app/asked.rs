@@ -40,7 +40,7 @@ impl Desk<'_> {
         self.shown = Some(shown);
     }
 
-    pub(crate) fn show_response(&mut self, ui: &mut Ui) {
+    pub(crate) fn show_response(&mut self, ui: &Ui) {
         let asked = self.bench.ask_response(ui.ctx());
         let bench = &*self.bench;
         let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));

@@ -94,8 +94,15 @@ fn wrapped(direction_deg: f64) -> f64 {
 
 /// A positive number to two significant digits.
 pub(crate) fn two_digits(value: f64) -> f64 {
-    let step = 10.0_f64.powf(value.log10().floor() - 1.0);
-    (value / step).round() * step
+    let decade = value.log10().floor();
+    // Of the two powers of ten the whole one: numbers stay as they are typed.
+    if decade >= 1.0 {
+        let step = 10.0_f64.powf(decade - 1.0);
+        (value / step).round() * step
+    } else {
+        let parts = 10.0_f64.powf(1.0 - decade);
+        (value * parts).round() / parts
+    }
 }
 
 #[cfg(test)]
@@ -111,6 +118,12 @@ mod tests {
         assert_eq!(probe.with_direction(f64::INFINITY), probe);
         assert_eq!(probe.with_direction(-1e-20).direction_deg, 0.0);
         assert_eq!(probe.with_speed(0.0).speed_mm_per_s, 1.0);
+    }
+
+    #[test]
+    fn numbers_are_rounded_to_two_digits() {
+        let rounded = [0.123, 1.04, 8.749, 9.96, 12.5, 1234.0].map(two_digits);
+        assert_eq!(rounded, [0.12, 1.0, 8.7, 10.0, 13.0, 1200.0]);
     }
 
     #[test]

@@ -195,9 +195,9 @@ fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, tra
     display::paint_trail(painter, view, trail.aged());
     if stage.live.centre.is_some() {
         let pointed = stage.scene.marks.hovered.contactor;
-        overlay::paint_motion(painter, view, stage);
+        overlay::paint_velocities(painter, view, stage);
         display::paint(painter, view, &stage.live.dots, (stage.state, pointed));
-        overlay::paint_points(painter, view, stage);
+        overlay::paint_readings(painter, view, stage);
     }
 }
 

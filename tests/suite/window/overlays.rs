@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Key, Modifiers, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use selvedge::app::Workbench;
@@ -172,6 +172,32 @@ fn what_is_pointed_at_or_chosen_in_one_view_is_marked_in_all() {
 }
 
 #[test]
+fn a_dot_of_the_compression_curve_marks_and_chooses_its_textile() {
+    let folder = Folder::new("dots");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    let plot = harness.get_by_label("Compression curve").rect();
+    let area = Rect::from_min_max(plot.min + vec2(30.0, 6.0), plot.max - vec2(6.0, 18.0));
+    // The one textile's level is the reference: its dot lies on the diagonal.
+    let is_on_dot = (0..=60_u8).any(|step| {
+        let share = f32::from(step) / 60.0;
+        harness.hover_at(area.left_bottom() + vec2(share, -share) * area.size());
+        harness.run_steps(2);
+        harness.state().hovered()[0] == Some(0)
+    });
+    assert!(is_on_dot, "its dot is somewhere on the diagonal");
+    let at = harness
+        .ctx
+        .input(|input| input.pointer.hover_pos())
+        .unwrap();
+    harness.drag_at(at);
+    harness.step();
+    harness.drop_at(at);
+    harness.run_steps(2);
+    assert_eq!(harness.state().chosen()[0], Some(0));
+}
+
+#[test]
 fn pictures_for_the_eye() {
     let Some(folder) = std::env::var_os("OVERLAY_PICTURES") else {
         return;
@@ -246,7 +272,7 @@ fn costs_for_the_eye() {
         .build_eframe(|cc| Workbench::new(&cc.egui_ctx, None, Drive::Stepped).unwrap());
     harness.key_press(Key::Space);
     harness.run_steps(20);
-    let mut measure = |harness: &mut Harness<'_, Workbench>, name: &str| {
+    let measure = |harness: &mut Harness<'_, Workbench>, name: &str| {
         let mut all: Vec<[f64; 2]> = Vec::new();
         for frame in 0..300_u16 {
             harness.hover_at(eframe::egui::pos2(300.0 + f32::from(frame % 200), 480.0));

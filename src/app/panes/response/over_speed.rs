@@ -146,11 +146,13 @@ impl Plot {
     fn paint_curves(&self, painter: &Painter, view: &ResponseView<'_>, band: Band) {
         let ink = Palette::of(painter.ctx().theme()).band(band);
         let painter = painter.with_clip_rect(self.area);
+        let curve = speeds_mm_per_s().zip(view.curves.over_speed());
+        let levels: Vec<(f64, [f64; 4])> = curve
+            .map(|(speed, spread)| (speed, levels_db(spread, view.factors, band)))
+            .collect();
         let row = |pick: usize| -> Vec<Pos2> {
-            let curve = speeds_mm_per_s().zip(view.curves.over_speed());
-            let place =
-                |(speed, spread)| self.at(speed, levels_db(spread, view.factors, band)[pick]);
-            curve.map(place).collect()
+            let place = |(speed, levels): &(f64, [f64; 4])| self.at(*speed, levels[pick]);
+            levels.iter().map(place).collect()
         };
         fill_between(&painter, &row(2), &row(3), ink);
         let thin = Stroke::new(1.0, ink.gamma_multiply(super::MEAN));

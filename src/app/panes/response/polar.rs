@@ -11,7 +11,6 @@ use crate::app::probe::{Probe, STEP_DEG};
 use crate::app::theme::{self, Palette};
 use crate::app::widgets::{Scale, asked_value, declare, key_steps};
 use crate::quantity;
-use crate::render::array::PointSpread;
 use crate::tactile::Band;
 
 /// Space above and below the outermost ring, points.
@@ -209,7 +208,17 @@ impl Plot {
     fn paint_curves(&self, painter: &Painter, view: &ResponseView<'_>, band: Band) {
         let ink = Palette::of(painter.ctx().theme()).band(band);
         let around = view.curves.around();
-        let places = |pick: usize| self.places(around, view, (band, pick));
+        let levels: Vec<[f64; 4]> = around
+            .iter()
+            .map(|spread| levels_db(spread, view.factors, band))
+            .collect();
+        let step_deg = 360.0 / levels.len().max(1) as f64;
+        let places = |pick: usize| -> Vec<Pos2> {
+            let direction_deg = |k: usize| self.rotation_deg + step_deg * k as f64;
+            let row = levels.iter().enumerate();
+            row.map(|(k, levels)| self.at(direction_deg(k), levels[pick]))
+                .collect()
+        };
         let [place, mean, least, most] = [0, 1, 2, 3].map(places);
         let closed = |mut row: Vec<Pos2>| {
             row.extend(row.first().copied());
@@ -221,20 +230,6 @@ impl Plot {
         if view.place.is_some() {
             painter.add(Shape::closed_line(place, Stroke::new(1.75, ink)));
         }
-    }
-
-    fn places(
-        &self,
-        around: &[PointSpread],
-        view: &ResponseView<'_>,
-        (band, pick): (Band, usize),
-    ) -> Vec<Pos2> {
-        let step_deg = 360.0 / around.len().max(1) as f64;
-        let place = |(k, spread): (usize, &PointSpread)| {
-            let direction_deg = self.rotation_deg + step_deg * k as f64;
-            self.at(direction_deg, levels_db(spread, view.factors, band)[pick])
-        };
-        around.iter().enumerate().map(place).collect()
     }
 
     /// The chosen direction, and where the contactor moves now.

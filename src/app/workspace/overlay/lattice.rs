@@ -105,6 +105,8 @@ fn picture(side: u8) -> ColorImage {
 
 #[cfg(test)]
 mod tests {
+    use eframe::egui;
+
     use super::*;
 
     #[test]
@@ -118,6 +120,41 @@ mod tests {
                 assert_eq!(picture[at], Color32::TRANSPARENT, "{side}: {at:?}");
             }
         }
+    }
+
+    #[test]
+    fn all_points_of_a_textile_are_one_quad_and_none_where_there_is_no_room() {
+        let ctx = Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), egui::vec2(400.0, 400.0));
+        let cloth = Cloth {
+            id: String::new(),
+            label: String::new(),
+            name: String::new(),
+            workspace_from_textile: crate::geometry::Frame::default(),
+            size_mm: [300.0; 2],
+            rotation_deg: 0.0,
+            is_muted: false,
+            gain_db: 0.0,
+            picture: None,
+        };
+        let mut lattice = Lattice::default();
+        let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            lattice.prepare(ui.ctx());
+            for points_per_mm in [2.0, 5.9, 10.0] {
+                let centre = crate::geometry::Point::new(100.0, 100.0);
+                let view = ViewTransform::new(sight, centre, points_per_mm);
+                lattice.paint(&ui.painter_at(sight), &view, &cloth);
+            }
+        });
+        output.textures_delta.clear();
+        let shapes = output.shapes.iter();
+        let quads: Vec<usize> = shapes
+            .filter_map(|clipped| match &clipped.shape {
+                Shape::Mesh(mesh) => Some(mesh.vertices.len()),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(quads, [4]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod motion;
 pub(crate) use lattice::Lattice;
 
 pub(super) use map::{paint_legend, words_at};
-pub(super) use motion::{paint as paint_motion, paint_points};
+pub(super) use motion::{paint_readings, paint_velocities};
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, Painter, PopupCloseBehavior, RichText, Ui, vec2};

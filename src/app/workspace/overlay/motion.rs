@@ -22,27 +22,33 @@ const MARK_MM: f64 = 0.9;
 const LEAST_ARROW: f32 = 3.0;
 
 /// Draws how the contactors move, below them.
-pub(crate) fn paint(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+pub(crate) fn paint_velocities(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
     if !stage.state.overlays.shows(Overlay::Motion) {
         return;
     }
-    for_each_in_sight((painter, view), stage, |brush, moving, axes| {
-        let at = view.screen(moving.position);
-        brush.velocity(at, moving.velocity);
-        if let Some((reading, turn)) = axes {
-            brush.components(at, reading, turn);
-        }
+    for_each_in_sight((painter, view), stage, |brush, moving, _| {
+        brush.velocity(view.screen(moving.position), moving.velocity);
     });
 }
 
-/// Draws the points that the contactors read, over them, where there is room.
-pub(crate) fn paint_points(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+/// Draws what the contactors read, over them: the directions in use, and, where there is room, the
+/// points.
+pub(crate) fn paint_readings(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+    let overlays = stage.state.overlays;
     let has_room = view.length(1.0) >= LEAST_FOR_POINTS;
-    if !has_room || !stage.state.overlays.shows(Overlay::ChosenPoints) {
+    let has_points = has_room && overlays.shows(Overlay::ChosenPoints);
+    let has_directions = overlays.shows(Overlay::Motion);
+    if !(has_points || has_directions) {
         return;
     }
     for_each_in_sight((painter, view), stage, |brush, moving, axes| {
-        if let Some((reading, turn)) = axes {
+        let Some((reading, turn)) = axes else {
+            return;
+        };
+        if has_directions {
+            brush.components(view.screen(moving.position), reading, turn);
+        }
+        if has_points {
             brush.points(moving, reading, turn);
         }
     });
@@ -92,28 +98,33 @@ impl Brush<'_> {
     }
 
     /// The points that it reads: along warp and weft a line to each that is felt, and where both
-    /// meet a ring.
+    /// meet a ring; told apart from cloth of any brightness, as the ring of the chosen one is.
     fn points(&self, moving: &ContactorReading, reading: Reading, turn: Rotation) {
         let at = self.view.screen(moving.position);
         let off = [0, 1].map(|axis| reading.nearest_mm[axis] - reading.place_mm[axis]);
-        let ink = self.ink();
         let turned = |u_mm: f64, w_mm: f64| {
             let by = turn.turn(Displacement::new(u_mm, w_mm));
             self.view.screen(moving.position + by)
         };
+        let (radius, width) = if self.is_chosen {
+            (3.5, 1.5)
+        } else {
+            (2.0, 1.0)
+        };
+        let strokes = [
+            Stroke::new(width + 1.5, self.palette.tag),
+            Stroke::new(width, self.palette.selection),
+        ];
         let ends = [turned(off[0], 0.0), turned(0.0, off[1])];
-        for (end, direction) in ends.into_iter().zip(reading.directions) {
-            if direction.is_some() {
-                self.line([at, end], 1.0, ink);
-            }
-        }
         let middle = turned(off[0], off[1]);
-        let radius = if self.is_chosen { 3.5 } else { 2.0 };
-        let rim = Stroke::new(2.5, self.palette.rim);
-        self.painter.circle_stroke(middle, radius, rim);
-        let width = if self.is_chosen { 1.5 } else { 1.0 };
-        self.painter
-            .circle_stroke(middle, radius, Stroke::new(width, ink));
+        for stroke in strokes {
+            for (end, direction) in ends.into_iter().zip(reading.directions) {
+                if direction.is_some() {
+                    self.painter.line_segment([at, end], stroke);
+                }
+            }
+            self.painter.circle_stroke(middle, radius, stroke);
+        }
     }
 
     /// The directions along warp and weft that are in use: small triangles beside the contactor;
