@@ -184,7 +184,8 @@ impl Desk<'_> {
             }
             Pane::Why => {
                 let (why, is_frozen) = &self.bench.transient.why;
-                let why = (why.as_ref(), self.bench.transient.live.dots.len());
+                let n_contactors = self.bench.transient.live.dots.len();
+                let why = (why.as_ref(), self.bench.workspace.contactor, n_contactors);
                 panes::show_why_corner(ui, *is_frozen, why, self.wishes);
             }
             Pane::Response => {

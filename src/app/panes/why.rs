@@ -55,7 +55,7 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
 pub(crate) fn show_corner(
     ui: &mut Ui,
     is_frozen: bool,
-    (why, n_contactors): (Option<&Why>, usize),
+    (why, chosen, n_contactors): (Option<&Why>, Option<usize>, usize),
     wishes: &mut Wishes,
 ) {
     if why.is_none() {
@@ -76,7 +76,7 @@ pub(crate) fn show_corner(
     if toggle(ui, "freeze", is_frozen, tip) {
         wishes.push(ShowCommand::FreezeWhy.into());
     }
-    show_neighbours(ui, why.map(|why| why.contactor), n_contactors, wishes);
+    show_neighbours(ui, chosen, n_contactors, wishes);
 }
 
 /// Steps to the contactor before and the one behind, around all of them.
