@@ -1,8 +1,8 @@
 //! A textile's amplitudes over direction and over speed, as the Response pane draws them.
 //!
-//! Computed before gains, so that no slider computes anything; on a thread of its own, and anew only
-//! when a curve's own inputs change. Until that is done the last curves stay, unless the textile is
-//! another.
+//! Computed before gains, so that no slider computes anything; on a thread of its own, and anew
+//! only when a curve's own inputs change. Until that is done the last curves stay, unless the
+//! textile is another.
 
 use eframe::egui;
 

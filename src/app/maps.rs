@@ -1,8 +1,8 @@
 //! Maps of textiles: what each would give all over at one velocity, as pictures for the workspace.
 //!
 //! A map repeats with the points of its profiles, so its picture holds one pixel a pair of points
-//! and is tiled over the cloth. It is made on a thread of its own, and anew only when something that
-//! it shows has changed; until it is done the last one stays, unless the textile is another.
+//! and is tiled over the cloth. It is made on a thread of its own, and anew only when something
+//! that it shows has changed; until it is done the last one stays, unless the textile is another.
 
 use std::fmt;
 
@@ -158,8 +158,8 @@ impl Maps {
         self.job = None;
     }
 
-    /// The picture of a textile's map and the points along warp and weft that it holds; `None` while
-    /// there is none, and for a textile that is not felt at all.
+    /// The picture of a textile's map and the points along warp and weft that it holds; `None`
+    /// while there is none, and for a textile that is not felt at all.
     pub(crate) fn picture(&self, textile: usize) -> Option<(egui::TextureId, [usize; 2])> {
         let slot = self.slots.get(textile)?.as_ref()?;
         let factor = slot.key.response.factors()[slot.key.wanted.band.index()];

@@ -151,8 +151,8 @@ fn textured(corners: [Pos2; 4], size_mm: [f64; 2], picture: ClothPicture, tint: 
     tiled(corners, uv, picture.texture, tint)
 }
 
-/// A quad from the textile's origin along its warp and its weft, with a texture from `uv.min` at the
-/// origin to `uv.max` at the far corner.
+/// A quad from the textile's origin along its warp and its weft, with a texture from `uv.min` at
+/// the origin to `uv.max` at the far corner.
 pub(super) fn tiled(corners: [Pos2; 4], uv: Rect, texture_id: TextureId, tint: Color32) -> Mesh {
     let places = [
         uv.min,

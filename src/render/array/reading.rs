@@ -59,9 +59,9 @@ impl Reading {
 }
 
 impl ContactInspector {
-    /// Writes where every contactor of a display reads, and how it moves, at a pose; none when there
-    /// is no such display or the pose's place is not finite. A motion that is not finite counts as
-    /// rest. Allocates nothing once `readings` has grown.
+    /// Writes where every contactor of a display reads, and how it moves, at a pose; none when
+    /// there is no such display or the pose's place is not finite. A motion that is not finite
+    /// counts as rest. Allocates nothing once `readings` has grown.
     pub fn readings_into(
         &mut self,
         display: usize,

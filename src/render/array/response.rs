@@ -1,11 +1,12 @@
 //! What a textile gives at any velocity: over its points for maps, over directions and speeds for
 //! curves.
 //!
-//! Along an axis a contactor feels the spectrum of one point. At one velocity a textile is therefore
-//! two short rows of squared amplitudes, one over its warp points and one over its weft points, and
-//! `A²(u, w)` is the sum of an entry of each: least, largest and mean square over all pairs of points
-//! are sums of those over either row. For inspection, off the real-time path; computes as
-//! `reference` does, with the filters' gains found once a speed instead of once a point.
+//! Along an axis a contactor feels the spectrum of one point. At one velocity a textile is
+//! therefore two short rows of squared amplitudes, one over its warp points and one over its weft
+//! points, and `A²(u, w)` is the sum of an entry of each: least, largest and mean square over all
+//! pairs of points are sums of those over either row. For inspection, off the real-time path;
+//! computes as `reference` does, with the filters' gains found once a speed instead of once a
+//! point.
 
 use std::sync::Arc;
 
@@ -122,8 +123,8 @@ impl TextileResponse {
         self.factors
     }
 
-    /// A velocity of the workspace as the textile's own frame sees it: x along its warp, y along its
-    /// weft.
+    /// A velocity of the workspace as the textile's own frame sees it: x along its warp, y along
+    /// its weft.
     pub fn along(&self, workspace: Velocity) -> Velocity {
         self.textile_from_workspace.turn_velocity(workspace)
     }
