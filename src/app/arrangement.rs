@@ -1,7 +1,8 @@
 //! Which pane stands where: a tree of tiles that the user may rearrange, and that is kept.
 //!
-//! A tree that comes from a file is only taken when every pane is in it exactly once and nothing in
-//! it leads nowhere; otherwise the default arrangement is shown.
+//! A tree that comes from a file is only taken when no pane is in it twice and nothing in it leads
+//! nowhere; otherwise the default arrangement is shown. Panes that the program did not have when
+//! the tree was kept come in as tabs, each beside a pane that it stands beside by default.
 
 use std::path::Path;
 
@@ -45,11 +46,13 @@ pub(crate) enum Pane {
     Compare,
     /// How accurate rendering is, and what it costs.
     Accuracy,
+    /// A textile's amplitudes over direction and speed of movement.
+    Response,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 12] = [
+    pub(crate) const ALL: [Self; 13] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -60,8 +63,9 @@ impl Pane {
         Self::SpatialSpectra,
         Self::DriveWave,
         Self::Why,
-        Self::Compare,
+        Self::Response,
         Self::Accuracy,
+        Self::Compare,
     ];
 
     /// Its title.
@@ -79,6 +83,7 @@ impl Pane {
             Self::Why => "Why",
             Self::Compare => "Compare",
             Self::Accuracy => "Accuracy",
+            Self::Response => "Response",
         }
     }
 
@@ -95,6 +100,7 @@ impl Pane {
             | Self::Bridge
             | Self::Heatmaps
             | Self::Why
+            | Self::Response
             | Self::Accuracy
             | Self::Compare => self.title(),
         }
@@ -137,6 +143,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let closer = [
         Pane::SpatialSpectra,
         Pane::Why,
+        Pane::Response,
         Pane::Accuracy,
         Pane::Compare,
     ];
@@ -167,8 +174,9 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
             Pane::DriveSpectrum,
             Pane::SpatialSpectra,
             Pane::Why,
-            Pane::Compare,
+            Pane::Response,
             Pane::Accuracy,
+            Pane::Compare,
             Pane::DriveWave,
         ],
     );
@@ -208,20 +216,59 @@ pub(crate) fn to_text(tree: &Tree<Pane>) -> Option<String> {
     files::to_json_string(tree, Path::new("arrangement")).ok()
 }
 
-/// The arrangement from text; `None` when it is not a whole one.
+/// The arrangement from text, with every pane in it; `None` when it is not a sound one.
 pub(crate) fn from_text(text: &str) -> Option<Tree<Pane>> {
-    let tree: Tree<Pane> = files::from_json_str(text, Path::new("arrangement")).ok()?;
-    is_sound(&tree).then_some(tree)
+    let mut tree: Tree<Pane> = files::from_json_str(text, Path::new("arrangement")).ok()?;
+    let found = panes_of(&tree)?;
+    for pane in Pane::ALL.into_iter().filter(|pane| !found.contains(pane)) {
+        insert(&mut tree, pane)?;
+    }
+    Some(tree)
 }
 
-/// Whether every pane is in the tree once, and every tile has a place in it and a size.
-fn is_sound(tree: &Tree<Pane>) -> bool {
+/// Puts a pane that is not in the tree behind a pane that it stands beside by default, or else
+/// behind any; `None` when there is none.
+fn insert(tree: &mut Tree<Pane>, pane: Pane) -> Option<()> {
+    let defaults = [ROOMY, Vec2::ZERO].map(default_tree);
+    let beside = defaults.iter().flat_map(|tree| neighbours(tree, pane));
+    let mut candidates = beside.chain(Pane::ALL.into_iter().rev());
+    let neighbour = candidates.find_map(|pane| tile_of(tree, pane))?;
+    let id = tree.tiles.insert_pane(pane);
+    match tree.tiles.parent_of(neighbour) {
+        Some(parent) => match tree.tiles.get_mut(parent)? {
+            Tile::Container(container) => container.add_child(id),
+            Tile::Pane(_) => return None,
+        },
+        None => tree.root = Some(tree.tiles.insert_tab_tile(vec![neighbour, id])),
+    }
+    Some(())
+}
+
+/// The panes that share a container with a pane, those listed nearest before it first.
+fn neighbours(tree: &Tree<Pane>, pane: Pane) -> Vec<Pane> {
+    let parent = tile_of(tree, pane).and_then(|id| tree.tiles.parent_of(id));
+    let container = parent.and_then(|id| tree.tiles.get_container(id));
+    let children = container.map_or_else(Vec::new, Container::children_vec);
+    let panes = children
+        .iter()
+        .filter_map(|id| tree.tiles.get_pane(id).copied());
+    let (mut before, after): (Vec<Pane>, Vec<Pane>) = panes
+        .filter(|other| *other != pane)
+        .partition(|other| *other < pane);
+    before.reverse();
+    before.extend(after);
+    before
+}
+
+/// The panes of a tree in which every tile has a place and a size and no pane is twice; `None` for
+/// any other.
+fn panes_of(tree: &Tree<Pane>) -> Option<Vec<Pane>> {
     let mut panes = Vec::new();
     let mut seen = Vec::new();
     let mut next: Vec<TileId> = tree.root().into_iter().collect();
     while let Some(id) = next.pop() {
         if seen.contains(&id) {
-            return false;
+            return None;
         }
         seen.push(id);
         match tree.tiles.get(id) {
@@ -229,13 +276,13 @@ fn is_sound(tree: &Tree<Pane>) -> bool {
             Some(Tile::Container(container)) if has_sizes(container) => {
                 next.extend(container.children());
             }
-            _ => return false,
+            _ => return None,
         }
     }
     panes.sort_unstable();
-    let mut all = Pane::ALL;
-    all.sort_unstable();
-    panes == all && seen.len() == tree.tiles.len()
+    let is_twice = panes.windows(2).any(|pair| pair[0] == pair[1]);
+    let is_whole = !panes.is_empty() && seen.len() == tree.tiles.len();
+    (is_whole && !is_twice).then_some(panes)
 }
 
 fn has_sizes(container: &Container) -> bool {
@@ -288,7 +335,10 @@ mod tests {
     fn every_default_holds_every_pane_and_survives_being_kept() {
         for size in SIZES {
             let tree = default_tree(size);
-            assert!(is_sound(&tree), "{size:?}");
+            assert_eq!(
+                panes_of(&tree).map_or(0, |panes| panes.len()),
+                Pane::ALL.len()
+            );
             let text = to_text(&tree).unwrap();
             assert_eq!(from_text(&text).as_ref(), Some(&tree), "{size:?}");
         }
@@ -311,7 +361,7 @@ mod tests {
         let mut without = tree.clone();
         let bridge = tile_of(&without, Pane::Bridge).unwrap();
         without.tiles.remove(bridge);
-        assert!(!is_sound(&without), "a tab leads nowhere");
+        assert_eq!(panes_of(&without), None, "a tab leads nowhere");
         let mut circle = tree.clone();
         let root = circle.root().unwrap();
         let tuning = tile_of(&circle, Pane::Tuning).unwrap();
@@ -319,7 +369,64 @@ mod tests {
         if let Some(Tile::Container(container)) = circle.tiles.get_mut(parent) {
             container.add_child(root);
         }
-        assert!(!is_sound(&circle), "it goes round");
+        assert_eq!(panes_of(&circle), None, "it goes round");
+    }
+
+    /// The tree as a program without these panes would have kept it.
+    fn without(tree: &Tree<Pane>, panes: &[Pane]) -> Tree<Pane> {
+        let mut tree = tree.clone();
+        for pane in panes {
+            let id = tile_of(&tree, *pane).unwrap();
+            tree.remove_recursively(id);
+        }
+        tree
+    }
+
+    #[test]
+    fn an_arrangement_from_before_a_pane_was_there_takes_it_in_as_a_tab() {
+        for size in SIZES {
+            let default = default_tree(size);
+            for pane in Pane::ALL {
+                let mut older = without(&default, &[pane]);
+                older.simplify(&egui_tiles::SimplificationOptions {
+                    all_panes_must_have_tabs: true,
+                    ..egui_tiles::SimplificationOptions::default()
+                });
+                let tree = from_text(&to_text(&older).unwrap()).unwrap();
+                assert_eq!(
+                    panes_of(&tree).map(|panes| panes.len()),
+                    Some(Pane::ALL.len())
+                );
+                let shown = |tree: &Tree<Pane>| Pane::ALL.map(|pane| is_shown(tree, pane));
+                let own = pane.index();
+                for (other, (now, before)) in shown(&tree).iter().zip(shown(&older)).enumerate() {
+                    assert!(other == own || *now == before, "{pane:?}: {other} changed");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_new_pane_stands_behind_its_neighbours_wherever_they_were_put() {
+        let mut older = without(&default_tree(SIZES[0]), &[Pane::Response, Pane::Why]);
+        let spatial = tile_of(&older, Pane::SpatialSpectra).unwrap();
+        let wave = tile_of(&older, Pane::DriveWave).unwrap();
+        let tabs = older.tiles.parent_of(wave).unwrap();
+        older.move_tile_to_container(spatial, tabs, 1, false);
+        let tree = from_text(&to_text(&older).unwrap()).unwrap();
+        let parent = |pane| tree.tiles.parent_of(tile_of(&tree, pane).unwrap());
+        assert_eq!(parent(Pane::Response), Some(tabs));
+        assert_eq!(parent(Pane::Why), Some(tabs));
+        let alone = Tree::new_tabs(Id::unique("alone"), vec![Pane::Workspace]);
+        let tree = from_text(&to_text(&alone).unwrap()).unwrap();
+        assert_eq!(
+            panes_of(&tree).map(|panes| panes.len()),
+            Some(Pane::ALL.len())
+        );
+        assert_eq!(
+            from_text(&to_text(&Tree::empty(Id::unique("nothing"))).unwrap()),
+            None
+        );
     }
 
     #[test]

@@ -6,7 +6,7 @@ use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, Rect, Ui};
 use egui_tiles::Tree;
 
 use super::arrangement::{self, Pane};
-use super::command::PlaySource;
+use super::command::{Command, PlaySource, ShowCommand};
 use super::desk::Desk;
 use super::panes::{self, Wishes};
 use super::pointer::Ground;
@@ -14,7 +14,7 @@ use super::state::{After, Transient};
 use super::tab_row::TabRow;
 use super::take::Take;
 use super::theme::Palette;
-use super::view::{SceneView, Source};
+use super::view::{Hovered, SceneView, Source};
 use super::window::Workbench;
 use super::workspace;
 
@@ -36,7 +36,24 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
     let over = shown.map_or(rect, |shown| shown.ground);
     show_overlays(bench, ui, over, &mut wishes);
     feel(bench, ui.ctx(), &scene, shown);
+    mark_hovered(bench, ui.ctx(), &mut wishes);
     wishes
+}
+
+/// Lets every view mark what the pointer rests on, from the next frame on if that has changed.
+fn mark_hovered(bench: &mut Workbench, ctx: &egui::Context, wishes: &mut Wishes) {
+    let mut hovered = Hovered::default();
+    wishes.retain(|command| {
+        if let Command::Show(ShowCommand::Hover(part)) = command {
+            hovered.take(*part);
+            return false;
+        }
+        true
+    });
+    if bench.transient.hovered != hovered {
+        bench.transient.hovered = hovered;
+        ctx.request_repaint();
+    }
 }
 
 fn show_header(bench: &Workbench, ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
@@ -145,6 +162,7 @@ impl Workbench {
             zoom: kept.zoom,
             dots: self.workspace.dot_style,
             greys_below: self.workspace.greys_below,
+            overlays: self.workspace.overlays,
             panes: shown.to_vec(),
             recent: kept.recent_scenes.clone(),
         }

@@ -110,6 +110,9 @@ impl Workbench {
         let largest = live.dots.iter().flat_map(|dot| dot.amplitude_um);
         let largest_um = largest.fold(0.0, f64::max);
         self.workspace.scale = self.workspace.scale.following(largest_um);
+        if live.centre.is_some() && live.speed_mm_per_s > 0.0 {
+            self.workspace.probe = self.workspace.probe.after(live.pose.velocity);
+        }
         if transient.trail.take(live.tick, live.centre) {
             ctx.request_repaint_after(FRAME);
         }
@@ -160,6 +163,7 @@ impl Workbench {
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
         kept.greys_below = self.workspace.greys_below;
+        kept.overlays = self.workspace.overlays;
         kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
     }
 }

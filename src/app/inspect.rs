@@ -100,6 +100,23 @@ impl Workbench {
         measured.map_or(0, |measured| measured.rows.len())
     }
 
+    /// The textile and the contactor that the pointer rests on, in whichever view.
+    pub fn hovered(&self) -> [Option<usize>; 2] {
+        let hovered = self.transient.hovered;
+        [hovered.cloth, hovered.contactor]
+    }
+
+    /// The textile and the contactor that are chosen in all views.
+    pub fn chosen(&self) -> [Option<usize>; 2] {
+        [self.workspace.cloth, self.workspace.contactor]
+    }
+
+    /// Maps over the cloth and curves over direction and speed computed so far.
+    pub fn responses_computed(&self) -> [u64; 2] {
+        let transient = &self.transient;
+        [transient.maps.n_computed(), transient.curves.n_computed()]
+    }
+
     /// The scene's name.
     pub fn scene_name(&self) -> &str {
         &self.document.scene().name

@@ -7,8 +7,8 @@ use super::document::Document;
 use super::sensation::Sensation;
 use super::shelf::Shelf;
 use super::view::{
-    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, PlayView, SceneView, ShelfItem, Source,
-    Status,
+    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, Marks, PlayView, SceneView, ShelfItem,
+    Source, Status,
 };
 use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
@@ -53,6 +53,7 @@ pub(crate) fn scene_view(
         library: library.to_vec(),
         undo: document.undo_name(),
         redo: document.redo_name(),
+        marks: Marks::default(),
     }
 }
 

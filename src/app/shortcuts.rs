@@ -5,6 +5,8 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use super::command::{
     Chosen, Command, FileCommand, Look, PlayCommand, PlaySource, Purpose, ShowCommand, Tool,
 };
+use super::workspace::Overlay;
+use crate::tactile::Band;
 
 /// A key and what it does.
 #[derive(Debug, Clone)]
@@ -25,6 +27,7 @@ pub(crate) fn table() -> Vec<Shortcut> {
     table.extend(file_keys());
     table.extend(play_keys());
     table.extend(show_keys());
+    table.extend(overlay_keys());
     table.extend(chosen_keys());
     table
 }
@@ -156,6 +159,31 @@ fn show_keys() -> Vec<Shortcut> {
         ),
     ];
     keys.into_iter().map(bare).collect()
+}
+
+fn overlay_keys() -> Vec<Shortcut> {
+    let over = |modifiers, at, what, overlay| {
+        key(modifiers, at, what, ShowCommand::Overlay(overlay).into())
+    };
+    let (bare, shift) = (Modifiers::NONE, Modifiers::SHIFT);
+    let (low, high) = (Overlay::Map(Band::Low), Overlay::Map(Band::High));
+    vec![
+        over(bare, Key::G, "Points of the textiles", Overlay::Points),
+        over(
+            bare,
+            Key::C,
+            "Points that contactors read",
+            Overlay::ChosenPoints,
+        ),
+        over(
+            bare,
+            Key::V,
+            "Velocities of the contactors",
+            Overlay::Motion,
+        ),
+        over(shift, Key::K, "Map of 320 Hz", high),
+        over(bare, Key::K, "Map of 40 Hz", low),
+    ]
 }
 
 /// How much closer a key looks.

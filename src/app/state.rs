@@ -5,10 +5,12 @@ use eframe::egui::{Rect, Vec2};
 use super::accuracy::AccuracyWatch;
 use super::audition::Audition;
 use super::compare::Comparison;
+use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::export::Exports;
 use super::history::Moment;
 use super::job::Job;
+use super::maps::Maps;
 use super::opening::{Opening, Origin};
 use super::panes::{
     Ask, ContactSpectrogram, DriveSpectrogram, Notices, SpatialSpectra, TransportState, WaveScale,
@@ -17,9 +19,10 @@ use super::ports::Ports;
 use super::query::IntervalMeter;
 use super::signals::History;
 use super::take::Take;
-use super::view::{BridgeView, Live};
+use super::view::{BridgeView, Hovered, Live};
 use super::why::Why;
-use super::workspace::Trail;
+use super::workspace::{Lattice, Trail};
+use crate::render::array::ContactorReading;
 use crate::scene::SceneError;
 
 /// What is neither saved nor undoable.
@@ -73,6 +76,18 @@ pub(crate) struct Transient {
     pub(crate) comparison: Comparison,
     /// How accurate rendering was found to be.
     pub(crate) accuracy: AccuracyWatch,
+    /// Maps of the textiles at the chosen velocity.
+    pub(crate) maps: Maps,
+    /// Pictures of the points 1 mm apart.
+    pub(crate) lattice: Lattice,
+    /// What the contactors read and how they move, while that is drawn.
+    pub(crate) readings: Vec<ContactorReading>,
+    /// A textile's amplitudes over direction and speed.
+    pub(crate) curves: Curves,
+    /// The textile whose curves were shown last.
+    pub(crate) asked_textile: Option<usize>,
+    /// What the pointer rests on.
+    pub(crate) hovered: Hovered,
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.

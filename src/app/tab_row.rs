@@ -56,10 +56,11 @@ pub(crate) fn corner_width(pane: Pane) -> f32 {
         Pane::ContactSpectrum | Pane::DriveSpectrum | Pane::DriveWave | Pane::SpatialSpectra => {
             112.0
         }
-        Pane::Why => 88.0,
+        Pane::Why => 136.0,
+        Pane::Response => 56.0,
         Pane::Compare => 124.0,
         Pane::Accuracy => 108.0,
-        Pane::Workspace => 300.0,
+        Pane::Workspace => 376.0,
         Pane::Library | Pane::Tuning | Pane::Bridge => 0.0,
     };
     own + export

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{TextureId, Vec2};
 
+use super::command::Part;
 use super::sensation::Sensation;
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
@@ -41,6 +42,60 @@ pub(crate) struct SceneView {
     pub(crate) undo: Option<&'static str>,
     /// What redo would bring back.
     pub(crate) redo: Option<&'static str>,
+    /// What every view marks.
+    pub(crate) marks: Marks,
+}
+
+/// What is chosen, and what the pointer rests on, in whichever view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Marks {
+    /// The chosen textile: its place in the scene's list.
+    pub(crate) cloth: Option<usize>,
+    /// What the pointer rests on.
+    pub(crate) hovered: Hovered,
+}
+
+/// What the pointer rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Hovered {
+    /// A textile: its place in the scene's list.
+    pub(crate) cloth: Option<usize>,
+    /// A contactor.
+    pub(crate) contactor: Option<usize>,
+}
+
+impl Hovered {
+    /// Takes in what a view says that the pointer rests on.
+    pub(crate) fn take(&mut self, part: Part) {
+        match part {
+            Part::Cloth(index) => self.cloth = Some(index),
+            Part::Contactor(index) => self.contactor = Some(index),
+            Part::Band(_) => {}
+        }
+    }
+}
+
+impl SceneView {
+    /// The first textile in the scene's list that is this one of the library.
+    pub(crate) fn placed(&self, id: &str) -> Option<usize> {
+        self.cloths.iter().position(|cloth| cloth.id == id)
+    }
+
+    /// Whether a textile is chosen, or under the pointer in some view.
+    pub(crate) fn is_marked(&self, index: usize) -> bool {
+        let Marks { cloth, hovered } = self.marks;
+        cloth == Some(index) || hovered.cloth == Some(index)
+    }
+
+    /// The same for a textile of the library, wherever it is placed.
+    pub(crate) fn is_marked_id(&self, id: &str) -> bool {
+        let marked = [self.marks.cloth, self.marks.hovered.cloth];
+        let mut cloths = marked
+            .into_iter()
+            .flatten()
+            .filter_map(|i| self.cloths.get(i));
+        cloths.any(|cloth| cloth.id == id)
+    }
 }
 
 /// A textile that lies in the workspace.

@@ -22,7 +22,7 @@ use super::settings::Settings;
 use super::shelf::Shelf;
 use super::state::Transient;
 use super::take::Take;
-use super::view::{LibraryDot, SceneView};
+use super::view::{LibraryDot, Marks, SceneView};
 use super::workspace::{Trail, WorkspaceState};
 use super::{frame, query, theme};
 use crate::engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
@@ -168,6 +168,7 @@ impl Workbench {
         self.workspace.scale = kept.amplitude;
         self.workspace.dot_style = kept.dots;
         self.workspace.greys_below = kept.greys_below;
+        self.workspace.overlays = kept.overlays;
         self.workspace.true_pixels_per_mm = kept.pixels_per_mm;
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
@@ -188,6 +189,7 @@ impl Workbench {
         self.transient.trail = Trail::default();
         self.transient.history.clear();
         self.transient.comparison.leave_scene();
+        self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.eye.n_scenes += 1;
         self.workspace.camera = super::workspace::Camera::default();
@@ -239,13 +241,18 @@ impl Workbench {
         for flaw in self.shelf.work(&self.ctx, self.is_stepped) {
             self.transient.notices.give(flaw);
         }
-        query::scene_view(
+        let mut view = query::scene_view(
             &self.document,
             &self.shelf,
             &self.library,
             &self.transient.audition,
             self.transient.reference_db,
-        )
+        );
+        view.marks = Marks {
+            cloth: self.workspace.cloth,
+            hovered: self.transient.hovered,
+        };
+        view
     }
 }
 

@@ -36,7 +36,12 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::SpatialSpectra => Some(Workbench::gather_spatial),
         Pane::Tuning => Some(Workbench::gather_compression),
         Pane::Why => Some(Workbench::gather_why),
-        Pane::Workspace | Pane::Library | Pane::Bridge | Pane::Accuracy | Pane::Compare => None,
+        Pane::Response
+        | Pane::Accuracy
+        | Pane::Compare
+        | Pane::Workspace
+        | Pane::Library
+        | Pane::Bridge => None,
     }
 }
 

@@ -2,6 +2,8 @@
 
 use eframe::egui::{self, Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::Wishes;
+use crate::app::command::{Part, ShowCommand};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{LibraryDot, SceneView};
 use crate::quantity;
@@ -40,11 +42,11 @@ pub(crate) fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
     ]
 }
 
-/// Shows the curve, or what it waits for.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView) {
+/// Shows the curve, or what it waits for; a click on a dot chooses its textile, if it is placed.
+pub(crate) fn show(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Compression curve"));
     let Some(reference_db) = scene.reference_db.filter(|_| !scene.library.is_empty()) else {
         let words = "Levels are being computed: compression is pending";
@@ -62,9 +64,18 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView) {
     plot.paint_curve(ui.painter(), &scene.tuning);
     for dot in &scene.library {
         plot.paint_dot(ui.painter(), dot, &scene.tuning);
+        if scene.is_marked_id(&dot.id) {
+            plot.paint_mark(ui.painter(), dot, &scene.tuning);
+        }
     }
     let pointer = response.hover_pos();
     if let Some(dot) = pointer.and_then(|at| plot.dot_near(at, &scene.library, &scene.tuning)) {
+        if let Some(index) = scene.placed(&dot.id) {
+            wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+            if response.clicked() {
+                wishes.push(ShowCommand::SelectCloth(Some(index)).into());
+            }
+        }
         let out_db = plot.out_db(&scene.tuning, dot.level_db);
         let words = format!(
             "{}\nlevel {} → {}\nmean of both bands at 100 mm/s, re 1 µm, without other gains",
@@ -176,6 +187,13 @@ impl Plot {
         } else {
             painter.circle(at, 2.5, palette.panel, Stroke::new(1.0, palette.line));
         }
+    }
+
+    /// The ring around a textile that is chosen or pointed at.
+    fn paint_mark(&self, painter: &Painter, dot: &LibraryDot, tuning: &Tuning) {
+        let palette = Palette::of(painter.ctx().theme());
+        let at = self.at(dot.level_db, self.out_db(tuning, dot.level_db));
+        painter.circle_stroke(at, 7.0, Stroke::new(1.5, palette.selection));
     }
 
     fn dot_near<'a>(

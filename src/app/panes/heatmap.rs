@@ -12,7 +12,7 @@ use crate::app::command::{Part, ShowCommand};
 use crate::app::sensation::Sensation;
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::{Dot, Live, SceneView};
-use crate::app::widgets::toggle;
+use crate::app::widgets::{amplitude_bar, toggle};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -20,8 +20,6 @@ use crate::tactile::Band;
 pub(super) const TITLE: f32 = 20.0;
 /// Space between cells, points.
 pub(super) const GAP: f32 = 2.0;
-/// Height of a number beside the colour bar, points.
-const BAR_LINE: f32 = 10.0;
 /// Width of the colour bar with its numbers, points.
 const BAR: f32 = 48.0;
 /// Space between the two heatmaps, points.
@@ -127,17 +125,20 @@ pub(crate) fn show(
             paint_cell(&painter, rect, (dot, band), is_grey, style);
         }
     }
-    for band in 0..2 {
-        if style.selected < live.dots.len() {
-            let cell = places.cell(band, style.selected).expand(1.0);
-            let edge = Stroke::new(1.5, palette.selection);
-            painter.rect_stroke(cell, 3, edge, StrokeKind::Inside);
+    let pointed = scene.marks.hovered.contactor.unwrap_or(usize::MAX);
+    for (marked, strength) in [(pointed, 0.6), (style.selected, 1.0)] {
+        if marked < live.dots.len() {
+            let edge = Stroke::new(1.5, palette.selection.gamma_multiply(strength));
+            for band in 0..2 {
+                let cell = places.cell(band, marked).expand(1.0);
+                painter.rect_stroke(cell, 3, edge, StrokeKind::Inside);
+            }
         }
     }
     let right = places.corners[1].x + grid.1 as f32 * places.cell.x + 10.0;
     let height = grid.0 as f32 * places.cell.y - GAP;
     let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
-    paint_bar(&painter, bar, style);
+    amplitude_bar(&painter, bar, style.map, style.scale);
     answer(&response, &places, (scene, live), wishes);
 }
 
@@ -282,6 +283,9 @@ fn answer(
     let Some((index, dot)) = hit.and_then(|(_, i)| live.dots.get(i).map(|dot| (i, dot))) else {
         return;
     };
+    if response.hovered() {
+        wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
+    }
     if response.hovered() && !response.context_menu_opened() {
         let words = words(index, dot, scene, &live.sensation);
         response.clone().on_hover_ui_at_pointer(|ui| {
@@ -328,43 +332,6 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> S
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \
          limits{limited}{muted}\nclick to look closer"
     )
-}
-
-fn paint_bar(painter: &Painter, bar: Rect, style: HeatmapStyle) {
-    let palette = Palette::of(painter.ctx().theme());
-    let colour = |share| style.map.colour(share);
-    crate::app::widgets::colour_bar(painter, bar, colour);
-    let mut taken: Vec<f32> = Vec::new();
-    let mut marks: Vec<f64> = style.scale.marks_um().into_iter().collect();
-    // The ends of the scale are written before what lies between.
-    marks.sort_by(|a, b| b.total_cmp(a));
-    if let Some(least) = marks.pop() {
-        marks.insert(1.min(marks.len()), least);
-    }
-    for amplitude_um in marks {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = style.scale.share(amplitude_um) as f32;
-        let y = bar.bottom() - bar.height() * share;
-        let decimals = if amplitude_um < 0.1 {
-            2
-        } else {
-            usize::from(amplitude_um < 1.0)
-        };
-        let digits = quantity::fixed(amplitude_um, decimals);
-        let tick = Stroke::new(1.0, palette.line);
-        painter.hline(bar.right()..=bar.right() + 3.0, y, tick);
-        let y = y.clamp(bar.top() + 4.0, bar.bottom() - 4.0);
-        if taken.iter().any(|other| (other - y).abs() < BAR_LINE) {
-            continue;
-        }
-        taken.push(y);
-        let at = pos2(bar.right() + 7.0, y);
-        let font = theme::small_number();
-        painter.text(at, Align2::LEFT_CENTER, digits, font, palette.dim);
-    }
-    let unit_at = pos2(bar.left(), bar.top() - 11.0);
-    let font = theme::small();
-    painter.text(unit_at, Align2::LEFT_CENTER, "µm", font, palette.dim);
 }
 
 #[cfg(test)]

@@ -129,7 +129,11 @@ fn show_item(
             format!("Add {}", item.name),
         )
     });
-    if is_usable && (response.hovered() || response.has_focus()) {
+    if let Some(index) = scene.placed(&item.id).filter(|_| response.hovered()) {
+        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+    }
+    let is_lit = response.hovered() || response.has_focus() || scene.is_marked_id(&item.id);
+    if is_usable && is_lit {
         ui.painter().rect_filled(rect, 4, palette.raised);
     }
     paint_focus(ui, &response);
@@ -256,8 +260,8 @@ fn show_placed(
     rows.show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
         for index in range {
             if let Some(cloth) = scene.cloths.get(index) {
-                let is_selected = selected == Some(index);
-                show_cloth(ui, (index, cloth), audition, is_selected, wishes);
+                let marks = [selected == Some(index), scene.is_marked(index)];
+                show_cloth(ui, (index, cloth), audition, marks, wishes);
             }
         }
     });
@@ -267,7 +271,7 @@ fn show_cloth(
     ui: &mut Ui,
     (index, cloth): (usize, &Cloth),
     audition: &Audition,
-    is_selected: bool,
+    [is_selected, is_marked]: [bool; 2],
     wishes: &mut Wishes,
 ) {
     let palette = Palette::in_ui(ui);
@@ -291,9 +295,12 @@ fn show_cloth(
             response.widget_info(|| {
                 WidgetInfo::selected(egui::Role::ListItem, true, is_selected, &name)
             });
+            if response.hovered() {
+                wishes.push(ShowCommand::Hover(part).into());
+            }
             if is_selected {
                 ui.painter().rect_filled(rect, 4, palette.raised);
-            } else if response.hovered() {
+            } else if response.hovered() || is_marked {
                 ui.painter()
                     .rect_filled(rect, 4, palette.raised.gamma_multiply(0.6));
             }

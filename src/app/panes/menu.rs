@@ -10,6 +10,7 @@ use crate::app::command::{Command, DotStyle, FileCommand, Purpose, ShowCommand};
 use crate::app::shortcuts::hint;
 use crate::app::theme::ColourMap;
 use crate::app::view::SceneView;
+use crate::app::workspace::Overlays;
 use crate::quantity;
 
 /// Sizes that are offered, %.
@@ -26,6 +27,8 @@ pub(crate) struct Appearance {
     pub(crate) dots: DotStyle,
     /// Whether what is below the threshold of detection is greyed.
     pub(crate) greys_below: bool,
+    /// What is drawn over the cloth.
+    pub(crate) overlays: Overlays,
     /// The panes with whether each is in sight.
     pub(crate) panes: Vec<(Pane, bool)>,
     /// The scenes that were opened or saved last, newest first.
@@ -113,6 +116,13 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut 
         let command = ShowCommand::ToggleThreshold;
         let label = "Grey below threshold (a model)";
         choice(ui, label, appearance.greys_below, command, wishes);
+        ui.menu_button("Over the cloth", |ui| {
+            for (overlay, label) in Overlays::ALL {
+                let command = ShowCommand::Overlay(overlay);
+                let is_shown = appearance.overlays.shows(overlay);
+                choice(ui, label, is_shown, command, wishes);
+            }
+        });
         ui.separator();
         let calibrate = ShowCommand::Calibrate;
         entry(
@@ -167,7 +177,13 @@ fn entry(ui: &mut Ui, label: &str, command: Command, refusal: Option<&str>, wish
 }
 
 /// A line that is ticked or not; the menu stays open.
-fn choice(ui: &mut Ui, label: &str, is_chosen: bool, command: ShowCommand, wishes: &mut Wishes) {
+pub(crate) fn choice(
+    ui: &mut Ui,
+    label: &str,
+    is_chosen: bool,
+    command: ShowCommand,
+    wishes: &mut Wishes,
+) {
     let key = hint(ui.ctx(), &command.clone().into());
     let mut is_ticked = is_chosen;
     ui.horizontal(|ui| {

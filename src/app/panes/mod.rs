@@ -19,6 +19,7 @@ mod library;
 mod menu;
 mod notices;
 mod question;
+mod response;
 mod spatial;
 mod spectrogram;
 mod transport;
@@ -43,9 +44,12 @@ pub(crate) use heatmap::{
 };
 pub(crate) use help::show as show_help;
 pub(crate) use library::show as show_library;
-pub(crate) use menu::Appearance;
+pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use question::show as show_question;
+pub(crate) use response::{
+    ResponseView, show as show_response, show_corner as show_response_corner,
+};
 pub(crate) use spatial::{
     LEVELS_DB as SPATIAL_LEVELS_DB, SpatialSource, SpatialSpectra, density_db, means_of,
     show as show_spatial, wavenumber_per_mm,

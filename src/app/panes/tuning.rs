@@ -1,6 +1,6 @@
 //! Gains, compression and what it does to the library, and the filters in force.
 
-use eframe::egui::{ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
+use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 
 use super::{Wishes, curve};
 use crate::app::audition::Audition;
@@ -46,7 +46,7 @@ pub(crate) fn show(
     let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
     tip_beside(ui, &response, tip);
     wishes.extend(new.map(|share| Edit::Compression(share).into()));
-    curve::show(ui, scene);
+    curve::show(ui, scene, wishes);
     show_ranges(ui, scene);
     ui.add_space(theme::STEP);
     show_filters(ui, scene.filters, wishes);
@@ -175,7 +175,19 @@ fn show_textile(
     let name = format!("Textile {}", cloth.label);
     let scale = Scale::gain(0.0).with_noticed(noticed);
     let name = name.trim_end();
+    let is_marked = scene.is_marked(index);
+    let ground = ui.painter().add(egui::Shape::Noop);
+    let row = ui
+        .available_rect_before_wrap()
+        .with_max_y(ui.cursor().top() + theme::ROW);
     let (new, response) = slider_row(ui, name, palette.text, scale, cloth.gain_db);
+    if response.hovered() {
+        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+    }
+    if is_marked {
+        let lit = egui::Shape::rect_filled(row.expand2(vec2(6.0, 0.0)), 4, palette.raised);
+        ui.painter().set(ground, lit);
+    }
     tip_beside(
         ui,
         &response,

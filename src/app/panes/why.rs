@@ -52,8 +52,13 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
     );
 }
 
-/// What stands over the chain: freeze and copy.
-pub(crate) fn show_corner(ui: &mut Ui, is_frozen: bool, why: Option<&Why>, wishes: &mut Wishes) {
+/// What stands over the chain: freeze, copy, and the contactors beside.
+pub(crate) fn show_corner(
+    ui: &mut Ui,
+    is_frozen: bool,
+    (why, chosen, n_contactors): (Option<&Why>, Option<usize>, usize),
+    wishes: &mut Wishes,
+) {
     if why.is_none() {
         return;
     }
@@ -63,6 +68,33 @@ pub(crate) fn show_corner(ui: &mut Ui, is_frozen: bool, why: Option<&Why>, wishe
     let tip = "Hold the explanation while everything else goes on";
     if toggle(ui, "freeze", is_frozen, tip) {
         wishes.push(ShowCommand::FreezeWhy.into());
+    }
+    show_neighbours(ui, chosen, n_contactors, wishes);
+}
+
+/// Steps to the contactor before and the one behind, around all of them.
+fn show_neighbours(
+    ui: &mut Ui,
+    contactor: Option<usize>,
+    n_contactors: usize,
+    wishes: &mut Wishes,
+) {
+    let Some(contactor) = contactor.filter(|contactor| *contactor < n_contactors) else {
+        return;
+    };
+    let steps = [
+        ("›", 1, "Choose the next contactor, in every view"),
+        (
+            "‹",
+            n_contactors - 1,
+            "Choose the contactor before, in every view",
+        ),
+    ];
+    for (sign, step, tip) in steps {
+        if toggle(ui, sign, false, tip) {
+            let next = (contactor + step) % n_contactors;
+            wishes.push(ShowCommand::SelectContactor(next).into());
+        }
     }
 }
 

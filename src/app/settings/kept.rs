@@ -8,6 +8,7 @@ use crate::app::amplitude::AmplitudeScale;
 use crate::app::command::DotStyle;
 use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
+use crate::app::workspace::Overlays;
 
 /// Most scenes that are remembered.
 const MAX_RECENT: usize = 10;
@@ -31,6 +32,8 @@ pub(crate) struct Kept {
     pub(crate) zoom: f32,
     /// How contactors are drawn.
     pub(crate) dots: DotStyle,
+    /// What is drawn over the cloth.
+    pub(crate) overlays: Overlays,
     /// Whether heatmaps show numbers.
     pub(crate) has_numbers: bool,
     /// Whether what is below the threshold of detection is greyed.
@@ -56,6 +59,7 @@ impl Default for Kept {
             colour_map: ColourMap::default(),
             zoom: ZOOM[0],
             dots: DotStyle::default(),
+            overlays: Overlays::default(),
             has_numbers: false,
             greys_below: true,
             amplitude: AmplitudeScale::default(),

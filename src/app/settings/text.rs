@@ -13,6 +13,7 @@ use super::kept::Kept;
 use crate::app::command::DotStyle;
 use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
+use crate::app::workspace::Overlays;
 use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
 use crate::render::array::Method;
 
@@ -35,6 +36,7 @@ struct Keys {
     zoom_percent: Value<f32>,
     colour_map: Value<String>,
     dots: Value<String>,
+    overlays: Value<Vec<String>>,
     numbers: Value<bool>,
     grey_below_threshold: Value<bool>,
     amplitude_top_um: Value<f64>,
@@ -108,6 +110,11 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             odd.push(key);
         }
     }
+    let overlays = taken("overlays", keys.overlays, odd);
+    let overlays = overlays.map_or(Some(first.overlays), |words| Overlays::from_words(&words));
+    if overlays.is_none() {
+        odd.push("overlays");
+    }
     let zoom_percent = taken("zoom_percent", keys.zoom_percent, odd);
     let top_um = taken("amplitude_top_um", keys.amplitude_top_um, odd);
     let is_locked = taken("amplitude_locked", keys.amplitude_locked, odd);
@@ -119,6 +126,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         colour_map: map.ok().flatten().unwrap_or(first.colour_map),
         zoom: zoom_percent.map_or(first.zoom, |percent| percent / 100.0),
         dots: dots.ok().flatten().unwrap_or(first.dots),
+        overlays: overlays.unwrap_or(first.overlays),
         has_numbers: taken("numbers", keys.numbers, odd).unwrap_or(first.has_numbers),
         greys_below: taken("grey_below_threshold", keys.grey_below_threshold, odd)
             .unwrap_or(first.greys_below),
@@ -177,6 +185,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         zoom_percent: Value::Known((kept.zoom * 100.0).round()),
         colour_map: word(&kept.colour_map, &colour_maps()).into(),
         dots: word(&kept.dots, &DOTS).into(),
+        overlays: Value::Known(kept.overlays.words()),
         numbers: Value::Known(kept.has_numbers),
         grey_below_threshold: Value::Known(kept.greys_below),
         amplitude_top_um: Value::Known(kept.amplitude.most_um()),
@@ -195,6 +204,8 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
 mod tests {
     use super::*;
     use crate::app::amplitude::AmplitudeScale;
+    use crate::app::workspace::Overlay;
+    use crate::tactile::Band;
 
     fn path() -> &'static Path {
         Path::new("settings.toml")
@@ -207,6 +218,9 @@ mod tests {
             colour_map: ColourMap::Cividis,
             zoom: 1.5,
             dots: DotStyle::Brightness,
+            overlays: Overlays::default()
+                .toggled(Overlay::Motion)
+                .toggled(Overlay::Map(Band::High)),
             has_numbers: true,
             greys_below: false,
             amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
@@ -243,7 +257,8 @@ mod tests {
     #[test]
     fn a_value_that_is_not_understood_spoils_only_itself() {
         let text = "zoom_percent = 150\ntheme = \"sepia\"\nnumbers = 3\nwindow_size = [1400]\n\
-                    rendering_method = \"magic\"\nerror_budget_db = \"none\"\n";
+                    rendering_method = \"magic\"\nerror_budget_db = \"none\"\n\
+                    overlays = [\"points\", \"ghosts\"]\n";
         let (kept, odd) = read(text, path()).unwrap();
         assert_eq!((kept.zoom, odd), (1.5, Some(2)));
         let others = Kept { zoom: 1.0, ..kept };

@@ -7,14 +7,16 @@ mod axis;
 mod bar;
 mod card;
 mod polyline;
+mod scale;
 mod slider;
 mod text;
 
 pub(crate) use axis::{
     Axis, Side, Tick, paint_label, paint_outer_ticks, paint_ticks, paint_unit, round_step,
 };
-pub(crate) use bar::colour_bar;
+pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use polyline::corners;
-pub(crate) use slider::{Curve, Scale, slider_row, tip_beside};
+pub(crate) use scale::{Curve, Scale};
+pub(crate) use slider::{asked_value, declare, key_steps, slider_row, tip_beside};
 pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};

@@ -8,6 +8,7 @@ use eframe::egui::{
     Ui, WidgetInfo, WidgetText, accesskit, pos2, vec2,
 };
 
+use super::Scale;
 use crate::app::theme::{self, Palette, ROW};
 use crate::quantity;
 
@@ -21,138 +22,6 @@ const SNAP: f32 = 4.0;
 const MOST_MARKS: u8 = 8;
 /// How much finer Shift moves.
 const FINE: f64 = 0.1;
-
-/// The share of a rail over decades that is kept for zero.
-const ZERO_SHARE: f64 = 0.08;
-/// Steps of the arrow keys in a decade.
-const STEPS_A_DECADE: f64 = 20.0;
-
-/// How a slider's values lie along its rail.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Curve {
-    /// Evenly.
-    Even,
-    /// Evenly over so many decades below the highest value, with zero at the lower end.
-    Decades(f64),
-}
-
-/// What a slider measures.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Scale {
-    /// Lowest value.
-    pub(crate) least: f64,
-    /// Highest value.
-    pub(crate) most: f64,
-    /// The value that a double click goes back to.
-    pub(crate) resting: f64,
-    /// One step of the arrow keys; values from the rail are multiples of it.
-    pub(crate) step: f64,
-    /// Digits after the point.
-    pub(crate) decimals: usize,
-    /// The unit.
-    pub(crate) unit: &'static str,
-    /// Shown values are stored values times this (100 for %).
-    pub(crate) factor: f64,
-    /// The change that is just noticed, if it is known: marked while the slider is held or hovered.
-    pub(crate) noticed: Option<f64>,
-    /// How values lie along the rail.
-    pub(crate) curve: Curve,
-}
-
-impl Scale {
-    /// Gains from −30 to +30 dB.
-    pub(crate) fn gain(resting: f64) -> Self {
-        let (least, most) = (-30.0, 30.0);
-        Self {
-            least,
-            most,
-            resting,
-            step: 0.1,
-            decimals: 1,
-            unit: "dB",
-            factor: 1.0,
-            noticed: None,
-            curve: Curve::Even,
-        }
-    }
-
-    /// The same with the change that is just noticed.
-    pub(crate) fn with_noticed(self, noticed: Option<f64>) -> Self {
-        Self { noticed, ..self }
-    }
-
-    /// Shares from 0 to 100 %.
-    pub(crate) fn share(resting: f64) -> Self {
-        Self {
-            least: 0.0,
-            most: 1.0,
-            resting,
-            step: 0.01,
-            decimals: 0,
-            unit: "%",
-            factor: 100.0,
-            noticed: None,
-            curve: Curve::Even,
-        }
-    }
-
-    /// A value from the rail, rounded as befits it.
-    fn stepped(&self, value: f64) -> f64 {
-        if let Curve::Decades(_) = self.curve {
-            return two_digits(value).clamp(self.least, self.most);
-        }
-        let whole = (value / self.step).round();
-        // Dividing by the reciprocal keeps tenths as short in files as on the screen.
-        (whole / (1.0 / self.step).round()).clamp(self.least, self.most)
-    }
-
-    /// The value so many steps of the arrow keys away.
-    fn moved(&self, value: f64, steps: f64) -> f64 {
-        let Curve::Decades(decades) = self.curve else {
-            return (value + steps * self.step).clamp(self.least, self.most);
-        };
-        let lowest = self.most * 10.0_f64.powf(-decades);
-        let factor = 10.0_f64.powf(steps / STEPS_A_DECADE);
-        match value * factor {
-            _ if value <= 0.0 && steps > 0.0 => lowest,
-            next if next < lowest * 0.999 => 0.0,
-            next => next.min(self.most),
-        }
-    }
-
-    fn share_of(&self, value: f64) -> f64 {
-        if let Curve::Decades(decades) = self.curve {
-            if value <= 0.0 {
-                return 0.0;
-            }
-            let share = 1.0 + (value / self.most).log10() / decades;
-            return ZERO_SHARE + (1.0 - ZERO_SHARE) * share.clamp(0.0, 1.0);
-        }
-        ((value - self.least) / (self.most - self.least)).clamp(0.0, 1.0)
-    }
-
-    fn value_at(&self, share: f64) -> f64 {
-        if let Curve::Decades(decades) = self.curve {
-            let above = (share.clamp(0.0, 1.0) - ZERO_SHARE) / (1.0 - ZERO_SHARE);
-            return if share < 0.5 * ZERO_SHARE {
-                0.0
-            } else {
-                self.most * 10.0_f64.powf(decades * (above.max(0.0) - 1.0))
-            };
-        }
-        self.least + share.clamp(0.0, 1.0) * (self.most - self.least)
-    }
-
-    /// Reads what was typed: digits with a comma or a point, any minus, the unit or none.
-    fn parsed(&self, text: &str) -> Option<f64> {
-        let bare = text.trim().trim_end_matches(self.unit).trim();
-        let plain = bare.replace('−', "-").replace(',', ".");
-        let value = plain.parse::<f64>().ok()? / self.factor;
-        value
-            .is_finite()
-            .then(|| value.clamp(self.least, self.most))
-    }
-}
 
 /// Shows the slider; says the new value when the user changed it.
 pub(crate) fn slider_row(
@@ -236,7 +105,8 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
     asked_value(ui, response.id).map(|asked| (asked / scale.factor).clamp(scale.least, scale.most))
 }
 
-fn key_steps(ui: &Ui, response: &Response) -> i32 {
+/// Steps asked for by the arrow keys and by assistive tools: up less down.
+pub(crate) fn key_steps(ui: &Ui, response: &Response) -> i32 {
     let requests =
         |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action));
     let mut ups = requests(accesskit::Action::Increment);
@@ -254,7 +124,8 @@ fn key_steps(ui: &Ui, response: &Response) -> i32 {
     count(ups) - count(downs)
 }
 
-fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
+/// The number that an assistive tool asks for.
+pub(crate) fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|input| {
         let requests = input.accesskit_action_requests(id, accesskit::Action::SetValue);
         requests
@@ -304,7 +175,9 @@ fn paint_marks(ui: &Ui, rail: Rect, scale: &Scale, marks: &[f64]) {
     }
 }
 
-fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
+/// Tells assistive tools what numbers a widget takes, and where a gesture began with what is just
+/// noticed.
+pub(crate) fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
     let noticed = |change: f64| {
         let change = quantity::with_unit(change * scale.factor, scale.decimals, scale.unit);
         format!("Just noticeable difference {change}, by a model")
@@ -327,12 +200,6 @@ fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
         node.add_action(accesskit::Action::Increment);
         node.add_action(accesskit::Action::Decrement);
     });
-}
-
-/// A positive number rounded to two digits; 0 stays.
-fn two_digits(value: f64) -> f64 {
-    // What is printed and read again is as short in files as on the screen.
-    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// Where the middle of the thumb may go.
@@ -420,6 +287,7 @@ fn number_field(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::widgets::Curve;
 
     #[test]
     fn typed_values_are_read_with_any_minus_comma_and_unit() {

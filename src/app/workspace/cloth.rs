@@ -1,6 +1,8 @@
 //! Textiles drawn as cloth: their own picture, tiled from their origin and turned with them.
 
-use eframe::egui::{Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use eframe::egui::{
+    Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, TextureId, pos2, vec2,
+};
 use eframe::epaint::Vertex;
 use eframe::epaint::text::{LayoutJob, TextWrapping};
 
@@ -56,10 +58,17 @@ pub(super) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_l
             ));
         }
     }
-    if is_lifted {
-        paint_outline(painter, corners, Stroke::new(1.5, palette.selection));
-    } else if cloth.is_muted {
+    if cloth.is_muted && !is_lifted {
         paint_outline(painter, corners, Stroke::new(1.0, palette.hairline));
+    }
+}
+
+/// Draws the line around the textile that is felt, over whatever lies on it.
+pub(super) fn paint_lifted(painter: &Painter, view: &ViewTransform, cloth: &Cloth) {
+    if is_in_sight(painter, screen_bounds(view, cloth).expand(SHADOW)) {
+        let palette = Palette::of(painter.ctx().theme());
+        let edge = Stroke::new(1.5, palette.selection);
+        paint_outline(painter, screen_corners(view, cloth), edge);
     }
 }
 
@@ -131,36 +140,45 @@ fn lower_left(corners: &[Pos2; 4]) -> Pos2 {
 }
 
 fn textured(corners: [Pos2; 4], size_mm: [f64; 2], picture: ClothPicture, tint: Color32) -> Mesh {
-    let [n_across, n_up] = tiles(size_mm, picture);
+    let [width, height] = size_mm.map(narrow);
+    let n_across = width / picture.tile_mm.x.max(1e-3);
+    let n_up = height / picture.tile_mm.y.max(1e-3);
     // Row 0 of a picture is its top, and the textile's origin is at the picture's lower left.
+    let uv = Rect {
+        min: pos2(0.0, 1.0),
+        max: pos2(n_across, 1.0 - n_up),
+    };
+    tiled(corners, uv, picture.texture, tint)
+}
+
+/// A quad from the textile's origin along its warp and its weft, with a texture from `uv.min` at
+/// the origin to `uv.max` at the far corner.
+pub(super) fn tiled(corners: [Pos2; 4], uv: Rect, texture_id: TextureId, tint: Color32) -> Mesh {
     let places = [
-        [0.0, 1.0],
-        [n_across, 1.0],
-        [n_across, 1.0 - n_up],
-        [0.0, 1.0 - n_up],
+        uv.min,
+        pos2(uv.max.x, uv.min.y),
+        uv.max,
+        pos2(uv.min.x, uv.max.y),
     ];
-    let vertex = |(pos, [u, v]): (Pos2, [f32; 2])| Vertex {
+    let vertex = |(pos, uv): (Pos2, Pos2)| Vertex {
         pos,
-        uv: pos2(u, v),
+        uv,
         color: tint,
     };
-    let vertices = corners.into_iter().zip(places).map(vertex).collect();
     Mesh {
         indices: vec![0, 1, 2, 0, 2, 3],
-        vertices,
-        texture_id: picture.texture,
+        vertices: corners.into_iter().zip(places).map(vertex).collect(),
+        texture_id,
     }
 }
 
+/// A number as the screen draws it.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the screen is drawn in single precision"
 )]
-fn tiles(size_mm: [f64; 2], picture: ClothPicture) -> [f32; 2] {
-    [
-        size_mm[0] as f32 / picture.tile_mm.x.max(1e-3),
-        size_mm[1] as f32 / picture.tile_mm.y.max(1e-3),
-    ]
+pub(super) fn narrow(value: f64) -> f32 {
+    value as f32
 }
 
 /// Draws what the workspace says when no textile is placed.
@@ -177,8 +195,6 @@ pub(super) fn paint_empty(painter: &Painter, ground: Rect) {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::TextureId;
-
     use super::*;
 
     #[test]

@@ -26,8 +26,14 @@ const HALF_PITCH_MM: f64 = 1.0;
 /// Dots are drawn as if a millimetre were at least this long, points.
 const LEAST_SCALE: f32 = 2.4;
 
-/// Draws every contactor that is in sight.
-pub(super) fn paint(painter: &Painter, view: &ViewTransform, live: &Live, state: &WorkspaceState) {
+/// Draws every contactor that is in sight, with rings around the chosen one and the one that is
+/// pointed at in some view.
+pub(super) fn paint(
+    painter: &Painter,
+    view: &ViewTransform,
+    live: &Live,
+    (state, pointed): (&WorkspaceState, Option<usize>),
+) {
     let dots = &live.dots;
     let brush = Brush {
         painter,
@@ -46,6 +52,9 @@ pub(super) fn paint(painter: &Painter, view: &ViewTransform, live: &Live, state:
     }
     for dot in dots.iter().filter(in_sight) {
         brush.dot(view.screen(dot.position), dot);
+    }
+    if let Some(dot) = pointed.and_then(|index| dots.get(index)) {
+        brush.pointed(view.screen(dot.position));
     }
     if let Some(dot) = state.contactor.and_then(|index| dots.get(index)) {
         brush.selection(view.screen(dot.position));
@@ -182,6 +191,15 @@ impl Brush<'_> {
                 disc(0.72 * self.points_per_mm, ink, is_below == [true; 2]);
             }
         }
+    }
+
+    /// A thin ring, for as long as the pointer rests on it somewhere.
+    fn pointed(&self, at: Pos2) {
+        let radius = 1.05 * self.points_per_mm + 1.5;
+        let rim = Stroke::new(2.5, self.palette.tag);
+        self.painter.circle_stroke(at, radius, rim);
+        let ring = Stroke::new(1.0, self.palette.selection.gamma_multiply(0.7));
+        self.painter.circle_stroke(at, radius, ring);
     }
 
     fn selection(&self, at: Pos2) {

@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use super::{Stage, Trail, ViewTransform, display, paint_cloths, paint_display, tips};
-use crate::app::command::ShowCommand;
+use crate::app::command::{Part, ShowCommand};
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette};
 use crate::app::view::{Live, SceneView};
@@ -93,6 +93,15 @@ pub(super) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, trail: &Trail, wish
     );
 }
 
+/// The part of the lens's column below its readings; `None` where little is left.
+pub(super) fn room_below(column: Rect) -> Option<Rect> {
+    let taken = MARGIN + 14.0 + COLUMN - 2.0 * MARGIN + 20.0 + 24.0 + 4.0 * LINE;
+    let room = column
+        .with_min_y(column.top() + taken)
+        .shrink2(vec2(MARGIN, 0.0));
+    (room.height() >= 120.0).then_some(room)
+}
+
 /// Tells of the contactor under the pointer, and chooses the one that is clicked.
 fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, wishes: &mut Wishes) {
     let at = response.hover_pos();
@@ -100,6 +109,7 @@ fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, wishes: 
         return;
     };
     response.ctx.set_cursor_icon(CursorIcon::PointingHand);
+    wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
     if response.clicked() {
         wishes.push(ShowCommand::SelectContactor(index).into());
     }

@@ -15,6 +15,7 @@ mod drop;
 mod lens;
 mod menu;
 mod navigate;
+mod overlay;
 mod ruler;
 mod state;
 mod tips;
@@ -24,6 +25,7 @@ mod transform;
 
 pub(crate) use camera::Camera;
 pub(crate) use drop::LibraryItem;
+pub(crate) use overlay::{Lattice, Layers, Overlay, Overlays};
 pub(crate) use state::{Place, WorkspaceState};
 pub(crate) use tools::show as show_tools;
 pub(crate) use trail::Trail;
@@ -34,7 +36,7 @@ use eframe::egui::{
     WidgetInfo, vec2,
 };
 
-use super::command::Tool;
+use super::command::{Part, ShowCommand, Tool};
 use super::panes::Wishes;
 use super::theme::{self, Palette};
 use super::view::{Live, SceneView};
@@ -56,6 +58,7 @@ struct Stage<'a> {
     scene: &'a SceneView,
     live: &'a Live,
     state: &'a WorkspaceState,
+    layers: Layers<'a>,
     /// The part of the screen where mm are.
     ground: Rect,
     view: ViewTransform,
@@ -81,7 +84,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
     live: &Live,
-    trail: &Trail,
+    (trail, layers): (&Trail, Layers<'_>),
     state: &WorkspaceState,
     wishes: &mut Wishes,
 ) -> Shown {
@@ -102,6 +105,7 @@ pub(crate) fn show(
         scene,
         live,
         state,
+        layers,
         ground,
         view: state.camera.view(ground, scene.size_mm),
         response,
@@ -112,6 +116,10 @@ pub(crate) fn show(
     let feels = handle(ui, &stage, tag, wishes);
     if let Some(lens) = lens {
         lens::show(ui, lens, &stage, trail, wishes);
+    }
+    if let Some(band) = state.overlays.map() {
+        let beside = lens.and_then(lens::room_below);
+        overlay::paint_legend(ui.painter(), &stage, (beside, band));
     }
     if live.is_stopped {
         paint_all_off(&ui.painter_at(ground), ground);
@@ -143,6 +151,7 @@ fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, wishes: &mut Wishe
     drop::take(ui, stage, wishes);
     menu::show(ui, stage, wishes);
     tips::tell(ui, stage, tag);
+    say_hovered(stage, wishes);
     let is_busy = Popup::is_any_open(ui.ctx()) || DragAndDrop::has_any_payload(ui.ctx());
     stage.state.tool == Tool::Explore && !(is_panning || is_busy)
 }
@@ -156,6 +165,7 @@ fn paint(ui: &Ui, stage: &Stage<'_>, trail: &Trail) -> Option<usize> {
     if stage.scene.cloths.is_empty() {
         cloth::paint_empty(&painter, stage.ground);
     }
+    paint_marked(&painter, stage);
     paint_display(&painter, &stage.view, stage, trail);
     tag
 }
@@ -165,6 +175,10 @@ fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
     let lifted = lifted(stage);
     for (index, cloth) in stage.scene.cloths.iter().enumerate() {
         cloth::paint(painter, view, cloth, lifted == Some(index));
+        overlay::paint_on_cloth(painter, view, stage, (index, cloth));
+        if lifted == Some(index) {
+            cloth::paint_lifted(painter, view, cloth);
+        }
     }
 }
 
@@ -180,7 +194,38 @@ fn lifted(stage: &Stage<'_>) -> Option<usize> {
 fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, trail: &Trail) {
     display::paint_trail(painter, view, trail.aged());
     if stage.live.centre.is_some() {
-        display::paint(painter, view, stage.live, stage.state);
+        let pointed = stage.scene.marks.hovered.contactor;
+        overlay::paint_velocities(painter, view, stage);
+        display::paint(painter, view, stage.live, (stage.state, pointed));
+        overlay::paint_readings(painter, view, stage);
+    }
+}
+
+/// Marks the textile that the pointer rests on in another view.
+fn paint_marked(painter: &Painter, stage: &Stage<'_>) {
+    let hovered = stage.scene.marks.hovered.cloth;
+    let elsewhere = hovered.filter(|_| stage.response.hover_pos().is_none());
+    if let Some(cloth) = elsewhere.and_then(|index| stage.scene.cloths.get(index)) {
+        let palette = Palette::of(painter.ctx().theme());
+        let corners = arrange::screen_corners(&stage.view, cloth);
+        let edge = Stroke::new(1.5, palette.selection.gamma_multiply(0.7));
+        cloth::paint_outline(painter, corners, edge);
+    }
+}
+
+/// Says what the pointer rests on.
+fn say_hovered(stage: &Stage<'_>, wishes: &mut Wishes) {
+    let Some(at) = stage.response.hover_pos() else {
+        return;
+    };
+    let place = stage.view.workspace(at);
+    if let Some(index) = arrange::topmost(&stage.scene.cloths, place) {
+        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+    }
+    if stage.arranges()
+        && let Some(index) = drag::dot_at(stage, at)
+    {
+        wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
     }
 }
 
@@ -189,7 +234,7 @@ fn paint_tags(painter: &Painter, stage: &Stage<'_>) -> Option<usize> {
     let pointer = stage.response.hover_pos();
     let mut hovered = None;
     for (index, cloth) in stage.scene.cloths.iter().enumerate() {
-        let is_lit = lifted == Some(index) || stage.state.cloth == Some(index);
+        let is_lit = lifted == Some(index) || stage.scene.is_marked(index);
         let tag = cloth::paint_tag(painter, &stage.view, cloth, is_lit);
         if let (Some(tag), Some(at)) = (tag, pointer)
             && tag.contains(at)

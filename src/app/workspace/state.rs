@@ -2,9 +2,10 @@
 
 use eframe::egui::Rect;
 
-use super::{Camera, ViewTransform};
+use super::{Camera, Overlays, ViewTransform};
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::command::{DotStyle, Look, ShowCommand, Tool};
+use crate::app::probe::Probe;
 
 /// How the workspace is looked at and what is chosen in it. Never undoable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,6 +24,10 @@ pub(crate) struct WorkspaceState {
     pub(crate) dot_style: DotStyle,
     /// Whether what is below the threshold of detection is greyed.
     pub(crate) greys_below: bool,
+    /// What is drawn over the cloth.
+    pub(crate) overlays: Overlays,
+    /// The velocity at which textiles are asked what they would give.
+    pub(crate) probe: Probe,
     /// Whether the screen is being calibrated to true size.
     pub(crate) is_calibrating: bool,
     /// Physical pixels per millimetre of the screen, once it is calibrated.
@@ -50,6 +55,8 @@ impl WorkspaceState {
             ShowCommand::SelectCloth(index) => self.cloth = index,
             ShowCommand::DotStyle(style) => self.dot_style = style,
             ShowCommand::ToggleThreshold => self.greys_below = !self.greys_below,
+            ShowCommand::Overlay(overlay) => self.overlays = self.overlays.toggled(overlay),
+            ShowCommand::Probe(probe) => self.probe = probe,
             ShowCommand::LockScale(is_locked) => self.scale = self.scale.with_lock(is_locked),
             ShowCommand::ScaleTop(most_um) => self.scale = self.scale.locked_at(most_um),
             ShowCommand::Calibrate => self.is_calibrating = true,

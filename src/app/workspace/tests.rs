@@ -7,6 +7,8 @@ use eframe::egui::{
 
 use super::*;
 use crate::app::command::{Command, Edit, Look, PlayCommand, ShowCommand};
+use crate::app::maps::Maps;
+use crate::app::theme::ColourMap;
 use crate::app::view::{Cloth, Dot};
 use crate::geometry::{Frame, Rotation};
 use crate::tactile::{Filters, Tuning};
@@ -41,6 +43,7 @@ impl Window {
             library: Vec::new(),
             undo: None,
             redo: None,
+            marks: crate::app::view::Marks::default(),
         };
         let ctx = Context::default();
         theme::install(&ctx);
@@ -73,18 +76,22 @@ impl Window {
         };
         let mut wishes = Wishes::new();
         let mut shown = None;
+        let (maps, lattice) = (Maps::default(), Lattice::default());
+        let layers = layers(&maps, &lattice);
         let mut output = self.ctx.run_ui(input, |ui| {
             wishes.clear();
             shown = Some(show(
                 ui,
                 &self.scene,
                 &self.live,
-                &Trail::default(),
+                (&Trail::default(), layers),
                 &self.state,
                 &mut wishes,
             ));
         });
         output.textures_delta.clear();
+        let is_hover = |c: &Command| matches!(c, Command::Show(ShowCommand::Hover(_)));
+        wishes.retain(|command| !is_hover(command));
         (wishes, shown.unwrap())
     }
 
@@ -135,6 +142,15 @@ impl Window {
             modifiers: self.modifiers,
         };
         self.run(vec![wheel]).0
+    }
+}
+
+fn layers<'a>(maps: &'a Maps, lattice: &'a Lattice) -> Layers<'a> {
+    Layers {
+        readings: &[],
+        maps,
+        lattice,
+        colours: ColourMap::Viridis,
     }
 }
 
@@ -366,12 +382,14 @@ fn nothing_to_show_is_shown_without_harm() {
         ..RawInput::default()
     };
     let (scene, state, live) = (&window.scene, &window.state, &window.live);
+    let (maps, lattice) = (Maps::default(), Lattice::default());
+    let layers = layers(&maps, &lattice);
     let mut output = window.ctx.run_ui(tiny, |ui| {
         show(
             ui,
             scene,
             live,
-            &Trail::default(),
+            (&Trail::default(), layers),
             state,
             &mut Wishes::new(),
         );

@@ -4,7 +4,7 @@
 
 use eframe::egui::{Label, Pos2, Response, Ui};
 
-use super::{Stage, arrange, drag};
+use super::{Stage, arrange, drag, overlay};
 use crate::app::sensation::Sensation;
 use crate::app::view::{Cloth, Dot, SceneView};
 use crate::quantity;
@@ -27,8 +27,10 @@ pub(super) fn tell(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
         && let Some(cloth) = stage.scene.cloths.get(index)
     {
         let response = stage.response.clone();
+        let place = stage.view.workspace(at);
+        let map = overlay::words_at(stage, index, cloth, place);
         response.on_hover_ui_at_pointer(|ui| {
-            ui.add(Label::new(of_cloth(cloth)).extend());
+            ui.add(Label::new(of_cloth(cloth) + &map).extend());
         });
     }
 }
@@ -143,6 +145,7 @@ mod tests {
             library: Vec::new(),
             undo: None,
             redo: None,
+            marks: crate::app::view::Marks::default(),
         }
     }
 }

@@ -6,7 +6,7 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use super::{Stage, ViewTransform, WorkspaceState, arrange};
+use super::{Stage, ViewTransform, WorkspaceState, arrange, overlay};
 use crate::app::command::{Command, Edit, Look, ShowCommand, Tool};
 use crate::app::panes::Wishes;
 use crate::app::shortcuts;
@@ -18,7 +18,7 @@ const PADDING: f32 = STEP;
 /// Space between a strip and the edge of the ground, points.
 const AWAY: f32 = 2.0 * STEP;
 /// Height of the buttons in the row of tabs, points.
-const BUTTON: f32 = 18.0;
+pub(super) const BUTTON: f32 = 18.0;
 /// Width of the buttons Fit and 1:1, points.
 const SMALL_BUTTON: f32 = 32.0;
 /// Size of the strip beside the chosen textile, points.
@@ -55,6 +55,8 @@ pub(crate) fn show(
             wishes.push(command);
         }
     }
+    ui.add_space(2.0 * STEP);
+    overlay::show_menu(ui, state, view.points_per_mm(), wishes);
 }
 
 /// Shows the magnification, from right to left.

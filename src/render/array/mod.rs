@@ -13,13 +13,17 @@ mod banded;
 mod drive;
 mod frame;
 mod method;
+mod reading;
 mod reference;
+mod response;
 mod table;
 mod trace;
 
 pub use drive::DriveSynth;
 pub use frame::DisplayFrame;
 pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
+pub use reading::{ContactorReading, Reading};
+pub use response::{PointSpread, TextileResponse, VelocityMap};
 pub use table::TableCache;
 pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 

@@ -5,6 +5,7 @@
 
 use serde::Serialize;
 
+use super::reading::Reading;
 use super::reference::{amplitudes_of, bin_frequency_hz};
 use crate::geometry::Point;
 use crate::render::RenderScene;
@@ -19,10 +20,10 @@ use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 /// Explains the contactors of a scene: prepared once, asked as often as one likes.
 #[derive(Debug, Clone)]
 pub struct ContactInspector {
-    plan: ScenePlan,
-    displays: Vec<DisplayPlan>,
-    gains: Gains,
-    filters: Filters,
+    pub(super) plan: ScenePlan,
+    pub(super) displays: Vec<DisplayPlan>,
+    pub(super) gains: Gains,
+    pub(super) filters: Filters,
 }
 
 /// One bin of the vibration that arrives at a contactor: surface heights, before filters and gains.
@@ -210,7 +211,8 @@ fn touch_of(
     (gains, filters): (&Gains, &Filters),
 ) -> Touch {
     let textile = &plan.textiles[contacts.textile];
-    let place_mm = Axis::BOTH.map(|axis| contacts.places_mm[axis as usize][contactor]);
+    let reading = Reading::of(plan, contacts, contactor);
+    let place_mm = reading.place_mm;
     let directions = Axis::BOTH.map(|axis| match contacts.component(axis, contactor) {
         Component::Felt {
             speed_mm_per_s,
@@ -225,11 +227,8 @@ fn touch_of(
     Touch {
         textile: contacts.textile,
         place_mm,
-        velocity_mm_per_s: contacts.velocity_mm_per_s(contactor),
-        points: Direction::ALL.map(|direction| {
-            let along = Axis::BOTH[direction.index() / 2];
-            textile.points[direction.index()].nearest(place_mm[along as usize])
-        }),
+        velocity_mm_per_s: reading.velocity_mm_per_s,
+        points: reading.points,
         directions,
         gains: Band::ALL.map(|band| gains.terms(contacts.textile, band)),
     }

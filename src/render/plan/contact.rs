@@ -12,7 +12,7 @@ const EDGE_MM: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(in crate::render) struct TextilePlan {
     origin: Point,
-    pub(super) textile_from_workspace: Rotation,
+    pub(in crate::render) textile_from_workspace: Rotation,
     size_mm: [f64; 2],
     /// The spectra of each direction in the pool.
     pub(in crate::render) spectra: [usize; 4],

@@ -30,10 +30,17 @@ impl PointIndex {
     )]
     #[inline]
     pub(in crate::render) fn nearest(self, place_mm: f64) -> usize {
-        let whole = whole_part(place_mm + 0.5 + BORDER_MM);
+        let whole = nearest_mm(place_mm);
         let fraction = self.reciprocal.wrapping_mul(u64::from(whole));
         ((u128::from(fraction) * u128::from(self.n_points)) >> 64) as usize
     }
+}
+
+/// The whole millimetre nearest to a place in mm, at or right of −½: where the point that it reads
+/// lies on the cloth.
+#[inline]
+pub(in crate::render) fn nearest_mm(place_mm: f64) -> u32 {
+    whole_part(place_mm + 0.5 + BORDER_MM)
 }
 
 /// `⌊x⌋` for 0 ≤ x < 2³²; some number beyond. A library's floor, and a cast that saturates, each

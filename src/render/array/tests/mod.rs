@@ -9,6 +9,7 @@ mod extremes;
 mod invariances;
 mod naive;
 mod places;
+mod response;
 mod rules;
 
 use super::*;

@@ -3,6 +3,10 @@
 //! Menus, shortcuts, buttons, sliders and tests all say what they want with a [`Command`];
 //! `dispatch.rs` is the one place that does it. Panes never change anything themselves.
 
+mod edit;
+
+pub(crate) use edit::{Edit, Target};
+
 use std::path::PathBuf;
 
 use eframe::egui;
@@ -11,9 +15,11 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::probe::Probe;
 use super::theme::ColourMap;
+use super::workspace::Overlay;
 use crate::geometry::Point;
-use crate::tactile::{Band, Filters};
+use crate::tactile::Band;
 
 /// Something that the user wants.
 #[derive(Debug, Clone, PartialEq)]
@@ -238,6 +244,13 @@ pub(crate) enum ShowCommand {
     ScaleTop(f64),
     /// What the contactors' dots show by what.
     DotStyle(DotStyle),
+    /// Draw this over the cloth, or no longer.
+    Overlay(Overlay),
+    /// Ask what textiles would give at this velocity.
+    Probe(Probe),
+    /// The pointer rests on this: every view marks it. Said with every frame, and done without a
+    /// dispatch, so that nothing is drawn anew while the pointer stays.
+    Hover(Part),
     /// Begin to calibrate the screen to true size.
     Calibrate,
     /// The screen has this many pixels per millimetre.
@@ -296,108 +309,4 @@ pub(crate) enum Part {
     Cloth(usize),
     /// A contactor.
     Contactor(usize),
-}
-
-/// A change of the scene: undoable, saved.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Edit {
-    /// Gain of everything, dB.
-    MasterGain(f64),
-    /// Gain of a band, dB.
-    BandGain(Band, f64),
-    /// Compression κ, 0…1.
-    Compression(f64),
-    /// Gain of the textile at this place in the scene's list, dB.
-    TextileGain(usize, f64),
-    /// Kind and width of the filters.
-    Filters(Filters),
-    /// Moves the textile at this place: its origin, mm.
-    MoveCloth(usize, Point),
-    /// Turns the textile at this place about its middle to this angle, degrees counter-clockwise.
-    TurnCloth(usize, f64),
-    /// Extent of the textile at this place along warp and weft, mm.
-    ResizeCloth(usize, [f64; 2]),
-    /// Places a textile of the library with its middle here.
-    AddCloth(String, Point),
-    /// Takes the textile at this place away.
-    RemoveCloth(usize),
-    /// Lays the textile at this place on top of the others.
-    RaiseCloth(usize),
-    /// What the scene calls the textile at this place.
-    Label(usize, String),
-}
-
-/// What an edit turns: edits of the same target in one gesture are one step of undo.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Target {
-    /// Gain of everything.
-    MasterGain,
-    /// Gain of a band.
-    BandGain(Band),
-    /// Compression.
-    Compression,
-    /// Gain of the textile at this place.
-    TextileGain(usize),
-    /// The filters.
-    Filters,
-    /// Where a textile lies.
-    Place(usize),
-    /// How a textile is turned.
-    Turn(usize),
-    /// How large a textile is.
-    Size(usize),
-    /// Which textiles there are; such edits are never joined.
-    Add,
-    /// The same.
-    Remove,
-    /// Which textile is on top.
-    Order,
-    /// What a textile is called.
-    Label(usize),
-}
-
-impl Edit {
-    /// What it turns.
-    pub(crate) fn target(&self) -> Target {
-        match *self {
-            Self::MasterGain(_) => Target::MasterGain,
-            Self::BandGain(band, _) => Target::BandGain(band),
-            Self::Compression(_) => Target::Compression,
-            Self::TextileGain(index, _) => Target::TextileGain(index),
-            Self::Filters(_) => Target::Filters,
-            Self::MoveCloth(index, _) => Target::Place(index),
-            Self::TurnCloth(index, _) => Target::Turn(index),
-            Self::ResizeCloth(index, _) => Target::Size(index),
-            Self::AddCloth(..) => Target::Add,
-            Self::RemoveCloth(_) => Target::Remove,
-            Self::RaiseCloth(_) => Target::Order,
-            Self::Label(index, _) => Target::Label(index),
-        }
-    }
-}
-
-impl Target {
-    /// Its name in the undo list.
-    pub(crate) fn label(self) -> &'static str {
-        match self {
-            Self::MasterGain => "master gain",
-            Self::BandGain(Band::Low) => "40 Hz gain",
-            Self::BandGain(Band::High) => "320 Hz gain",
-            Self::Compression => "compression",
-            Self::TextileGain(_) => "textile gain",
-            Self::Filters => "filters",
-            Self::Place(_) => "moved textile",
-            Self::Turn(_) => "turned textile",
-            Self::Size(_) => "resized textile",
-            Self::Add => "added textile",
-            Self::Remove => "removed textile",
-            Self::Order => "raised textile",
-            Self::Label(_) => "label",
-        }
-    }
-
-    /// Whether further edits of the same target may join the step.
-    pub(crate) fn joins(self) -> bool {
-        !matches!(self, Self::Add | Self::Remove | Self::Order)
-    }
 }
