@@ -408,7 +408,8 @@ mod tests {
 
     #[test]
     fn a_new_pane_stands_behind_its_neighbours_wherever_they_were_put() {
-        let mut older = without(&default_tree(SIZES[0]), &[Pane::Response, Pane::Why]);
+        let newer = [Pane::Response, Pane::Why, Pane::Accuracy, Pane::Compare];
+        let mut older = without(&default_tree(SIZES[0]), &newer);
         let spatial = tile_of(&older, Pane::SpatialSpectra).unwrap();
         let wave = tile_of(&older, Pane::DriveWave).unwrap();
         let tabs = older.tiles.parent_of(wave).unwrap();
