@@ -156,7 +156,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let tuning = tabs(tiles, &[Pane::Tuning]);
     let bridge = tabs(tiles, &[Pane::Bridge]);
     let wave = tabs(tiles, &[Pane::DriveWave]);
-    let parts = [(tuning, 0.48), (bridge, 0.325), (wave, 0.195)];
+    let parts = [(tuning, 0.488), (bridge, 0.327), (wave, 0.185)];
     let controls = linear(tiles, LinearDir::Vertical, &parts);
     let parts = [(middle, left), (controls, CONTROLS)];
     linear(tiles, LinearDir::Horizontal, &parts)

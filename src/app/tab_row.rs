@@ -16,6 +16,8 @@ pub(crate) enum TabRow {
     /// Titles, and beside them what belongs to the pane in front.
     #[default]
     Roomy,
+    /// Short titles, and beside them what belongs to the pane in front.
+    Short,
     /// Titles alone.
     Titles,
     /// Short titles alone.
@@ -33,14 +35,22 @@ impl TabRow {
             galley.size().x + 2.0 * TITLE_SPACING
         };
         let needed: f32 = titles.iter().map(|pane| width(pane.title())).sum();
+        let least: f32 = titles.iter().map(|pane| width(pane.short_title())).sum();
         let room = ui.available_width();
         if needed + corner <= room {
             Self::Roomy
+        } else if least + corner <= room {
+            Self::Short
         } else if needed <= room {
             Self::Titles
         } else {
             Self::ShortTitles
         }
+    }
+
+    /// Whether what belongs to the pane in front stands beside the titles.
+    pub(crate) fn has_corner(self) -> bool {
+        matches!(self, Self::Roomy | Self::Short)
     }
 }
 

@@ -18,7 +18,7 @@ impl Behavior<Pane> for Desk<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let ground = Palette::in_ui(ui).panel;
         ui.painter().rect_filled(ui.max_rect(), 0, ground);
-        if std::mem::take(&mut self.row) != TabRow::Roomy && corner_width(*pane) > 0.0 {
+        if !std::mem::take(&mut self.row).has_corner() && corner_width(*pane) > 0.0 {
             let line = Layout::right_to_left(Align::Center);
             let size = vec2(ui.available_width(), TABS);
             ui.allocate_ui_with_layout(size, line, |ui| {
@@ -33,7 +33,7 @@ impl Behavior<Pane> for Desk<'_> {
     fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
         let title = match self.row {
             TabRow::Roomy | TabRow::Titles => pane.title(),
-            TabRow::ShortTitles => pane.short_title(),
+            TabRow::Short | TabRow::ShortTitles => pane.short_title(),
         };
         egui::RichText::new(title).font(theme::small()).into()
     }
@@ -60,7 +60,7 @@ impl Behavior<Pane> for Desk<'_> {
             .collect();
         let front = tabs.active.and_then(pane_of);
         self.row = TabRow::of(ui, &titles, front.map_or(0.0, corner_width));
-        if let Some(pane) = front.filter(|_| self.row == TabRow::Roomy) {
+        if let Some(pane) = front.filter(|_| self.row.has_corner()) {
             ui.add_space(8.0);
             self.show_corner(ui, pane);
         }

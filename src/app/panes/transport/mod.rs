@@ -122,10 +122,9 @@ pub(crate) fn show(
         pos2(middle.right() - 4.0 * STEP, middle.bottom()),
     );
     timeline::show(ui, timeline, view, state, wishes);
+    // It stands a little above the bar's content, which must not grow by it.
     let export = UiBuilder::new().max_rect(place_in(timeline));
-    ui.scope_builder(export, |ui| {
-        show_export(ui, Exportable::Timeline, wishes);
-    });
+    show_export(&mut ui.new_child(export), Exportable::Timeline, wishes);
     show_numbers(ui, numbers, view);
 }
 
