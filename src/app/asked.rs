@@ -45,21 +45,32 @@ impl Desk<'_> {
         let bench = &*self.bench;
         let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));
         let name = cloth.map(|(_, cloth)| format!("{} {}", cloth.label, cloth.name));
-        let view = cloth.map(|(asked, cloth)| ResponseView {
-            textile: name.as_deref().map_or("", str::trim),
-            rotation_deg: cloth.rotation_deg,
-            factors: asked.factors,
-            place: asked.place,
-            curves: &bench.transient.curves,
-            probe: bench.workspace.probe,
-            moving: asked.moving,
-            scale: bench.workspace.scale,
-        });
+        let name = name.as_deref().map_or("", str::trim);
+        let view =
+            cloth.map(|(asked, cloth)| bench.response_view(&asked, (name, cloth.rotation_deg)));
         panes::show_response(ui, view.as_ref(), self.wishes);
     }
 }
 
 impl Workbench {
+    /// What the Response pane draws of a textile with this name and turn, degrees.
+    pub(crate) fn response_view<'a>(
+        &'a self,
+        asked: &Asked,
+        (textile, rotation_deg): (&'a str, f64),
+    ) -> ResponseView<'a> {
+        ResponseView {
+            textile,
+            rotation_deg,
+            factors: asked.factors,
+            place: asked.place,
+            curves: &self.transient.curves,
+            probe: self.workspace.probe,
+            moving: asked.moving,
+            scale: self.workspace.scale,
+        }
+    }
+
     /// Has what the workspace's overlays show.
     pub(crate) fn prepare_overlays(&mut self, ctx: &egui::Context) {
         let overlays = self.workspace.overlays;

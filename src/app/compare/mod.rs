@@ -6,7 +6,7 @@
 
 mod choice;
 
-pub(crate) use choice::{Choice, HeldTuning, Inputs, Route, TuningChoice, What};
+pub(crate) use choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -98,6 +98,11 @@ impl Comparison {
             Some((_, End::Found(found))) => Some(found),
             _ => None,
         }
+    }
+
+    /// A and B of what was found last.
+    pub(crate) fn sides(&self) -> Option<&[Side; 2]> {
+        self.ended.as_ref().map(|(inputs, _)| &inputs.sides)
     }
 
     /// The path of what was found last.

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use super::write::ExportError;
 use super::{
-    Exportable, Exported, Kind, Origin, compression, contactors, drive, spatial, spectrograms,
-    timeline, why,
+    Exportable, Exported, Kind, Origin, accuracy, comparison, compression, contactors, drive,
+    response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
+use crate::app::theme::Palette;
 use crate::app::window::Workbench;
 use crate::app::{frame, panes, query};
 
@@ -36,12 +37,10 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::SpatialSpectra => Some(Workbench::gather_spatial),
         Pane::Tuning => Some(Workbench::gather_compression),
         Pane::Why => Some(Workbench::gather_why),
-        Pane::Response
-        | Pane::Accuracy
-        | Pane::Compare
-        | Pane::Workspace
-        | Pane::Library
-        | Pane::Bridge => None,
+        Pane::Response => Some(Workbench::gather_response),
+        Pane::Accuracy => Some(Workbench::gather_accuracy),
+        Pane::Compare => Some(Workbench::gather_comparison),
+        Pane::Workspace | Pane::Library | Pane::Bridge => None,
     }
 }
 
@@ -213,6 +212,50 @@ impl Workbench {
         let shown = self.transient.why.0.as_ref().ok_or(NO_CONTACTOR)?;
         let filters = self.document.scene().filters;
         Ok(why::explanation(shown, &filters, self.origin()))
+    }
+
+    fn gather_response(&mut self) -> Result<Exported, &'static str> {
+        let ctx = self.ctx.clone();
+        let scene = self.plain_scene_view();
+        let origin = self.origin();
+        let asked = self.ask_response(&ctx);
+        let cloth = asked.and_then(|asked| Some((asked, scene.cloths.get(asked.textile)?)));
+        let (asked, cloth) = cloth.ok_or(
+            "There is nothing to export: choose a textile in the workspace, or move the chosen \
+             contactor over one",
+        )?;
+        let name = format!("{} {}", cloth.label, cloth.name);
+        let view = self.response_view(&asked, (name.trim(), cloth.rotation_deg));
+        if view.curves.around().is_empty() {
+            return Err("There is nothing to export yet: the curves are being computed");
+        }
+        Ok(response::curves(&view, origin))
+    }
+
+    fn gather_accuracy(&mut self) -> Result<Exported, &'static str> {
+        let origin = self.rendered_origin();
+        let view = self.accuracy_view();
+        if view.found.n_ticks == 0 && view.measured.is_none() {
+            return Err(NOTHING_FELT);
+        }
+        Ok(accuracy::histograms(&view, origin))
+    }
+
+    fn gather_comparison(&mut self) -> Result<Exported, &'static str> {
+        let origin = self.origin();
+        let grid = self.plain_scene_view().grid;
+        let map = Palette::of(self.ctx.theme()).differences();
+        let comparison = &self.transient.comparison;
+        let compared = comparison.found().zip(comparison.sides());
+        let (difference, sides) = compared
+            .ok_or("There is nothing to export yet: press “compare” in the Compare pane")?;
+        let grid = grid.unwrap_or((1, difference.by_contactor.len()));
+        Ok(comparison::differences(
+            difference,
+            sides,
+            (grid, map),
+            origin,
+        ))
     }
 
     /// The scene as panes draw it, without a look at pictures.

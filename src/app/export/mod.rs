@@ -21,11 +21,14 @@
 //! - the same view gives the same bytes: no clock, no path, no name of a machine
 //! - what is exported is what was seen when it was asked for, however long the path takes
 
+mod accuracy;
+mod comparison;
 mod compression;
 mod contactors;
 mod drive;
 mod gather;
 mod origin;
+mod response;
 mod sheet;
 mod spatial;
 mod spectrograms;

@@ -3,19 +3,22 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
 
 use eframe::App as _;
 use eframe::egui::{Context, Pos2, RawInput, Rect, vec2};
 
 use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
+use crate::app::compare::Standing;
 use crate::app::panes::density_db;
 use crate::app::signals::N_ROWS;
 use crate::app::{Drive, Workbench};
 use crate::files::{self, Table};
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 8] = [
+const ALL: [Exportable; 11] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -23,6 +26,9 @@ const ALL: [Exportable; 8] = [
     Exportable::Pane(Pane::SpatialSpectra),
     Exportable::Pane(Pane::Tuning),
     Exportable::Pane(Pane::Why),
+    Exportable::Pane(Pane::Response),
+    Exportable::Pane(Pane::Accuracy),
+    Exportable::Pane(Pane::Compare),
     Exportable::Timeline,
 ];
 
@@ -55,8 +61,29 @@ impl Desk {
         let mut desk = Self::new();
         let stroke = PlayCommand::Source(PlaySource::Stroke);
         desk.bench.dispatch(&desk.ctx, stroke.into());
-        desk.go_on(n_ticks);
+        // What is found on threads is found while its pane is in sight.
+        for pane in [Pane::Response, Pane::Accuracy, Pane::Compare] {
+            desk.bench
+                .dispatch(&desk.ctx, ShowCommand::Pane(pane).into());
+            desk.go_on(n_ticks / 3);
+            desk.settle();
+        }
         desk
+    }
+
+    /// Waits for the threads that compare and check.
+    fn settle(&mut self) {
+        for _ in 0..2000 {
+            let [sampled, _] = self.bench.ticks_checked();
+            let is_checked = self.bench.accuracy_view().found.n_ticks == sampled;
+            let standing = self.bench.comparison_standing();
+            if is_checked && !matches!(standing, Standing::Running(_)) {
+                return;
+            }
+            thread::sleep(Duration::from_millis(5));
+            self.bench.transient.comparison.poll();
+        }
+        panic!("a thread never came to its end");
     }
 
     fn go_on(&mut self, n_ticks: u32) {
@@ -403,4 +430,44 @@ fn every_export_has_a_name_of_its_own() {
     for pane in Pane::ALL {
         assert_eq!(is_exportable(pane), is_listed(&pane), "{pane:?}");
     }
+}
+
+#[test]
+fn curves_errors_and_differences_are_those_of_their_panes() {
+    let mut desk = Desk::explored(90);
+    let response = desk.exported(Exportable::Pane(Pane::Response));
+    let rms_um = column(&response, "a320_rms_um");
+    let curves = &desk.bench.transient.curves;
+    assert_eq!(
+        rms_um.len(),
+        curves.around().len() + curves.over_speed().len()
+    );
+    let textile = desk.bench.transient.asked_textile.unwrap();
+    let factors = desk
+        .bench
+        .eye
+        .inspector
+        .response(textile)
+        .unwrap()
+        .factors();
+    let first_um = curves.around()[0].scaled(factors).rms_um[1];
+    assert_eq!(rms_um[0].to_bits(), first_um.to_bits());
+
+    let accuracy = desk.exported(Exportable::Pane(Pane::Accuracy));
+    let counted: f64 = column(&accuracy, "count").iter().sum();
+    let view = desk.bench.accuracy_view();
+    let errors: u64 = view.found.counts.iter().flatten().sum();
+    let ticks: u64 = view.cost.costs.buckets().map(|b| u64::from(b.count)).sum();
+    assert_eq!(counted, (errors + ticks) as f64);
+    assert!(errors > 100, "{errors} amplitudes");
+
+    let compared = desk.exported(Exportable::Pane(Pane::Compare));
+    let means_db = column(&compared, "mean_db");
+    let found = desk.bench.comparison().unwrap();
+    assert_eq!(
+        means_db.len(),
+        2 * (found.by_contactor.len() + found.over_time.len())
+    );
+    let first_db = found.by_contactor[0][0].mean_db().unwrap();
+    assert_eq!(means_db[0].to_bits(), first_db.to_bits());
 }

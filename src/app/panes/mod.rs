@@ -29,7 +29,10 @@ mod why;
 pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
-pub(crate) use compare::{CompareView, show as show_compare, show_corner as show_compare_corner};
+pub(crate) use compare::{
+    CompareView, scale_db as scale_of_differences_db, show as show_compare,
+    show_corner as show_compare_corner,
+};
 pub(crate) use contact_spectrum::{
     ContactSpectrogram, ContactSpectrumView, LEVELS_DB as CONTACT_LEVELS_DB,
     share_of as contact_share, show as show_contact_spectrum,
@@ -48,7 +51,8 @@ pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use question::show as show_question;
 pub(crate) use response::{
-    ResponseView, show as show_response, show_corner as show_response_corner,
+    ResponseView, ends_db as response_ends_db, show as show_response,
+    show_corner as show_response_corner,
 };
 pub(crate) use spatial::{
     LEVELS_DB as SPATIAL_LEVELS_DB, SpatialSource, SpatialSpectra, density_db, means_of,

@@ -177,7 +177,7 @@ fn alone_words(tally: &Tally) -> &'static str {
 
 /// Half the range of a scale of differences: the least of 1, 2, 5 · 10ⁿ that holds the largest;
 /// 1 dB where there are none.
-fn scale_db(differences_db: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn scale_db(differences_db: impl Iterator<Item = f64>) -> f64 {
     let largest = differences_db.map(f64::abs).fold(0.0, f64::max);
     if largest > 1e-6 {
         round_step(largest.max(1e-4))

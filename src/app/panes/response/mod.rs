@@ -133,7 +133,7 @@ fn velocity_words(probe: Probe) -> String {
 }
 
 /// The ends of the levels, dB re 1 µm.
-fn ends_db(scale: AmplitudeScale) -> [f64; 2] {
+pub(crate) fn ends_db(scale: AmplitudeScale) -> [f64; 2] {
     let most_db = quantity::level_db(scale.most_um());
     [most_db - SPAN_DB, most_db]
 }
