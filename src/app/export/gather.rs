@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use eframe::egui::Theme;
+
 use super::write::ExportError;
 use super::{
     Exportable, Exported, Kind, Origin, accuracy, comparison, compression, contactors, drive,
@@ -244,7 +246,8 @@ impl Workbench {
     fn gather_comparison(&mut self) -> Result<Exported, &'static str> {
         let origin = self.origin();
         let grid = self.plain_scene_view().grid;
-        let map = Palette::of(self.ctx.theme()).differences();
+        // On paper: no difference is nearly white, whatever the window's theme.
+        let map = Palette::of(Theme::Light).differences();
         let comparison = &self.transient.comparison;
         let compared = comparison.found().zip(comparison.sides());
         let (difference, sides) = compared
