@@ -1,6 +1,7 @@
 //! The plot of a study: error against CPU time, both by their logarithm, one series a method.
 
 use super::pareto::error_and_cost;
+use super::readable;
 use super::{Findings, Row, Study, pareto};
 use crate::figure::{Axis, Plot, Scale, Series, Style};
 
@@ -66,7 +67,8 @@ pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Opti
 /// The promises as dashed lines, unless there are too many different ones.
 fn promises(rows: &[Row], [soonest_s, latest_s]: [f64; 2], unit: &str) -> Vec<Series> {
     let mut promised: Vec<f64> = Vec::new();
-    for promise in rows.iter().filter_map(|row| row.promised) {
+    let drawn = rows.iter().filter(|row| row.cost.is_some());
+    for promise in drawn.filter_map(|row| row.promised) {
         if promise > 0.0 && !promised.contains(&promise) {
             promised.push(promise);
         }
@@ -75,7 +77,9 @@ fn promises(rows: &[Row], [soonest_s, latest_s]: [f64; 2], unit: &str) -> Vec<Se
         return Vec::new();
     }
     let line = |promise: f64| Series {
-        name: format!("promised: {promise} {unit}").trim().to_owned(),
+        name: format!("promised: {} {unit}", readable::number(promise))
+            .trim()
+            .to_owned(),
         points: vec![[soonest_s, promise], [latest_s, promise]],
         style: Style::Dashed,
         ..Series::default()

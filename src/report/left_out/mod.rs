@@ -6,6 +6,7 @@
 
 mod saving;
 mod scenes;
+mod shares;
 mod sinks;
 
 pub use saving::SavingRule;
@@ -78,6 +79,7 @@ impl Study for LeftOutStudy {
                 findings.rows.extend(rows);
             }
         }
+        findings.plots.push(shares::plot(&findings.rows, &cases));
         findings.rows.extend(library_rows(bench)?);
         findings.rows.extend(sinks::rows(bench)?);
         findings

@@ -138,3 +138,58 @@ fn a_recording_goes_round_while_a_gain_is_changed() {
     let change_db = 20.0 * (after / before).log10();
     assert!((change_db + 6.0).abs() < 0.1, "{change_db} dB");
 }
+
+/// What the Why pane begins with.
+fn explained_tick(harness: &Harness<'_, Workbench>) -> u64 {
+    let head = harness.get_by(|node| {
+        let text = node.label().or_else(|| node.value());
+        text.is_some_and(|text| text.starts_with("Contactor ") && text.contains("   tick "))
+    });
+    let node = head.accesskit_node();
+    let text = node.label().or_else(|| node.value()).unwrap();
+    text.rsplit(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn the_explanation_steps_through_a_recording_tick_by_tick_unless_it_is_held() {
+    let folder = Folder::new("whystep");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    press(&mut harness, Modifiers::NONE, Key::R);
+    stroke(&mut harness, 24);
+    press(&mut harness, Modifiers::NONE, Key::R);
+    harness
+        .get_by_role_and_label(Role::RadioButton, "Recording")
+        .click();
+    harness.run_steps(2);
+    harness.get_by_label("Why").click();
+    harness.run_steps(3);
+    let place = |harness: &Harness<'_, Workbench>| {
+        let is_place = |text: &str| text.ends_with(" mm") && text.contains(" / ");
+        let nodes = harness.query_all_by(|node| {
+            let text = node.label().or_else(|| node.value());
+            text.is_some_and(|text| is_place(&text))
+        });
+        let texts = nodes.filter_map(|node| {
+            let node = node.accesskit_node();
+            node.label().or_else(|| node.value())
+        });
+        texts.collect::<Vec<_>>()
+    };
+    let mut places = vec![place(&harness)];
+    let mut ticks = vec![explained_tick(&harness)];
+    for _ in 0..12 {
+        press(&mut harness, Modifiers::NONE, Key::Period);
+        ticks.push(explained_tick(&harness));
+        places.push(place(&harness));
+    }
+    assert!(ticks.windows(2).all(|pair| pair[0] < pair[1]), "{ticks:?}");
+    assert!(
+        places.windows(2).all(|pair| pair[0] != pair[1]),
+        "{places:?}"
+    );
+    harness.get_by_label("freeze").click();
+    harness.run_steps(2);
+    press(&mut harness, Modifiers::NONE, Key::Period);
+    assert_eq!(explained_tick(&harness), ticks[12], "it is held");
+}
