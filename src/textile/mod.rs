@@ -37,6 +37,7 @@ pub use knit::{Knit, Structure};
 pub use library::Library;
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
+pub use profile_file::read as read_profile;
 pub use restoration::{Reduced, Restoration, Rule};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 

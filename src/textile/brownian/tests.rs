@@ -7,7 +7,7 @@ use crate::textile::Manifest;
 
 fn small(hurst: f64, generator: Generator, seed: u32) -> Brownian {
     Brownian {
-        length_mm: 10.0,
+        length_mm: 6.4,
         step_mm: 0.05,
         ..Brownian::new(hurst, 5.0, generator, seed)
     }
@@ -34,7 +34,7 @@ fn mean_exponent(hurst: f64, generator: Generator) -> f64 {
 
 #[test]
 fn the_exact_generator_gives_h_back_within_0_05_over_20_seeds() {
-    for hurst in [0.1, 0.3, 0.5, 0.7, 0.9] {
+    for hurst in [0.1, 0.5, 0.9] {
         let found = mean_exponent(hurst, Generator::Exact);
         println!("H {hurst}: {found:.4}");
         assert!((found - hurst).abs() < 0.05, "H {hurst}: {found}");
