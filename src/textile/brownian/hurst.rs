@@ -42,6 +42,13 @@ impl Hurst {
     }
 }
 
+impl Hurst {
+    /// The exponent of some lines together, of 17 samples or more; `None` if they are level.
+    pub fn of_lines_whole(lines: &[&[f64]]) -> Option<f64> {
+        exponent(lines)
+    }
+}
+
 /// Half the slope of the structure function of the lines together.
 fn exponent(lines: &[&[f64]]) -> Option<f64> {
     let point = |&lag: &usize| {
