@@ -30,18 +30,15 @@ impl PlaneTransform {
             let transformed = self.along.forward(grid.row(row));
             spectrum.row_mut(row).copy_from_slice(&transformed);
         }
-        let (mut re, mut im) = (vec![0.0; n], vec![0.0; n]);
-        for column in 0..width {
-            for row in 0..n {
-                let value = spectrum.row(row)[column];
-                (re[row], im[row]) = (value.re, value.im);
-            }
+        in_columns(&mut spectrum, |column| {
+            let re: Vec<f64> = column.iter().map(|x| x.re).collect();
+            let im: Vec<f64> = column.iter().map(|x| x.im).collect();
             let (a, b) = (self.across.forward(&re), self.across.forward(&im));
-            for row in 0..n {
+            for (row, value) in column.iter_mut().enumerate() {
                 let (a, b) = (whole(&a, row, n), whole(&b, row, n));
-                spectrum.row_mut(row)[column] = Complex::new(a.re - b.im, a.im + b.re);
+                *value = Complex::new(a.re - b.im, a.im + b.re);
             }
-        }
+        });
         spectrum
     }
 
@@ -53,25 +50,48 @@ impl PlaneTransform {
             vec![Complex::default(); half],
             vec![Complex::default(); half],
         );
-        for column in 0..spectrum.width() {
+        in_columns(&mut spectrum, |column| {
             for row in 0..half {
-                let here = spectrum.row(row)[column];
-                let there = spectrum.row((n - row) % n)[column].conj();
+                let here = column[row];
+                let there = column[(n - row) % n].conj();
                 a[row] = 0.5 * (here + there);
                 let odd = 0.5 * (here - there);
                 b[row] = Complex::new(odd.im, -odd.re);
             }
             let (re, im) = (self.across.inverse(&a), self.across.inverse(&b));
-            for row in 0..n {
-                spectrum.row_mut(row)[column] = Complex::new(re[row], im[row]);
+            for (value, (re, im)) in column.iter_mut().zip(re.iter().zip(&im)) {
+                *value = Complex::new(*re, *im);
             }
-        }
+        });
         let mut grid = Grid::filled(self.along.len(), n, 0.0);
         for row in 0..n {
             let values = self.along.inverse(spectrum.row(row));
             grid.row_mut(row).copy_from_slice(&values);
         }
         grid
+    }
+}
+
+/// Columns that are taken out of a grid and put back together: as many as a cache line feeds.
+const N_TOGETHER: usize = 16;
+
+/// Does `work` on every column of a grid.
+fn in_columns(grid: &mut Grid<Complex>, mut work: impl FnMut(&mut [Complex])) {
+    let (width, height) = (grid.width(), grid.height());
+    let mut columns = vec![Complex::default(); N_TOGETHER * height];
+    for first in (0..width).step_by(N_TOGETHER) {
+        let n = N_TOGETHER.min(width - first);
+        for row in 0..height {
+            for (i, value) in grid.row(row)[first..first + n].iter().enumerate() {
+                columns[i * height + row] = *value;
+            }
+        }
+        columns.chunks_exact_mut(height).take(n).for_each(&mut work);
+        for row in 0..height {
+            for (i, value) in grid.row_mut(row)[first..first + n].iter_mut().enumerate() {
+                *value = columns[i * height + row];
+            }
+        }
     }
 }
 
