@@ -100,10 +100,14 @@ fn lit(heights_um: &Grid<f64>) -> Rgb8Image {
     let (width, height) = (heights_um.width(), heights_um.height());
     let mut slopes = Vec::with_capacity(width * height);
     for row in (0..height).rev() {
-        let (here, above) = (heights_um.row(row), heights_um.row((row + 1) % height));
+        // A surface need not fit its other side: the last slope is the one before it.
+        let low = row.min(height.saturating_sub(2));
+        let (here, below) = (heights_um.row(row), heights_um.row(low));
+        let above = heights_um.row((low + 1).min(height - 1));
         for column in 0..width {
-            let right = here[(column + 1) % width];
-            slopes.push((right - here[column]) - (above[column] - here[column]));
+            let left = column.min(width.saturating_sub(2));
+            let across = here[(left + 1).min(width - 1)] - here[left];
+            slopes.push(across - (above[column] - below[column]));
         }
     }
     let mut sizes: Vec<f64> = slopes.iter().map(|slope| slope.abs()).collect();

@@ -1,7 +1,7 @@
 //! The studies run, repeat, and find what is known.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress};
+use crate::progress::{CancelFlag, Progress, thread_cpu_seconds};
 use crate::report::{Bench, Effort, Findings, Study};
 
 fn run(study: &dyn Study) -> Findings {
@@ -29,7 +29,13 @@ fn every_quick_study_repeats_and_keeps_its_promises() {
         &ProbeStudy,
     ];
     for study in studies {
+        let start_s = thread_cpu_seconds();
         let (first, second) = (run(study), run(study));
+        println!(
+            "{}: {:.1} s CPU",
+            study.name(),
+            0.5 * (thread_cpu_seconds() - start_s)
+        );
         assert!(!first.rows.is_empty(), "{}", study.name());
         assert_eq!(first.n_broken(), 0, "{}: {:?}", study.name(), first.rows);
         for (a, b) in first.rows.iter().zip(&second.rows) {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::textile::build::{build, index_of};
+use crate::textile::build::{build, build_library, index_of};
 use crate::textile::{Hurst, Library, Source};
 
 fn library() -> Library {
@@ -58,6 +58,19 @@ fn a_brownian_surface_is_rebuilt_byte_for_byte() {
         let shipped = library.file(id, &file.name).unwrap();
         assert!(shipped == file.bytes, "{id}/{} differs", file.name);
     }
+}
+
+#[test]
+#[ignore = "writes the five surfaces; set SELVEDGE_LIBRARY_OUT to the folder"]
+fn rebuild_the_brownian_library() {
+    let out = std::env::var_os("SELVEDGE_LIBRARY_OUT")
+        .map(PathBuf::from)
+        .unwrap();
+    let library = library();
+    let tuning = library.index().unwrap().tuning;
+    let index =
+        crate::progress::unheard(|progress| build_library(&library, &out, tuning, progress));
+    assert_eq!(index.unwrap().textiles.len(), 5);
 }
 
 #[test]
