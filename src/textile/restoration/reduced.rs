@@ -14,7 +14,7 @@ const BANDS_PER_OCTAVE: f64 = 3.0;
 /// A harmonic is kept if its power exceeds that between the harmonics this many times.
 const OVER_NOISE: f64 = 4.0;
 /// Most harmonics that are looked at.
-const MOST_HARMONICS: u32 = 256;
+const MOST_HARMONICS: u32 = 100;
 /// Fewest samples of a profile.
 const LEAST_SAMPLES: usize = 64;
 
@@ -89,15 +89,22 @@ impl Reduced {
         let n_whole = ((heights.len() as f64 / period).floor() * period).round() as usize;
         let whole = &heights[..n_whole.min(heights.len())];
         let at = |k: f64| line(whole, k / period);
-        let kept = |k: u32| {
-            let (here, k_real) = (at(f64::from(k)), f64::from(k));
-            let between = [k_real - 0.5, k_real + 0.5].map(|k| at(k).norm_sqr());
-            let noise = 0.5 * (between[0] + between[1]);
+        let harmonics = 1..=MOST_HARMONICS;
+        let all: Vec<u32> = harmonics
+            .take_while(|&k| 2.0 * f64::from(k) < period)
+            .collect();
+        // Between harmonics there is noise alone.
+        let between = |k: &u32| at(f64::from(*k) - 0.5).norm_sqr();
+        let past = all.len() as f64 + 0.5;
+        let mut gaps: Vec<f64> = all.iter().map(between).collect();
+        gaps.push(at(past).norm_sqr());
+        let kept = |(gap, &k): (&[f64], &u32)| {
+            let (here, noise) = (at(f64::from(k)), 0.5 * (gap[0] + gap[1]));
             let power = here.norm_sqr();
             (power > OVER_NOISE * noise).then(|| (k, (power - noise).sqrt(), here.arg()))
         };
-        let all = (1..=MOST_HARMONICS).take_while(|&k| 2.0 * f64::from(k) < period);
-        let mut found: Vec<(u32, f64, f64)> = all.filter_map(kept).collect();
+        let pairs = gaps.windows(2).zip(&all);
+        let mut found: Vec<(u32, f64, f64)> = pairs.filter_map(kept).collect();
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         let strongest = found.first().map_or(0.0, |wave| wave.1);
         found.retain(|wave| wave.1 > 1e-6 * strongest);
