@@ -24,6 +24,7 @@ mod signals;
 mod terminal;
 mod textile;
 mod textile_make;
+mod textile_models;
 mod usage;
 mod workbench;
 

@@ -7,6 +7,7 @@ use clap::{Args, Subcommand};
 use super::output::TableOut;
 use super::terminal::Meter;
 use super::textile_make::{self, MakeCommand};
+use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
 use crate::quantity::{factor_of_gain, fixed};
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
@@ -52,6 +53,8 @@ pub(super) enum TextileCommand {
     /// Make a textile from a recipe, or a library from recipes
     #[command(subcommand)]
     Make(MakeCommand),
+    /// Learn a Fourier template from several profiles of a material
+    LearnFourier(LearnArgs),
 }
 
 /// The library that is meant.
@@ -88,6 +91,7 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         TextileCommand::Spectra { id, out, from } => spectra(&from.open()?, id, out.as_deref()),
         TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
         TextileCommand::Make(command) => textile_make::run(command),
+        TextileCommand::LearnFourier(args) => textile_models::learn(args),
     }
 }
 
@@ -144,6 +148,11 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ),
         ("level", format!("{level} dB re 1 µm")),
     ];
+    for (key, value) in &manifest.measured {
+        if key != "smd_um" {
+            rows.push((key.as_str(), value.to_string()));
+        }
+    }
     rows.extend(
         textile
             .fall_backs()

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use super::terminal::Meter;
+use super::textile_models::{self, BrownianArgs, FourierArgs, RestorationArgs};
 use super::{CliError, output, signals};
 use crate::files::{self, FileError};
 use crate::progress::{CancelFlag, Progress};
@@ -19,6 +20,12 @@ pub(super) enum MakeCommand {
     Weave(MakeArgs),
     /// A knitted cloth from a recipe of kind "knit"
     Knit(MakeArgs),
+    /// A surface drawn from a template of harmonics
+    Fourier(FourierArgs),
+    /// A Brownian surface by its Hurst exponent
+    Brownian(BrownianArgs),
+    /// A surface restored from what repeats in measured profiles
+    Restoration(RestorationArgs),
     /// Every textile of a folder anew, and the folder's library.toml
     Library {
         /// Folder with a folder for every textile
@@ -42,24 +49,28 @@ pub(super) struct MakeArgs {
 /// Makes it.
 pub(super) fn run(command: &MakeCommand) -> Result<(), CliError> {
     match command {
-        MakeCommand::Weave(args) => make("weave", args),
-        MakeCommand::Knit(args) => make("knit", args),
+        MakeCommand::Weave(args) => make("weave", &args.recipe, &args.out),
+        MakeCommand::Knit(args) => make("knit", &args.recipe, &args.out),
+        MakeCommand::Fourier(args) => textile_models::fourier(args),
+        MakeCommand::Brownian(args) => textile_models::brownian(args),
+        MakeCommand::Restoration(args) => textile_models::restoration(args),
         MakeCommand::Library { from, out } => make_library(from, out),
     }
 }
 
-fn make(kind: &str, args: &MakeArgs) -> Result<(), CliError> {
-    let text = files::read_text(&args.recipe)?;
-    let manifest = Manifest::from_toml(&text, &args.recipe)?;
+/// Makes the textile of a recipe of this kind.
+pub(super) fn make(kind: &str, recipe: &Path, out: &Path) -> Result<(), CliError> {
+    let text = files::read_text(recipe)?;
+    let manifest = Manifest::from_toml(&text, recipe)?;
     let found = manifest.source.kind();
     if found != kind {
         let line = files::line_of_key(&text, "source", 0, "kind");
         let what = format!("this is a recipe of kind \"{found}\", not \"{kind}\"");
         let mend = format!("use \"selvedge textile make {found}\"");
-        return Err(FileError::content(&args.recipe, line, what, mend).into());
+        return Err(FileError::content(recipe, line, what, mend).into());
     }
-    let made = textile::make(&text, &args.recipe, &args.out)?;
-    output::print(&format!("{}: {}\n", args.out.display(), made.name))
+    let made = textile::make(&text, recipe, out)?;
+    output::print(&format!("{}: {}\n", out.display(), made.name))
 }
 
 fn make_library(from: &Path, to: &Path) -> Result<(), CliError> {

@@ -7,11 +7,15 @@
 
 mod fft;
 mod grid;
+mod plane;
 mod random;
+mod series;
 
 pub use fft::{ChirpTransform, Complex, RealTransform};
 pub use grid::Grid;
+pub use plane::PlaneTransform;
 pub use random::Random;
+pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
 
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.
 ///

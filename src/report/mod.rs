@@ -24,6 +24,7 @@ mod index;
 mod left_out;
 mod listing;
 mod machine;
+mod models;
 mod pareto;
 mod readable;
 mod rendering;
@@ -43,6 +44,7 @@ pub use findings::{Findings, Row};
 pub use growth::GrowthStudy;
 pub use left_out::{LeftOutStudy, SavingRule};
 pub use machine::Machine;
+pub use models::{BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy};
 pub use pareto::pareto;
 pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
@@ -58,6 +60,11 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(DriveUpdatesStudy),
         Box::new(VelocityStudy),
         Box::new(GrowthStudy),
+        Box::new(BrownianStudy),
+        Box::new(FourierStudy),
+        Box::new(RestorationStudy),
+        Box::new(ResamplingStudy),
+        Box::new(ProbeStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),
     ]

@@ -19,8 +19,6 @@ use crate::tactile::{Filters, Levels, Tuning};
 
 /// The name of the picture.
 const PICTURE: &str = "appearance.png";
-/// Pixels a millimetre of the picture.
-const PX_PER_MM: f64 = 10.0;
 
 /// A file of a built textile.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,7 +35,7 @@ pub struct BuiltFile {
 /// # Errors
 /// A source that is no recipe.
 pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileError> {
-    let model = Model::of(&recipe.source).ok_or_else(|| TextileError::NoRecipe {
+    let model = Model::of(&recipe.source)?.ok_or_else(|| TextileError::NoRecipe {
         path: path.to_owned(),
         kind: recipe.source.kind(),
     })?;
@@ -52,12 +50,24 @@ pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileEr
         bytes: text.into_bytes(),
     };
     let mut files: Vec<_> = Direction::ALL.into_iter().zip(texts).map(file).collect();
-    let bytes = encode_png_small(&model.picture(), Path::new(PICTURE))?;
+    let (picture, px_per_mm) = model.picture();
+    let bytes = encode_png_small(&picture, Path::new(PICTURE))?;
     files.push(BuiltFile {
         name: PICTURE.to_owned(),
         bytes,
     });
-    let manifest = complete(recipe, smd_um, path)?;
+    let mut manifest = complete(recipe, px_per_mm, path)?;
+    let found = [("smd_um", smd_um, 100.0)].into_iter();
+    let found = found.chain(
+        model
+            .measured()
+            .iter()
+            .map(|&(key, value)| (key, value, 1e4)),
+    );
+    for (key, value, digits) in found {
+        let rounded = (value * digits).round() / digits;
+        manifest.measured.insert(key.to_owned(), rounded);
+    }
     let bytes = manifest.to_toml(path)?.into_bytes();
     files.push(BuiltFile {
         name: MANIFEST.to_owned(),
@@ -66,24 +76,17 @@ pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileEr
     Ok(files)
 }
 
-/// The manifest of a built textile: its recipe, the files made from it, its roughness.
-fn complete(recipe: &Manifest, smd_um: f64, path: &Path) -> Result<Manifest, TextileError> {
+/// The manifest of a built textile: its recipe and the files made from it.
+fn complete(recipe: &Manifest, px_per_mm: f64, path: &Path) -> Result<Manifest, TextileError> {
     let mut manifest = recipe.clone();
     let hash = Some(recipe.source.recipe_hash(path)?);
     let files =
         ProfileFiles(Direction::ALL.map(|direction| Some(format!("{}.csv", direction.key()))));
-    match &mut manifest.source {
-        Source::Profiles(_) => {}
-        Source::Weave(keys) => keys.set_files(files, hash),
-        Source::Knit(keys) => keys.set_files(files, hash),
-    }
+    manifest.source.set_files(files, hash);
     manifest.appearance = Some(AppearanceKeys {
         image: PICTURE.to_owned(),
-        px_per_mm: PX_PER_MM,
+        px_per_mm,
     });
-    manifest
-        .measured
-        .insert("smd_um".to_owned(), (smd_um * 100.0).round() / 100.0);
     Ok(manifest)
 }
 
@@ -122,7 +125,7 @@ pub fn build_library(
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
             Source::Profiles(_) => copied(from, id, &recipe)?,
-            Source::Weave(_) | Source::Knit(_) => build(&recipe, &path)?,
+            _ => build(&recipe, &path)?,
         };
         write(&files, &to.join(id))?;
     }

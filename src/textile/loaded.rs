@@ -33,7 +33,11 @@ impl Textile {
     pub(crate) fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
         let manifest = read_manifest(store, id)?;
         let names_none = manifest.source.files().is_empty();
-        let model = names_none.then(|| Model::of(&manifest.source)).flatten();
+        let model = if names_none {
+            Model::of(&manifest.source)?
+        } else {
+            None
+        };
         let profiles = match model {
             Some(model) => profiles_of_files(&model.profile_files()?)?,
             None => read_profiles(store, id, &manifest)?,

@@ -1,16 +1,19 @@
 //! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
 //!
 //! A textile is a folder with a manifest; its source is measured profiles or a seeded model of a
-//! woven or knitted cloth that a virtual probe was drawn over. Knows nothing of scenes or of
-//! rendering.
+//! woven or knitted cloth that a virtual probe was drawn over, or of a surface known by its
+//! harmonics, its Hurst exponent or what repeats in it. Knows nothing of scenes or of rendering.
 //!
 //! # Invariants
 //! - loading is lazy: a library reads a textile's profiles only when it is asked for that textile
 //! - a model is a function of its recipe: same recipe, same bytes
 //! - every error is one line: what, where, how to mend it
 
+mod brownian;
 mod build;
 mod cloth;
+mod drawn;
+mod fourier;
 mod index;
 mod knit;
 mod library;
@@ -18,16 +21,24 @@ mod loaded;
 mod manifest;
 mod model;
 mod profile_file;
+mod restoration;
 mod shipped;
 mod weave;
 
+pub use brownian::{Brownian, Generator, Hurst, Tip};
 pub use build::{BuiltFile, build, build_library, make};
 pub use cloth::Yarn;
+pub use fourier::{
+    Composition, Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings,
+    example_templates, import, templates_from_toml, templates_to_toml,
+};
 pub use index::{Index, IndexEntry};
 pub use knit::{Knit, Structure};
 pub use library::Library;
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
+pub use profile_file::read as read_profile;
+pub use restoration::{Reduced, Restoration, Rule};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 
 use std::path::PathBuf;
@@ -62,7 +73,8 @@ pub enum TextileError {
     },
     /// A textile that is no model has nothing to be built from.
     #[error(
-        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\" or \"knit\"",
+        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\", \"knit\", \
+         \"fourier\", \"brownian\" or \"restoration\"",
         path.display()
     )]
     NoRecipe {
@@ -71,6 +83,9 @@ pub enum TextileError {
         /// The kind it has.
         kind: &'static str,
     },
+    /// Measurements that no model can be made from: what, and how to mend it.
+    #[error("{0}")]
+    Model(String),
     /// The work was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -1,49 +1,70 @@
-//! A source that is a model: its cloth, and the probe that is drawn over it.
+//! A source that is a model: a cloth and the probe that is drawn over it, or a surface that was
+//! drawn from numbers.
 
 use std::path::Path;
 
-use super::cloth::{Cloth, portrait, profiles};
+use super::cloth::{Cloth, PX_PER_MM, portrait, profiles};
+use super::drawn::Drawn;
 use super::manifest::Source;
 use super::{TextileError, profile_file};
 use crate::files::Rgb8Image;
 use crate::numerics::Random;
 use crate::surface::{Direction, Probe, ProfileSet};
 
-/// Distance of a model's samples, mm.
+/// Distance of a cloth's samples, mm.
 const STEP_MM: f64 = 1.0 / 230.0;
 
-/// A model cloth under the virtual tester.
+/// A model, ready to be felt.
 #[derive(Debug)]
-pub(crate) struct Model {
-    cloth: Cloth,
-    probe: Probe,
-    random: Random,
+pub(crate) enum Model {
+    /// A model cloth under the virtual tester.
+    Cloth {
+        cloth: Box<Cloth>,
+        probe: Probe,
+        random: Random,
+    },
+    /// A surface that was drawn.
+    Drawn(Box<Drawn>),
 }
 
 impl Model {
     /// The model of a source; `None` if it was measured.
-    pub(crate) fn of(source: &Source) -> Option<Self> {
+    pub(crate) fn of(source: &Source) -> Result<Option<Self>, TextileError> {
         let (cloth, seed, noise_um) = match source {
-            Source::Profiles(_) => return None,
+            Source::Profiles(_) => return Ok(None),
             Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um),
             Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um),
+            Source::Fourier(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),
+            Source::Brownian(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),
+            Source::Restoration(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),
         };
         let probe = Probe {
             noise_um,
             ..Probe::default()
         };
-        let random = Random::new(u64::from(seed)).branch("probe");
-        Some(Self {
-            cloth,
+        Ok(Some(Self::Cloth {
+            cloth: Box::new(cloth),
             probe,
-            random,
-        })
+            random: Random::new(u64::from(seed)).branch("probe"),
+        }))
+    }
+
+    fn drawn(drawn: Drawn) -> Self {
+        Self::Drawn(Box::new(drawn))
     }
 
     /// The four strokes as profile files, by [`Direction::index`].
     pub(crate) fn profile_files(&self) -> Result<[String; 4], TextileError> {
+        let (cloth, probe, random) = match self {
+            Self::Drawn(drawn) => return drawn.profile_files(),
+            Self::Cloth {
+                cloth,
+                probe,
+                random,
+            } => (cloth, probe, random),
+        };
         let mut texts: [String; 4] = Default::default();
-        let strokes = profiles(&self.cloth, &self.probe, &self.random);
+        let strokes = profiles(cloth, probe, random);
         for (direction, heights) in Direction::ALL.into_iter().zip(&strokes) {
             texts[direction.index()] =
                 profile_file::write(heights, STEP_MM, Path::new(direction.key()))?;
@@ -51,9 +72,20 @@ impl Model {
         Ok(texts)
     }
 
-    /// The picture.
-    pub(crate) fn picture(&self) -> Rgb8Image {
-        portrait(&self.cloth)
+    /// The picture, and pixels a mm.
+    pub(crate) fn picture(&self) -> (Rgb8Image, f64) {
+        match self {
+            Self::Cloth { cloth, .. } => (portrait(cloth), PX_PER_MM),
+            Self::Drawn(drawn) => drawn.picture(),
+        }
+    }
+
+    /// Figures that the model found on its own surface, beside the roughness.
+    pub(crate) fn measured(&self) -> &[(&'static str, f64)] {
+        match self {
+            Self::Cloth { .. } => &[],
+            Self::Drawn(drawn) => &drawn.measured,
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::surface::Profile;
 const COLUMNS: [&str; 2] = ["x_mm", "height_um"];
 
 /// Reads a profile. `path` only names it in errors.
-pub(crate) fn read(text: &str, path: &Path) -> Result<Profile, TextileError> {
+pub fn read(text: &str, path: &Path) -> Result<Profile, TextileError> {
     let (x_mm, heights_um) = match plain(text) {
         Some(columns) => columns,
         None => columns(text, path)?,

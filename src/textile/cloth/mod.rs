@@ -10,7 +10,7 @@ mod variation;
 mod yarn;
 
 pub(crate) use fibre::add_hairs;
-pub(crate) use portrait::portrait;
+pub(crate) use portrait::{PX_PER_MM, portrait};
 pub(crate) use strand::{Cloth, Node, Strand};
 pub(crate) use stroke::profiles;
 pub(crate) use variation::{Drift, Field, count};

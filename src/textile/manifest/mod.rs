@@ -14,7 +14,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
+use super::brownian::Brownian;
+use super::fourier::Fourier;
 use super::knit::Knit;
+use super::restoration::Restoration;
 use super::weave::Weave;
 use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
 use crate::surface::Direction;
@@ -98,10 +101,23 @@ pub enum Source {
     Weave(Box<Weave>),
     /// A model of a knitted cloth.
     Knit(Box<Knit>),
+    /// A surface drawn from a template of harmonics.
+    Fourier(Box<Fourier>),
+    /// A Brownian surface.
+    Brownian(Box<Brownian>),
+    /// A surface restored from what repeats in two profiles.
+    Restoration(Box<Restoration>),
 }
 
 /// The kinds of source, as files spell them.
-const KINDS: [&str; 3] = ["profiles", "weave", "knit"];
+const KINDS: [&str; 6] = [
+    "profiles",
+    "weave",
+    "knit",
+    "fourier",
+    "brownian",
+    "restoration",
+];
 
 /// Profiles as they were measured (`kind = "profiles"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -149,6 +165,9 @@ impl Source {
             Self::Profiles(_) => KINDS[0],
             Self::Weave(_) => KINDS[1],
             Self::Knit(_) => KINDS[2],
+            Self::Fourier(_) => KINDS[3],
+            Self::Brownian(_) => KINDS[4],
+            Self::Restoration(_) => KINDS[5],
         }
     }
 
@@ -163,6 +182,9 @@ impl Source {
             ]),
             Self::Weave(keys) => keys.files(),
             Self::Knit(keys) => keys.files(),
+            Self::Fourier(keys) => keys.files(),
+            Self::Brownian(keys) => keys.files(),
+            Self::Restoration(keys) => keys.files(),
         }
     }
 
@@ -170,12 +192,20 @@ impl Source {
     #[must_use]
     pub fn recipe(&self) -> Self {
         let mut recipe = self.clone();
-        match &mut recipe {
-            Self::Profiles(_) => {}
-            Self::Weave(keys) => keys.set_files(ProfileFiles::default(), None),
-            Self::Knit(keys) => keys.set_files(ProfileFiles::default(), None),
-        }
+        recipe.set_files(ProfileFiles::default(), None);
         recipe
+    }
+
+    /// Names a model's profile files and the recipe that they came from.
+    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
+        match self {
+            Self::Profiles(_) => {}
+            Self::Weave(keys) => keys.set_files(files, recipe_hash),
+            Self::Knit(keys) => keys.set_files(files, recipe_hash),
+            Self::Fourier(keys) => keys.set_files(files, recipe_hash),
+            Self::Brownian(keys) => keys.set_files(files, recipe_hash),
+            Self::Restoration(keys) => keys.set_files(files, recipe_hash),
+        }
     }
 
     /// SHA-256 of the recipe as this program writes it.
@@ -195,6 +225,9 @@ impl Source {
             }
             Self::Weave(keys) => keys.check(checker)?,
             Self::Knit(keys) => keys.check(checker)?,
+            Self::Fourier(keys) => keys.check(checker)?,
+            Self::Brownian(keys) => keys.check(checker)?,
+            Self::Restoration(keys) => keys.check(checker)?,
         }
         let files = self.files();
         for direction in Direction::ALL {
@@ -216,6 +249,9 @@ impl Manifest {
             "profiles" => read::<Profiles>(text, path)?.map(Source::Profiles),
             "weave" => read::<Box<Weave>>(text, path)?.map(Source::Weave),
             "knit" => read::<Box<Knit>>(text, path)?.map(Source::Knit),
+            "fourier" => read::<Box<Fourier>>(text, path)?.map(Source::Fourier),
+            "brownian" => read::<Box<Brownian>>(text, path)?.map(Source::Brownian),
+            "restoration" => read::<Box<Restoration>>(text, path)?.map(Source::Restoration),
             other => {
                 let mend = format!("the kinds are {}", KINDS.join(", "));
                 let what = format!("unknown kind of source \"{other}\"");

@@ -1,0 +1,309 @@
+//! Brownian surfaces: roughness without a scale of its own, told by a Hurst exponent H.
+//!
+//! A fractional Brownian surface rises by `E[(z(x + d) − z(x))²] ∝ |d|^{2H}` in every direction;
+//! its fractal dimension is 3 − H; a profile's power falls as `ν^{−(2H+1)}`. Low H is jagged, high
+//! H gently rolling. Two generators: `exact` (Stein's embedding: no repeat, no approximation) and
+//! `periodic` (spectral synthesis: repeats, takes cut-offs).
+//!
+//! It knows nothing of spectra in time, or of files.
+
+mod hurst;
+mod stein;
+mod synthesis;
+#[cfg(test)]
+mod tests;
+
+pub use hurst::Hurst;
+
+use serde::{Deserialize, Serialize};
+
+use super::TextileError;
+use super::drawn::{Drawn, profile_file_keys, thinned};
+use super::manifest::Checker;
+use crate::numerics::{Grid, Random};
+use crate::surface::{HeightMap, Probe, ProfileSet};
+
+/// Most points along a side: the embedding of 1000 takes half a gigabyte.
+const MOST_POINTS: f64 = 1000.0;
+/// Rounds that bring a wire's reading to the SMD asked for.
+const N_ROUNDS: usize = 8;
+
+/// How a Brownian surface is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Generator {
+    /// Stein's embedding: exact for any two points of a side's length or less.
+    Exact,
+    /// Spectral synthesis: repeats without a seam, too smooth over few samples at low H.
+    Periodic,
+}
+
+/// What is drawn over the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tip {
+    /// A point: reads the heights as they are.
+    #[default]
+    Point,
+    /// The wire of the virtual surface tester, 5 mm wide: smooths what is finer than it.
+    Wire,
+}
+
+/// The recipe of a Brownian surface (`kind = "brownian"`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Brownian {
+    /// Always `brownian`.
+    pub kind: String,
+    /// Hash of the recipe that the profiles came from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recipe_hash: Option<String>,
+    /// See [`super::ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_forward: Option<String>,
+    /// See [`super::ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_reverse: Option<String>,
+    /// See [`super::ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_forward: Option<String>,
+    /// See [`super::ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_reverse: Option<String>,
+    /// Chooses the surface.
+    pub seed: u32,
+    /// The Hurst exponent H, 0.01–0.99.
+    pub hurst: f64,
+    /// How it is made.
+    #[serde(default = "exact")]
+    pub generator: Generator,
+    /// Amplitude: the mean roughness SMD of the four strokes, µm. This or `rise_um`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub smd_um: Option<f64>,
+    /// Amplitude: the expected rms rise between points 1 mm apart, µm. This or `smd_um`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rise_um: Option<f64>,
+    /// No waves shorter than this, mm; `periodic` alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shortest_mm: Option<f64>,
+    /// Waves longer than this are no stronger than this one, mm; `periodic` alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub longest_mm: Option<f64>,
+    /// Side of the patch, mm.
+    #[serde(default = "default_length_mm")]
+    pub length_mm: f64,
+    /// Distance of its points, mm.
+    #[serde(default = "default_step_mm")]
+    pub step_mm: f64,
+    /// What is drawn over it.
+    #[serde(default)]
+    pub tip: Tip,
+    /// Noise of the tip, µm rms.
+    #[serde(default)]
+    pub noise_um: f64,
+}
+
+profile_file_keys!(Brownian);
+
+fn exact() -> Generator {
+    Generator::Exact
+}
+fn default_length_mm() -> f64 {
+    20.0
+}
+fn default_step_mm() -> f64 {
+    0.02
+}
+
+impl Brownian {
+    /// A recipe with this exponent and roughness, everything else as usual.
+    pub fn new(hurst: f64, smd_um: f64, generator: Generator, seed: u32) -> Self {
+        Self {
+            kind: "brownian".to_owned(),
+            recipe_hash: None,
+            warp_forward: None,
+            warp_reverse: None,
+            weft_forward: None,
+            weft_reverse: None,
+            seed,
+            hurst,
+            generator,
+            smd_um: Some(smd_um),
+            rise_um: None,
+            shortest_mm: None,
+            longest_mm: None,
+            length_mm: default_length_mm(),
+            step_mm: default_step_mm(),
+            tip: Tip::Point,
+            noise_um: 0.0,
+        }
+    }
+
+    /// Points along a side.
+    fn n_points(&self) -> usize {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "checked: at most a thousand"
+        )]
+        let n = (self.length_mm / self.step_mm)
+            .round()
+            .clamp(2.0, MOST_POINTS) as usize;
+        n
+    }
+
+    /// Refuses what is no Brownian surface.
+    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+        let within = |key, value, range| checker.within("source", key, value, range);
+        within("hurst", self.hurst, 0.01..=0.99)?;
+        within("length_mm", self.length_mm, 5.0..=50.0)?;
+        within("step_mm", self.step_mm, 0.005..=0.2)?;
+        within("noise_um", self.noise_um, 0.0..=10.0)?;
+        let n = self.length_mm / self.step_mm;
+        if n > MOST_POINTS + 0.5 {
+            let what = format!("length_mm / step_mm is {n:.0} points");
+            let mend = "1000 are the most: take a larger step or a shorter side";
+            return Err(checker.wrong("source", "step_mm", what, mend));
+        }
+        match (self.smd_um, self.rise_um) {
+            (Some(smd_um), None) => within("smd_um", smd_um, 0.0..=1000.0)?,
+            (None, Some(rise_um)) => within("rise_um", rise_um, 0.0..=1000.0)?,
+            (both, _) => {
+                let key = if both.is_some() { "rise_um" } else { "kind" };
+                let mend = "give exactly one of smd_um and rise_um";
+                return Err(checker.wrong("source", key, "the amplitude is not clear", mend));
+            }
+        }
+        self.check_cut_offs(checker)
+    }
+
+    fn check_cut_offs(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+        let cut_offs = [
+            ("shortest_mm", self.shortest_mm, 2.0 * self.step_mm),
+            ("longest_mm", self.longest_mm, 4.0 * self.step_mm),
+        ];
+        for (key, value, least) in cut_offs {
+            let Some(value) = value else { continue };
+            if self.generator == Generator::Exact {
+                let what = format!("{key} with generator = \"exact\", which cuts nothing off");
+                let mend = "take generator = \"periodic\" or leave the cut-off out";
+                return Err(checker.wrong("source", key, what, mend));
+            }
+            checker.within("source", key, value, least..=self.length_mm)?;
+        }
+        match (self.shortest_mm, self.longest_mm) {
+            (Some(shortest), Some(longest)) if shortest >= longest => {
+                let what = format!("shortest_mm is {shortest}, longest_mm {longest}");
+                Err(checker.wrong("source", "shortest_mm", what, "put them in order"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The surface whose expected rms rise over 1 mm is `rise_um`.
+    pub fn surface(&self, rise_um: f64) -> Result<HeightMap, TextileError> {
+        let n = self.n_points();
+        let random = Random::new(u64::from(self.seed));
+        let per_mm = 1.0 / self.length_mm;
+        let (mut heights, scale) = match self.generator {
+            Generator::Exact => {
+                let heights = stein::surface(self.hurst, n, &random);
+                (
+                    heights,
+                    rise_um * self.length_mm.powf(self.hurst) / 2.0_f64.sqrt(),
+                )
+            }
+            Generator::Periodic => {
+                let colour = synthesis::Colour {
+                    hurst: self.hurst,
+                    shortest: self.shortest_mm.unwrap_or(0.0) * per_mm,
+                    longest: self.longest_mm.unwrap_or(self.length_mm) * per_mm,
+                };
+                let unit = n as f64 * per_mm;
+                (synthesis::surface(&colour, n, unit, &random), rise_um)
+            }
+        };
+        heights
+            .values_mut()
+            .iter_mut()
+            .for_each(|height| *height *= scale);
+        let map = self.map(heights)?;
+        Ok(match self.generator {
+            Generator::Exact => map,
+            Generator::Periodic => map.periodic(),
+        })
+    }
+
+    fn map(&self, heights_um: Grid<f64>) -> Result<HeightMap, TextileError> {
+        let step_mm = self.length_mm / self.n_points() as f64;
+        HeightMap::new(heights_um, [step_mm; 2]).map_err(no_surface)
+    }
+
+    fn strokes(&self, map: &HeightMap) -> Result<ProfileSet, TextileError> {
+        let probe = match self.tip {
+            Tip::Wire => Probe::default(),
+            Tip::Point => Probe {
+                radius_mm: 0.0,
+                width_mm: 0.0,
+                ..Probe::ideal()
+            },
+        };
+        let probe = Probe {
+            noise_um: self.noise_um,
+            ..probe
+        };
+        let random = Random::new(u64::from(self.seed)).branch("probe");
+        let middle_mm = [0.5 * self.length_mm; 2];
+        map.strokes(&probe, middle_mm, &random)
+            .map_err(|(_, source)| no_surface(source))
+    }
+
+    /// Four strokes over the surface, with the roughness asked for and the exponent found.
+    pub(crate) fn drawn(&self) -> Result<Drawn, TextileError> {
+        let mut map = self.surface(self.rise_um.unwrap_or(1.0))?;
+        let mut strokes = self.strokes(&map)?;
+        if let Some(smd_um) = self.smd_um {
+            for _ in 0..N_ROUNDS {
+                let found = mean_smd_um(&strokes);
+                let factor = if found > 0.0 { smd_um / found } else { 0.0 };
+                if (factor - 1.0).abs() < 1e-9 {
+                    break;
+                }
+                let mut heights = map.heights_um().clone();
+                heights
+                    .values_mut()
+                    .iter_mut()
+                    .for_each(|height| *height *= factor);
+                let is_periodic = map.is_periodic();
+                map = self.map(heights)?;
+                map = if is_periodic { map.periodic() } else { map };
+                strokes = self.strokes(&map)?;
+            }
+        }
+        let stride = (map.heights_um().width() / 200).max(1);
+        let patch = thinned(&map, stride).unwrap_or_else(|| map.clone());
+        let mut drawn = Drawn::of_strokes(&strokes, patch);
+        drawn.step_mm = map.step_mm();
+        let lines = [0, 2].map(|index| drawn.strokes_um[index].as_slice());
+        if let Some(found) = Hurst::of_lines(&lines) {
+            drawn.measured = vec![("hurst", found.exponent), ("hurst_error", found.error)];
+        }
+        Ok(drawn)
+    }
+}
+
+/// The mean SMD of strokes, µm.
+fn mean_smd_um(strokes: &ProfileSet) -> f64 {
+    let each = strokes
+        .iter()
+        .flatten()
+        .map(crate::surface::Profile::smd_um);
+    each.sum::<f64>() / strokes.iter().flatten().count().max(1) as f64
+}
+
+fn no_surface(source: crate::surface::SurfaceError) -> TextileError {
+    TextileError::Surface {
+        path: "the Brownian surface".into(),
+        source,
+    }
+}

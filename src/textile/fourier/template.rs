@@ -1,0 +1,168 @@
+//! What a material is to the Fourier method: mean and standard deviation of the coefficients of
+//! each harmonic, learnt from several profiles [Wall & Harwin 1999].
+//!
+//! Conventions, where the paper leaves them open or prints them otherwise:
+//! - a harmonic n is `a_n cos(2π n ν₀ x) + b_n sin(2π n ν₀ x)`: ν₀ is in cycles, so 2π is written
+//! - n counts cycles in the fundamental length: n = 1 is the fundamental (a numbering from 1 that
+//!   calls the constant the first harmonic is one higher); bands are given in cycles/m, not in n
+//! - the fundamental is 1/(N·dx), N samples dx apart: 19.8 cycles/m for 101 samples at 0.5 mm, not
+//!   the 20 of 1/50 mm
+//! - `a_n = 2/N Re X_n`, `b_n = −2/N Im X_n` of the DFT X: heights in µm, peak. The printed 1/N
+//!   with a one-sided sum gives half of them
+
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::RealTransform;
+use crate::surface::Profile;
+use crate::textile::TextileError;
+
+/// Most harmonics of a template.
+pub(super) const MOST_HARMONICS: usize = 2000;
+
+/// Mean and standard deviation of the coefficients of harmonics 1, 2, 3 …
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FourierTemplate {
+    /// What it is called.
+    pub name: String,
+    /// Where it comes from, one line.
+    #[serde(default)]
+    pub notes: String,
+    /// Harmonic 1, cycles a metre.
+    pub fundamental_per_m: f64,
+    /// Mean of the cosines' coefficients, µm.
+    pub mean_cos_um: Vec<f64>,
+    /// Their standard deviation, µm.
+    pub sd_cos_um: Vec<f64>,
+    /// Mean of the sines' coefficients, µm.
+    pub mean_sin_um: Vec<f64>,
+    /// Their standard deviation, µm.
+    pub sd_sin_um: Vec<f64>,
+}
+
+impl FourierTemplate {
+    /// The template of a material by several of its profiles, with harmonics 1 … `n_harmonics` (as
+    /// many as the samples allow, if fewer).
+    ///
+    /// # Errors
+    /// Fewer than two profiles; profiles that differ in samples or step.
+    pub fn learn(
+        name: &str,
+        profiles: &[Profile],
+        n_harmonics: usize,
+    ) -> Result<Self, TextileError> {
+        let [first, _, ..] = profiles else {
+            let n = profiles.len();
+            let mend = "a standard deviation takes two or more, of different places";
+            return Err(TextileError::Model(format!("profiles given: {n}; {mend}")));
+        };
+        let (n, step_mm) = (first.heights_um().len(), first.step_mm());
+        for (index, profile) in profiles.iter().enumerate() {
+            let (n_here, step_here) = (profile.heights_um().len(), profile.step_mm());
+            if n_here != n || (step_here - step_mm).abs() > 1e-3 * step_mm {
+                return Err(TextileError::Model(format!(
+                    "profile {}: {n_here} samples {step_here:.4} mm apart, the first has {n} \
+                     {step_mm:.4} mm apart; cut and resample them alike",
+                    index + 1
+                )));
+            }
+        }
+        let transform = RealTransform::new(n);
+        let n_harmonics = n_harmonics.clamp(1, MOST_HARMONICS).min((n - 1) / 2);
+        let spectra: Vec<_> = profiles
+            .iter()
+            .map(|profile| transform.forward(profile.heights_um()))
+            .collect();
+        let scale = 2.0 / n as f64;
+        let mut template = Self {
+            name: name.to_owned(),
+            notes: format!("Learnt from {} profiles of {n} samples.", profiles.len()),
+            fundamental_per_m: 1000.0 / (n as f64 * step_mm),
+            mean_cos_um: Vec::new(),
+            sd_cos_um: Vec::new(),
+            mean_sin_um: Vec::new(),
+            sd_sin_um: Vec::new(),
+        };
+        for k in 1..=n_harmonics {
+            let (mean, sd) = moments(spectra.iter().map(|x| scale * x[k].re));
+            template.mean_cos_um.push(mean);
+            template.sd_cos_um.push(sd);
+            let (mean, sd) = moments(spectra.iter().map(|x| -scale * x[k].im));
+            template.mean_sin_um.push(mean);
+            template.sd_sin_um.push(sd);
+        }
+        Ok(template)
+    }
+
+    /// What is wrong with it, if anything: the key, what, and how to mend it.
+    pub(crate) fn fault(&self) -> Option<(&'static str, String, String)> {
+        let n = self.mean_cos_um.len();
+        if !(0.1..=10_000.0).contains(&self.fundamental_per_m) {
+            let what = format!("fundamental_per_m is {}", self.fundamental_per_m);
+            return Some(("fundamental_per_m", what, "give 0.1 to 10000".to_owned()));
+        }
+        if n == 0 || n > MOST_HARMONICS {
+            let what = format!("{n} harmonics");
+            return Some(("mean_cos_um", what, format!("give 1 to {MOST_HARMONICS}")));
+        }
+        for (key, values, is_sd) in [
+            ("mean_cos_um", &self.mean_cos_um, false),
+            ("sd_cos_um", &self.sd_cos_um, true),
+            ("mean_sin_um", &self.mean_sin_um, false),
+            ("sd_sin_um", &self.sd_sin_um, true),
+        ] {
+            if values.len() != n {
+                let what = format!("{key} has {} values, mean_cos_um {n}", values.len());
+                return Some((key, what, "give one a harmonic".to_owned()));
+            }
+            let least = if is_sd { 0.0 } else { -1e6 };
+            let is_wrong = |value: &&f64| !(least..=1e6).contains(*value);
+            if let Some(value) = values.iter().find(is_wrong) {
+                let mend = format!("give numbers from {least} to 1000000");
+                return Some((key, format!("{key} holds {value}"), mend));
+            }
+        }
+        None
+    }
+
+    /// Harmonic numbers within a band of cycles a metre.
+    pub fn harmonics(&self, [lowest_per_m, highest_per_m]: [f64; 2]) -> Vec<usize> {
+        let is_within = |n: &usize| {
+            let per_m = *n as f64 * self.fundamental_per_m;
+            per_m >= lowest_per_m * (1.0 - 1e-9) && per_m <= highest_per_m * (1.0 + 1e-9)
+        };
+        (1..=self.mean_cos_um.len()).filter(is_within).collect()
+    }
+
+    /// Wavenumber of a harmonic, cycles/mm.
+    pub(super) fn per_mm(&self, n: usize) -> f64 {
+        n as f64 * self.fundamental_per_m / 1000.0
+    }
+
+    /// Mean square of the two coefficients of a harmonic, µm²: what it adds to the variance of the
+    /// heights.
+    pub fn variance_um2(&self, n: usize) -> f64 {
+        let [a, b, c, d] = [
+            self.mean_cos_um[n - 1],
+            self.sd_cos_um[n - 1],
+            self.mean_sin_um[n - 1],
+            self.sd_sin_um[n - 1],
+        ];
+        0.5 * (a * a + b * b + c * c + d * d)
+    }
+
+    /// Standard deviation of the heights of what is drawn from it within a band, µm.
+    pub fn sd_um(&self, band_per_m: [f64; 2]) -> f64 {
+        let harmonics = self.harmonics(band_per_m);
+        let sum: f64 = harmonics.iter().map(|&n| self.variance_um2(n)).sum();
+        sum.sqrt()
+    }
+}
+
+/// Mean and standard deviation (of a sample: n − 1) of some numbers.
+fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    let squares: f64 = values.map(|x| (x - mean).powi(2)).sum();
+    (mean, (squares / (n - 1.0)).sqrt())
+}
