@@ -19,8 +19,8 @@ use super::{
 };
 use crate::numerics::Random;
 
-/// Width of the wire, mm: the distance of points.
-const WIDTH_MM: f64 = 1.0;
+/// Width of the wire that areal spectra are read with, mm: the distance of points.
+pub const AREAL_WIRE_MM: f64 = 1.0;
 /// Points along a repeat of a periodic map at which looking for a better fit ends.
 const MOST_POINTS_OF_REPEATS: u32 = 64;
 /// How far the last point of a periodic map may miss the first, mm, without looking further.
@@ -61,7 +61,7 @@ impl Surface {
         noise_floor_um2_mm: f64,
     ) -> Result<Self, (Direction, SurfaceError)> {
         let probe = Probe {
-            width_mm: WIDTH_MM,
+            width_mm: AREAL_WIRE_MM,
             ..Probe::ideal()
         };
         let middle_mm = map.size_mm().map(|size_mm| 0.5 * size_mm);

@@ -15,7 +15,7 @@ mod profile;
 mod spectra;
 mod tracks;
 
-pub use areal::Representation;
+pub use areal::{AREAL_WIRE_MM, Representation};
 pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
 pub use profile::Profile;
