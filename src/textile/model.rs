@@ -2,15 +2,18 @@
 
 use std::path::Path;
 
-use super::cloth::{Cloth, portrait, profiles};
+use super::cloth::{Cloth, portrait, profiles, relief_map};
 use super::manifest::Source;
 use super::{TextileError, profile_file};
 use crate::files::Rgb8Image;
 use crate::numerics::Random;
-use crate::surface::{Direction, Probe, ProfileSet};
+use crate::surface::{Direction, HeightMap, Probe, ProfileSet, SurfaceError};
 
 /// Distance of a model's samples, mm.
 const STEP_MM: f64 = 1.0 / 230.0;
+
+/// Distance of the points of a model's relief, about, mm: finer than the wire can follow.
+const RELIEF_STEP_MM: f64 = 0.02;
 
 /// A model cloth under the virtual tester.
 #[derive(Debug)]
@@ -51,9 +54,22 @@ impl Model {
         Ok(texts)
     }
 
+    /// The relief of the whole cloth, which repeats: heights of the model itself, without a probe.
+    fn height_map(&self) -> Result<HeightMap, SurfaceError> {
+        relief_map(&self.cloth, RELIEF_STEP_MM)
+    }
+
     /// The picture.
     pub(crate) fn picture(&self) -> Rgb8Image {
         portrait(&self.cloth)
+    }
+}
+
+impl Source {
+    /// The heights over an area that the source knows; `None` if it knows profiles only. A model's
+    /// relief takes a second or so.
+    pub fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+        Model::of(self).map(|model| model.height_map())
     }
 }
 

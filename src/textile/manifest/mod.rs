@@ -17,7 +17,7 @@ use super::TextileError;
 use super::knit::Knit;
 use super::weave::Weave;
 use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
-use crate::surface::Direction;
+use crate::surface::{Direction, Representation};
 use crate::tactile::check_gain;
 
 /// A textile's manifest. `S` is the source: [`Source`], or one kind of it while reading.
@@ -163,6 +163,15 @@ impl Source {
             ]),
             Self::Weave(keys) => keys.files(),
             Self::Knit(keys) => keys.files(),
+        }
+    }
+
+    /// How its surface is laid out.
+    pub fn representation(&self) -> Representation {
+        match self {
+            Self::Profiles(_) => Representation::Economical,
+            Self::Weave(keys) => keys.representation,
+            Self::Knit(keys) => keys.representation,
         }
     }
 
