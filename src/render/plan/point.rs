@@ -58,7 +58,19 @@ impl PointGrid {
     /// The number of the point nearest to a place in mm.
     #[inline]
     pub(in crate::render) fn nearest(self, along_mm: f64, across_mm: f64) -> usize {
-        self.across.nearest(across_mm) * self.n_along + self.along.nearest(along_mm)
+        self.number(self.indices(along_mm, across_mm))
+    }
+
+    /// The point nearest to a place in mm: which along, which across.
+    #[inline]
+    pub(in crate::render) fn indices(self, along_mm: f64, across_mm: f64) -> [usize; 2] {
+        [self.along.nearest(along_mm), self.across.nearest(across_mm)]
+    }
+
+    /// The number of a point: so many along, so many across.
+    #[inline]
+    pub(in crate::render) fn number(self, [along, across]: [usize; 2]) -> usize {
+        across * self.n_along + along
     }
 }
 

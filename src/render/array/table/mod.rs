@@ -24,7 +24,7 @@ use crate::render::plan::{
 use crate::render::{RenderError, RenderScene, single};
 use crate::surface::Direction;
 use segments::{Segments, Spot};
-use touched::{TouchedTables, touched_bytes};
+use touched::{Heard, TouchedTables, touched_bytes};
 
 /// Most bytes that the tables of a scene may take.
 pub(super) const MAX_TABLE_BYTES: usize = 256_000_000;
@@ -150,6 +150,7 @@ impl TableEvaluator {
     ) {
         let n = contacts.n_contactors;
         let mut points = [PointIndex::new(1); 2];
+        let mut heard = [None; 2];
         for axis in Axis::BOTH {
             self.blended[axis as usize][0] = [0.0; 2];
             let component = contacts.component(axis, 0);
@@ -164,11 +165,8 @@ impl TableEvaluator {
             };
             let d = axis.direction(is_reverse).index();
             let spot = self.find_for(n, speed_mm_per_s, contacts, counters);
-            if let Some(touched) = &mut self.touched
-                && touched.has(textile.spectra[d])
-            {
-                let which = (textile.spectra[d], textile.points[d]);
-                touched.add_all(which, (contacts, axis), spot, powers, counters);
+            heard[axis as usize] = self.heard_areally(textile, d, spot);
+            if heard[axis as usize].is_some() {
                 counters.directions_evaluated += n as u64;
                 continue;
             }
@@ -188,11 +186,29 @@ impl TableEvaluator {
                 counters.directions_evaluated += n as u64;
             }
         }
+        if let Some(touched) = &mut self.touched {
+            touched.add_all(heard, contacts, powers, counters);
+            if heard.iter().all(Option::is_some) {
+                return;
+            }
+        }
         let [warp, weft] = [&self.blended[0][..], &self.blended[1][..]];
         contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
             add(power, warp[points[0].nearest(u_mm)]);
             add(power, weft[points[1].nearest(w_mm)]);
         });
+    }
+
+    /// What is heard of an areal surface in a direction; `None` of any other.
+    #[inline]
+    fn heard_areally(&self, textile: &TextilePlan, d: usize, spot: Spot) -> Option<Heard> {
+        let (spectra, points) = (textile.spectra[d], textile.points[d]);
+        let is_areal = self.touched.as_ref().is_some_and(|t| t.has(spectra));
+        is_areal.then_some(Heard {
+            spectra,
+            points,
+            spot,
+        })
     }
 
     /// Where a speed that `n` contactors share lies.

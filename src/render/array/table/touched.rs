@@ -12,7 +12,7 @@ use std::sync::Arc;
 use super::Grid;
 use super::build::{NodeGains, normal};
 use super::segments::Spot;
-use crate::render::plan::{Axis, Contacts, Counters, PointGrid, ScenePlan};
+use crate::render::plan::{Contacts, Counters, PointGrid, ScenePlan};
 use crate::surface::LocalSpectra;
 
 /// No row holds this point's nodes; or a row holds no point's.
@@ -25,16 +25,35 @@ const LEAST_ROWS: usize = 1024;
 /// −0.
 type Kept = [f32; 2];
 
+/// Whether a node is made.
+#[inline]
+fn is_made(kept: Kept) -> bool {
+    kept[0].to_bits() != 0
+}
+
+/// What contactors that share a speed along an axis of an areal surface hear.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heard {
+    /// Which spectra of the pool.
+    pub(super) spectra: usize,
+    pub(super) points: PointGrid,
+    pub(super) spot: Spot,
+}
+
 /// Powers of areal spectra at the nodes that were touched.
 #[derive(Debug, Clone)]
 pub(super) struct TouchedTables {
     gains: Arc<NodeGains>,
     /// By place in the pool; `None` for spectra along one profile.
     areas: Vec<Option<Area>>,
+    /// By place in the pool, the first of an area's points among those of all areas.
+    firsts: Vec<usize>,
     n_nodes: usize,
+    /// There is a row for every point: its own, for ever.
+    is_whole: bool,
     /// Row by row the nodes of a point.
     kept: Vec<Kept>,
-    /// The row of every point of every area.
+    /// The row of every point of every area, unless it is whole.
     row_of: Vec<u32>,
     /// The point of every row.
     point_of: Vec<u32>,
@@ -46,8 +65,6 @@ pub(super) struct TouchedTables {
 #[derive(Debug, Clone)]
 struct Area {
     spectra: Arc<LocalSpectra>,
-    /// Its first point among those of all areas.
-    first: usize,
     /// One over the unit of its powers, 1/µm²; 0 if all are silent.
     per_unit: f64,
 }
@@ -77,26 +94,31 @@ impl TouchedTables {
     ) -> Self {
         let n_nodes = gains.n_nodes().max(1);
         let n_rows = n_bytes / (n_nodes * size_of::<Kept>());
-        let mut first = 0;
         let area = |(spectra, unit_um2): (&Arc<LocalSpectra>, &f64)| {
-            spectra.is_areal().then(|| {
-                let area = Area {
-                    spectra: Arc::clone(spectra),
-                    first,
-                    per_unit: if *unit_um2 > 0.0 { 1.0 / unit_um2 } else { 0.0 },
-                };
-                first += spectra.n_points();
-                area
+            spectra.is_areal().then(|| Area {
+                spectra: Arc::clone(spectra),
+                per_unit: if *unit_um2 > 0.0 { 1.0 / unit_um2 } else { 0.0 },
             })
         };
-        let areas = plan.pool.iter().zip(units_um2).map(area).collect();
+        let mut n_points = 0;
+        let first = |area: &Option<Area>| {
+            let first = n_points;
+            n_points += area.as_ref().map_or(0, |area| area.spectra.n_points());
+            first
+        };
+        let areas: Vec<_> = plan.pool.iter().zip(units_um2).map(area).collect();
+        let firsts = areas.iter().map(first).collect();
+        let is_whole = n_rows >= n_points;
+        let [n_places, n_owners] = if is_whole { [0, 0] } else { [n_points, n_rows] };
         Self {
             gains,
             areas,
+            firsts,
             n_nodes,
+            is_whole,
             kept: vec![[0.0; 2]; n_rows * n_nodes],
-            row_of: vec![NONE; first],
-            point_of: vec![NONE; n_rows],
+            row_of: vec![NONE; n_places],
+            point_of: vec![NONE; n_owners],
             next: 0,
         }
     }
@@ -113,21 +135,47 @@ impl TouchedTables {
         size_of_val(&self.kept[..]) + n_places * size_of::<u32>() + self.gains.n_bytes()
     }
 
-    /// Adds to every contactor on a textile its powers along an axis, at a speed they share.
+    /// Adds to every contactor on a textile its powers along the axes that are heard; contactors
+    /// share their speeds.
     pub(super) fn add_all(
         &mut self,
-        (spectra, points): (usize, PointGrid),
-        (contacts, axis): (&Contacts<'_>, Axis),
-        spot: Spot,
+        heard: [Option<Heard>; 2],
+        contacts: &Contacts<'_>,
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
-        let [along_mm, across_mm] = contacts.along_and_across_mm(axis);
-        contacts.for_each_owned(powers, |contactor, power| {
-            let point = points.nearest(along_mm[contactor], across_mm[contactor]);
-            let own = self.at(spectra, point, spot, counters);
-            (0..2).for_each(|b| power[b] += own[b]);
-        });
+        match heard {
+            // One surface: its grid is looked up once for both.
+            [Some(warp), Some(weft)] => {
+                contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+                    let [i, j] = warp.points.indices(u_mm, w_mm);
+                    let a = self.at(
+                        warp.spectra,
+                        warp.points.number([i, j]),
+                        warp.spot,
+                        counters,
+                    );
+                    let b = self.at(
+                        weft.spectra,
+                        weft.points.number([j, i]),
+                        weft.spot,
+                        counters,
+                    );
+                    (0..2).for_each(|band| power[band] += a[band] + b[band]);
+                });
+            }
+            [Some(warp), None] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+                let point = warp.points.nearest(u_mm, w_mm);
+                let own = self.at(warp.spectra, point, warp.spot, counters);
+                (0..2).for_each(|band| power[band] += own[band]);
+            }),
+            [None, Some(weft)] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+                let point = weft.points.nearest(w_mm, u_mm);
+                let own = self.at(weft.spectra, point, weft.spot, counters);
+                (0..2).for_each(|band| power[band] += own[band]);
+            }),
+            [None, None] => {}
+        }
     }
 
     /// The powers of a point at a speed; nodes that are missing are made, and counted.
@@ -139,19 +187,18 @@ impl TouchedTables {
         spot: Spot,
         counters: &mut Counters,
     ) -> [f32; 2] {
-        let Some(area) = &self.areas[spectra] else {
-            return [0.0; 2];
+        let place = self.firsts[spectra] + point;
+        let row = if self.is_whole {
+            place
+        } else {
+            self.row_of[place] as usize
         };
-        let row = self.row_of[area.first + point];
-        let at = row as usize * self.n_nodes + spot.node;
-        let is_made = |kept: &Kept| kept[0].to_bits() != 0;
-        let [before, after] = match self.kept.get(at..at + 2) {
-            Some([before, after]) if row != NONE && is_made(before) && is_made(after) => {
-                [*before, *after]
-            }
+        let kept = self.kept.get(row * self.n_nodes + spot.node..);
+        let [before, after] = match kept.and_then(|kept| kept.first_chunk::<2>()) {
+            Some(&[before, after]) if is_made(before) & is_made(after) => [before, after],
             _ => self.made(spectra, point, spot.node, counters),
         };
-        let between = |b: usize| -(before[b] + (after[b] - before[b]) * spot.share);
+        let between = |band: usize| -(before[band] + (after[band] - before[band]) * spot.share);
         [between(0), between(1)]
     }
 
@@ -168,11 +215,16 @@ impl TouchedTables {
         let Some(area) = self.areas[spectra].clone() else {
             return [[-0.0; 2]; 2];
         };
-        let row = self.row(area.first + point);
+        let place = self.firsts[spectra] + point;
+        let row = if self.is_whole {
+            place
+        } else {
+            self.row(place)
+        };
         let powers_um2 = area.spectra.powers_um2(point);
         [node, node + 1].map(|node| {
             let kept = &mut self.kept[row * self.n_nodes + node];
-            if kept[0].to_bits() == 0 {
+            if !is_made(*kept) {
                 let (sums, n_bins) = self.gains.sums(node, powers_um2);
                 *kept = sums.map(|sum| -normal(2.0 * sum * area.per_unit));
                 counters.nodes_made += 1;
