@@ -10,7 +10,7 @@ use super::textile_make::{self, MakeCommand};
 use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
 use crate::quantity::{factor_of_gain, fixed};
-use crate::surface::{BIN_SPACING_PER_MM, Direction};
+use crate::surface::{BIN_SPACING_PER_MM, Direction, Representation, Surface};
 use crate::tactile::{Band, Filters, Levels, Tuning};
 use crate::textile::{Library, Textile};
 
@@ -118,7 +118,7 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
     let textile = library.load(id)?;
     let manifest = textile.manifest();
     let levels = Levels::of(textile.surface(), &Filters::default());
-    let n_points = Direction::ALL.map(|d| textile.surface().spectra(d).n_points().to_string());
+    let n_points = Direction::ALL.map(|d| shape(textile.surface().spectra(d).shape()));
     let level = levels
         .level_db()
         .map_or_else(|| "none".to_owned(), |db| fixed(db, 2));
@@ -129,6 +129,7 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ("construction", manifest.construction.word().to_owned()),
         ("fibre", manifest.fibre.clone()),
         ("source", manifest.source.kind().to_owned()),
+        ("felt", felt(textile.surface()).to_owned()),
         ("notes", manifest.notes.clone()),
         ("licence", manifest.licence.clone()),
         ("gain", format!("{} dB", fixed(manifest.gain_db, 1))),
@@ -164,6 +165,23 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         .into_iter()
         .map(|(key, value)| format!("{key:14}{value}\n"));
     output::print(&lines.collect::<String>())
+}
+
+/// Where a surface's spectra come from.
+fn felt(surface: &Surface) -> &'static str {
+    match surface.representation() {
+        Representation::Economical => "along one profile a direction",
+        Representation::Areal => "at every point of its area",
+    }
+}
+
+/// How many points there are along a direction, and across it where they differ.
+fn shape([n_along, n_across]: [usize; 2]) -> String {
+    if n_across == 1 {
+        n_along.to_string()
+    } else {
+        format!("{n_along} × {n_across}")
+    }
 }
 
 fn spectra(library: &Library, id: &str, out: Option<&Path>) -> Result<(), CliError> {

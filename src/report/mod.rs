@@ -13,6 +13,7 @@
 //! - a study's numbers depend on its seed, never on the machine; its times are the machine's
 //! - no GUI: the window's own studies are handed in by `app`
 
+mod areal;
 mod bench;
 mod chart;
 mod columns;
@@ -37,6 +38,7 @@ mod tests;
 mod velocity;
 mod write;
 
+pub use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
 pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
@@ -57,6 +59,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     vec![
         Box::new(RenderingStudy),
         Box::new(SpectralModelStudy),
+        Box::new(ArealStudy),
         Box::new(DriveUpdatesStudy),
         Box::new(VelocityStudy),
         Box::new(GrowthStudy),

@@ -3,6 +3,7 @@
 //! Columns run along u (the warp), rows along w (the weft); row 0 is at the lowest w. What is
 //! missing stays marked as missing when it is filled for analysis.
 
+use super::tracks::Tracks;
 use super::{Direction, Probe, Profile, ProfileSet, SurfaceError};
 use crate::numerics::{Grid, Random};
 
@@ -199,48 +200,7 @@ impl HeightMap {
         width_mm: f64,
         n_beyond: usize,
     ) -> Grid<f64> {
-        let filled = self.filled().heights_um;
-        let along = if is_weft { transposed(&filled) } else { filled };
-        let step_mm = self.step_mm[usize::from(!is_weft)];
-        let tracks = self.tracks(along.height(), step_mm, middle_mm, width_mm);
-        let n = along.width() + 2 * n_beyond;
-        let mut strip = Grid::filled(n, tracks.len(), 0.0);
-        for (row, track) in tracks.into_iter().enumerate() {
-            let from = along.row(track);
-            for (i, height) in strip.row_mut(row).iter_mut().enumerate() {
-                *height = from[self.place(i, n_beyond, from.len())];
-            }
-        }
-        strip
-    }
-
-    /// The point that a strip's column shows, `n_beyond` columns before the map's first.
-    fn place(&self, column: usize, n_beyond: usize, n: usize) -> usize {
-        if self.is_periodic {
-            // As many whole repeats as reach below zero, added first.
-            (column + n_beyond.div_ceil(n) * n - n_beyond) % n
-        } else {
-            column.saturating_sub(n_beyond).min(n - 1)
-        }
-    }
-
-    /// The tracks within a wire's width about a place across the stroke; at least one.
-    fn tracks(&self, n: usize, step_mm: f64, middle_mm: f64, width_mm: f64) -> Vec<usize> {
-        let middle = (middle_mm / step_mm).floor().max(0.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "places within a map"
-        )]
-        let (middle, half) = (middle as usize, (0.5 * width_mm / step_mm) as usize);
-        if self.is_periodic {
-            let n_tracks = (2 * half + 1).min(n);
-            let first = middle + n - (half % n);
-            (0..n_tracks).map(|i| (first + i) % n).collect()
-        } else {
-            let middle = middle.min(n - 1);
-            (middle.saturating_sub(half)..=(middle + half).min(n - 1)).collect()
-        }
+        Tracks::of(self, is_weft).strip(middle_mm, width_mm, n_beyond)
     }
 
     /// What the virtual tester records of four strokes over the map, along u at `middle_mm[1]` and
@@ -332,7 +292,7 @@ fn fill_gaps(heights: &mut [f64]) {
 }
 
 /// Rows as columns.
-fn transposed(grid: &Grid<f64>) -> Grid<f64> {
+pub(super) fn transposed(grid: &Grid<f64>) -> Grid<f64> {
     let mut turned = Grid::filled(grid.height(), grid.width(), f64::NAN);
     for row in 0..grid.height() {
         for (column, &value) in grid.row(row).iter().enumerate() {

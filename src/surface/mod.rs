@@ -8,11 +8,14 @@
 //! - spectra are one-sided powers in µm², bins 0.23 cycles/mm apart, bin k in slot k − 1
 //! - a [`Surface`] has spectra in all four directions: fall-backs are applied once, and named
 
+mod areal;
 mod height_map;
 mod probe;
 mod profile;
 mod spectra;
+mod tracks;
 
+pub use areal::{AREAL_WIRE_MM, Representation};
 pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
 pub use profile::Profile;
@@ -129,12 +132,14 @@ pub enum SurfaceError {
 /// The profiles of a surface that were measured, by [`Direction::index`].
 pub type ProfileSet = [Option<Profile>; 4];
 
-/// A surface: its profiles, and local spectra in every direction.
+/// A surface: its profiles, and local spectra in every direction, along one profile each or at
+/// every point of an area.
 #[derive(Debug, Clone)]
 pub struct Surface {
     profiles: ProfileSet,
     spectra: [Arc<LocalSpectra>; 4],
     taken_from: [Direction; 4],
+    representation: Representation,
 }
 
 impl Surface {
@@ -170,7 +175,13 @@ impl Surface {
             profiles,
             spectra: [a, b, c, d],
             taken_from,
+            representation: Representation::Economical,
         })
+    }
+
+    /// How its spectra are laid out.
+    pub fn representation(&self) -> Representation {
+        self.representation
     }
 
     /// The local spectra felt in a direction.
@@ -188,7 +199,8 @@ impl Surface {
         self.profiles[direction.index()].as_ref()
     }
 
-    /// The KES roughness figure SMD in µm: the mean over the profiles that were measured.
+    /// The KES roughness figure SMD in µm: the mean over the profiles that were measured, or, of an
+    /// areal surface, over the strokes through its middle.
     pub fn smd_um(&self) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for profile in self.profiles.iter().flatten() {

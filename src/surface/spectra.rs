@@ -35,6 +35,11 @@ enum Transform {
 impl SpectralPlan {
     /// The plan for profiles sampled every `step_mm`.
     pub fn new(step_mm: f64) -> Self {
+        Self::with_bins(step_mm, N_BINS)
+    }
+
+    /// The same for the first `n_bins` bins only.
+    pub(super) fn with_bins(step_mm: f64, n_bins: usize) -> Self {
         let samples = WINDOW_LENGTH_MM / step_mm;
         #[expect(
             clippy::cast_possible_truncation,
@@ -48,7 +53,7 @@ impl SpectralPlan {
             Transform::Plain(RealTransform::new(n_window))
         } else {
             let spacing = BIN_SPACING_PER_MM * step_mm;
-            Transform::Chirp(ChirpTransform::new(n_window, N_BINS + 1, spacing))
+            Transform::Chirp(ChirpTransform::new(n_window, n_bins + 1, spacing))
         };
         Self {
             step_mm,
@@ -67,7 +72,7 @@ impl SpectralPlan {
     ///
     /// `Σ_k P_k` is the w²-weighted mean square about the w-weighted mean; a sinusoid's amplitude
     /// is `√(2 Σ P)`.
-    fn powers_um2(&self, heights_um: &[f64], powers: &mut [f64]) {
+    pub(super) fn powers_um2(&self, heights_um: &[f64], powers: &mut [f64]) {
         // Heights relative to the first one: a flat profile is silent to the last bit.
         let first = heights_um[0];
         let pairs = || {
@@ -93,17 +98,21 @@ impl SpectralPlan {
     }
 
     /// Whether bin 500 is the Nyquist bin, which a one-sided spectrum must not count twice.
-    fn ends_at_nyquist(&self) -> bool {
+    pub(super) fn ends_at_nyquist(&self) -> bool {
         let last_per_mm = BIN_SPACING_PER_MM * N_BINS as f64;
         (0.5 / self.step_mm - last_per_mm).abs() < 1e-9 * last_per_mm
     }
 }
 
-/// Spectra at points 1 mm apart along a profile.
+/// Spectra at points 1 mm apart: along a profile, or over an area along many profiles side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalSpectra {
     /// Points × bins, row by row, µm².
     powers_um2: Vec<f64>,
+    /// Bins kept at every point: all, or those up to the Nyquist wavenumber.
+    n_bins: usize,
+    /// Points along the direction; across it there are as many as fill the rest.
+    n_along: usize,
 }
 
 impl LocalSpectra {
@@ -131,7 +140,21 @@ impl LocalSpectra {
                 powers[N_BINS - 1] *= 0.5;
             }
         }
-        Ok(Self { powers_um2 })
+        Ok(Self {
+            n_bins: N_BINS,
+            n_along: starts.len(),
+            powers_um2,
+        })
+    }
+
+    /// Spectra over an area: profile by profile a row of `n_along` points, at each point the
+    /// powers of its first `n_bins` bins, µm²; bins beyond are 0.
+    pub(super) fn over_area(powers_um2: Vec<f64>, n_along: usize, n_bins: usize) -> Self {
+        Self {
+            powers_um2,
+            n_bins,
+            n_along,
+        }
     }
 
     /// The spectra with a constant power density taken off: `P_k ← max(0, P_k − 0.23·density)`.
@@ -146,9 +169,25 @@ impl LocalSpectra {
         self
     }
 
-    /// Number of points, at least one.
+    /// Number of points, at least one: those along times those across. Point (i, j), i along and
+    /// j across the direction, is number `j·n_along + i`.
     pub fn n_points(&self) -> usize {
-        self.powers_um2.len() / N_BINS
+        self.powers_um2.len() / self.n_bins
+    }
+
+    /// Points along the direction, and across it: 1 for a profile.
+    pub fn shape(&self) -> [usize; 2] {
+        [self.n_along, self.n_points() / self.n_along]
+    }
+
+    /// Whether spectra vary across the direction too.
+    pub fn is_areal(&self) -> bool {
+        self.n_points() > self.n_along
+    }
+
+    /// Bins kept at every point, at most 500; those beyond are 0.
+    pub fn n_bins(&self) -> usize {
+        self.n_bins
     }
 
     /// Memory that the powers take, bytes.
@@ -156,18 +195,18 @@ impl LocalSpectra {
         size_of_val(&self.powers_um2[..])
     }
 
-    /// The powers at a point, µm²: 500 values, bin k in slot k − 1.
+    /// The powers at a point, µm²: [`LocalSpectra::n_bins`] values, bin k in slot k − 1.
     ///
     /// # Panics
     /// When `point` is not below [`LocalSpectra::n_points`].
     pub fn powers_um2(&self, point: usize) -> &[f64] {
-        &self.powers_um2[point * N_BINS..(point + 1) * N_BINS]
+        &self.powers_um2[point * self.n_bins..(point + 1) * self.n_bins]
     }
 }
 
 /// The first sample of every point's window: points 1 mm apart, as many as fit into `slack`
 /// samples beyond one window.
-fn starts_of_points(slack: usize, step_mm: f64) -> Vec<usize> {
+pub(super) fn starts_of_points(slack: usize, step_mm: f64) -> Vec<usize> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

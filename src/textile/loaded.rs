@@ -7,7 +7,7 @@ use super::manifest::Manifest;
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
 use crate::files::{Rgb8Image, decode_png};
-use crate::surface::{Direction, ProfileSet, Surface};
+use crate::surface::{Direction, ProfileSet, Representation, Surface};
 
 /// A textile, ready to be felt.
 #[derive(Debug, Clone)]
@@ -32,18 +32,16 @@ impl Textile {
     /// files is built on the spot, which takes a second or so.
     pub(crate) fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
         let manifest = read_manifest(store, id)?;
-        let names_none = manifest.source.files().is_empty();
-        let model = if names_none {
-            Model::of(&manifest.source)?
-        } else {
-            None
-        };
-        let profiles = match model {
-            Some(model) => profiles_of_files(&model.profile_files()?)?,
-            None => read_profiles(store, id, &manifest)?,
-        };
         let floor = manifest.noise_floor_um2_mm.unwrap_or(0.0);
-        let surface = Surface::from_profiles(profiles, floor).map_err(|(direction, source)| {
+        let is_areal = manifest.source.representation() == Representation::Areal;
+        let map = is_areal.then(|| manifest.source.height_map()).flatten();
+        let surface = match map {
+            Some(map) => map
+                .map_err(|error| (Direction::WarpForward, error))
+                .and_then(|map| Surface::areal(&map, floor)),
+            None => Surface::from_profiles(profiles_of(store, id, &manifest)?, floor),
+        };
+        let surface = surface.map_err(|(direction, source)| {
             let files = manifest.source.files();
             let name = files.of(direction).unwrap_or(MANIFEST);
             TextileError::Surface {
@@ -76,9 +74,11 @@ impl Textile {
 
     /// Which directions were not measured and what is felt there instead, one line each.
     pub fn fall_backs(&self) -> Vec<String> {
+        let is_areal = self.surface.representation() == Representation::Areal;
         let note = |direction: Direction| {
             let from = self.surface.taken_from(direction);
-            (from != direction)
+            // Heights over an area are felt alike both ways: nothing is missing.
+            (from != direction && !is_areal)
                 .then(|| format!("no {}: {} is felt there", direction.key(), from.key()))
         };
         Direction::ALL.into_iter().filter_map(note).collect()
@@ -114,6 +114,20 @@ pub(crate) const MANIFEST: &str = "textile.toml";
 pub(crate) fn read_manifest(store: &Store, id: &str) -> Result<Manifest, TextileError> {
     let path = store.path(id, MANIFEST);
     Manifest::from_toml(&store.text(id, MANIFEST)?, &path)
+}
+
+/// The profiles that a manifest names, or those of its model.
+fn profiles_of(store: &Store, id: &str, manifest: &Manifest) -> Result<ProfileSet, TextileError> {
+    let names_none = manifest.source.files().is_empty();
+    let model = if names_none {
+        Model::of(&manifest.source)?
+    } else {
+        None
+    };
+    match model {
+        Some(model) => profiles_of_files(&model.profile_files()?),
+        None => read_profiles(store, id, manifest),
+    }
 }
 
 fn read_profiles(store: &Store, id: &str, manifest: &Manifest) -> Result<ProfileSet, TextileError> {

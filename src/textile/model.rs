@@ -3,16 +3,19 @@
 
 use std::path::Path;
 
-use super::cloth::{Cloth, PX_PER_MM, portrait, profiles};
+use super::cloth::{Cloth, PX_PER_MM, portrait, profiles, relief_map};
 use super::drawn::Drawn;
 use super::manifest::Source;
 use super::{TextileError, profile_file};
 use crate::files::Rgb8Image;
 use crate::numerics::Random;
-use crate::surface::{Direction, Probe, ProfileSet};
+use crate::surface::{Direction, HeightMap, Probe, ProfileSet, SurfaceError};
 
 /// Distance of a cloth's samples, mm.
 const STEP_MM: f64 = 1.0 / 230.0;
+
+/// Distance of the points of a model's relief, about, mm: finer than the wire can follow.
+const RELIEF_STEP_MM: f64 = 0.02;
 
 /// A model, ready to be felt.
 #[derive(Debug)]
@@ -72,6 +75,15 @@ impl Model {
         Ok(texts)
     }
 
+    /// The relief of the whole cloth, which repeats: heights of the model itself, without a probe;
+    /// `None` of what is no cloth.
+    fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+        match self {
+            Self::Cloth { cloth, .. } => Some(relief_map(cloth, RELIEF_STEP_MM)),
+            Self::Drawn(_) => None,
+        }
+    }
+
     /// The picture, and pixels a mm.
     pub(crate) fn picture(&self) -> (Rgb8Image, f64) {
         match self {
@@ -86,6 +98,14 @@ impl Model {
             Self::Cloth { .. } => &[],
             Self::Drawn(drawn) => &drawn.measured,
         }
+    }
+}
+
+impl Source {
+    /// The heights over an area that the source knows; `None` if it knows profiles only. A model's
+    /// relief takes a second or so.
+    pub fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+        Model::of(self).ok().flatten()?.height_map()
     }
 }
 

@@ -9,11 +9,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use selvedge::geometry::{Displacement, Frame, Point, Rotation, Velocity};
-use selvedge::numerics::{Random, median};
+use selvedge::numerics::{Grid, Random, median};
 use selvedge::render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 use selvedge::scene::Pose;
-use selvedge::surface::{Profile, ProfileSet, Surface};
+use selvedge::surface::{AREAL_WIRE_MM, HeightMap, Probe, Profile, ProfileSet, Surface};
 
 const ROUNDS: usize = 9;
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
@@ -50,6 +50,92 @@ fn main() {
         (aslant, turning),
         20,
     );
+    areal();
+}
+
+/// Areal against economical: importing, preparing, first touch, and ticks side by side.
+fn areal() {
+    let map = height_map([1197, 940], 0.05);
+    let mut import_s: Vec<f64> = (0..3)
+        .map(|_| {
+            let start = Instant::now();
+            black_box(Surface::areal(&map, 0.0).is_ok());
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    println!("a height map of 1197 × 940 points, 0.05 mm apart, to spectra at every mm");
+    println!("  importing  {:>9.2} s", median(&mut import_s));
+    let probe = Probe {
+        width_mm: AREAL_WIRE_MM,
+        ..Probe::ideal()
+    };
+    let middle_mm = map.size_mm().map(|mm| 0.5 * mm);
+    let profiles = map.strokes(&probe, middle_mm, &Random::new(1));
+    let economical = profiles.and_then(|profiles| Surface::from_profiles(profiles, 0.0));
+    let surfaces = [economical, Surface::areal(&map, 0.0)];
+    let scenes: Vec<RenderScene> = surfaces
+        .into_iter()
+        .flatten()
+        .map(|surface| {
+            let mut scene = scene(array(6, 4, 2.0));
+            let surface = Arc::new(surface);
+            for placed in &mut scene.textiles {
+                placed.surface = Arc::clone(&surface);
+            }
+            scene
+        })
+        .collect();
+    let aslant = Velocity::new(80.0, 60.0);
+    for (motion, what) in [((aslant, 0.0), "one velocity"), ((aslant, 2.0), "turning")] {
+        for method in METHODS {
+            compare_areal(&scenes, method, motion, what);
+        }
+    }
+}
+
+fn compare_areal(scenes: &[RenderScene], method: Method, motion: (Velocity, f64), what: &str) {
+    let prepare = |scene| ArrayRenderer::prepare(scene, method, &Accuracy::default());
+    let start = Instant::now();
+    let mut renderers: Vec<ArrayRenderer> = scenes.iter().flat_map(prepare).collect();
+    let prepared_ms = start.elapsed().as_secs_f64() * 1e3;
+    // The first time round makes what is made on first touch.
+    let first: Vec<f64> = renderers
+        .iter_mut()
+        .map(|renderer| tick_ns(renderer, motion, 40))
+        .collect();
+    let mut times = vec![Vec::new(); renderers.len()];
+    for _ in 0..ROUNDS {
+        for (renderer, times) in renderers.iter_mut().zip(&mut times) {
+            times.push(tick_ns(renderer, motion, 400));
+        }
+    }
+    let medians: Vec<f64> = times.iter_mut().map(|times| median(times)).collect();
+    if let ([one, all], [_, touch], Some(areal)) = (&medians[..], &first[..], renderers.last()) {
+        println!(
+            "  {:<10} {what:<13} economical {one:>9.1} ns, areal {all:>9.1} ns a tick: {:.2}×; \
+             at first touch {touch:>9.1} ns; both prepared in {prepared_ms:.1} ms; {:.1} MB",
+            method.name(),
+            all / one,
+            areal.n_bytes() as f64 / 1e6
+        );
+    }
+}
+
+/// A rough map: waves of all lengths and noise.
+fn height_map(n: [usize; 2], step_mm: f64) -> HeightMap {
+    let mut random = Random::new(5);
+    let wave: Vec<f64> = (0..n[0]).map(|_| 3.0 * random.normal()).collect();
+    let height = |i: usize| {
+        let (column, row) = (i % n[0], i / n[0]);
+        let across = (0.7 * row as f64 * step_mm).sin() + 2.0;
+        wave[column] * across + 2.0 * random.normal()
+    };
+    let heights = (0..n[0] * n[1]).map(height).collect();
+    let grid = Grid::from_rows(n[0], heights).map(|grid| HeightMap::new(grid, [step_mm; 2]));
+    match grid {
+        Some(Ok(map)) => map,
+        other => unreachable!("{other:?}"),
+    }
 }
 
 fn report(what: &str, array: ContactorArray, motion: (Velocity, f64), n_ticks: usize) {

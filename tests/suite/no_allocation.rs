@@ -5,11 +5,11 @@ use std::sync::Arc;
 use assert_no_alloc::assert_no_alloc;
 
 use selvedge::geometry::{Displacement, Frame, Point, Rotation, Velocity};
-use selvedge::numerics::Random;
+use selvedge::numerics::{Grid, Random};
 use selvedge::render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
 use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 use selvedge::scene::Pose;
-use selvedge::surface::{Profile, ProfileSet, Surface};
+use selvedge::surface::{HeightMap, Profile, ProfileSet, Surface};
 use selvedge::tactile::Tuning;
 
 fn surface(seed: u64, n_samples: u32) -> Arc<Surface> {
@@ -24,7 +24,16 @@ fn surface(seed: u64, n_samples: u32) -> Arc<Surface> {
     Arc::new(Surface::from_profiles(profiles, 0.0).unwrap())
 }
 
-/// A short and a very long textile that overlap, two displays, one of them turned.
+/// A surface that is felt at every point of 9 × 8 mm.
+fn areal() -> Arc<Surface> {
+    let mut random = Random::new(3);
+    let heights = (0..180 * 160).map(|_| 2.0 * random.normal()).collect();
+    let grid = Grid::from_rows(180, heights).unwrap();
+    let map = HeightMap::new(grid, [0.05; 2]).unwrap();
+    Arc::new(Surface::areal(&map, 0.0).unwrap())
+}
+
+/// A short, a very long and an areal textile that overlap, two displays, one of them turned.
 fn scene() -> RenderScene {
     let place = |(number, surface)| PlacedSurface {
         workspace_from_textile: Frame {
@@ -43,9 +52,13 @@ fn scene() -> RenderScene {
         rotation_deg,
     };
     RenderScene {
-        textiles: [(0_u8, surface(1, 4600)), (1, surface(2, 40_000))]
-            .map(place)
-            .into(),
+        textiles: [
+            (0_u8, surface(1, 4600)),
+            (1, surface(2, 40_000)),
+            (2, areal()),
+        ]
+        .map(place)
+        .into(),
         displays: vec![array(0.0), array(45.0)],
         ..RenderScene::default()
     }
@@ -84,6 +97,9 @@ fn a_tick_of_any_method_allocates_nothing() {
             });
         }
         assert!(sounding > 200, "{method:?} rendered something: {sounding}");
+        let is_table = renderer.method() == Method::Table;
+        let n_made = renderer.counters().nodes_made;
+        assert_eq!(n_made > 0, is_table, "{method:?} made {n_made} nodes");
     }
 }
 
@@ -100,7 +116,7 @@ fn live_gains_and_levels_allocate_nothing() {
         gain_db: f64::NAN,
         ..tuning
     };
-    let levels = [PlacedLevel::Known(2.0), PlacedLevel::Known(5.0)];
+    let levels = [2.0, 5.0, 4.0].map(PlacedLevel::Known);
     assert_no_alloc(|| {
         assert!(renderer.set_tuning(&tuning).is_ok());
         assert!(renderer.compression_is_pending());

@@ -154,16 +154,21 @@ impl SpectraMemo {
         (rules, counters): (Rules, &mut Counters),
     ) -> [f64; 2] {
         let powers_um2 = self.spectra.powers_um2(point);
-        let sums = row.sums(powers_um2, row.heard.clone());
-        let n_heard = row.heard[0].len() + row.heard[1].len();
+        // Areal spectra of a coarse map end at its Nyquist wavenumber.
+        let n_bins = powers_um2.len();
+        let n_audible = row.n_audible.min(n_bins);
+        let heard = row.heard.clone();
+        let heard = heard.map(|slots| slots.start.min(n_bins)..slots.end.min(n_bins));
+        let n_heard = heard[0].len() + heard[1].len();
+        let sums = row.sums(powers_um2, heard);
         counters.directions_evaluated += 1;
         counters.bins_evaluated += n_heard as u64;
-        counters.bins_below_floor += (2 * row.n_audible - n_heard) as u64;
-        let n_above = 2 * (N_BINS - row.n_audible) as u64;
+        counters.bins_below_floor += (2 * n_audible - n_heard) as u64;
+        let n_above = 2 * (n_bins - n_audible) as u64;
         if rules.has(Rule::AboveBand) {
             counters.bins_above_1_khz += n_above;
         } else {
-            let above = row.n_audible..N_BINS;
+            let above = n_audible..n_bins;
             black_box(row.sums(powers_um2, [above.clone(), above]));
             counters.bins_evaluated += n_above;
         }

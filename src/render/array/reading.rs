@@ -48,7 +48,8 @@ impl Reading {
             velocity_mm_per_s: contacts.velocity_mm_per_s(contactor),
             points: Direction::ALL.map(|direction| {
                 let along = direction.index() / 2;
-                textile.points[direction.index()].nearest(place_mm[along])
+                let grid = textile.points[direction.index()];
+                grid.nearest(place_mm[along], place_mm[1 - along])
             }),
             directions: Axis::BOTH.map(|axis| match contacts.component(axis, contactor) {
                 Component::Felt { is_reverse, .. } => Some(axis.direction(is_reverse)),

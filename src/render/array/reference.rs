@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use crate::render::plan::{Axis, Contacts, Counters, Feel, Rule, ScenePlan};
-use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
+use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
 /// Sums every bin of every contactor anew.
@@ -36,7 +36,7 @@ impl ReferenceEvaluator {
             let (sums, n_audible) = band_sums(powers_um2, feel.speed_mm_per_s, &self.filters);
             counters.directions_evaluated += 1;
             counters.bins_evaluated += 2 * n_audible as u64;
-            let n_above = 2 * (N_BINS - n_audible) as u64;
+            let n_above = 2 * (powers_um2.len() - n_audible) as u64;
             if contacts.rules.has(Rule::AboveBand) {
                 counters.bins_above_1_khz += n_above;
             } else {

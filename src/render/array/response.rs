@@ -1,18 +1,19 @@
 //! What a textile gives at any velocity: over its points for maps, over directions and speeds for
 //! curves.
 //!
-//! Along an axis a contactor feels the spectrum of one point. At one velocity a textile is
-//! therefore two short rows of squared amplitudes, one over its warp points and one over its weft
-//! points, and `A²(u, w)` is the sum of an entry of each: least, largest and mean square over all
-//! pairs of points are sums of those over either row. For inspection, off the real-time path;
-//! computes as `reference` does, with the filters' gains found once a speed instead of once a
-//! point.
+//! Along an axis a contactor feels the spectrum of one point. Where spectra were measured along one
+//! profile, a textile at one velocity is therefore two short rows of squared amplitudes, one over
+//! its warp points and one over its weft points, and `A²(u, w)` is the sum of an entry of each:
+//! least, largest and mean square over all pairs of points are sums of those over either row. Areal
+//! spectra are the same with two tables over all of the cloth, whose entries belong together. For
+//! inspection, off the real-time path; computes as `reference` does, with the filters' gains found
+//! once a speed instead of once a point.
 
 use std::sync::Arc;
 
 use super::trace::ContactInspector;
 use crate::geometry::{Rotation, Velocity};
-use crate::render::plan::{Axis, Component, PointIndex};
+use crate::render::plan::{Axis, Component, PointGrid};
 use crate::surface::{Direction, LocalSpectra};
 use crate::tactile::{Filters, SpeedResponse};
 
@@ -21,7 +22,7 @@ use crate::tactile::{Filters, SpeedResponse};
 #[derive(Debug, Clone)]
 pub struct TextileResponse {
     spectra: [Arc<LocalSpectra>; 4],
-    points: [PointIndex; 4],
+    points: [PointGrid; 4],
     textile_from_workspace: Rotation,
     filters: Filters,
     factors: [f64; 2],
@@ -38,8 +39,24 @@ pub struct VelocityMap {
 /// the axis is not felt.
 #[derive(Debug, Clone)]
 struct Row {
-    index: PointIndex,
+    grid: PointGrid,
     squared_um2: Vec<[f64; 2]>,
+}
+
+impl Row {
+    fn silent() -> Self {
+        Self {
+            grid: PointGrid::new([1, 1]),
+            squared_um2: vec![[0.0; 2]],
+        }
+    }
+
+    /// Of the point that stands so many along and so many across, which repeat.
+    fn at(&self, along: usize, across: usize) -> [f64; 2] {
+        let [n_along, n_across] = self.grid.n_points();
+        let number = self.grid.number([along % n_along, across % n_across]);
+        self.squared_um2[number]
+    }
 }
 
 /// `[A40, A320]` over the points of a textile at one velocity, µm peak, after gains.
@@ -70,12 +87,26 @@ impl PointSpread {
 }
 
 /// Squared amplitudes along one axis, µm², before gains.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone)]
 struct Powers {
     at_place: [f64; 2],
     mean: [f64; 2],
     least: [f64; 2],
     most: [f64; 2],
+    /// Of every point, where they vary across the axis.
+    all: Option<Row>,
+}
+
+impl Powers {
+    fn silent() -> Self {
+        Self {
+            at_place: [0.0; 2],
+            mean: [0.0; 2],
+            least: [0.0; 2],
+            most: [0.0; 2],
+            all: None,
+        }
+    }
 }
 
 impl ContactInspector {
@@ -133,7 +164,7 @@ impl TextileResponse {
     pub fn points_at(&self, place_mm: [f64; 2]) -> [usize; 4] {
         let point = |direction: Direction| {
             let d = direction.index();
-            self.points[d].nearest(place_mm[d / 2])
+            self.points[d].nearest(place_mm[d / 2], place_mm[1 - d / 2])
         };
         Direction::ALL.map(point)
     }
@@ -153,15 +184,12 @@ impl TextileResponse {
             is_reverse,
         } = Component::of(component_mm_per_s)
         else {
-            return Row {
-                index: PointIndex::new(1),
-                squared_um2: vec![[0.0; 2]],
-            };
+            return Row::silent();
         };
         let d = axis.direction(is_reverse).index();
         let response = SpeedResponse::at(speed_mm_per_s, &self.filters);
         Row {
-            index: self.points[d],
+            grid: self.points[d],
             squared_um2: squared_um2(&self.spectra[d], &response).collect(),
         }
     }
@@ -176,7 +204,7 @@ impl TextileResponse {
                 is_reverse,
             } = Component::of(components[axis as usize])
             else {
-                return Powers::default();
+                return Powers::silent();
             };
             let response = SpeedResponse::at(speed_mm_per_s, &self.filters);
             self.powers(axis.direction(is_reverse), &response, points)
@@ -222,12 +250,14 @@ impl TextileResponse {
     ) -> Powers {
         let d = direction.index();
         let spectra = &self.spectra[d];
+        let grid = self.points[d];
         let mut powers = Powers {
             least: [f64::INFINITY; 2],
-            ..Powers::default()
+            ..Powers::silent()
         };
-        for squared in squared_um2(spectra, response) {
-            for (b, squared) in squared.into_iter().enumerate() {
+        let squared_um2: Vec<[f64; 2]> = squared_um2(spectra, response).collect();
+        for squared in &squared_um2 {
+            for (b, &squared) in squared.iter().enumerate() {
                 powers.mean[b] += squared;
                 powers.least[b] = powers.least[b].min(squared);
                 powers.most[b] = powers.most[b].max(squared);
@@ -239,6 +269,7 @@ impl TextileResponse {
         if let Some(point) = point.filter(|point| *point < spectra.n_points()) {
             powers.at_place = response.squared_amplitudes_um2(spectra.powers_um2(point));
         }
+        powers.all = (grid.n_points()[1] > 1).then_some(Row { grid, squared_um2 });
         powers
     }
 
@@ -250,9 +281,34 @@ impl TextileResponse {
         PointSpread {
             at_place_um: has_place.then(|| together(|powers| powers.at_place)),
             rms_um: together(|powers| powers.mean),
-            least_um: together(|powers| powers.least),
-            most_um: together(|powers| powers.most),
+            least_um: self.ends_um([warp, weft])[0],
+            most_um: self.ends_um([warp, weft])[1],
         }
+    }
+
+    /// The smallest and the largest amplitudes of any place, µm.
+    fn ends_um(&self, [warp, weft]: [&Powers; 2]) -> [[f64; 2]; 2] {
+        let scaled = |squared: [f64; 2]| [0, 1].map(|b| squared[b].sqrt() * self.factors[b]);
+        let sum = |warp: [f64; 2], weft: [f64; 2]| [0, 1].map(|b| warp[b] + weft[b]);
+        let (Some(along_warp), Some(along_weft)) = (&warp.all, &weft.all) else {
+            // Every warp point meets every weft point.
+            return [
+                scaled(sum(warp.least, weft.least)),
+                scaled(sum(warp.most, weft.most)),
+            ];
+        };
+        let [n_warp, n_weft] = along_warp.grid.n_points();
+        let (mut least, mut most) = ([f64::INFINITY; 2], [0.0_f64; 2]);
+        for w in 0..n_weft {
+            for u in 0..n_warp {
+                let squared = sum(along_warp.at(u, w), along_weft.at(w, u));
+                for b in 0..2 {
+                    least[b] = least[b].min(squared[b]);
+                    most[b] = most[b].max(squared[b]);
+                }
+            }
+        }
+        [scaled(least), scaled(most)]
     }
 }
 
@@ -272,7 +328,9 @@ fn squared_um2(spectra: &LocalSpectra, response: &SpeedResponse) -> impl Iterato
 impl VelocityMap {
     /// Points along warp and weft after which the map repeats; 1 along an axis that is not felt.
     pub fn n_points(&self) -> [usize; 2] {
-        self.rows.each_ref().map(|row| row.squared_um2.len())
+        let [warp, weft] = self.rows.each_ref().map(|row| row.grid.n_points());
+        // Of an axis that is not felt, the other one tells how far it varies across.
+        [warp[0].max(weft[1]), weft[0].max(warp[1])]
     }
 
     /// `[A40, A320]` at a pair of a warp point and a weft point, µm peak, after gains.
@@ -280,12 +338,19 @@ impl VelocityMap {
     /// # Panics
     /// When there are no such points.
     pub fn at_points_um(&self, points: [usize; 2]) -> [f64; 2] {
-        let [warp, weft] = [0, 1].map(|axis| self.rows[axis].squared_um2[points[axis]]);
+        let [u, w] = points;
+        let (warp, weft) = (self.rows[0].at(u, w), self.rows[1].at(w, u));
         [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
     }
 
     /// `[A40, A320]` at a place along warp and weft, mm, µm peak, after gains.
     pub fn amplitudes_um(&self, place_mm: [f64; 2]) -> [f64; 2] {
-        self.at_points_um([0, 1].map(|axis| self.rows[axis].index.nearest(place_mm[axis])))
+        let [u_mm, w_mm] = place_mm;
+        let squared = [(u_mm, w_mm), (w_mm, u_mm)];
+        let [warp, weft] = [0, 1].map(|axis| {
+            let (row, (along_mm, across_mm)) = (&self.rows[axis], squared[axis]);
+            row.squared_um2[row.grid.nearest(along_mm, across_mm)]
+        });
+        [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
     }
 }

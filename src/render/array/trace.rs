@@ -57,7 +57,7 @@ pub struct Touch {
     pub place_mm: [f64; 2],
     /// Its velocity components along warp and weft, mm/s.
     pub velocity_mm_per_s: [f64; 2],
-    /// The nearest point of the profile of every direction, felt or not.
+    /// The nearest point of the spectra of every direction, felt or not.
     pub points: [usize; 4],
     /// What it feels along warp and weft; `None` where the component is not felt.
     pub directions: [Option<DirectionTrace>; 2],
@@ -70,11 +70,11 @@ pub struct Touch {
 pub struct DirectionTrace {
     /// Which of the four.
     pub direction: Direction,
-    /// The nearest point of its profile.
+    /// The nearest point of its spectra.
     pub point: usize,
     /// `[Σ P H_40², Σ P H_320²]` over the bins below 1 kHz, µm².
     pub band_powers_um2: [f64; 2],
-    /// Every bin, also those that are not heard.
+    /// Every bin up to the surface's Nyquist wavenumber, also those that are not heard.
     pub bins: Vec<BinTrace>,
 }
 
@@ -212,21 +212,21 @@ fn touch_of(
 ) -> Touch {
     let textile = &plan.textiles[contacts.textile];
     let reading = Reading::of(plan, contacts, contactor);
-    let place_mm = reading.place_mm;
     let directions = Axis::BOTH.map(|axis| match contacts.component(axis, contactor) {
         Component::Felt {
             speed_mm_per_s,
             is_reverse,
         } => {
             let direction = axis.direction(is_reverse);
-            let at = (direction, place_mm[axis as usize], speed_mm_per_s);
+            let point = reading.points[direction.index()];
+            let at = (direction, point, speed_mm_per_s);
             Some(DirectionTrace::of(plan, textile, at, filters))
         }
         Component::AtRest | Component::TooFast => None,
     });
     Touch {
         textile: contacts.textile,
-        place_mm,
+        place_mm: reading.place_mm,
         velocity_mm_per_s: reading.velocity_mm_per_s,
         points: reading.points,
         directions,
@@ -238,10 +238,9 @@ impl DirectionTrace {
     fn of(
         plan: &ScenePlan,
         textile: &TextilePlan,
-        (direction, place_mm, speed_mm_per_s): (Direction, f64, f64),
+        (direction, point, speed_mm_per_s): (Direction, usize, f64),
         filters: &Filters,
     ) -> Self {
-        let point = textile.points[direction.index()].nearest(place_mm);
         let powers_um2 = plan.pool[textile.spectra[direction.index()]].powers_um2(point);
         let bin = |(k, &power_um2): (usize, &f64)| {
             let frequency_hz = bin_frequency_hz(speed_mm_per_s, k);

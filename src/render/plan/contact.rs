@@ -1,6 +1,6 @@
 //! Where the contactors of a display touch which textile, and how they move over it.
 
-use super::{Axis, Component, Counters, DisplayPlan, PointIndex, Rule, Rules};
+use super::{Axis, Component, Counters, DisplayPlan, PointGrid, Rule, Rules};
 use crate::geometry::{Point, Rotation, Velocity};
 use crate::render::PlacedSurface;
 
@@ -17,7 +17,7 @@ pub(in crate::render) struct TextilePlan {
     /// The spectra of each direction in the pool.
     pub(in crate::render) spectra: [usize; 4],
     /// How places become points, for each direction.
-    pub(in crate::render) points: [PointIndex; 4],
+    pub(in crate::render) points: [PointGrid; 4],
 }
 
 /// Where a display's centre is in a textile's frame, and how it lies there.
@@ -112,10 +112,21 @@ impl Contacts<'_> {
         speed_mm_per_s: f64,
     ) -> Feel {
         let d = axis.direction(is_reverse).index();
+        let [along, across] = self.along_and_across_mm(axis);
         Feel {
             spectra: textile.spectra[d],
-            point: textile.points[d].nearest(self.places_mm[axis as usize][contactor]),
+            point: textile.points[d].nearest(along[contactor], across[contactor]),
             speed_mm_per_s,
+        }
+    }
+
+    /// Places of all contactors along and across an axis, mm.
+    #[inline]
+    pub(in crate::render) fn along_and_across_mm(&self, axis: Axis) -> [&[f64]; 2] {
+        let [u_mm, w_mm] = self.places_mm;
+        match axis {
+            Axis::Warp => [u_mm, w_mm],
+            Axis::Weft => [w_mm, u_mm],
         }
     }
 
@@ -200,7 +211,7 @@ impl Contacts<'_> {
 impl TextilePlan {
     pub(super) fn new(placed: &PlacedSurface, spectra: [usize; 4]) -> Self {
         let points = crate::surface::Direction::ALL
-            .map(|direction| PointIndex::new(placed.surface.spectra(direction).n_points()));
+            .map(|direction| PointGrid::new(placed.surface.spectra(direction).shape()));
         Self {
             origin: placed.workspace_from_textile.origin,
             textile_from_workspace: placed.workspace_from_textile.rotation.inverse(),

@@ -15,7 +15,7 @@ mod rules;
 pub(super) use contact::{Contacts, Feel, Motion, TextilePlan};
 pub use counters::Counters;
 pub(super) use display::DisplayPlan;
-pub(super) use point::{PointIndex, nearest_mm, whole_part};
+pub(super) use point::{PointGrid, PointIndex, nearest_mm, whole_part};
 pub use rules::{Rule, Rules};
 
 use std::sync::Arc;

@@ -23,6 +23,11 @@ impl PointIndex {
         }
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "it was made from a usize")]
+    fn n_points(self) -> usize {
+        self.n_points as usize
+    }
+
     /// The point nearest to a place in mm, at or right of −½.
     #[expect(
         clippy::cast_possible_truncation,
@@ -41,6 +46,49 @@ impl PointIndex {
 #[inline]
 pub(in crate::render) fn nearest_mm(place_mm: f64) -> u32 {
     whole_part(place_mm + 0.5 + BORDER_MM)
+}
+
+/// The point of spectra nearest to a place along and across their direction. Spectra along one
+/// profile are repeated across.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::render) struct PointGrid {
+    pub(in crate::render) along: PointIndex,
+    across: PointIndex,
+    n_along: usize,
+}
+
+impl PointGrid {
+    /// For so many points along and across.
+    pub(in crate::render) fn new([n_along, n_across]: [usize; 2]) -> Self {
+        Self {
+            along: PointIndex::new(n_along),
+            across: PointIndex::new(n_across),
+            n_along,
+        }
+    }
+
+    /// The number of the point nearest to a place in mm.
+    #[inline]
+    pub(in crate::render) fn nearest(self, along_mm: f64, across_mm: f64) -> usize {
+        self.number(self.indices(along_mm, across_mm))
+    }
+
+    /// The point nearest to a place in mm: which along, which across.
+    #[inline]
+    pub(in crate::render) fn indices(self, along_mm: f64, across_mm: f64) -> [usize; 2] {
+        [self.along.nearest(along_mm), self.across.nearest(across_mm)]
+    }
+
+    /// Points along and across.
+    pub(in crate::render) fn n_points(self) -> [usize; 2] {
+        [self.along.n_points(), self.across.n_points()]
+    }
+
+    /// The number of a point: so many along, so many across.
+    #[inline]
+    pub(in crate::render) fn number(self, [along, across]: [usize; 2]) -> usize {
+        across * self.n_along + along
+    }
 }
 
 /// `⌊x⌋` for 0 ≤ x < 2³²; some number beyond. A library's floor, and a cast that saturates, each
@@ -77,6 +125,16 @@ mod tests {
             assert_eq!(of_16.nearest(place_mm), point, "{place_mm} mm");
         }
         assert_eq!(PointIndex::new(1).nearest(1234.5), 0);
+    }
+
+    #[test]
+    fn areal_points_are_numbered_row_by_row_and_repeat_both_ways() {
+        let grid = PointGrid::new([5, 3]);
+        assert_eq!(grid.nearest(0.0, 0.0), 0);
+        assert_eq!(grid.nearest(4.4, 1.5), 2 * 5 + 4);
+        assert_eq!(grid.nearest(7.0, 10.0), 5 + 2, "(2, 1)");
+        let profile = PointGrid::new([5, 1]);
+        assert_eq!(profile.nearest(7.0, 123.4), 2, "the same all across");
     }
 
     #[test]

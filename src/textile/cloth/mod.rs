@@ -11,6 +11,7 @@ mod yarn;
 
 pub(crate) use fibre::add_hairs;
 pub(crate) use portrait::{PX_PER_MM, portrait};
+pub(crate) use relief::relief_map;
 pub(crate) use strand::{Cloth, Node, Strand};
 pub(crate) use stroke::profiles;
 pub(crate) use variation::{Drift, Field, count};

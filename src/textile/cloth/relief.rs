@@ -1,7 +1,9 @@
 //! The upper surface of a cloth on a grid: the highest strand at every point of a window.
 
 use super::strand::{Cloth, Node, Strand};
+use super::variation::count;
 use crate::numerics::Grid;
+use crate::surface::{HeightMap, SurfaceError};
 
 /// Which way the columns of a window run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,6 +85,23 @@ impl Relief {
             }
         }
     }
+}
+
+/// The whole patch of a cloth as a periodic height map, with points about `step_mm` apart.
+///
+/// # Errors
+/// A step that no height map may have.
+pub(crate) fn relief_map(cloth: &Cloth, step_mm: f64) -> Result<HeightMap, SurfaceError> {
+    let n = cloth.size_mm.map(|mm| count((mm / step_mm).round()).max(1));
+    let step_mm = [0, 1].map(|axis| cloth.size_mm[axis] / n[axis] as f64);
+    let window = Window {
+        axis: Axis::Warp,
+        start_mm: [0.0; 2],
+        step_mm,
+        n,
+    };
+    let relief = Relief::of(cloth, &window);
+    Ok(HeightMap::new(relief.height_um, step_mm)?.periodic())
 }
 
 impl Window {

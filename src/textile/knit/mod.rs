@@ -19,6 +19,7 @@ use super::TextileError;
 use super::cloth::{Cloth, Yarn, add_hairs};
 use super::manifest::{Checker, ProfileFiles};
 use crate::numerics::Random;
+use crate::surface::Representation;
 
 /// The recipe of a knitted cloth (`kind = "knit"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,6 +42,9 @@ pub struct Knit {
     /// See [`ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
+    /// Whether it is felt along four strokes or at every point of its relief.
+    #[serde(default, skip_serializing_if = "Representation::is_default")]
+    pub representation: Representation,
     /// Chooses the irregularities.
     pub seed: u32,
     /// Which stitch stands where.

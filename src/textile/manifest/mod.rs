@@ -20,7 +20,7 @@ use super::knit::Knit;
 use super::restoration::Restoration;
 use super::weave::Weave;
 use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
-use crate::surface::Direction;
+use crate::surface::{Direction, Representation};
 use crate::tactile::check_gain;
 
 /// A textile's manifest. `S` is the source: [`Source`], or one kind of it while reading.
@@ -185,6 +185,17 @@ impl Source {
             Self::Fourier(keys) => keys.files(),
             Self::Brownian(keys) => keys.files(),
             Self::Restoration(keys) => keys.files(),
+        }
+    }
+
+    /// How its surface is laid out.
+    pub fn representation(&self) -> Representation {
+        match self {
+            Self::Profiles(_) | Self::Fourier(_) | Self::Brownian(_) | Self::Restoration(_) => {
+                Representation::Economical
+            }
+            Self::Weave(keys) => keys.representation,
+            Self::Knit(keys) => keys.representation,
         }
     }
 

@@ -1,5 +1,6 @@
 //! Tests of the floor as a whole.
 
+mod areal;
 mod brownian;
 mod models;
 mod shipped;

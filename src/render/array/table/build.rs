@@ -6,7 +6,7 @@
 use super::segments::Node;
 use crate::render::array::reference::bin_frequency_hz;
 use crate::render::single;
-use crate::surface::{LocalSpectra, N_BINS};
+use crate::surface::LocalSpectra;
 use crate::tactile::{Band, Filters};
 
 /// Points that are summed together.
@@ -27,7 +27,7 @@ impl Grouped {
     fn of(spectra: &LocalSpectra, unit_um2: f64) -> Self {
         let n_points = spectra.n_points();
         let is_silent = |bin: &usize| (0..n_points).all(|p| spectra.powers_um2(p)[*bin] == 0.0);
-        let n_bins = (0..N_BINS)
+        let n_bins = (0..spectra.n_bins())
             .rev()
             .find(|bin| !is_silent(bin))
             .map_or(0, |bin| bin + 1);
@@ -113,6 +113,49 @@ fn fill_rows(rows: &mut [[f32; 2]], spectra: &Grouped, gains: &[[[f64; 2]; NODES
     }
 }
 
+/// The power gains of both bands for every bin that counts at every node: what the tables of areal
+/// spectra are made with, node by node.
+#[derive(Debug, Clone)]
+pub(super) struct NodeGains {
+    /// Where each node's gains begin, and after the last where they end.
+    first: Vec<usize>,
+    gains: Vec<[f64; 2]>,
+}
+
+impl NodeGains {
+    pub(super) fn new(nodes: &[Node], filters: &Filters) -> Self {
+        let (mut first, mut gains) = (vec![0], Vec::new());
+        for node in nodes {
+            let gain_of = |k: usize| {
+                let frequency_hz = bin_frequency_hz(node.speed_mm_per_s, k);
+                Band::ALL.map(|band| filters.power_gain(band, frequency_hz))
+            };
+            gains.extend((1..=node.n_bins).map(gain_of));
+            first.push(gains.len());
+        }
+        Self { first, gains }
+    }
+
+    pub(super) fn n_nodes(&self) -> usize {
+        self.first.len() - 1
+    }
+
+    pub(super) fn n_bytes(&self) -> usize {
+        size_of_val(&self.gains[..]) + size_of_val(&self.first[..])
+    }
+
+    /// `Σ_k P_k H_b(f_k)²` at a node, µm², and over how many bins.
+    pub(super) fn sums(&self, node: usize, powers_um2: &[f64]) -> ([f64; 2], usize) {
+        let gains = &self.gains[self.first[node]..self.first[node + 1]];
+        let mut sums = [0.0; 2];
+        for (power, gains) in powers_um2.iter().zip(gains) {
+            sums[0] += power * gains[0];
+            sums[1] += power * gains[1];
+        }
+        (sums, gains.len().min(powers_um2.len()))
+    }
+}
+
 /// `Σ_k P[k][point]·H²[k][node][band]`.
 fn product(powers: &[[f64; POINTS]], gains: &[[[f64; 2]; NODES]]) -> [[[f64; 2]; POINTS]; NODES] {
     let mut sums = [[[0.0; 2]; POINTS]; NODES];
@@ -128,7 +171,7 @@ fn product(powers: &[[f64; POINTS]], gains: &[[[f64; 2]; NODES]]) -> [[[f64; 2];
 }
 
 /// A power as it is stored; what f32 could hold with fewer digits only is silence.
-fn normal(power: f64) -> f32 {
+pub(super) fn normal(power: f64) -> f32 {
     if power < f64::from(f32::MIN_POSITIVE) {
         0.0
     } else {

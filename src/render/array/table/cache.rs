@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::build::NodeGains;
 use super::segments::Segments;
 use super::{Density, MAX_TABLE_BYTES, Table, build, units_um2};
 use crate::render::RenderScene;
@@ -39,6 +40,8 @@ pub struct TableCache {
     spectra: BTreeMap<usize, OfSpectra>,
     /// Newest last.
     grids: Vec<((FiltersKey, u64), Grid)>,
+    /// For the tables of areal spectra; newest last.
+    gains: Vec<((FiltersKey, u32), Arc<NodeGains>)>,
     preparation: u64,
     max_bytes: usize,
 }
@@ -76,6 +79,7 @@ impl TableCache {
         Self {
             spectra: BTreeMap::new(),
             grids: Vec::new(),
+            gains: Vec::new(),
             preparation: 0,
             max_bytes,
         }
@@ -103,9 +107,13 @@ impl TableCache {
             return false;
         };
         let units = units_um2(&plan, &own);
-        let has = |(spectra, unit_um2): (_, &f64)| {
+        let has = |(spectra, unit_um2): (&Arc<LocalSpectra>, &f64)| {
             let key = table_key(*unit_um2, &scene.filters, grid);
-            self.known_table(spectra, key).is_some()
+            if spectra.is_areal() {
+                self.known_gains(&scene.filters, grid).is_some()
+            } else {
+                self.known_table(spectra, key).is_some()
+            }
         };
         plan.pool.iter().zip(&units).all(has)
     }
@@ -130,8 +138,29 @@ impl TableCache {
         grid
     }
 
+    /// The gains that nodes of areal tables are made with.
+    pub(super) fn node_gains(&mut self, filters: &Filters, grid: &Grid) -> Arc<NodeGains> {
+        if let Some(known) = self.known_gains(filters, grid) {
+            return Arc::clone(known);
+        }
+        let gains = Arc::new(NodeGains::new(grid.segments.nodes(), filters));
+        if self.gains.len() == MAX_GRIDS {
+            self.gains.remove(0);
+        }
+        let key = (filters_key(filters), grid.density.per_octave);
+        self.gains.push((key, Arc::clone(&gains)));
+        gains
+    }
+
+    fn known_gains(&self, filters: &Filters, grid: &Grid) -> Option<&Arc<NodeGains>> {
+        let key = (filters_key(filters), grid.density.per_octave);
+        let found = self.gains.iter().find(|(known, _)| *known == key);
+        found.map(|(_, gains)| gains)
+    }
+
     /// The tables of all spectra of a plan and the units that their powers are stored in, µm²;
-    /// those that are missing are computed. Forgets what it has no room for.
+    /// those that are missing are computed; those of areal spectra are empty. Forgets what it has
+    /// no room for.
     pub(super) fn tables(
         &mut self,
         plan: &ScenePlan,
@@ -146,6 +175,7 @@ impl TableCache {
             .pool
             .iter()
             .zip(units.iter().copied())
+            .filter(|(spectra, _)| !spectra.is_areal())
             .filter(|(spectra, unit_um2)| self.known_table(spectra, key_of(*unit_um2)).is_none())
             .collect();
         let made: Vec<(&LocalSpectra, f64)> = missing.iter().map(|(s, u)| (&***s, *u)).collect();
@@ -156,7 +186,16 @@ impl TableCache {
             self.keep(spectra, key_of(unit_um2), table);
         }
         let found = plan.pool.iter().zip(&units);
-        let tables = found.filter_map(|(s, unit_um2)| self.used_table(s, key_of(*unit_um2)));
+        let none = Arc::new(Table {
+            n_points: 0,
+            powers: Vec::new(),
+        });
+        let tables = found.filter_map(|(s, unit_um2)| {
+            if s.is_areal() {
+                return Some(Arc::clone(&none));
+            }
+            self.used_table(s, key_of(*unit_um2))
+        });
         let tables = tables.collect();
         self.forget();
         (tables, units)

@@ -8,6 +8,7 @@ mod bound;
 mod build;
 mod cache;
 mod segments;
+mod touched;
 
 pub(super) use bound::Density;
 pub(super) use cache::Grid;
@@ -23,6 +24,7 @@ use crate::render::plan::{
 use crate::render::{RenderError, RenderScene, single};
 use crate::surface::Direction;
 use segments::{Segments, Spot};
+use touched::{Heard, TouchedTables, touched_bytes};
 
 /// Most bytes that the tables of a scene may take.
 pub(super) const MAX_TABLE_BYTES: usize = 256_000_000;
@@ -38,6 +40,8 @@ pub(super) struct TableEvaluator {
     unit_um: Vec<f64>,
     /// Both directions' powers of every point at the speed at hand.
     blended: [Vec<[f32; 2]>; 2],
+    /// In place of the tables of areal spectra.
+    touched: Option<TouchedTables>,
 }
 
 /// One set of spectra over all nodes.
@@ -56,13 +60,18 @@ struct Rows<'a> {
     share: f32,
 }
 
-/// Roughly how many bytes the tables of a scene take.
+/// Roughly how many bytes the tables of a scene take: those that are made when preparing, and
+/// those that areal spectra are given to grow in, as much of their own size as there is room for.
 pub(super) fn table_bytes(plan: &ScenePlan, grid: &Grid) -> usize {
     let n_nodes = grid.segments.nodes().len();
-    let n_points: usize = plan.pool.iter().map(|spectra| spectra.n_points()).sum();
-    n_points
+    let profiles = plan.pool.iter().filter(|spectra| !spectra.is_areal());
+    let n_points: usize = profiles.map(|spectra| spectra.n_points()).sum();
+    let prepared = n_points
         .saturating_mul(n_nodes)
-        .saturating_mul(size_of::<[f32; 2]>())
+        .saturating_mul(size_of::<[f32; 2]>());
+    let room = MAX_TABLE_BYTES.saturating_sub(prepared);
+    let touched = touched_bytes(plan, grid, room).unwrap_or(MAX_TABLE_BYTES);
+    prepared.saturating_add(touched)
 }
 
 impl TableEvaluator {
@@ -78,13 +87,21 @@ impl TableEvaluator {
             return Err(RenderError::TableTooLarge { megabytes });
         }
         let (tables, units_um2) = cache.tables(plan, &scene.filters, grid);
-        let longest = tables.iter().map(|table| table.n_points).max().unwrap_or(1);
+        let is_areal = plan.pool.iter().any(|spectra| spectra.is_areal());
+        let touched = is_areal.then(|| {
+            let prepared: usize = tables.iter().map(|table| table.n_bytes()).sum();
+            let gains = cache.node_gains(&scene.filters, grid);
+            TouchedTables::new(plan, &units_um2, gains, n_bytes.saturating_sub(prepared))
+        });
+        let longest = tables.iter().map(|table| table.n_points.max(1)).max();
+        let longest = longest.unwrap_or(1);
         let unit_um = |textile: &TextilePlan| units_um2[textile.spectra[0]].sqrt();
         let evaluator = Self {
             segments: Arc::clone(&grid.segments),
             unit_um: plan.textiles.iter().map(unit_um).collect(),
             blended: [vec![[0.0; 2]; longest], vec![[0.0; 2]; longest]],
             tables,
+            touched,
         };
         let bound = ErrorBound {
             level_db: grid.density.level_db,
@@ -95,7 +112,9 @@ impl TableEvaluator {
 
     /// Bytes of its tables.
     pub(super) fn n_bytes(&self) -> usize {
-        self.tables.iter().map(|table| table.n_bytes()).sum()
+        let prepared: usize = self.tables.iter().map(|table| table.n_bytes()).sum();
+        let touched = self.touched.as_ref().map_or(0, TouchedTables::n_bytes);
+        prepared + touched
     }
 
     /// Amplitudes of the contactors on one textile, µm.
@@ -131,6 +150,7 @@ impl TableEvaluator {
     ) {
         let n = contacts.n_contactors;
         let mut points = [PointIndex::new(1); 2];
+        let mut heard = [None; 2];
         for axis in Axis::BOTH {
             self.blended[axis as usize][0] = [0.0; 2];
             let component = contacts.component(axis, 0);
@@ -145,19 +165,31 @@ impl TableEvaluator {
             };
             let d = axis.direction(is_reverse).index();
             let spot = self.find_for(n, speed_mm_per_s, contacts, counters);
+            heard[axis as usize] = self.heard_areally(textile, d, spot);
+            if heard[axis as usize].is_some() {
+                counters.directions_evaluated += n as u64;
+                continue;
+            }
             let table = &self.tables[textile.spectra[d]];
             let rows = table.rows(spot);
             if table.n_points <= BLEND_ALL * n && contacts.rules.has(Rule::SamePoint) {
                 rows.blend(&mut self.blended[axis as usize]);
-                points[axis as usize] = textile.points[d];
+                points[axis as usize] = textile.points[d].along;
                 counters.directions_evaluated += table.n_points.min(n) as u64;
                 counters.directions_repeated += n.saturating_sub(table.n_points) as u64;
             } else {
-                let (places_mm, points) = (contacts.places_mm[axis as usize], textile.points[d]);
+                let places_mm = contacts.places_mm[axis as usize];
+                let points = textile.points[d].along;
                 contacts.for_each_owned(powers, |contactor, power| {
                     add(power, rows.at(points.nearest(places_mm[contactor])));
                 });
                 counters.directions_evaluated += n as u64;
+            }
+        }
+        if let Some(touched) = &mut self.touched {
+            touched.add_all(heard, contacts, powers, counters);
+            if heard.iter().all(Option::is_some) {
+                return;
             }
         }
         let [warp, weft] = [&self.blended[0][..], &self.blended[1][..]];
@@ -165,6 +197,18 @@ impl TableEvaluator {
             add(power, warp[points[0].nearest(u_mm)]);
             add(power, weft[points[1].nearest(w_mm)]);
         });
+    }
+
+    /// What is heard of an areal surface in a direction; `None` of any other.
+    #[inline]
+    fn heard_areally(&self, textile: &TextilePlan, d: usize, spot: Spot) -> Option<Heard> {
+        let (spectra, points) = (textile.spectra[d], textile.points[d]);
+        let is_areal = self.touched.as_ref().is_some_and(|t| t.has(spectra));
+        is_areal.then_some(Heard {
+            spectra,
+            points,
+            spot,
+        })
     }
 
     /// Where a speed that `n` contactors share lies.
@@ -188,7 +232,7 @@ impl TableEvaluator {
 
     /// Looks up for nothing what contactors that share a velocity do not feel along an axis.
     fn idle(
-        &self,
+        &mut self,
         textile: &TextilePlan,
         axis: Axis,
         contacts: &Contacts<'_>,
@@ -197,20 +241,31 @@ impl TableEvaluator {
         let owned = (0..contacts.owners.len()).filter(|&contactor| contacts.owns(contactor));
         let mut n = 0;
         for feel in owned.map_while(|contactor| contacts.idle_feel(textile, axis, contactor)) {
-            self.look_up_idle(feel);
+            self.look_up_idle(feel, counters);
             n += 1;
         }
         counters.directions_evaluated += n;
     }
 
-    fn look_up_idle(&self, feel: Feel) {
-        let at = self.segments.find(black_box(feel.speed_mm_per_s));
-        black_box(self.tables[feel.spectra].rows(at).at(feel.point));
+    fn look_up_idle(&mut self, mut feel: Feel, counters: &mut Counters) {
+        feel.speed_mm_per_s = black_box(feel.speed_mm_per_s);
+        black_box(self.look_up(feel, counters));
+    }
+
+    #[inline]
+    fn look_up(&mut self, feel: Feel, counters: &mut Counters) -> [f32; 2] {
+        let spot = self.segments.find(feel.speed_mm_per_s);
+        match &mut self.touched {
+            Some(touched) if touched.has(feel.spectra) => {
+                touched.at(feel.spectra, feel.point, spot, counters)
+            }
+            _ => self.tables[feel.spectra].rows(spot).at(feel.point),
+        }
     }
 
     /// Powers of contactors that each move their own way.
     fn turning(
-        &self,
+        &mut self,
         textile: &TextilePlan,
         contacts: &Contacts<'_>,
         powers: &mut [[f32; 2]],
@@ -220,13 +275,12 @@ impl TableEvaluator {
             for axis in Axis::BOTH {
                 let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
                     if let Some(feel) = contacts.idle_feel(textile, axis, contactor) {
-                        self.look_up_idle(feel);
+                        self.look_up_idle(feel, counters);
                         counters.directions_evaluated += 1;
                     }
                     continue;
                 };
-                let at = self.segments.find(feel.speed_mm_per_s);
-                add(power, self.tables[feel.spectra].rows(at).at(feel.point));
+                add(power, self.look_up(feel, counters));
                 counters.directions_evaluated += 1;
             }
         });

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::numerics::Random;
-use crate::surface::{BIN_SPACING_PER_MM, Profile, ProfileSet, Surface};
+use crate::numerics::{Grid, Random};
+use crate::surface::{BIN_SPACING_PER_MM, HeightMap, Profile, ProfileSet, Surface};
 
 pub(super) const STEP_MM: f64 = 1.0 / 230.0;
 
@@ -73,6 +73,24 @@ pub(super) fn brownian(random: &mut Random, n: usize, hurst: f64) -> Profile {
         weights.iter().zip(past).map(|(w, e)| w * e).sum::<f64>()
     };
     Profile::new(STEP_MM, (burn_in..n + burn_in).map(height).collect()).unwrap()
+}
+
+/// A rough map of 9 × 8 mm that varies both ways, felt areally.
+pub(super) fn areal(seed: u64) -> Arc<Surface> {
+    Arc::new(Surface::areal(&map(seed, 1.0), 0.0).unwrap())
+}
+
+/// A rough map of 9 × 8 mm; what varies along w is `share` of what it may be.
+pub(super) fn map(seed: u64, share: f64) -> HeightMap {
+    let mut random = Random::new(seed);
+    let along: Vec<f64> = (0..180).map(|_| random.normal()).collect();
+    let height = |i: usize| {
+        let (column, row) = (i % 180, i / 180);
+        let w_mm = 0.05 * row as f64 * share;
+        along[column] * (2.0 + (0.9 * w_mm).sin()) + share * random.normal()
+    };
+    let heights = (0..180 * 160).map(height).collect();
+    HeightMap::new(Grid::from_rows(180, heights).unwrap(), [0.05; 2]).unwrap()
 }
 
 /// A surface of one of five kinds.

@@ -2,6 +2,7 @@
 //! fast methods against the reference, invariances, extreme cases.
 
 mod accuracy;
+mod areal;
 mod cache;
 mod closed_forms;
 mod cloth;

@@ -17,9 +17,11 @@ fn sets() -> Vec<Rules> {
     std::iter::once(Rules::NONE).chain(one_by_one).collect()
 }
 
-/// Up to four turned textiles of three surfaces that overlap by chance, under 24 contactors.
+/// Up to four turned textiles of three surfaces, one of them areal, that overlap by chance, under
+/// 24 contactors.
 fn random_scene(random: &mut Random) -> RenderScene {
-    let cloths = [1, 3, 4].map(|kind| cloth::of_kind(kind, 1 + random.index(1000) as u64));
+    let mut cloths = [1, 3, 4].map(|kind| cloth::of_kind(kind, 1 + random.index(1000) as u64));
+    cloths[2] = cloth::areal(1 + random.index(1000) as u64);
     let textile = |random: &mut Random| {
         let origin = [random.uniform_in(-5.0, 35.0), random.uniform_in(-5.0, 35.0)];
         let turn = if random.index(2) == 0 { 0.0 } else { 35.0 };
