@@ -6,6 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::output::TableOut;
 use super::terminal::Meter;
+use super::textile_import::{self, ConvertArgs, ImportArgs};
 use super::textile_make::{self, MakeCommand};
 use super::{CliError, output};
 use crate::quantity::{factor_of_gain, fixed};
@@ -52,6 +53,10 @@ pub(super) enum TextileCommand {
     /// Make a textile from a recipe, or a library from recipes
     #[command(subcommand)]
     Make(MakeCommand),
+    /// Make a textile of measured heights: X3P, SUR, GWY, GSF, NPY, TMD, FRT, PNG, TIFF or text
+    Import(ImportArgs),
+    /// Write measured heights in another format: .x3p, .gsf, .npy, .png or .tif
+    Convert(ConvertArgs),
 }
 
 /// The library that is meant.
@@ -88,6 +93,8 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         TextileCommand::Spectra { id, out, from } => spectra(&from.open()?, id, out.as_deref()),
         TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
         TextileCommand::Make(command) => textile_make::run(command),
+        TextileCommand::Import(args) => textile_import::import(args),
+        TextileCommand::Convert(args) => textile_import::convert(args),
     }
 }
 

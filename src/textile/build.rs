@@ -18,9 +18,9 @@ use crate::surface::Direction;
 use crate::tactile::{Filters, Levels, Tuning};
 
 /// The name of the picture.
-const PICTURE: &str = "appearance.png";
+pub(crate) const PICTURE: &str = "appearance.png";
 /// Pixels a millimetre of the picture.
-const PX_PER_MM: f64 = 10.0;
+pub(crate) const PX_PER_MM: f64 = 10.0;
 
 /// A file of a built textile.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -76,6 +76,7 @@ fn complete(recipe: &Manifest, smd_um: f64, path: &Path) -> Result<Manifest, Tex
         Source::Profiles(_) => {}
         Source::Weave(keys) => keys.set_files(files, hash),
         Source::Knit(keys) => keys.set_files(files, hash),
+        Source::Heightmap(keys) => keys.set_files(files, hash),
     }
     manifest.appearance = Some(AppearanceKeys {
         image: PICTURE.to_owned(),
@@ -97,7 +98,7 @@ pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, Textil
     Manifest::from_toml(&read_text(&manifest)?, &manifest)
 }
 
-fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
+pub(crate) fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(|source| FileError::Write {
         path: folder.to_owned(),
         source,
@@ -121,7 +122,7 @@ pub fn build_library(
         let recipe = from.manifest(id)?;
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
-            Source::Profiles(_) => copied(from, id, &recipe)?,
+            Source::Profiles(_) | Source::Heightmap(_) => copied(from, id, &recipe)?,
             Source::Weave(_) | Source::Knit(_) => build(&recipe, &path)?,
         };
         write(&files, &to.join(id))?;
@@ -136,6 +137,9 @@ pub fn build_library(
 /// The files of a textile that was not made from a recipe.
 fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile>, TextileError> {
     let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
+    if let (Source::Heightmap(keys), true) = (&manifest.source, names.is_empty()) {
+        names.push(keys.file.clone());
+    }
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
     let copy = |name: String| {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::library::Store;
-use super::manifest::Manifest;
+use super::manifest::{Manifest, Source};
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
 use crate::files::{Rgb8Image, decode_png};
@@ -28,15 +28,18 @@ pub struct Appearance {
 }
 
 impl Textile {
-    /// Reads a textile of a store: manifest, profiles, spectra. A model that names no profile
-    /// files is built on the spot, which takes a second or so.
+    /// Reads a textile of a store: manifest, profiles, spectra. A model or a height
+    /// map that names no profile files is built on the spot, which takes a second or so.
     pub(crate) fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
         let manifest = read_manifest(store, id)?;
         let names_none = manifest.source.files().is_empty();
         let model = names_none.then(|| Model::of(&manifest.source)).flatten();
-        let profiles = match model {
-            Some(model) => profiles_of_files(&model.profile_files()?)?,
-            None => read_profiles(store, id, &manifest)?,
+        let profiles = match (model, &manifest.source) {
+            (Some(model), _) => profiles_of_files(&model.profile_files()?)?,
+            (None, Source::Heightmap(keys)) if names_none => {
+                keys.profiles(&store.read(id, &keys.file)?, &store.path(id, &keys.file))?
+            }
+            (None, _) => read_profiles(store, id, &manifest)?,
         };
         let floor = manifest.noise_floor_um2_mm.unwrap_or(0.0);
         let surface = Surface::from_profiles(profiles, floor).map_err(|(direction, source)| {

@@ -1,7 +1,7 @@
 //! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
 //!
-//! A textile is a folder with a manifest; its source is measured profiles or a seeded model of a
-//! woven or knitted cloth that a virtual probe was drawn over. Knows nothing of scenes or of
+//! A textile is a folder with a manifest; its source is measured profiles, a measured height map or
+//! a seeded model of a woven or knitted cloth that a virtual probe was drawn over. Knows nothing of scenes or of
 //! rendering.
 //!
 //! # Invariants
@@ -16,6 +16,7 @@ mod knit;
 mod library;
 mod loaded;
 mod manifest;
+pub mod metrology;
 mod model;
 mod profile_file;
 mod shipped;

@@ -24,7 +24,7 @@ impl Model {
     /// The model of a source; `None` if it was measured.
     pub(crate) fn of(source: &Source) -> Option<Self> {
         let (cloth, seed, noise_um) = match source {
-            Source::Profiles(_) => return None,
+            Source::Profiles(_) | Source::Heightmap(_) => return None,
             Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um),
             Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um),
         };

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::TextileError;
 use super::knit::Knit;
+use super::metrology::Heightmap;
 use super::weave::Weave;
 use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
 use crate::surface::Direction;
@@ -98,10 +99,12 @@ pub enum Source {
     Weave(Box<Weave>),
     /// A model of a knitted cloth.
     Knit(Box<Knit>),
+    /// A file of measured heights.
+    Heightmap(Box<Heightmap>),
 }
 
 /// The kinds of source, as files spell them.
-const KINDS: [&str; 3] = ["profiles", "weave", "knit"];
+const KINDS: [&str; 5] = ["profiles", "weave", "knit", "heightmap", "x3p"];
 
 /// Profiles as they were measured (`kind = "profiles"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -149,6 +152,7 @@ impl Source {
             Self::Profiles(_) => KINDS[0],
             Self::Weave(_) => KINDS[1],
             Self::Knit(_) => KINDS[2],
+            Self::Heightmap(keys) => KINDS[if keys.kind == "x3p" { 4 } else { 3 }],
         }
     }
 
@@ -163,6 +167,7 @@ impl Source {
             ]),
             Self::Weave(keys) => keys.files(),
             Self::Knit(keys) => keys.files(),
+            Self::Heightmap(keys) => keys.files(),
         }
     }
 
@@ -174,6 +179,7 @@ impl Source {
             Self::Profiles(_) => {}
             Self::Weave(keys) => keys.set_files(ProfileFiles::default(), None),
             Self::Knit(keys) => keys.set_files(ProfileFiles::default(), None),
+            Self::Heightmap(keys) => keys.set_files(ProfileFiles::default(), None),
         }
         recipe
     }
@@ -195,6 +201,10 @@ impl Source {
             }
             Self::Weave(keys) => keys.check(checker)?,
             Self::Knit(keys) => keys.check(checker)?,
+            Self::Heightmap(keys) => {
+                keys.check(checker)?;
+                check_name(checker, "source", "file", Some(&keys.file))?;
+            }
         }
         let files = self.files();
         for direction in Direction::ALL {
@@ -216,6 +226,7 @@ impl Manifest {
             "profiles" => read::<Profiles>(text, path)?.map(Source::Profiles),
             "weave" => read::<Box<Weave>>(text, path)?.map(Source::Weave),
             "knit" => read::<Box<Knit>>(text, path)?.map(Source::Knit),
+            "heightmap" | "x3p" => read::<Box<Heightmap>>(text, path)?.map(Source::Heightmap),
             other => {
                 let mend = format!("the kinds are {}", KINDS.join(", "));
                 let what = format!("unknown kind of source \"{other}\"");

@@ -174,7 +174,7 @@ fn the_shipped_index_is_what_its_profiles_give() {
         let said = match &manifest.source {
             Source::Weave(keys) => keys.recipe_hash.clone(),
             Source::Knit(keys) => keys.recipe_hash.clone(),
-            Source::Profiles(_) => None,
+            Source::Profiles(_) | Source::Heightmap(_) => None,
         };
         assert_eq!(said, Some(hash), "{id} was not built from this recipe");
     }
