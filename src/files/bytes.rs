@@ -212,7 +212,7 @@ mod tests {
             (Number::U16, [0.0, 65535.0]),
             (Number::I32, [-2_147_483_648.0, 2_147_483_647.0]),
             (Number::U32, [0.0, 4_294_967_295.0]),
-            (Number::F32, [-0.5, 1.5e10]),
+            (Number::F32, [-0.5, 1.5]),
             (Number::F64, [0.1, 1e-300]),
         ] {
             let bytes = number.encode(values.into_iter());

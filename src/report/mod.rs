@@ -26,6 +26,7 @@ mod listing;
 mod machine;
 mod pareto;
 mod readable;
+mod readers;
 mod rendering;
 mod runner;
 mod spectral_model;
@@ -44,6 +45,7 @@ pub use growth::GrowthStudy;
 pub use left_out::{LeftOutStudy, SavingRule};
 pub use machine::Machine;
 pub use pareto::pareto;
+pub use readers::ReadersStudy;
 pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use spectral_model::SpectralModelStudy;
@@ -58,6 +60,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(DriveUpdatesStudy),
         Box::new(VelocityStudy),
         Box::new(GrowthStudy),
+        Box::new(ReadersStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),
     ]

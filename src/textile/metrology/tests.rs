@@ -166,7 +166,7 @@ fn what_is_not_stated_is_asked_for_and_what_is_known_better_is_said() {
         ),
         ("", "this is no file of measured heights"),
         ("hello\n", "a.txt:1: no numbers"),
-        ("1 2\n2 3\n3 4\nx\n", "a.txt:4: no numbers at the end"),
+        ("1 2\n2 3\n3 4\nx\n", "a.txt:4: not 2 numbers"),
         (
             "1 2\n2 3\n3 4\n4\n5 6\n6 7\n7 8\n",
             "a.txt:4: not 2 numbers",
@@ -319,7 +319,7 @@ const FILES: [(&str, &str, usize, f64, &str); 20] = [
         "surfacetopography/sur-2.sur",
         "",
         117,
-        0.017_517_881_243_588_18 * 1e3,
+        0.017_517_881_243_588_18,
         "ST",
     ),
     (
