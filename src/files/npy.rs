@@ -1,4 +1,4 @@
-//! NPY: one array of numbers, as NumPy writes it.
+//! NPY: one array of numbers, as `NumPy` writes it.
 
 use std::path::Path;
 
@@ -124,9 +124,9 @@ fn shape_of(header: &str) -> Option<[usize; 2]> {
         .map(str::trim)
         .filter(|part| !part.is_empty());
     let sizes: Option<Vec<usize>> = parts.map(|part| part.parse().ok()).collect();
-    match sizes?.as_slice() {
-        &[n] if n > 0 => Some([1, n]),
-        &[rows, columns] if rows > 0 && columns > 0 => Some([rows, columns]),
+    match *sizes?.as_slice() {
+        [n] if n > 0 => Some([1, n]),
+        [rows, columns] if rows > 0 && columns > 0 => Some([rows, columns]),
         _ => None,
     }
 }

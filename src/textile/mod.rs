@@ -1,8 +1,8 @@
 //! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
 //!
 //! A textile is a folder with a manifest; its source is measured profiles, a measured height map or
-//! a seeded model of a woven or knitted cloth that a virtual probe was drawn over. Knows nothing of scenes or of
-//! rendering.
+//! a seeded model of a woven or knitted cloth that a virtual probe was drawn over. Knows nothing of
+//! scenes or of rendering.
 //!
 //! # Invariants
 //! - loading is lazy: a library reads a textile's profiles only when it is asked for that textile

@@ -88,7 +88,7 @@ fn a_map_shorter_than_a_window_is_felt_only_as_a_repeat() {
         line.contains("2.20 mm × 2.00 mm") && line.contains("--periodic"),
         "{line}"
     );
-    lab.print(&[&short[..], &["--periodic"]].concat());
+    assert_eq!(lab.run(&[&short[..], &["--periodic"]].concat()).code, 0);
     let rows = lab.read("small/warp_forward.csv").lines().count() - 1;
     assert_eq!(rows, 10 * 220, "20 mm or more, in whole repeats");
     let line = lab.refuse(&[&short[..], &["--periodic", "--at", "9,1"]].concat());
@@ -117,7 +117,11 @@ fn heights_are_converted_between_formats_and_holes_are_not_painted_over() {
     for out in ["a.gsf", "a.npy", "b.x3p"] {
         lab.print(&["textile", "convert", "a.x3p", "--out", out]);
     }
-    lab.print(&["textile", "convert", "a.x3p", "--fill", "--out", "a.png"]);
+    let filled = lab.run(&["textile", "convert", "a.x3p", "--fill", "--out", "a.png"]);
+    assert!(
+        filled.err.contains("1 missing points were filled"),
+        "{filled:?}"
+    );
     let made = lab.print(&["textile", "convert", "a.png", "--out", "c.x3p"]);
     assert_eq!(made, "c.x3p: 220 × 200 points\n");
     let bytes = |name: &str| std::fs::read(lab.path(name)).unwrap();

@@ -63,7 +63,7 @@ pub(super) fn field_reading(
     format: &'static str,
     path: &Path,
 ) -> Result<Reading, FileError> {
-    let mut reading = Reading::of_rows(width, values, format, path)?.from_top();
+    let mut reading = Reading::of_rows(width, values, format, path)?.turned_over();
     let number = |text: &str| text.parse().ok().filter(|extent: &f64| *extent > 0.0);
     if let (Some(x), Some(y)) = (number(&keys.x_real), number(&keys.y_real)) {
         reading.steps = Some([x / width as f64, y / height as f64]);

@@ -172,7 +172,7 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
         let n_masked = marked.map(|(value, _)| *value = f64::NAN).count();
         warnings.push(format!("{n_masked} masked points count as missing"));
     }
-    let mut reading = Reading::of_rows(size[0], values, "GWY", path)?.from_top();
+    let mut reading = Reading::of_rows(size[0], values, "GWY", path)?.turned_over();
     let extents = [field.real("xreal"), field.real("yreal")];
     reading.steps = Some([extents[0] / size[0] as f64, extents[1] / size[1] as f64]);
     reading.length_unit = Stated::of(field.unit("si_unit_xy"));

@@ -7,7 +7,7 @@ use super::source::Heightmap;
 use super::{Asked, Measured};
 use crate::files::{Rgb8Image, encode_png_small, sha256_hex};
 use crate::numerics::Grid;
-use crate::surface::{Direction, HeightMap, ProfileSet};
+use crate::surface::{Direction, HeightMap, Profile, ProfileSet};
 use crate::textile::build::{BuiltFile, PICTURE, PX_PER_MM, write};
 use crate::textile::loaded::MANIFEST;
 use crate::textile::manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Source};
@@ -111,7 +111,7 @@ fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> 
 }
 
 fn smd_um(profiles: &ProfileSet) -> f64 {
-    let smd_um: Vec<f64> = profiles.iter().flatten().map(|p| p.smd_um()).collect();
+    let smd_um: Vec<f64> = profiles.iter().flatten().map(Profile::smd_um).collect();
     smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
 }
 

@@ -9,7 +9,7 @@ use crate::surface::MOST_POINTS;
 /// Reads an array; neither unit nor step is in it.
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
     let array = decode_npy(bytes, path, MOST_POINTS)?;
-    Ok(Reading::of_rows(array.n_columns, array.values, "NPY", path)?.from_top())
+    Ok(Reading::of_rows(array.n_columns, array.values, "NPY", path)?.turned_over())
 }
 
 /// Writes the heights of a map, µm.

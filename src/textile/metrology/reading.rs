@@ -166,7 +166,7 @@ impl Reading {
     }
 
     /// The same with the first row of the file as the last: files that begin at the top.
-    pub(super) fn from_top(mut self) -> Self {
+    pub(super) fn turned_over(mut self) -> Self {
         let (width, height) = (self.values.width(), self.values.height());
         let rows = (0..height).rev();
         let turned: Vec<f64> = rows.flat_map(|row| self.values.row(row).to_vec()).collect();
@@ -229,7 +229,7 @@ impl Reading {
             let line = format!("the file states {of} in {said}; they are taken in {asked}");
             self.warnings.push(line);
         }
-        asked.or(stated.length()).ok_or_else(|| {
+        asked.or_else(|| stated.length()).ok_or_else(|| {
             let what = match said {
                 Some(word) => format!("the unit of the {of} is \"{word}\", no length"),
                 None => format!("the unit of the {of} is not stated"),

@@ -59,11 +59,8 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
     if n_saturated > 0 {
         warnings.push(format!("{n_saturated} saturated points count as missing"));
     }
-    let mut reading = Reading::of_rows(width, heights, "SUR", path)?.from_top();
-    reading.steps = Some([
-        header.steps[0],
-        header.steps[if height == 1 { 0 } else { 1 }],
-    ]);
+    let mut reading = Reading::of_rows(width, heights, "SUR", path)?.turned_over();
+    reading.steps = Some([header.steps[0], header.steps[usize::from(height > 1)]]);
     let [unit_x, unit_y, unit_z] = &header.units;
     reading.length_unit = Stated::of(unit_x);
     reading.height_unit = Stated::of(unit_z);

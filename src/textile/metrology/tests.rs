@@ -175,7 +175,11 @@ fn what_is_not_stated_is_asked_for_and_what_is_known_better_is_said() {
             "x_mm,height_um\n0,1\n1,1\n5,1\n",
             "point 2 of 3: the step is 1 where",
         ),
-        ("x_mm,height_um\n0,nan\n1,nan\n2,nan\n", "no numbers"),
+        ("x_mm,height_um\n0,1\n1,1\n3,1\n", "point 2 of 3"),
+        (
+            "x_mm,height_um\n0,nan\n1,nan\n2,nan\n",
+            "every height is missing",
+        ),
     ] {
         let error = read(text, &Asked::default()).unwrap_err().to_string();
         assert!(error.contains(expected), "{text:?}: {error}");

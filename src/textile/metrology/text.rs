@@ -15,7 +15,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, 
     let columns = layout.columns(path)?;
     let keys = MatrixKeys::of(&layout.header);
     let is_named = columns.headings.iter().any(|heading| !heading.is_empty());
-    let is_matrix = keys.extents[0].is_some() || (columns.columns.len() > 3 && !is_named);
+    let is_matrix = keys.extents[0].is_some() || (columns.numbers.len() > 3 && !is_named);
     if is_matrix && asked.column.is_none() {
         return matrix(columns, keys, path);
     }
@@ -26,8 +26,8 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, 
         return Ok(reading);
     }
     if let Some(x) = choice.x {
-        let slack = 0.75 * 10.0_f64.powi(-i32::try_from(columns.decimals).unwrap_or(15));
-        let step = even_step(&columns.columns[x], slack).map_err(|what| {
+        let slack = rounding(&columns.numbers[x], columns.decimals);
+        let step = even_step(&columns.numbers[x], slack).map_err(|what| {
             let what = format!("from line {}: {what}", columns.first_line);
             FileError::whole(path, what, UNEVEN_MEND)
         })?;
@@ -35,11 +35,29 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, 
             reading.values.values_mut().reverse();
         }
         // Nine digits: what is left of binary fractions goes.
-        let step = format!("{:.8e}", step.abs()).parse().unwrap_or(step.abs());
+        let step = format!("{:.8e}", step.abs())
+            .parse()
+            .unwrap_or_else(|_| step.abs());
         reading.steps = Some([step; 2]);
         reading.length_unit = LengthUnit::in_heading(&columns.headings[x]).into();
     }
     Ok(reading)
+}
+
+/// Places that rounding may displace: fewer cannot show that they were even before.
+const LEAST_ROUNDED: usize = 32;
+
+/// How far the digits that were written may displace places: a unit of the last digit, for a place
+/// against the line between two others, where steps are longer than that.
+fn rounding(places: &[f64], decimals: i32) -> f64 {
+    let digit = 10.0_f64.powi(-decimals);
+    let span = (places[places.len() - 1] - places[0]).abs();
+    let is_fine = span > digit * places.len() as f64;
+    if is_fine && places.len() >= LEAST_ROUNDED {
+        digit
+    } else {
+        0.0
+    }
 }
 
 /// Which columns are what.
@@ -51,8 +69,8 @@ struct Choice {
 
 impl Choice {
     fn of(columns: &Columns, asked: &Asked, path: &Path) -> Result<Self, FileError> {
-        let n = columns.columns.len();
-        let x = (n > 1 && rises(&columns.columns[0])).then_some(0);
+        let n = columns.numbers.len();
+        let x = (n > 1 && rises(&columns.numbers[0])).then_some(0);
         if let Some(name) = &asked.column {
             let height = column_of(columns, name, path)?;
             // Numbers of rows are no places.
@@ -65,7 +83,7 @@ impl Choice {
             });
         }
         let valid = (n == 3).then_some(2).filter(|&last| {
-            let marks = columns.columns[last].iter();
+            let marks = columns.numbers[last].iter();
             columns.headings[last].to_lowercase().contains("valid")
                 || marks
                     .into_iter()
@@ -105,14 +123,14 @@ fn rises(places: &[f64]) -> bool {
     let goes = |is_way: fn(f64, f64) -> bool| places.windows(2).all(|p| is_way(p[0], p[1]));
     places.len() > 1
         && (goes(|a, b| a <= b) || goes(|a, b| a >= b))
-        && places[0] != places[places.len() - 1]
+        && (places[0] - places[places.len() - 1]).abs() > 0.0
 }
 
 fn column_of(columns: &Columns, name: &str, path: &Path) -> Result<usize, FileError> {
     let by_name = columns.headings.iter().position(|heading| heading == name);
     let by_number = || {
         let number: usize = name.parse().ok()?;
-        (1..=columns.columns.len())
+        (1..=columns.numbers.len())
             .contains(&number)
             .then(|| number - 1)
     };
@@ -124,10 +142,10 @@ fn column_of(columns: &Columns, name: &str, path: &Path) -> Result<usize, FileEr
 }
 
 fn profile(columns: &Columns, choice: &Choice, path: &Path) -> Result<Reading, FileError> {
-    let mut heights = columns.columns[choice.height].clone();
+    let mut heights = columns.numbers[choice.height].clone();
     if let Some(valid) = choice.valid {
-        for (height, mark) in heights.iter_mut().zip(&columns.columns[valid]) {
-            if !(*mark > 0.0) {
+        for (height, mark) in heights.iter_mut().zip(&columns.numbers[valid]) {
+            if mark.is_nan() || *mark <= 0.0 {
                 *height = f64::NAN;
             }
         }
@@ -147,10 +165,10 @@ fn profile(columns: &Columns, choice: &Choice, path: &Path) -> Result<Reading, F
 
 /// A matrix: rows from the top.
 fn matrix(columns: Columns, keys: MatrixKeys, path: &Path) -> Result<Reading, FileError> {
-    let columns = columns.columns;
+    let columns = columns.numbers;
     let (width, height) = (columns.len(), columns.first().map_or(0, Vec::len));
     let rows = (0..height).flat_map(|row| columns.iter().map(move |column| column[row]));
-    let mut reading = Reading::of_rows(width, rows.collect(), "text matrix", path)?.from_top();
+    let mut reading = Reading::of_rows(width, rows.collect(), "text matrix", path)?.turned_over();
     if let [Some((x, unit_x)), Some((y, unit_y))] = keys.extents {
         let step_y = y * unit_y.um() / unit_x.um() / height as f64;
         reading.steps = Some([x / width as f64, step_y]);

@@ -148,13 +148,21 @@ impl<'a> Layout<'a> {
                 column.push(number);
             }
         }
+        // Separators at the end of lines make columns that hold nothing and have no heading.
         let last = columns
             .iter()
-            .rposition(|c| c.iter().any(|number| !number.is_nan()));
-        columns.truncate(last.map_or(0, |last| last + 1));
+            .rposition(|column| column.iter().any(|number| !number.is_nan()));
+        let n_headed = self.header.last().map_or(0, |line| {
+            let cells = self.parting.cells(line);
+            cells
+                .iter()
+                .rposition(|cell| !cell.is_empty())
+                .map_or(0, |at| at + 1)
+        });
+        columns.truncate(n_headed.max(last.map_or(0, |last| last + 1)));
         Ok(Columns {
             headings: self.headings(columns.len()),
-            columns,
+            numbers: columns,
             decimals: self.decimals(),
             first_line: self.lines.first().map_or(1, |(number, _)| *number),
         })
@@ -182,7 +190,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Most digits behind the point of the first column, in the first lines.
-    fn decimals(&self) -> usize {
+    fn decimals(&self) -> i32 {
         let decimals = |(_, line): &(usize, &str)| {
             let cells = self.parting.cells(line);
             let cell = (*cells.first()?).replace(',', ".");
@@ -190,18 +198,18 @@ impl<'a> Layout<'a> {
             plain.then(|| cell.split_once('.').map_or(0, |(_, digits)| digits.len()))
         };
         let all = self.lines.iter().take(1000).map(decimals);
-        all.collect::<Option<Vec<usize>>>()
-            .and_then(|all| all.into_iter().max())
-            .unwrap_or(15)
+        let most = all.collect::<Option<Vec<usize>>>();
+        let most = most.and_then(|all| all.into_iter().max());
+        most.and_then(|most| i32::try_from(most).ok()).unwrap_or(15)
     }
 }
 
 /// The columns of a table.
 pub(super) struct Columns {
     pub(super) headings: Vec<String>,
-    pub(super) columns: Vec<Vec<f64>>,
+    pub(super) numbers: Vec<Vec<f64>>,
     /// Digits behind the point of the first column.
-    pub(super) decimals: usize,
+    pub(super) decimals: i32,
     /// The line of the first row.
     pub(super) first_line: usize,
 }

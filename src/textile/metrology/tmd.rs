@@ -1,4 +1,4 @@
-//! TMD, the binary files of TrueMap: lengths and heights in mm, float32.
+//! TMD, the binary files of `TrueMap`: lengths and heights in mm, float32.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
     let size = [width, height].map(|n| usize::try_from(n).unwrap_or(usize::MAX));
     let n = n_points(size[0], size[1], path)?;
     let values = Number::F32.decode(reader.take(4 * n)?);
-    let mut reading = Reading::of_rows(size[0], values, "TMD", path)?.from_top();
+    let mut reading = Reading::of_rows(size[0], values, "TMD", path)?.turned_over();
     reading.steps = Some([x / f64::from(width), y / f64::from(height)]);
     reading.length_unit = Stated::Length(LengthUnit::Millimetre);
     reading.height_unit = Stated::Length(LengthUnit::Millimetre);

@@ -164,10 +164,9 @@ impl Axis {
             ("DataType", "L") => self.number = Number::I32,
             ("DataType", "F") => self.number = Number::F32,
             ("DataType", "D") => self.number = Number::F64,
-            ("AxisType", _) => return None,
-            // Nothing, or a unit that was left in.
+            // Writers leave what they do not use empty.
             ("Increment" | "Offset" | "DataType", "") => {}
-            ("DataType", _) => return None,
+            ("AxisType" | "DataType", _) => return None,
             ("Increment", _) => self.increment = finite(text)?,
             ("Offset", _) => self.offset = finite(text)?,
             _ => {}

@@ -157,7 +157,8 @@ fn xml(measured: &Measured, z: &ZAxis, record: &str) -> String {
     let axis = |name: &str, kind: char, number: char, [increment_m, offset_m]: [f64; 2]| {
         format!(
             "      <{name}>\n        <AxisType>{kind}</AxisType>\n        \
-             <DataType>{number}</DataType>\n        <Increment>{increment_m:e}</Increment>\n        \
+             <DataType>{number}</DataType>\n        \
+             <Increment>{increment_m:e}</Increment>\n        \
              <Offset>{offset_m:e}</Offset>\n      </{name}>\n"
         )
     };
@@ -176,7 +177,8 @@ fn xml(measured: &Measured, z: &ZAxis, record: &str) -> String {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<{ROOT}>\n  <Record1>\n    \
          <Revision>ISO5436 - 2000</Revision>\n    <FeatureType>{feature}</FeatureType>\n    \
          <Axes>\n{axes}    </Axes>\n  </Record1>\n  <Record2>\n    <Date>{date}</Date>\n    \
-         <Instrument>\n      <Manufacturer>{instrument}</Manufacturer>\n      <Model></Model>\n      \
+         <Instrument>\n      <Manufacturer>{instrument}</Manufacturer>\n      \
+         <Model></Model>\n      \
          <Serial></Serial>\n      <Version></Version>\n    </Instrument>\n    \
          <CalibrationDate></CalibrationDate>\n    <ProbingSystem>\n      <Type></Type>\n      \
          <Identification></Identification>\n    </ProbingSystem>\n    \
