@@ -48,7 +48,11 @@ const HOMES: &[(&str, &str)] = &[
     ("eframe", "src/app/"),
     ("egui", "src/app/"),
     ("epaint_default_fonts", "src/figure/pixels.rs"),
+    ("flate2", "src/files/"),
     ("image", "src/files/"),
+    ("md5", "src/files/hash.rs"),
+    ("png", "src/files/"),
+    ("quick_xml", "src/files/xml.rs"),
     ("rand", "src/numerics/random.rs"),
     ("rand_distr", "src/numerics/random.rs"),
     ("rand_pcg", "src/numerics/random.rs"),
@@ -60,9 +64,11 @@ const HOMES: &[(&str, &str)] = &[
     ("serialport", "src/bridge/"),
     ("sha2", "src/files/"),
     ("signal_hook", "src/cli/"),
+    ("tiff", "src/files/"),
     ("toml", "src/files/"),
     ("winit", "src/app/"),
     ("x11rb", "src/app/"),
+    ("zip", "src/files/archive.rs"),
 ];
 
 /// Crates that are vocabulary and may appear anywhere.

@@ -23,6 +23,7 @@ mod screenshot;
 mod signals;
 mod terminal;
 mod textile;
+mod textile_import;
 mod textile_make;
 mod textile_models;
 mod usage;

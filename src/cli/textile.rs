@@ -6,6 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::output::TableOut;
 use super::terminal::Meter;
+use super::textile_import::{self, ConvertArgs, ImportArgs};
 use super::textile_make::{self, MakeCommand};
 use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
@@ -55,6 +56,10 @@ pub(super) enum TextileCommand {
     Make(MakeCommand),
     /// Learn a Fourier template from several profiles of a material
     LearnFourier(LearnArgs),
+    /// Make a textile of measured heights: X3P, SUR, GWY, GSF, NPY, TMD, FRT, PNG, TIFF or text
+    Import(ImportArgs),
+    /// Write measured heights in another format: .x3p, .gsf, .npy, .png or .tif
+    Convert(ConvertArgs),
 }
 
 /// The library that is meant.
@@ -92,6 +97,8 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
         TextileCommand::Make(command) => textile_make::run(command),
         TextileCommand::LearnFourier(args) => textile_models::learn(args),
+        TextileCommand::Import(args) => textile_import::import(args),
+        TextileCommand::Convert(args) => textile_import::convert(args),
     }
 }
 

@@ -1,29 +1,45 @@
-//! Files in the formats everybody shares: CSV, TOML, PNG, hashes, and writing that never leaves
-//! half a file behind.
+//! Files in the formats everybody shares: CSV, TOML, XML, ZIP, PNG, TIFF, NPY, hashes, and writing
+//! that never leaves half a file behind.
 //!
 //! Knows how a table or a key is spelt, not what it means. Every error is one line that says what
 //! is wrong, where (path and line), and how to mend it.
 //!
 //! # Invariants
-//! - the one home of `csv`, `toml`, `serde_json`, `image` and `sha2`
+//! - the one home of `csv`, `toml`, `serde_json`, `quick-xml`, `zip`, `flate2`, `image`, `png`,
+//!   `tiff`, `sha2` and `md-5`
+//! - sizes are checked before anything of that size is held
 //! - the path is given only to name it in errors: content comes in as bytes or text
 //! - numbers are written with the shortest digits that read back the same
 
+mod archive;
 mod atomic;
+mod bytes;
 mod digits;
+mod gray16;
 mod hash;
+mod inflate;
 mod json;
 mod keys;
+mod npy;
 mod picture;
 mod table;
+mod xml;
 
+pub use archive::{Archive, pack};
 pub use atomic::{create, read, read_text, write_atomic};
+pub use bytes::{ByteReader, Number, latin1};
 pub use digits::push_number;
-pub use hash::sha256_hex;
+pub use gray16::{
+    GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff, gray_values,
+};
+pub use hash::{md5_hex, sha256_hex};
+pub use inflate::{deflate, inflate};
 pub use json::{from_json_str, to_json_string};
 pub use keys::{keys_from_str, keys_to_string, line_of_key};
+pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use table::{Table, TableWriter};
+pub use xml::{visit_elements, xml_text};
 
 use std::path::{Path, PathBuf};
 
@@ -58,6 +74,16 @@ pub enum FileError {
         /// What to do about it.
         mend: String,
     },
+    /// Its content is wrong, and it has no lines to name.
+    #[error("{}: {what}; {mend}", path.display())]
+    Whole {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+        /// What to do about it.
+        mend: String,
+    },
 }
 
 impl FileError {
@@ -71,6 +97,15 @@ impl FileError {
         Self::Content {
             path: path.to_owned(),
             line,
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+
+    /// Wrong content of a file that has no lines.
+    pub fn whole(path: &Path, what: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self::Whole {
+            path: path.to_owned(),
             what: what.into(),
             mend: mend.into(),
         }

@@ -28,6 +28,7 @@ mod machine;
 mod models;
 mod pareto;
 mod readable;
+mod readers;
 mod rendering;
 mod runner;
 mod spectral_model;
@@ -48,6 +49,7 @@ pub use left_out::{LeftOutStudy, SavingRule};
 pub use machine::Machine;
 pub use models::{BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy};
 pub use pareto::pareto;
+pub use readers::ReadersStudy;
 pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use spectral_model::SpectralModelStudy;
@@ -68,6 +70,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(RestorationStudy),
         Box::new(ResamplingStudy),
         Box::new(ProbeStudy),
+        Box::new(ReadersStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),
     ]

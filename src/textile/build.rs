@@ -18,7 +18,7 @@ use crate::surface::Direction;
 use crate::tactile::{Filters, Levels, Tuning};
 
 /// The name of the picture.
-const PICTURE: &str = "appearance.png";
+pub(crate) const PICTURE: &str = "appearance.png";
 
 /// A file of a built textile.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,7 +100,7 @@ pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, Textil
     Manifest::from_toml(&read_text(&manifest)?, &manifest)
 }
 
-fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
+pub(crate) fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(|source| FileError::Write {
         path: folder.to_owned(),
         source,
@@ -124,7 +124,7 @@ pub fn build_library(
         let recipe = from.manifest(id)?;
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
-            Source::Profiles(_) => copied(from, id, &recipe)?,
+            Source::Profiles(_) | Source::Heightmap(_) => copied(from, id, &recipe)?,
             _ => build(&recipe, &path)?,
         };
         write(&files, &to.join(id))?;
@@ -139,6 +139,9 @@ pub fn build_library(
 /// The files of a textile that was not made from a recipe.
 fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile>, TextileError> {
     let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
+    if let (Source::Heightmap(keys), true) = (&manifest.source, names.is_empty()) {
+        names.push(keys.file.clone());
+    }
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
     let copy = |name: String| {

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::library::Store;
-use super::manifest::Manifest;
+use super::manifest::{Manifest, Source};
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
 use crate::files::{Rgb8Image, decode_png};
-use crate::surface::{Direction, ProfileSet, Representation, Surface};
+use crate::surface::{Direction, HeightMap, ProfileSet, Representation, Surface};
 
 /// A textile, ready to be felt.
 #[derive(Debug, Clone)]
@@ -28,17 +28,19 @@ pub struct Appearance {
 }
 
 impl Textile {
-    /// Reads a textile of a store: manifest, profiles, spectra. A model that names no profile
-    /// files is built on the spot, which takes a second or so.
+    /// Reads a textile of a store: manifest, profiles, spectra. A model or a height
+    /// map that names no profile files is built on the spot, which takes a second or so.
     pub(crate) fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
         let manifest = read_manifest(store, id)?;
         let floor = manifest.noise_floor_um2_mm.unwrap_or(0.0);
         let is_areal = manifest.source.representation() == Representation::Areal;
-        let map = is_areal.then(|| manifest.source.height_map()).flatten();
+        let map = if is_areal {
+            relief_of(store, id, &manifest)?
+        } else {
+            None
+        };
         let surface = match map {
-            Some(map) => map
-                .map_err(|error| (Direction::WarpForward, error))
-                .and_then(|map| Surface::areal(&map, floor)),
+            Some(map) => Surface::areal(&map, floor),
             None => Surface::from_profiles(profiles_of(store, id, &manifest)?, floor),
         };
         let surface = surface.map_err(|(direction, source)| {
@@ -116,6 +118,23 @@ pub(crate) fn read_manifest(store: &Store, id: &str) -> Result<Manifest, Textile
     Manifest::from_toml(&store.text(id, MANIFEST)?, &path)
 }
 
+/// The heights over an area that a manifest's source knows; `None` if it knows profiles only.
+fn relief_of(
+    store: &Store,
+    id: &str,
+    manifest: &Manifest,
+) -> Result<Option<HeightMap>, TextileError> {
+    if let Source::Heightmap(keys) = &manifest.source {
+        let (bytes, path) = (store.read(id, &keys.file)?, store.path(id, &keys.file));
+        return keys.height_map(&bytes, &path).map(Some);
+    }
+    let map = manifest.source.height_map().transpose();
+    map.map_err(|source| TextileError::Surface {
+        path: store.path(id, MANIFEST),
+        source,
+    })
+}
+
 /// The profiles that a manifest names, or those of its model.
 fn profiles_of(store: &Store, id: &str, manifest: &Manifest) -> Result<ProfileSet, TextileError> {
     let names_none = manifest.source.files().is_empty();
@@ -124,9 +143,12 @@ fn profiles_of(store: &Store, id: &str, manifest: &Manifest) -> Result<ProfileSe
     } else {
         None
     };
-    match model {
-        Some(model) => profiles_of_files(&model.profile_files()?),
-        None => read_profiles(store, id, manifest),
+    match (model, &manifest.source) {
+        (Some(model), _) => profiles_of_files(&model.profile_files()?),
+        (None, Source::Heightmap(keys)) if names_none => {
+            keys.profiles(&store.read(id, &keys.file)?, &store.path(id, &keys.file))
+        }
+        (None, _) => read_profiles(store, id, manifest),
     }
 }
 

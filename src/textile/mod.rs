@@ -1,8 +1,9 @@
 //! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
 //!
-//! A textile is a folder with a manifest; its source is measured profiles or a seeded model of a
-//! woven or knitted cloth that a virtual probe was drawn over, or of a surface known by its
-//! harmonics, its Hurst exponent or what repeats in it. Knows nothing of scenes or of rendering.
+//! A textile is a folder with a manifest; its source is measured profiles, a measured height map, a
+//! seeded model of a woven or knitted cloth that a virtual probe was drawn over, or of a surface
+//! known by its harmonics, its Hurst exponent or what repeats in it. Knows nothing of scenes or of
+//! rendering.
 //!
 //! # Invariants
 //! - loading is lazy: a library reads a textile's profiles only when it is asked for that textile
@@ -19,6 +20,7 @@ mod knit;
 mod library;
 mod loaded;
 mod manifest;
+pub mod metrology;
 mod model;
 mod profile_file;
 mod restoration;

@@ -34,7 +34,7 @@ impl Model {
     /// The model of a source; `None` if it was measured.
     pub(crate) fn of(source: &Source) -> Result<Option<Self>, TextileError> {
         let (cloth, seed, noise_um) = match source {
-            Source::Profiles(_) => return Ok(None),
+            Source::Profiles(_) | Source::Heightmap(_) => return Ok(None),
             Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um),
             Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um),
             Source::Fourier(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),

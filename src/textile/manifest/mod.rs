@@ -17,6 +17,7 @@ use super::TextileError;
 use super::brownian::Brownian;
 use super::fourier::Fourier;
 use super::knit::Knit;
+use super::metrology::Heightmap;
 use super::restoration::Restoration;
 use super::weave::Weave;
 use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
@@ -107,16 +108,20 @@ pub enum Source {
     Brownian(Box<Brownian>),
     /// A surface restored from what repeats in two profiles.
     Restoration(Box<Restoration>),
+    /// A file of measured heights.
+    Heightmap(Box<Heightmap>),
 }
 
 /// The kinds of source, as files spell them.
-const KINDS: [&str; 6] = [
+const KINDS: [&str; 8] = [
     "profiles",
     "weave",
     "knit",
     "fourier",
     "brownian",
     "restoration",
+    "heightmap",
+    "x3p",
 ];
 
 /// Profiles as they were measured (`kind = "profiles"`).
@@ -168,6 +173,7 @@ impl Source {
             Self::Fourier(_) => KINDS[3],
             Self::Brownian(_) => KINDS[4],
             Self::Restoration(_) => KINDS[5],
+            Self::Heightmap(keys) => KINDS[if keys.kind == "x3p" { 7 } else { 6 }],
         }
     }
 
@@ -185,6 +191,7 @@ impl Source {
             Self::Fourier(keys) => keys.files(),
             Self::Brownian(keys) => keys.files(),
             Self::Restoration(keys) => keys.files(),
+            Self::Heightmap(keys) => keys.files(),
         }
     }
 
@@ -196,6 +203,7 @@ impl Source {
             }
             Self::Weave(keys) => keys.representation,
             Self::Knit(keys) => keys.representation,
+            Self::Heightmap(keys) => keys.representation,
         }
     }
 
@@ -216,6 +224,7 @@ impl Source {
             Self::Fourier(keys) => keys.set_files(files, recipe_hash),
             Self::Brownian(keys) => keys.set_files(files, recipe_hash),
             Self::Restoration(keys) => keys.set_files(files, recipe_hash),
+            Self::Heightmap(keys) => keys.set_files(files, recipe_hash),
         }
     }
 
@@ -239,6 +248,10 @@ impl Source {
             Self::Fourier(keys) => keys.check(checker)?,
             Self::Brownian(keys) => keys.check(checker)?,
             Self::Restoration(keys) => keys.check(checker)?,
+            Self::Heightmap(keys) => {
+                keys.check(checker)?;
+                check_name(checker, "source", "file", Some(&keys.file))?;
+            }
         }
         let files = self.files();
         for direction in Direction::ALL {
@@ -263,6 +276,7 @@ impl Manifest {
             "fourier" => read::<Box<Fourier>>(text, path)?.map(Source::Fourier),
             "brownian" => read::<Box<Brownian>>(text, path)?.map(Source::Brownian),
             "restoration" => read::<Box<Restoration>>(text, path)?.map(Source::Restoration),
+            "heightmap" | "x3p" => read::<Box<Heightmap>>(text, path)?.map(Source::Heightmap),
             other => {
                 let mend = format!("the kinds are {}", KINDS.join(", "));
                 let what = format!("unknown kind of source \"{other}\"");

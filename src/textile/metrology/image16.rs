@@ -1,0 +1,124 @@
+//! Heights in grey pictures of 16 bits, with the scale keys that Gwyddion writes into PNG
+//! (`Gwy::XReal`, `Gwy::ZMin` …; black is `ZMin`, white `ZMax`). Read and written, TIFF likewise.
+
+use std::path::Path;
+
+use super::field::{FieldKeys, field_reading};
+use super::reading::Stated;
+use super::{Asked, LengthUnit, Measured, Reading};
+use crate::files::{
+    FileError, GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff,
+    gray_values,
+};
+use crate::surface::MOST_POINTS;
+
+const PREFIX: &str = "Gwy::";
+
+/// Reads a PNG.
+pub(super) fn read_png(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+    reading(
+        &decode_gray_png(bytes, path, MOST_POINTS)?,
+        "PNG",
+        path,
+        asked,
+    )
+}
+
+/// Reads a TIFF.
+pub(super) fn read_tiff(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+    reading(
+        &decode_gray_tiff(bytes, path, MOST_POINTS)?,
+        "TIFF",
+        path,
+        asked,
+    )
+}
+
+fn reading(
+    picture: &GrayImage,
+    format: &'static str,
+    path: &Path,
+    asked: &Asked,
+) -> Result<Reading, FileError> {
+    let mut keys = FieldKeys::default();
+    for (key, value) in &picture.texts {
+        keys.set(key.strip_prefix(PREFIX).unwrap_or(""), value);
+    }
+    let number = |key: &str| picture.text(key)?.trim().parse::<f64>().ok();
+    let stated = number("Gwy::ZMin").zip(number("Gwy::ZMax"));
+    let scale = match (asked.range_um, stated) {
+        (Some(range_um), _) if range_um > 0.0 && range_um.is_finite() => (0.0, range_um),
+        (None, Some((low, high))) if high >= low => (low, high),
+        _ => {
+            let what = "the picture does not state the heights of black and white";
+            let mend = "give range_um (--range-um), the height of white above black";
+            return Err(FileError::whole(path, what, mend));
+        }
+    };
+    let a_step = (scale.1 - scale.0) / f64::from(picture.white);
+    let heights = picture
+        .values
+        .iter()
+        .map(|&value| scale.0 + a_step * f64::from(value));
+    let size = [picture.width, picture.height];
+    let mut reading = field_reading(size, heights.collect(), &keys, format, path)?;
+    if asked.range_um.is_some() {
+        reading.height_unit = Stated::Length(LengthUnit::Micrometre);
+    }
+    if picture.white == 255 {
+        let line = "8 bits: heights come in 256 steps";
+        reading.warnings.push(line.to_owned());
+    }
+    Ok(reading)
+}
+
+/// Writes a map as PNG.
+pub(super) fn write_png(measured: &Measured, path: &Path) -> Result<Vec<u8>, FileError> {
+    encode_gray_png(&picture(measured, path)?, path)
+}
+
+/// Writes a map as TIFF.
+pub(super) fn write_tiff(measured: &Measured, path: &Path) -> Result<Vec<u8>, FileError> {
+    encode_gray_tiff(&picture(measured, path)?, path)
+}
+
+fn picture(measured: &Measured, path: &Path) -> Result<GrayImage, FileError> {
+    let n_missing = measured.n_missing();
+    if n_missing > 0 {
+        let what = format!("{n_missing} points are missing, which a picture cannot show");
+        return Err(FileError::whole(
+            path,
+            what,
+            "fill them first (--fill), or write X3P",
+        ));
+    }
+    let grid = &measured.heights_um;
+    let [low, high] = measured.range_um();
+    let share = |height: &f64| {
+        if high > low {
+            (height - low) / (high - low)
+        } else {
+            0.0
+        }
+    };
+    let rows = (0..grid.height()).rev();
+    let shares = rows.flat_map(|row| grid.row(row).iter().map(share));
+    let mut texts = vec![
+        (format!("{PREFIX}ZMin"), (low * 1e-6).to_string()),
+        (format!("{PREFIX}ZMax"), (high * 1e-6).to_string()),
+    ];
+    for (key, value) in FieldKeys::of(measured).pairs() {
+        // Pictures spell units in the singular.
+        let key = key
+            .strip_suffix("Units")
+            .map_or_else(|| key.to_owned(), |k| format!("{k}Unit"));
+        texts.push((format!("{PREFIX}{key}"), value.to_owned()));
+    }
+    Ok(GrayImage {
+        width: grid.width(),
+        height: grid.height(),
+        values: gray_values(shares),
+        white: u16::MAX,
+        texts,
+    })
+}

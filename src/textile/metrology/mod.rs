@@ -1,0 +1,159 @@
+//! Measured heights from the files of instruments and of the programs around them.
+//!
+//! What a file is, its content says, never its name. Heights come out in µm with their steps in
+//! mm, rows in the order of rising w; what was not measured is NaN and stays so here. A unit that
+//! a file does not state is asked for, never guessed.
+//!
+//! Sizes are checked before anything of that size is held: against [`MOST_POINTS`] and against the
+//! bytes that are there.
+
+mod field;
+mod frt;
+mod gsf;
+mod gwy;
+mod image16;
+mod import;
+mod npy;
+mod reading;
+mod source;
+mod sur;
+mod text;
+mod text_layout;
+mod tmd;
+mod unit;
+mod x3p;
+
+#[cfg(test)]
+mod mutations;
+#[cfg(test)]
+mod samples;
+#[cfg(test)]
+mod tests;
+
+pub use import::{ImportOptions, Imported, import};
+pub use reading::{About, Measured};
+pub use source::Heightmap;
+pub use unit::LengthUnit;
+pub use x3p::{Coding, write as write_x3p};
+
+use std::path::Path;
+
+use super::TextileError;
+use crate::files::{FileError, NPY_MAGIC};
+use crate::surface::MOST_POINTS;
+use reading::Reading;
+
+/// What a file may leave open, and what is known better than the file does.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Asked {
+    /// The unit of the heights.
+    pub height_unit: Option<LengthUnit>,
+    /// The unit of places along and across.
+    pub length_unit: Option<LengthUnit>,
+    /// The distance of points, mm.
+    pub step_mm: Option<f64>,
+    /// The height of white above black in a picture, µm.
+    pub range_um: Option<f64>,
+    /// The column of heights in a table: its name, or its number from 1.
+    pub column: Option<String>,
+}
+
+/// The formats that are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    X3p,
+    Sur,
+    Gwy,
+    Gsf,
+    Npy,
+    Png,
+    Tiff,
+    Tmd,
+    Frt,
+    Text,
+}
+
+/// What can be read, for people.
+const READABLE: &str =
+    "give X3P, SUR or PRO, GWY, GSF, NPY, TMD, FRT, grey PNG or TIFF of 16 bits, or text";
+
+impl Format {
+    fn of(bytes: &[u8]) -> Option<Self> {
+        let begins = |magic: &[u8]| bytes.starts_with(magic);
+        Some(match () {
+            () if begins(b"PK\x03\x04") => Self::X3p,
+            () if begins(b"DIGITAL SURF") || begins(b"DSCOMPRESSED") => Self::Sur,
+            () if begins(b"GWYP") => Self::Gwy,
+            () if begins(gsf::MAGIC) => Self::Gsf,
+            () if begins(NPY_MAGIC) => Self::Npy,
+            () if begins(b"\x89PNG\r\n\x1a\n") => Self::Png,
+            () if begins(b"II*\0") || begins(b"MM\0*") => Self::Tiff,
+            () if begins(tmd::MAGIC) => Self::Tmd,
+            () if begins(frt::MAGIC) => Self::Frt,
+            () if is_text(bytes) => Self::Text,
+            () => return None,
+        })
+    }
+}
+
+/// Whether the beginning holds no bytes that texts do not hold.
+fn is_text(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(4096)];
+    let is_control = |byte: &u8| *byte < 32 && !b"\t\n\r\x0c".contains(byte);
+    !head.is_empty() && !head.iter().any(is_control)
+}
+
+/// Reads measured heights. `path` only names the file in errors.
+///
+/// # Errors
+/// One line: a format that is not read, a damaged file, a size beyond [`MOST_POINTS`], steps that
+/// are not even, a unit or step that must be given, no height at all.
+pub fn open(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Measured, TextileError> {
+    let reading = match Format::of(bytes) {
+        Some(Format::X3p) => x3p::read(bytes, path)?,
+        Some(Format::Sur) => sur::read(bytes, path)?,
+        Some(Format::Gwy) => gwy::read(bytes, path)?,
+        Some(Format::Gsf) => gsf::read(bytes, path)?,
+        Some(Format::Npy) => npy::read(bytes, path)?,
+        Some(Format::Png) => image16::read_png(bytes, path, asked)?,
+        Some(Format::Tiff) => image16::read_tiff(bytes, path, asked)?,
+        Some(Format::Tmd) => tmd::read(bytes, path)?,
+        Some(Format::Frt) => frt::read(bytes, path)?,
+        Some(Format::Text) => text::read(bytes, path, asked)?,
+        None => {
+            let what = "this is no file of measured heights that is known here";
+            return Err(FileError::whole(path, what, READABLE).into());
+        }
+    };
+    reading.finish(path, asked)
+}
+
+/// Writes a map in the format that the ending of `path` names: `.x3p`, `.gsf`, `.npy`, `.png` or
+/// `.tif`. Pictures cannot hold missing points.
+///
+/// # Errors
+/// Another ending; a picture of a map with missing points.
+pub fn write(measured: &Measured, path: &Path) -> Result<Vec<u8>, TextileError> {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    Ok(match ending.to_str().unwrap_or_default() {
+        "x3p" => x3p::write(measured, Coding::default(), path)?,
+        "gsf" => gsf::write(measured),
+        "npy" => npy::write(measured),
+        "png" => image16::write_png(measured, path)?,
+        "tif" | "tiff" => image16::write_tiff(measured, path)?,
+        _ => {
+            let what = "heights are not written in this format";
+            let mend = "name a file that ends in .x3p, .gsf, .npy, .png or .tif";
+            return Err(FileError::whole(path, what, mend).into());
+        }
+    })
+}
+
+/// The number of points of a grid, checked against [`MOST_POINTS`].
+fn n_points(n_columns: usize, n_rows: usize, path: &Path) -> Result<usize, FileError> {
+    let n = n_columns.checked_mul(n_rows);
+    n.filter(|n| (1..=MOST_POINTS).contains(n)).ok_or_else(|| {
+        let what = format!("{n_columns} × {n_rows} points where 1 to {MOST_POINTS} are read");
+        FileError::whole(path, what, "the header lies, or cut out what you need")
+    })
+}

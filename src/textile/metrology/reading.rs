@@ -1,0 +1,296 @@
+//! From the numbers of a file to heights in µm with steps in mm.
+
+use std::path::Path;
+
+use super::{Asked, LengthUnit};
+use crate::files::FileError;
+use crate::numerics::Grid;
+use crate::surface::{HeightMap, SurfaceError};
+use crate::textile::TextileError;
+
+/// What a file says about itself.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct About {
+    /// The format.
+    pub format: &'static str,
+    /// What the data are called.
+    pub title: String,
+    /// The instrument.
+    pub instrument: String,
+    /// When it was measured, as the file spells it.
+    pub date: String,
+    /// What people noted.
+    pub comment: String,
+}
+
+/// Measured heights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Heights, µm, rows in the order of rising w, a profile in one row; NaN where missing.
+    pub heights_um: Grid<f64>,
+    /// Steps along and across, mm.
+    pub step_mm: [f64; 2],
+    /// What the file says about itself.
+    pub about: About,
+    /// What is odd about the file, one line each.
+    pub warnings: Vec<String>,
+}
+
+impl Measured {
+    /// Whether it is a profile, not a map.
+    pub fn is_profile(&self) -> bool {
+        self.heights_um.height() == 1
+    }
+
+    /// Points without a height.
+    pub fn n_missing(&self) -> usize {
+        let values = self.heights_um.values().iter();
+        values.filter(|height| height.is_nan()).count()
+    }
+
+    /// The same with every missing point filled, along its row and its column between the nearest
+    /// heights, the mean of both (see [`HeightMap::filled`]).
+    ///
+    /// # Errors
+    /// Steps that no surface has.
+    pub fn filled(&self) -> Result<Self, SurfaceError> {
+        let map = HeightMap::new(self.heights_um.clone(), self.step_mm)?;
+        Ok(Self {
+            heights_um: map.filled().heights_um().clone(),
+            ..self.clone()
+        })
+    }
+
+    /// Lowest and highest height, µm.
+    pub fn range_um(&self) -> [f64; 2] {
+        let present = self.present();
+        present.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
+            [low.min(z), high.max(z)]
+        })
+    }
+
+    /// Sq: root mean square deviation from the mean, of the points that have a height, µm
+    /// (ISO 25178-2, without levelling or filtering). Steps do not matter to it.
+    pub fn sq_um(&self) -> f64 {
+        let n = self.present().count() as f64;
+        let mean = self.present().sum::<f64>() / n;
+        let squares = self.present().map(|z| (z - mean) * (z - mean));
+        (squares.sum::<f64>() / n).sqrt()
+    }
+
+    fn present(&self) -> impl Iterator<Item = f64> + '_ {
+        let values = self.heights_um.values().iter().copied();
+        values.filter(|height| !height.is_nan())
+    }
+}
+
+/// Highest relief that is believed without a word, µm.
+const MOST_RELIEF_UM: f64 = 1e5;
+
+/// A unit that a file states.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) enum Stated {
+    /// None.
+    #[default]
+    Nothing,
+    /// A length.
+    Length(LengthUnit),
+    /// A word that is no length.
+    Other(String),
+}
+
+impl Stated {
+    /// What a word states.
+    pub(super) fn of(word: &str) -> Self {
+        match (word.trim(), LengthUnit::of(word)) {
+            ("", _) => Self::Nothing,
+            (_, Some(unit)) => Self::Length(unit),
+            (word, None) => Self::Other(word.to_owned()),
+        }
+    }
+
+    /// The length, if it is one.
+    pub(super) fn length(&self) -> Option<LengthUnit> {
+        match self {
+            Self::Length(unit) => Some(*unit),
+            _ => None,
+        }
+    }
+}
+
+impl From<Option<LengthUnit>> for Stated {
+    fn from(unit: Option<LengthUnit>) -> Self {
+        unit.map_or(Self::Nothing, Self::Length)
+    }
+}
+
+/// What a reader found: numbers as the file has them.
+#[derive(Debug)]
+pub(super) struct Reading {
+    /// Numbers, NaN where missing, rows in the order of rising w.
+    pub(super) values: Grid<f64>,
+    /// Their unit.
+    pub(super) height_unit: Stated,
+    /// Steps along and across, if the file states them.
+    pub(super) steps: Option<[f64; 2]>,
+    /// Their unit.
+    pub(super) length_unit: Stated,
+    pub(super) about: About,
+    pub(super) warnings: Vec<String>,
+}
+
+impl Reading {
+    /// Numbers in rows from the first line of the file on.
+    pub(super) fn of_rows(
+        n_columns: usize,
+        values: Vec<f64>,
+        format: &'static str,
+        path: &Path,
+    ) -> Result<Self, FileError> {
+        let values = Grid::from_rows(n_columns, values)
+            .filter(|grid| grid.height() > 0)
+            .ok_or_else(|| {
+                FileError::whole(path, "no whole row of points", "get an intact copy")
+            })?;
+        Ok(Self {
+            values,
+            height_unit: Stated::Nothing,
+            steps: None,
+            length_unit: Stated::Nothing,
+            about: About {
+                format,
+                ..About::default()
+            },
+            warnings: Vec::new(),
+        })
+    }
+
+    /// The same with the first row of the file as the last: files that begin at the top.
+    pub(super) fn turned_over(mut self) -> Self {
+        let (width, height) = (self.values.width(), self.values.height());
+        let rows = (0..height).rev();
+        let turned: Vec<f64> = rows.flat_map(|row| self.values.row(row).to_vec()).collect();
+        if let Some(grid) = Grid::from_rows(width, turned) {
+            self.values = grid;
+        }
+        self
+    }
+
+    /// Heights in µm with steps in mm.
+    pub(super) fn finish(mut self, path: &Path, asked: &Asked) -> Result<Measured, TextileError> {
+        let mend = "give height_unit (--height-unit): m, mm, um or nm";
+        let unit = self.height_unit.clone();
+        let unit = self.decide(("heights", mend), &unit, asked.height_unit, path)?;
+        let step_mm = self.step_mm(path, asked)?;
+        for value in self.values.values_mut() {
+            *value *= unit.um();
+            if !value.is_finite() {
+                *value = f64::NAN;
+            }
+        }
+        if self.values.values().iter().all(|value| value.is_nan()) {
+            return Err(TextileError::Surface {
+                path: path.to_owned(),
+                source: SurfaceError::AllMissing,
+            });
+        }
+        let mut measured = Measured {
+            heights_um: self.values,
+            step_mm,
+            about: self.about,
+            warnings: self.warnings,
+        };
+        let [low, high] = measured.range_um();
+        if high - low > MOST_RELIEF_UM {
+            let span_mm = (high - low) * 1e-3;
+            let line = format!("heights span {span_mm:.0} mm: their unit may be another");
+            measured.warnings.push(line);
+        }
+        Ok(measured)
+    }
+
+    /// The unit to use: what was asked for, with a warning where the file says otherwise.
+    fn decide(
+        &mut self,
+        (of, mend): (&str, &str),
+        stated: &Stated,
+        asked: Option<LengthUnit>,
+        path: &Path,
+    ) -> Result<LengthUnit, FileError> {
+        let said = match stated {
+            Stated::Nothing => None,
+            Stated::Length(unit) => Some(unit.word()),
+            Stated::Other(word) => Some(word.as_str()),
+        };
+        if let (Some(said), Some(asked)) = (said, asked)
+            && stated.length() != Some(asked)
+        {
+            let asked = asked.word();
+            let line = format!("the file states {of} in {said}; they are taken in {asked}");
+            self.warnings.push(line);
+        }
+        asked.or_else(|| stated.length()).ok_or_else(|| {
+            let what = match said {
+                Some(word) => format!("the unit of the {of} is \"{word}\", no length"),
+                None => format!("the unit of the {of} is not stated"),
+            };
+            FileError::whole(path, what, mend)
+        })
+    }
+
+    fn step_mm(&mut self, path: &Path, asked: &Asked) -> Result<[f64; 2], FileError> {
+        let mend = "give step_mm (--step-mm), the distance of points in mm";
+        let wrong = |what: String| FileError::whole(path, what, mend);
+        let steps_mm = match (asked.step_mm, self.steps) {
+            (Some(step_mm), _) => [step_mm; 2],
+            (None, Some(steps)) => {
+                let mend = "give length_unit (--length-unit) or step_mm (--step-mm)";
+                let unit = self.length_unit.clone();
+                let unit = self.decide(("places", mend), &unit, asked.length_unit, path)?;
+                steps.map(|step| step * unit.um() / 1000.0)
+            }
+            (None, None) => return Err(wrong("the distance of points is not stated".to_owned())),
+        };
+        let is_step = |step: &f64| step.is_finite() && *step > 0.0;
+        match steps_mm.iter().find(|step| !is_step(step)) {
+            Some(step_mm) => Err(wrong(format!("the step is {step_mm} mm"))),
+            None => Ok(steps_mm),
+        }
+    }
+}
+
+/// The even step of places in order; `slack` is how far a place may stand beside its even one
+/// because of rounding. Falling places have a step below 0.
+///
+/// # Errors
+/// Places that are not even (within 1 % of the step), or fewer than two, as a line.
+pub(super) fn even_step(places: &[f64], slack: f64) -> Result<f64, String> {
+    let (&[first, .., last], n) = (places, places.len()) else {
+        return Err("fewer than two points".to_owned());
+    };
+    let step = (last - first) / (n - 1) as f64;
+    let is_even = |i: usize, pair: &[f64]| {
+        let along = first + step * (i + 1) as f64;
+        let is_near = (pair[1] - along).abs() <= slack;
+        is_near || (pair[1] - pair[0] - step).abs() <= 0.01 * step.abs()
+    };
+    let uneven = places
+        .windows(2)
+        .enumerate()
+        .find(|(i, pair)| !is_even(*i, pair));
+    if let Some((i, pair)) = uneven {
+        let to = pair[1] - pair[0];
+        return Err(format!(
+            "point {} of {n}: the step is {to} where the mean step is {step}",
+            i + 2
+        ));
+    }
+    if step.abs() > 0.0 && step.is_finite() {
+        Ok(step)
+    } else {
+        Err(format!("the step is {step}"))
+    }
+}
+
+/// What to do about places that are not even.
+pub(super) const UNEVEN_MEND: &str = "resample to even steps (within 1 %)";

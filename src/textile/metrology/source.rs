@@ -1,0 +1,302 @@
+//! The kinds `heightmap` and `x3p`: a file of measured heights, over which the virtual tester is
+//! drawn.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Asked, LengthUnit, Measured, open};
+use crate::files::{FileError, sha256_hex};
+use crate::numerics::{Grid, Random};
+use crate::surface::{
+    Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
+    WINDOW_LENGTH_MM,
+};
+use crate::textile::TextileError;
+use crate::textile::manifest::{Checker, ProfileFiles};
+
+/// Measured heights (`kind = "heightmap"`, or `"x3p"` for a file of that format).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heightmap {
+    /// `heightmap` or `x3p`: what the file is, its content says.
+    pub kind: String,
+    /// Hash of the recipe that the profiles came from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recipe_hash: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_forward: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warp_reverse: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_forward: Option<String>,
+    /// See [`ProfileFiles`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weft_reverse: Option<String>,
+    /// Whether it is felt along four strokes or at every point of its relief.
+    #[serde(default, skip_serializing_if = "Representation::is_default")]
+    pub representation: Representation,
+    /// The file; beside the manifest unless the four profile files are named and felt.
+    pub file: String,
+    /// SHA-256 of the file; another file is refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sha256: Option<String>,
+    /// The unit of heights, where the file does not state it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<LengthUnit>,
+    /// The unit of places, where the file does not state it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_unit: Option<LengthUnit>,
+    /// The distance of points, mm, where the file does not state it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_mm: Option<f64>,
+    /// The height of white above black in a picture without a scale, µm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range_um: Option<f64>,
+    /// The column of a table that holds the heights.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<String>,
+    /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place_mm: Option<[f64; 2]>,
+    /// Whether the map is one repeat of the cloth.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub periodic: bool,
+    /// Noise of the virtual tester, µm rms.
+    #[serde(default = "default_noise")]
+    pub noise_um: f64,
+    /// Chooses that noise.
+    #[serde(default = "default_seed")]
+    pub seed: u32,
+}
+
+fn default_noise() -> f64 {
+    Probe::default().noise_um
+}
+
+fn default_seed() -> u32 {
+    1
+}
+
+impl Heightmap {
+    /// The recipe of a file: the middle, with the tester's usual noise.
+    pub(super) fn new(file: String, asked: &Asked) -> Self {
+        Self {
+            kind: "heightmap".to_owned(),
+            recipe_hash: None,
+            warp_forward: None,
+            warp_reverse: None,
+            weft_forward: None,
+            weft_reverse: None,
+            representation: Representation::default(),
+            file,
+            sha256: None,
+            height_unit: asked.height_unit,
+            length_unit: asked.length_unit,
+            step_mm: asked.step_mm,
+            range_um: asked.range_um,
+            column: asked.column.clone(),
+            place_mm: None,
+            periodic: false,
+            noise_um: default_noise(),
+            seed: default_seed(),
+        }
+    }
+
+    /// The profile files that were made.
+    pub(crate) fn files(&self) -> ProfileFiles {
+        ProfileFiles([
+            self.warp_forward.clone(),
+            self.warp_reverse.clone(),
+            self.weft_forward.clone(),
+            self.weft_reverse.clone(),
+        ])
+    }
+
+    /// Names the profile files that were made, and the recipe that they came from.
+    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
+        [
+            self.warp_forward,
+            self.warp_reverse,
+            self.weft_forward,
+            self.weft_reverse,
+        ] = files.0;
+        self.recipe_hash = recipe_hash;
+    }
+
+    /// Refuses values out of range.
+    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+        let numbers = [
+            ("step_mm", self.step_mm, 0.0005..=0.5),
+            ("range_um", self.range_um, 1e-6..=1e6),
+            ("noise_um", Some(self.noise_um), 0.0..=10.0),
+        ];
+        for (key, value, range) in numbers {
+            if let Some(value) = value {
+                checker.within("source", key, value, range)?;
+            }
+        }
+        for place in self.place_mm.into_iter().flatten() {
+            checker.within("source", "place_mm", place, 0.0..=10_000.0)?;
+        }
+        Ok(())
+    }
+
+    fn asked(&self) -> Asked {
+        Asked {
+            height_unit: self.height_unit,
+            length_unit: self.length_unit,
+            step_mm: self.step_mm,
+            range_um: self.range_um,
+            column: self.column.clone(),
+        }
+    }
+
+    /// The heights of the file. `path` names it in errors.
+    pub(super) fn open(&self, bytes: &[u8], path: &Path) -> Result<Measured, TextileError> {
+        let found = sha256_hex([bytes]);
+        if self
+            .sha256
+            .as_ref()
+            .is_some_and(|sha256| !sha256.eq_ignore_ascii_case(&found))
+        {
+            let what = "this is not the file whose sha256 the manifest states";
+            let mend = "restore that file, or import this one";
+            return Err(FileError::whole(path, what, mend).into());
+        }
+        open(bytes, path, &self.asked())
+    }
+
+    /// The strokes over the file, by [`Direction::index`].
+    pub(crate) fn profiles(&self, bytes: &[u8], path: &Path) -> Result<ProfileSet, TextileError> {
+        let measured = self.open(bytes, path)?;
+        Ok(self.strokes(&measured, path)?.0)
+    }
+
+    /// The heights of the file as a map, level unless it repeats; missing points stay missing.
+    pub(crate) fn height_map(&self, bytes: &[u8], path: &Path) -> Result<HeightMap, TextileError> {
+        let measured = self.open(bytes, path)?;
+        let map = HeightMap::new(measured.heights_um, measured.step_mm);
+        let map = map.map_err(|source| TextileError::Surface {
+            path: path.to_owned(),
+            source,
+        })?;
+        Ok(if self.periodic {
+            map.periodic()
+        } else {
+            map.levelled()
+        })
+    }
+
+    /// The strokes over measured heights, and what was done to get them, one line each.
+    pub(super) fn strokes(
+        &self,
+        measured: &Measured,
+        path: &Path,
+    ) -> Result<(ProfileSet, Vec<String>), TextileError> {
+        let failed = |source: SurfaceError| TextileError::Surface {
+            path: path.to_owned(),
+            source,
+        };
+        let mut notes = measured.warnings.clone();
+        let n_missing = measured.n_missing();
+        if n_missing > 0 {
+            let n = measured.heights_um.values().len();
+            notes.push(format!("{n_missing} of {n} points are missing: {FILLED}"));
+        }
+        let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm).map_err(failed)?;
+        let is_long = [0, 1].map(|axis| self.periodic || n_of(&map)[axis] >= n_window(&map, axis));
+        if !is_long[0] {
+            return Err(too_short(&map, path).into());
+        }
+        if measured.is_profile() {
+            notes.push("a single profile, its tilt removed; no tester was drawn".to_owned());
+            return Ok((profile(&map).map_err(failed)?, notes));
+        }
+        let map = if self.periodic {
+            map.periodic()
+        } else {
+            map.levelled()
+        };
+        let [width_mm, height_mm] = map.size_mm();
+        let place_mm = self.place_mm.unwrap_or([0.5 * width_mm, 0.5 * height_mm]);
+        check_place(place_mm, [width_mm, height_mm], path)?;
+        let probe = Probe {
+            noise_um: self.noise_um,
+            ..Probe::default()
+        };
+        let random = Random::new(u64::from(self.seed)).branch("probe");
+        let strokes = map.strokes(&probe, place_mm, &random);
+        let mut profiles = strokes.map_err(|(_, error)| failed(error))?;
+        if !is_long[1] {
+            notes.push(format!(
+                "{height_mm:.2} mm across are less than a window: the weft is felt as the warp"
+            ));
+            for direction in [Direction::WeftForward, Direction::WeftReverse] {
+                profiles[direction.index()] = None;
+            }
+        }
+        Ok((profiles, notes))
+    }
+}
+
+/// How missing points are filled for the strokes; the file keeps them missing.
+const FILLED: &str = "filled along row and column between the nearest heights, mean of both";
+
+fn n_of(map: &HeightMap) -> [usize; 2] {
+    [map.heights_um().width(), map.heights_um().height()]
+}
+
+/// Samples of one window along an axis.
+fn n_window(map: &HeightMap, axis: usize) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a step of 0.0005 to 0.5 mm: 9 to 8696"
+    )]
+    let n = (WINDOW_LENGTH_MM / map.step_mm()[axis] + 0.5) as usize;
+    n
+}
+
+fn too_short(map: &HeightMap, path: &Path) -> FileError {
+    let [width_mm, height_mm] = map.size_mm();
+    let what = format!(
+        "{width_mm:.2} mm × {height_mm:.2} mm of surface where one window takes 4.35 mm along"
+    );
+    let mend = "measure a longer piece, turn the map, or state it as one repeat of the cloth \
+                (periodic, --periodic)";
+    FileError::whole(path, what, mend)
+}
+
+fn check_place(place_mm: [f64; 2], size_mm: [f64; 2], path: &Path) -> Result<(), FileError> {
+    let is_inside = |axis: usize| (0.0..=size_mm[axis]).contains(&place_mm[axis]);
+    if is_inside(0) && is_inside(1) {
+        return Ok(());
+    }
+    let what = format!(
+        "the place {:.2}, {:.2} mm is not on the map",
+        place_mm[0], place_mm[1]
+    );
+    let mend = format!(
+        "give one from 0, 0 to {:.2}, {:.2} mm",
+        size_mm[0], size_mm[1]
+    );
+    Err(FileError::whole(path, what, mend))
+}
+
+/// A profile that was measured as one: filled, its line taken off, forward along the warp.
+fn profile(map: &HeightMap) -> Result<ProfileSet, SurfaceError> {
+    // Two equal rows, so that the best plane is the best line.
+    let row = map.filled().heights_um().values().to_vec();
+    let twice = Grid::from_rows(row.len(), [row.clone(), row].concat());
+    let twice = twice.ok_or(SurfaceError::AllMissing)?;
+    let level = HeightMap::new(twice, map.step_mm())?.levelled();
+    let mut profiles = ProfileSet::default();
+    let heights_um = level.heights_um().row(0).to_vec();
+    let forward = Direction::WarpForward.index();
+    profiles[forward] = Some(Profile::new(map.step_mm()[0], heights_um)?);
+    Ok(profiles)
+}

@@ -1,0 +1,180 @@
+//! Heights in texts: one column, places and heights, `X;Y;valid`, a matrix, or several profiles
+//! side by side, of which one is asked for. Headers are looked through for units.
+
+use std::path::Path;
+
+use super::reading::{Stated, UNEVEN_MEND, even_step};
+use super::text_layout::{Columns, Layout, MatrixKeys, decoded};
+use super::{Asked, LengthUnit, Reading};
+use crate::files::FileError;
+
+/// Reads a profile or a map.
+pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+    let text = decoded(bytes);
+    let layout = Layout::of(&text, path)?;
+    let columns = layout.columns(path)?;
+    let keys = MatrixKeys::of(&layout.header);
+    let is_named = columns.headings.iter().any(|heading| !heading.is_empty());
+    let is_matrix = keys.extents[0].is_some() || (columns.numbers.len() > 3 && !is_named);
+    if is_matrix && asked.column.is_none() {
+        return matrix(columns, keys, path);
+    }
+    let choice = Choice::of(&columns, asked, path)?;
+    let mut reading = profile(&columns, &choice, path)?;
+    // A step that was given stands for the places.
+    if asked.step_mm.is_some() {
+        return Ok(reading);
+    }
+    if let Some(x) = choice.x {
+        let slack = rounding(&columns.numbers[x], columns.decimals);
+        let step = even_step(&columns.numbers[x], slack).map_err(|what| {
+            let what = format!("from line {}: {what}", columns.first_line);
+            FileError::whole(path, what, UNEVEN_MEND)
+        })?;
+        if step < 0.0 {
+            reading.values.values_mut().reverse();
+        }
+        // Nine digits: what is left of binary fractions goes.
+        let step = format!("{:.8e}", step.abs())
+            .parse()
+            .unwrap_or_else(|_| step.abs());
+        reading.steps = Some([step; 2]);
+        reading.length_unit = LengthUnit::in_heading(&columns.headings[x]).into();
+    }
+    Ok(reading)
+}
+
+/// Places that rounding may displace: fewer cannot show that they were even before.
+const LEAST_ROUNDED: usize = 32;
+
+/// How far the digits that were written may displace places: a unit of the last digit, for a place
+/// against the line between two others, where steps are longer than that.
+fn rounding(places: &[f64], decimals: i32) -> f64 {
+    let digit = 10.0_f64.powi(-decimals);
+    let span = (places[places.len() - 1] - places[0]).abs();
+    let is_fine = span > digit * places.len() as f64;
+    if is_fine && places.len() >= LEAST_ROUNDED {
+        digit
+    } else {
+        0.0
+    }
+}
+
+/// Which columns are what.
+struct Choice {
+    x: Option<usize>,
+    height: usize,
+    valid: Option<usize>,
+}
+
+impl Choice {
+    fn of(columns: &Columns, asked: &Asked, path: &Path) -> Result<Self, FileError> {
+        let n = columns.numbers.len();
+        let x = (n > 1 && rises(&columns.numbers[0])).then_some(0);
+        if let Some(name) = &asked.column {
+            let height = column_of(columns, name, path)?;
+            // Numbers of rows are no places.
+            let has_unit = LengthUnit::in_heading(&columns.headings[0]).is_some();
+            let x = x.filter(|&x| x != height && (has_unit || asked.length_unit.is_some()));
+            return Ok(Self {
+                x,
+                height,
+                valid: None,
+            });
+        }
+        let valid = (n == 3).then_some(2).filter(|&last| {
+            let marks = columns.numbers[last].iter();
+            columns.headings[last].to_lowercase().contains("valid")
+                || marks
+                    .into_iter()
+                    .all(|mark| *mark == 0.0 || (*mark - 1.0).abs() < 1e-9)
+        });
+        match (n, x, valid) {
+            (1, ..) => Ok(Self {
+                x: None,
+                height: 0,
+                valid: None,
+            }),
+            (2, Some(_), _) | (3, Some(_), Some(_)) => Ok(Self {
+                x,
+                height: 1,
+                valid,
+            }),
+            _ => {
+                let names: Vec<String> = (1..).zip(&columns.headings).map(named).collect();
+                let what = format!("{n} columns: {}", names.join(", "));
+                let mend = "say which holds the heights: column (--column), a name or a number";
+                Err(FileError::whole(path, what, mend))
+            }
+        }
+    }
+}
+
+fn named((number, heading): (usize, &String)) -> String {
+    if heading.is_empty() {
+        number.to_string()
+    } else {
+        format!("{number} \"{heading}\"")
+    }
+}
+
+/// Whether places go one way.
+fn rises(places: &[f64]) -> bool {
+    let goes = |is_way: fn(f64, f64) -> bool| places.windows(2).all(|p| is_way(p[0], p[1]));
+    places.len() > 1
+        && (goes(|a, b| a <= b) || goes(|a, b| a >= b))
+        && (places[0] - places[places.len() - 1]).abs() > 0.0
+}
+
+fn column_of(columns: &Columns, name: &str, path: &Path) -> Result<usize, FileError> {
+    let by_name = columns.headings.iter().position(|heading| heading == name);
+    let by_number = || {
+        let number: usize = name.parse().ok()?;
+        (1..=columns.numbers.len())
+            .contains(&number)
+            .then(|| number - 1)
+    };
+    by_name.or_else(by_number).ok_or_else(|| {
+        let names: Vec<String> = (1..).zip(&columns.headings).map(named).collect();
+        let what = format!("no column \"{name}\"");
+        FileError::whole(path, what, format!("the columns are {}", names.join(", ")))
+    })
+}
+
+fn profile(columns: &Columns, choice: &Choice, path: &Path) -> Result<Reading, FileError> {
+    let mut heights = columns.numbers[choice.height].clone();
+    if let Some(valid) = choice.valid {
+        for (height, mark) in heights.iter_mut().zip(&columns.numbers[valid]) {
+            if mark.is_nan() || *mark <= 0.0 {
+                *height = f64::NAN;
+            }
+        }
+    } else if choice.x.is_none() {
+        // Columns of a table end where their profile does.
+        let end = heights.iter().rposition(|height| !height.is_nan());
+        heights.truncate(end.map_or(1, |end| end + 1));
+    }
+    let mut reading = Reading::of_rows(heights.len(), heights, "text", path)?;
+    reading.height_unit = LengthUnit::in_heading(&columns.headings[choice.height]).into();
+    reading
+        .about
+        .title
+        .clone_from(&columns.headings[choice.height]);
+    Ok(reading)
+}
+
+/// A matrix: rows from the top.
+fn matrix(columns: Columns, keys: MatrixKeys, path: &Path) -> Result<Reading, FileError> {
+    let columns = columns.numbers;
+    let (width, height) = (columns.len(), columns.first().map_or(0, Vec::len));
+    let rows = (0..height).flat_map(|row| columns.iter().map(move |column| column[row]));
+    let mut reading = Reading::of_rows(width, rows.collect(), "text matrix", path)?.turned_over();
+    if let [Some((x, unit_x)), Some((y, unit_y))] = keys.extents {
+        let step_y = y * unit_y.um() / unit_x.um() / height as f64;
+        reading.steps = Some([x / width as f64, step_y]);
+        reading.length_unit = Stated::Length(unit_x);
+    }
+    reading.height_unit = keys.height_unit;
+    reading.about.title = keys.about.title;
+    Ok(reading)
+}

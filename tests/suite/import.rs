@@ -1,0 +1,132 @@
+//! `selvedge textile import` and `convert`, run as a user runs them.
+
+use crate::program::Lab;
+
+/// A matrix of 220 × 200 heights: a ripple along u, one point missing.
+fn matrix() -> String {
+    let row = |w: usize| {
+        let height = |u: usize| 5.0 * (u as f64 * 0.3).sin() + 0.01 * w as f64;
+        let cells: Vec<String> = (0..220)
+            .map(|u| match (u, w) {
+                (3, 4) => "nan".to_owned(),
+                _ => format!("{:.6}", height(u)),
+            })
+            .collect();
+        format!("{}\n", cells.join("\t"))
+    };
+    (0..200).map(row).collect()
+}
+
+const SCALE: [&str; 4] = ["--height-unit", "um", "--step-mm", "0.05"];
+
+#[test]
+fn a_height_map_becomes_a_textile_that_says_where_it_came_from() {
+    let lab = Lab::new();
+    lab.write("map.txt", matrix());
+    let import = ["textile", "import", "map.txt", "--out", "library/mine"];
+    let line = lab.refuse(&import);
+    assert!(
+        line.contains("the unit of the heights is not stated"),
+        "{line}"
+    );
+    let outcome = lab.run(&[&import[..], &SCALE, &["--at", "5,4", "--name", "Ripple"]].concat());
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    assert!(
+        outcome
+            .err
+            .contains("1 of 44000 points are missing: filled"),
+        "{outcome:?}"
+    );
+    let manifest = lab.read("library/mine/textile.toml");
+    for part in [
+        "name = \"Ripple\"",
+        "kind = \"heightmap\"",
+        "file = \"map.txt\"",
+        "sha256 = ",
+        "place_mm = [5.0, 4.0]",
+        "n_missing = 1",
+        "weft_reverse = \"weft_reverse.csv\"",
+    ] {
+        assert!(manifest.contains(part), "{part} in {manifest}");
+    }
+    let shown = lab.print(&["textile", "show", "mine", "--library", "library"]);
+    assert!(shown.contains("points        7, 7, 6, 6"), "{shown}");
+    // The same without the profiles: they are made when they are needed.
+    let bare: Vec<&str> = manifest
+        .lines()
+        .filter(|line| !line.contains(".csv\""))
+        .collect();
+    lab.write("library/bare/textile.toml", bare.join("\n"));
+    lab.write("library/bare/appearance.png", "");
+    lab.write("library/bare/map.txt", matrix());
+    let of = |id: &str| lab.print(&["textile", "show", id, "--library", "library"]);
+    assert_eq!(of("bare").replace("bare", "mine"), of("mine"));
+    lab.write("library/bare/map.txt", matrix().replace("nan", "1"));
+    let line = lab.refuse(&["textile", "show", "bare", "--library", "library"]);
+    assert!(
+        line.contains("not the file whose sha256 the manifest states"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_map_shorter_than_a_window_is_felt_only_as_a_repeat() {
+    let lab = Lab::new();
+    lab.write("map.txt", matrix());
+    let args = [
+        "textile",
+        "import",
+        "map.txt",
+        "--out",
+        "small",
+        "--height-unit",
+        "um",
+    ];
+    let short = [&args[..], &["--step-mm", "0.01"]].concat();
+    let line = lab.refuse(&short);
+    assert!(
+        line.contains("2.20 mm × 2.00 mm") && line.contains("--periodic"),
+        "{line}"
+    );
+    assert_eq!(lab.run(&[&short[..], &["--periodic"]].concat()).code, 0);
+    let rows = lab.read("small/warp_forward.csv").lines().count() - 1;
+    assert_eq!(rows, 10 * 220, "20 mm or more, in whole repeats");
+    let line = lab.refuse(&[&short[..], &["--periodic", "--at", "9,1"]].concat());
+    assert!(
+        line.contains("not on the map; give one from 0, 0 to 2.20, 2.00 mm"),
+        "{line}"
+    );
+}
+
+#[test]
+fn heights_are_converted_between_formats_and_holes_are_not_painted_over() {
+    let lab = Lab::new();
+    lab.write("map.txt", matrix());
+    lab.print(
+        &[
+            &["textile", "convert", "map.txt", "--out", "a.x3p"][..],
+            &SCALE,
+        ]
+        .concat(),
+    );
+    let line = lab.refuse(&["textile", "convert", "a.x3p", "--out", "a.png"]);
+    assert!(
+        line.contains("1 points are missing") && line.contains("--fill"),
+        "{line}"
+    );
+    for out in ["a.gsf", "a.npy", "b.x3p"] {
+        lab.print(&["textile", "convert", "a.x3p", "--out", out]);
+    }
+    let filled = lab.run(&["textile", "convert", "a.x3p", "--fill", "--out", "a.png"]);
+    assert!(
+        filled.err.contains("1 missing points were filled"),
+        "{filled:?}"
+    );
+    let made = lab.print(&["textile", "convert", "a.png", "--out", "c.x3p"]);
+    assert_eq!(made, "c.x3p: 220 × 200 points\n");
+    let bytes = |name: &str| std::fs::read(lab.path(name)).unwrap();
+    assert_eq!(bytes("a.gsf").len() % 4, 0);
+    assert_eq!(&bytes("a.x3p")[..4], b"PK\x03\x04");
+    let line = lab.refuse(&["textile", "convert", "a.x3p", "--out", "a.bmp"]);
+    assert!(line.contains(".x3p, .gsf, .npy, .png or .tif"), "{line}");
+}
