@@ -95,7 +95,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     )?;
     sinks.finish()?;
     if let Some(place) = &args.stats {
-        write_stats(args, place, &scene, &path, first, &stop)?;
+        write_stats(args, place, &scene, &path, &first, &stop)?;
     }
     Ok(())
 }
@@ -144,10 +144,10 @@ fn write_stats(
     place: &Path,
     scene: &RenderScene,
     path: &ExplorationPath,
-    first: RunStats,
+    first: &RunStats,
     stop: &AtomicBool,
 ) -> Result<(), CliError> {
-    let mut methods = vec![first];
+    let mut methods = vec![*first];
     for method in [Method::Reference, Method::Banded, Method::Table] {
         if method != first.method {
             let goes_on = &mut |_, _: &_, _: &[_]| check(stop);

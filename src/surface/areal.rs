@@ -39,7 +39,6 @@ pub enum Representation {
 
 impl Representation {
     /// Whether files need not say it.
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks by reference")]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }

@@ -43,10 +43,13 @@ impl Study for RestorationStudy {
 
     fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         let mut rows = Vec::new();
-        let all_db = [-6.0, 0.0, 10.0, 40.0];
+        let all_db = bench
+            .effort
+            .pick(vec![0.0, 10.0], vec![-6.0, 0.0, 10.0, 40.0]);
+        let n_levels = all_db.len() as f64;
         let settings = bench.effort.pick(vec![2, 8], vec![1, 2, 4, 8, 16]);
         for (done, snr_db) in all_db.into_iter().enumerate() {
-            bench.step(done as f64 / 4.0, &format!("{snr_db} dB"))?;
+            bench.step(done as f64 / n_levels, &format!("{snr_db} dB"))?;
             for &n in &settings {
                 rows.extend(of_setting(snr_db, n, bench)?);
             }
@@ -79,7 +82,7 @@ fn of_setting(snr_db: f64, n: usize, bench: &mut Bench<'_>) -> Result<Vec<Row>, 
     let noise_um = power.sqrt() * 10.0_f64.powf(-snr_db / 20.0);
     let mut worst = [0.0_f64; 3];
     let mut first = None;
-    for seed in 0..bench.effort.pick(4, 12) {
+    for seed in 0..bench.effort.pick(3, 12) {
         let mut random = Random::new(bench.seed).branch(&format!("noise {seed}"));
         let heights = truth
             .iter()

@@ -41,7 +41,7 @@ pub(super) struct TableEvaluator {
     /// Both directions' powers of every point at the speed at hand.
     blended: [Vec<[f32; 2]>; 2],
     /// In place of the tables of areal spectra.
-    touched: Option<TouchedTables>,
+    touched: Option<Box<TouchedTables>>,
 }
 
 /// One set of spectra over all nodes.
@@ -91,7 +91,8 @@ impl TableEvaluator {
         let touched = is_areal.then(|| {
             let prepared: usize = tables.iter().map(|table| table.n_bytes()).sum();
             let gains = cache.node_gains(&scene.filters, grid);
-            TouchedTables::new(plan, &units_um2, gains, n_bytes.saturating_sub(prepared))
+            let n_bytes = n_bytes.saturating_sub(prepared);
+            Box::new(TouchedTables::new(plan, &units_um2, gains, n_bytes))
         });
         let longest = tables.iter().map(|table| table.n_points.max(1)).max();
         let longest = longest.unwrap_or(1);
@@ -113,7 +114,7 @@ impl TableEvaluator {
     /// Bytes of its tables.
     pub(super) fn n_bytes(&self) -> usize {
         let prepared: usize = self.tables.iter().map(|table| table.n_bytes()).sum();
-        let touched = self.touched.as_ref().map_or(0, TouchedTables::n_bytes);
+        let touched = self.touched.as_ref().map_or(0, |touched| touched.n_bytes());
         prepared + touched
     }
 
@@ -257,7 +258,7 @@ impl TableEvaluator {
         let spot = self.segments.find(feel.speed_mm_per_s);
         match &mut self.touched {
             Some(touched) if touched.has(feel.spectra) => {
-                touched.at(feel.spectra, feel.point, spot, counters)
+                touched.at((feel.spectra, feel.point), spot, counters)
             }
             _ => self.tables[feel.spectra].rows(spot).at(feel.point),
         }

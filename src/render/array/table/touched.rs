@@ -31,6 +31,19 @@ fn is_made(kept: Kept) -> bool {
     kept[0].to_bits() != 0
 }
 
+/// A node and the next, if both are made.
+#[inline]
+fn made_at(kept: &[Kept], at: usize) -> Option<[Kept; 2]> {
+    let nodes = *kept.get(at..)?.first_chunk::<2>()?;
+    (is_made(nodes[0]) & is_made(nodes[1])).then_some(nodes)
+}
+
+/// Powers a share of the way from a node to the next.
+#[inline]
+fn between([before, after]: [Kept; 2], share: f32) -> [f32; 2] {
+    [0, 1].map(|band: usize| -(before[band] + (after[band] - before[band]) * share))
+}
+
 /// What contactors that share a speed along an axis of an areal surface hear.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Heard {
@@ -144,62 +157,83 @@ impl TouchedTables {
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
+        // A local of its own, so that the loops need not ask anew where it lies.
+        let mut kept = std::mem::take(&mut self.kept);
         match heard {
-            // One surface: its grid is looked up once for both.
             [Some(warp), Some(weft)] => {
+                let starts = [warp, weft].map(|heard| self.start_of(&heard));
+                let row = if self.is_whole { self.n_nodes } else { 0 };
                 contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+                    // One surface: its grid is looked up once for both.
                     let [i, j] = warp.points.indices(u_mm, w_mm);
-                    let a = self.at(
-                        warp.spectra,
-                        warp.points.number([i, j]),
-                        warp.spot,
-                        counters,
-                    );
-                    let b = self.at(
-                        weft.spectra,
-                        weft.points.number([j, i]),
-                        weft.spot,
-                        counters,
-                    );
+                    let points = [warp.points.number([i, j]), weft.points.number([j, i])];
+                    let at = |axis: usize| made_at(&kept, starts[axis] + points[axis] * row);
+                    let [a, b] = match (at(0), at(1)) {
+                        (Some(a), Some(b)) if row > 0 => {
+                            [between(a, warp.spot.share), between(b, weft.spot.share)]
+                        }
+                        _ => [
+                            self.at_in(&mut kept, (warp.spectra, points[0]), warp.spot, counters),
+                            self.at_in(&mut kept, (weft.spectra, points[1]), weft.spot, counters),
+                        ],
+                    };
                     (0..2).for_each(|band| power[band] += a[band] + b[band]);
                 });
             }
             [Some(warp), None] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
-                let point = warp.points.nearest(u_mm, w_mm);
-                let own = self.at(warp.spectra, point, warp.spot, counters);
+                let point = (warp.spectra, warp.points.nearest(u_mm, w_mm));
+                let own = self.at_in(&mut kept, point, warp.spot, counters);
                 (0..2).for_each(|band| power[band] += own[band]);
             }),
             [None, Some(weft)] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
-                let point = weft.points.nearest(w_mm, u_mm);
-                let own = self.at(weft.spectra, point, weft.spot, counters);
+                let point = (weft.spectra, weft.points.nearest(w_mm, u_mm));
+                let own = self.at_in(&mut kept, point, weft.spot, counters);
                 (0..2).for_each(|band| power[band] += own[band]);
             }),
             [None, None] => {}
         }
+        self.kept = kept;
     }
 
-    /// The powers of a point at a speed; nodes that are missing are made, and counted.
+    /// Where the nodes of an area that are heard begin, when there is a row for every point.
+    fn start_of(&self, heard: &Heard) -> usize {
+        self.firsts[heard.spectra] * self.n_nodes + heard.spot.node
+    }
+
+    /// The powers of a point of some spectra at a speed; nodes that are missing are made, and
+    /// counted.
     #[inline]
     pub(super) fn at(
         &mut self,
-        spectra: usize,
-        point: usize,
+        point: (usize, usize),
         spot: Spot,
         counters: &mut Counters,
     ) -> [f32; 2] {
-        let place = self.firsts[spectra] + point;
+        let mut kept = std::mem::take(&mut self.kept);
+        let powers = self.at_in(&mut kept, point, spot, counters);
+        self.kept = kept;
+        powers
+    }
+
+    #[inline]
+    fn at_in(
+        &mut self,
+        kept: &mut [Kept],
+        point: (usize, usize),
+        spot: Spot,
+        counters: &mut Counters,
+    ) -> [f32; 2] {
+        let place = self.firsts[point.0] + point.1;
         let row = if self.is_whole {
             place
         } else {
             self.row_of[place] as usize
         };
-        let kept = self.kept.get(row * self.n_nodes + spot.node..);
-        let [before, after] = match kept.and_then(|kept| kept.first_chunk::<2>()) {
-            Some(&[before, after]) if is_made(before) & is_made(after) => [before, after],
-            _ => self.made(spectra, point, spot.node, counters),
+        let nodes = match made_at(kept, row * self.n_nodes + spot.node) {
+            Some(nodes) => nodes,
+            None => self.made(kept, point, spot.node, counters),
         };
-        let between = |band: usize| -(before[band] + (after[band] - before[band]) * spot.share);
-        [between(0), between(1)]
+        between(nodes, spot.share)
     }
 
     /// A node and the next of a point, made as far as they are missing.
@@ -207,8 +241,8 @@ impl TouchedTables {
     #[inline(never)]
     fn made(
         &mut self,
-        spectra: usize,
-        point: usize,
+        all: &mut [Kept],
+        (spectra, point): (usize, usize),
         node: usize,
         counters: &mut Counters,
     ) -> [Kept; 2] {
@@ -219,11 +253,11 @@ impl TouchedTables {
         let row = if self.is_whole {
             place
         } else {
-            self.row(place)
+            self.row(all, place)
         };
         let powers_um2 = area.spectra.powers_um2(point);
         [node, node + 1].map(|node| {
-            let kept = &mut self.kept[row * self.n_nodes + node];
+            let kept = &mut all[row * self.n_nodes + node];
             if !is_made(*kept) {
                 let (sums, n_bins) = self.gains.sums(node, powers_um2);
                 *kept = sums.map(|sum| -normal(2.0 * sum * area.per_unit));
@@ -235,14 +269,14 @@ impl TouchedTables {
     }
 
     /// The row of a point, taken from another if it has none.
-    fn row(&mut self, point: usize) -> usize {
+    fn row(&mut self, all: &mut [Kept], point: usize) -> usize {
         if self.row_of[point] == NONE {
             let row = self.next;
             self.next = (row + 1) % self.point_of.len();
             let before = self.point_of[row];
             if before != NONE {
                 self.row_of[before as usize] = NONE;
-                self.kept[row * self.n_nodes..][..self.n_nodes].fill([0.0; 2]);
+                all[row * self.n_nodes..][..self.n_nodes].fill([0.0; 2]);
             }
             self.row_of[point] = number(row);
             self.point_of[row] = number(point);
@@ -304,16 +338,16 @@ mod tests {
         for _ in 0..2000 {
             let speed = 0.01 * 2.0_f64.powf(random.uniform_in(0.0, 18.0));
             let at = (random.index(2), random.index(12), grid.segments.find(speed));
-            look_ups.push((at, whole.at(at.0, at.1, at.2, &mut counters)));
+            look_ups.push((at, whole.at((at.0, at.1), at.2, &mut counters)));
         }
         let n_made = counters.nodes_made;
         for ((spectra, point, spot), expected) in &look_ups {
-            let again = whole.at(*spectra, *point, *spot, &mut counters);
+            let again = whole.at((*spectra, *point), *spot, &mut counters);
             assert_eq!(again.map(f32::to_bits), expected.map(f32::to_bits));
         }
         assert_eq!(counters.nodes_made, n_made, "what is made stays");
         for ((spectra, point, spot), expected) in look_ups.iter().rev() {
-            let found = small.at(*spectra, *point, *spot, &mut counters);
+            let found = small.at((*spectra, *point), *spot, &mut counters);
             assert_eq!(found.map(f32::to_bits), expected.map(f32::to_bits));
         }
         assert!(counters.nodes_made > 3 * n_made / 2, "rows were given away");
@@ -332,7 +366,7 @@ mod tests {
         for node in (0..grid.segments.nodes().len() - 1).step_by(7) {
             let spot = Spot { node, share: 0.0 };
             for point in 0..n_points {
-                let found = touched.at(0, point, spot, &mut Counters::default());
+                let found = touched.at((0, point), spot, &mut Counters::default());
                 let stored = tables[0][node * n_points + point];
                 for (a, b) in found.into_iter().zip(stored) {
                     assert!((a - b).abs() <= 1.2e-7 * b, "{a} for {b} at node {node}");
