@@ -97,7 +97,8 @@ pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, Textil
     Manifest::from_toml(&read_text(&manifest)?, &manifest)
 }
 
-fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
+/// Writes the files of a textile into a folder, in their order.
+pub fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(|source| FileError::Write {
         path: folder.to_owned(),
         source,
@@ -136,6 +137,7 @@ pub fn build_library(
 /// The files of a textile that was not made from a recipe.
 fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile>, TextileError> {
     let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
+    names.extend(manifest.source.friction().map(ToOwned::to_owned));
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
     let copy = |name: String| {

@@ -11,23 +11,32 @@
 
 mod build;
 mod cloth;
+mod curve;
 mod index;
+mod kes;
 mod knit;
 mod library;
 mod loaded;
 mod manifest;
+mod measured;
 mod model;
 mod profile_file;
 mod shipped;
 mod weave;
 
-pub use build::{BuiltFile, build, build_library, make};
+pub use build::{BuiltFile, build, build_library, make, write};
 pub use cloth::Yarn;
 pub use index::{Index, IndexEntry};
+pub use kes::{
+    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesFigures, KesFile,
+    KesFriction, KesImport, KesOptions, KesOrigin, KesPlace, KesReading, KesSection, KesStroke,
+    KesWords, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
+};
 pub use knit::{Knit, Structure};
 pub use library::Library;
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
+pub use measured::{Figure as MeasuredFigure, figures as measured_figures};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 
 use std::path::PathBuf;
@@ -70,6 +79,18 @@ pub enum TextileError {
         path: PathBuf,
         /// The kind it has.
         kind: &'static str,
+    },
+    /// Files of the surface tester that do not say enough.
+    #[error("{}:{line}: {what}; {ask}", path.display())]
+    Kes {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+        /// What must be said.
+        ask: KesAsk,
     },
     /// The work was stopped.
     #[error(transparent)]
