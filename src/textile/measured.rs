@@ -238,8 +238,8 @@ pub(super) fn check(checker: &Checker<'_>, key: &str, value: f64) -> Result<(), 
         return checker.within("measured", key, value, low..=high);
     }
     checker.within("measured", key, value, -1e12..=1e12)?;
-    let has_unit = |unit: &&str| key.len() > unit.len() && key.ends_with(*unit);
-    if UNITS.iter().any(|unit| has_unit(&unit)) {
+    let has_unit = |unit: &str| key.len() > unit.len() && key.ends_with(unit);
+    if UNITS.iter().any(|unit| has_unit(unit)) {
         return Ok(());
     }
     let what = format!("unknown figure \"{key}\"");
@@ -254,7 +254,7 @@ mod tests {
     use super::*;
 
     fn checked(key: &str, value: f64) -> Result<(), String> {
-        let text = format!("[measured]\n{key} = {value}\n");
+        let text = format!("[measured]\n{key} = {value}\n").to_lowercase();
         let checker = Checker {
             text: &text,
             path: Path::new("t.toml"),

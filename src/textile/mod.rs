@@ -10,6 +10,7 @@
 //! - every error is one line: what, where, how to mend it
 
 mod build;
+mod catalogue;
 mod cloth;
 mod curve;
 mod index;
@@ -25,6 +26,7 @@ mod shipped;
 mod weave;
 
 pub use build::{BuiltFile, build, build_library, make, write};
+pub use catalogue::{sheet, write_catalogue, write_figure};
 pub use cloth::Yarn;
 pub use index::{Index, IndexEntry};
 pub use kes::{
@@ -41,6 +43,7 @@ pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 
 use std::path::PathBuf;
 
+use crate::figure::FigureError;
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::surface::SurfaceError;
@@ -92,6 +95,9 @@ pub enum TextileError {
         /// What must be said.
         ask: KesAsk,
     },
+    /// A picture that cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// The work was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

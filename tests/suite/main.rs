@@ -10,6 +10,7 @@
 mod bad_input;
 mod bridge_end_to_end;
 mod commands;
+mod import_kes;
 mod no_allocation;
 mod no_allocation_engine;
 mod program;

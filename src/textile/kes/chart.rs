@@ -18,6 +18,7 @@ impl KesImport {
             .map(|one| self.row(one))
             .collect();
         rows.extend(self.friction_row());
+        self.share_places(&mut rows);
         let mut notes = vec![
             "Black: the evaluated section. Grey: left out. Dots: outliers, which are marked and \
              kept. One straight line was taken off every stroke of heights."
@@ -30,6 +31,26 @@ impl KesImport {
             rows,
             notes,
             about: self.reading().files.iter().map(about).collect(),
+        }
+    }
+
+    /// Gives all panels the same places, labelled below the last.
+    fn share_places(&self, rows: &mut [Row]) {
+        let friction = self.reading().friction.as_ref().map(|friction| {
+            let length_mm = friction.mu.len() as f64 * friction.step_mm;
+            [friction.start_mm, friction.start_mm + length_mm]
+        });
+        let strokes = self.reading().strokes.iter().map(KesStroke::range_mm);
+        let range = strokes
+            .chain(friction)
+            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let last = rows.len().saturating_sub(1);
+        for (index, row) in rows.iter_mut().enumerate() {
+            for panel in &mut row.panels {
+                "place along the forward stroke, mm".clone_into(&mut panel.x.label);
+                panel.x.range = range;
+                panel.is_x_shared = index < last;
+            }
         }
     }
 
@@ -133,8 +154,7 @@ impl KesImport {
     }
 }
 
-fn panel_row(mut panel: Panel) -> Row {
-    panel.x.label = "place along the stroke, mm".to_owned();
+fn panel_row(panel: Panel) -> Row {
     Row {
         panels: vec![panel],
         height_px: HEIGHT_PX,

@@ -179,7 +179,7 @@ impl KesImport {
             );
             profiles.friction = Some(FRICTION.to_owned());
         }
-        profiles.imported = Some(self.origin());
+        profiles.imported = Some(Box::new(self.origin()));
         let manifest = Manifest {
             name: words.name.clone(),
             construction: words.construction,
@@ -301,7 +301,8 @@ fn section_of(
     let found = match said {
         None => suggested(&strokes),
         Some([from_mm, to_mm]) => {
-            if !(to_mm - from_mm >= WINDOW_LENGTH_MM) {
+            let is_long = (WINDOW_LENGTH_MM..1e6).contains(&(to_mm - from_mm));
+            if !is_long {
                 return Err(wrong(format!(
                     "the {name} section from {from_mm} to {to_mm} mm is shorter than 4.35 mm"
                 )));

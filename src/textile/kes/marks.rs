@@ -9,9 +9,8 @@
 //! **Outliers** stand off the median of their neighbours (20 µm to either side, two to ten samples)
 //! by more than eight spreads of that difference, and by more than the spread of all heights.
 
-use super::KesStroke;
 use crate::numerics::median;
-use crate::surface::mean_deviation;
+use crate::surface::{Direction, mean_deviation};
 
 /// The length of a piece, mm.
 const PIECE_MM: f64 = 1.0;
@@ -53,12 +52,11 @@ impl MarkKind {
     }
 }
 
-/// The marks of a stroke.
-pub(super) fn marks_of(stroke: &KesStroke) -> Vec<Mark> {
-    let heights = &stroke.heights_um;
+/// The marks of a stroke: heights in µm in the order of travel.
+pub(super) fn marks_of(heights: &[f64], step_mm: f64, direction: Direction) -> Vec<Mark> {
     let mut marks = Vec::new();
-    let (head, tail) = ends(heights, stroke.step_mm);
-    let (at_start, at_end) = if stroke.direction.is_reverse() {
+    let (head, tail) = ends(heights, step_mm);
+    let (at_start, at_end) = if direction.is_reverse() {
         (MarkKind::TurnRound, MarkKind::RunIn)
     } else {
         (MarkKind::RunIn, MarkKind::TurnRound)
@@ -69,14 +67,10 @@ pub(super) fn marks_of(stroke: &KesStroke) -> Vec<Mark> {
             samples: 0..head,
         });
     }
-    marks.extend(
-        outliers(heights, stroke.step_mm)
-            .into_iter()
-            .map(|samples| Mark {
-                kind: MarkKind::Outlier,
-                samples,
-            }),
-    );
+    marks.extend(outliers(heights, step_mm).into_iter().map(|samples| Mark {
+        kind: MarkKind::Outlier,
+        samples,
+    }));
     if tail > 0 {
         marks.push(Mark {
             kind: at_end,

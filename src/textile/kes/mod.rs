@@ -11,7 +11,8 @@
 //!
 //! # Invariants
 //! - pure: bytes in, bytes out; a window shows the [`KesImport`] before anything is written
-//! - one straight line is taken off every stroke of heights, over its whole length; nothing else
+//! - one straight line is taken off every stroke of heights, over its whole length, laid through
+//!   what is not marked; nothing else
 //! - nothing is resampled: uneven steps are refused
 
 mod chart;
@@ -30,6 +31,7 @@ mod strokes;
 #[cfg(test)]
 mod tests;
 mod text;
+mod units;
 
 pub use columns::{ClothAxis, ColumnRole, StrokeSide};
 pub use dialect::DecimalSign;

@@ -32,7 +32,8 @@ pub(super) fn run_of(x: &[f64]) -> Result<Run, usize> {
         return Ok(Run::Rising);
     }
     // At the turn, and only there, a place may be met twice.
-    let is_dwell = n_rising > 0 && sign(n_rising) == 0 && n_rising + 1 < n_steps;
+    let is_dwell =
+        n_rising > 0 && n_rising + 1 < n_steps && sign(n_rising) == 0 && sign(n_rising + 1) < 0;
     let back = n_rising + usize::from(is_dwell);
     match (back..n_steps).find(|i| sign(*i) >= 0) {
         Some(step) => Err(step + 1),
@@ -114,7 +115,7 @@ mod tests {
             run_of(&[0.0, 1.0, 2.0, 2.0, 1.0]),
             Ok(Run::OutAndBack { turn: 2 })
         );
-        assert_eq!(run_of(&[0.0, 1.0, 1.0, 2.0]), Err(3));
+        assert_eq!(run_of(&[0.0, 1.0, 1.0, 2.0]), Err(2));
         assert_eq!(run_of(&[0.0, 1.0, 2.0, 2.0]), Err(3));
         assert_eq!(run_of(&[0.0, 0.0]), Err(1));
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::marks::{Mark, marks_of};
-use super::strokes::{RawStroke, Reader};
+use super::strokes::{RawStroke, Reader, name_of};
 use super::{ClothAxis, KesAsk, KesOptions, ReturnOrder, StrokeSide, asks, returns};
 use crate::files::{FileError, sha256_hex};
 use crate::surface::{Direction, SurfaceError, WINDOW_LENGTH_MM};
@@ -169,7 +169,10 @@ fn assembled(
         let opposite = direction_of(stroke.axis, StrokeSide::Forward);
         let forward = strokes.iter().find(|other| other.direction == opposite);
         let mut heights_um = stroke.values.clone();
-        let mut tilt_um_per_mm = remove_tilt(&mut heights_um, stroke.step_mm);
+        let mut tilt_um_per_mm = remove_tilt(&mut heights_um, &[], stroke.step_mm);
+        // What is marked does not look like the cloth: it has no say in how the cloth lies.
+        let marks = marks_of(&heights_um, stroke.step_mm, direction);
+        tilt_um_per_mm += remove_tilt(&mut heights_um, &marks, stroke.step_mm);
         check_span(&heights_um, (path, stroke.line), notes)?;
         let order = order_of((&stroke, &heights_um), forward, (path, options), notes)?;
         let start_mm = match (order, forward) {
@@ -189,7 +192,7 @@ fn assembled(
             tilt_um_per_mm,
             marks: Vec::new(),
         };
-        stroke.marks = marks_of(&stroke);
+        stroke.marks = marks_of(&stroke.heights_um, stroke.step_mm, direction);
         strokes.push(stroke);
     }
     Ok(strokes)
@@ -222,7 +225,7 @@ fn check_once(raw: &[(&Path, RawStroke)]) -> Result<(), TextileError> {
     }
     let (path, line) = raw
         .first()
-        .map_or((Path::new("-"), 1), |(path, raw)| (*path, raw.line));
+        .map_or_else(|| (Path::new("-"), 1), |(path, raw)| (*path, raw.line));
     let what = "no stroke along the warp, which a textile needs";
     Err(asks(path, line, what, KesAsk::Direction))
 }
@@ -266,7 +269,7 @@ fn check_span(
     if span_um < LEAST_SPAN_UM {
         notes.push(format!(
             "{}: heights span {span_um:.4} µm only; if they are in mm or volts, say so",
-            path.display()
+            name_of(path)
         ));
     }
     Ok(())
@@ -307,17 +310,30 @@ fn order_of(
     Ok(order)
 }
 
-/// Takes the straight line of least squares off, and tells its slope a mm.
-pub(super) fn remove_tilt(heights_um: &mut [f64], step_mm: f64) -> f64 {
-    let n = heights_um.len() as f64;
-    let middle = 0.5 * (n - 1.0);
-    let mean = heights_um.iter().sum::<f64>() / n;
-    let (mut along, mut squares) = (0.0, 0.0);
-    for (index, height) in heights_um.iter().enumerate() {
-        let from_middle = index as f64 - middle;
-        along += from_middle * (height - mean);
-        squares += from_middle * from_middle;
+/// Takes a straight line off the whole stroke and tells its slope a mm: that of least squares
+/// through the samples that are not marked, if these are most of them.
+pub(super) fn remove_tilt(heights_um: &mut [f64], marks: &[Mark], step_mm: f64) -> f64 {
+    let mut is_used = vec![true; heights_um.len()];
+    for mark in marks {
+        is_used[mark.samples.clone()].fill(false);
     }
+    let n_used = is_used.iter().filter(|used| **used).count();
+    if 2 * n_used < heights_um.len() {
+        return 0.0;
+    }
+    let used = || {
+        let all = heights_um.iter().enumerate().zip(&is_used);
+        all.filter(|(_, used)| **used)
+            .map(|((index, height), _)| (index as f64, *height))
+    };
+    let n = n_used as f64;
+    let (middle, mean) = used().fold((0.0, 0.0), |(x, z), (index, height)| {
+        (x + index / n, z + height / n)
+    });
+    let (along, squares) = used().fold((0.0, 0.0), |(along, squares), (index, height)| {
+        let off = index - middle;
+        (along + off * (height - mean), squares + off * off)
+    });
     let slope = if squares > 0.0 { along / squares } else { 0.0 };
     for (index, height) in heights_um.iter_mut().enumerate() {
         *height -= mean + slope * (index as f64 - middle);

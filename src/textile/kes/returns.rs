@@ -1,8 +1,8 @@
 //! How a return stroke is stored whose places rise: told by the cloth, which is the same both ways.
 //!
 //! Both readings are laid over the way out and shifted against it by up to 2 mm (the stage has
-//! play). The better one is taken if it correlates well and clearly better than the other; cloth
-//! that looks alike both ways, such as a pure sine, does not tell.
+//! play). The better one is taken if it correlates well and leaves clearly less unexplained than the
+//! other; cloth that looks alike both ways, such as a pure sine, does not tell.
 
 use super::ReturnOrder;
 
@@ -10,8 +10,10 @@ use super::ReturnOrder;
 const MOST_PLAY_MM: f64 = 2.0;
 /// What the better reading must reach.
 const GOOD: f64 = 0.5;
-/// By how much it must be better.
-const BETTER: f64 = 0.15;
+/// What it may leave unexplained, as a share of what the other does.
+const BETTER: f64 = 0.6;
+/// What the other must leave unexplained at least.
+const ALIKE: f64 = 0.02;
 /// More samples than this are thinned before they are compared.
 const MOST_SAMPLES: usize = 6000;
 
@@ -32,7 +34,9 @@ pub(super) fn order_of(forward: &[f64], back: &[f64], step_mm: f64) -> Option<Re
     let most_lag = (MOST_PLAY_MM / (step_mm * every as f64)).floor() as usize;
     let [mirrored, travel] =
         [&by_place, &by_travel].map(|back| best_correlation(&forward, back, most_lag));
-    if mirrored.max(travel) < GOOD || (mirrored - travel).abs() < BETTER {
+    let (best, other) = (mirrored.max(travel), mirrored.min(travel));
+    let is_clear = 1.0 - other >= ALIKE && 1.0 - best <= BETTER * (1.0 - other);
+    if best < GOOD || !is_clear {
         return None;
     }
     Some(if mirrored > travel {

@@ -2,13 +2,11 @@
 
 use std::path::Path;
 
-use super::columns::{Column, Unit, axis_of, columns_of, side_of, tokens};
+use super::columns::{Column, axis_of, columns_of, side_of, tokens};
 use super::dialect::{NoTable, RawTable, table_of};
 use super::places::{Run, Uneven, run_of, step_of};
 use super::text::text_of;
-use super::{
-    ClothAxis, ColumnRole, HeightUnit, KesAsk, KesOptions, KesPlace, PlaceUnit, StrokeSide, asks,
-};
+use super::{ClothAxis, ColumnRole, KesAsk, KesOptions, KesPlace, StrokeSide, asks};
 use crate::files::FileError;
 use crate::textile::TextileError;
 
@@ -70,7 +68,12 @@ impl Reader<'_> {
         let measured: Vec<(usize, Column)> = columns
             .into_iter()
             .enumerate()
-            .filter(|(_, column)| self.is_measured(column.role))
+            .filter(|(_, column)| {
+                matches!(
+                    column.role,
+                    ColumnRole::Height(..) | ColumnRole::Friction(_)
+                )
+            })
             .collect();
         if measured.is_empty() {
             let what = "no column of heights";
@@ -86,15 +89,6 @@ impl Reader<'_> {
             }
         }
         Ok(strokes)
-    }
-
-    fn is_measured(&self, role: ColumnRole) -> bool {
-        match role {
-            // In a file of friction an unnamed column is friction.
-            ColumnRole::Height(..) => true,
-            ColumnRole::Friction(_) => true,
-            ColumnRole::Distance | ColumnRole::Time | ColumnRole::Skip => false,
-        }
     }
 
     fn no_table(&self, none: NoTable) -> TextileError {
@@ -143,7 +137,7 @@ impl Reader<'_> {
         if let Some(step_mm) = step_mm {
             self.notes.push(format!(
                 "{}: places by the step given, {step_mm} mm, not by column {}",
-                self.path.display(),
+                name_of(self.path),
                 index + 1
             ));
             return Ok(ranges
@@ -167,7 +161,7 @@ impl Reader<'_> {
             if is_rounded {
                 self.notes.push(format!(
                     "{}: places are printed to {} mm; taken as even steps of {step_mm:.6} mm",
-                    self.path.display(),
+                    name_of(self.path),
                     rounded(quantum * scale)
                 ));
             }
@@ -219,37 +213,6 @@ impl Reader<'_> {
         Err(asks(self.path, line, wrong, ask))
     }
 
-    /// What one unit of a column of places is, mm.
-    fn mm_of_places(&self, column: Column, line: usize) -> Result<f64, TextileError> {
-        if column.role == ColumnRole::Time {
-            let speed = self.options.speed_mm_per_s.ok_or_else(|| {
-                let what = "a column of times, and no speed";
-                asks(self.path, line, what, KesAsk::Speed)
-            })?;
-            if !(speed > 0.0 && speed.is_finite()) {
-                let what = format!("the speed is {speed} mm/s");
-                return Err(asks(self.path, line, what, KesAsk::Speed));
-            }
-            return Ok(speed);
-        }
-        match self.options.x_unit {
-            Some(PlaceUnit::Mm) => return Ok(1.0),
-            Some(PlaceUnit::Cm) => return Ok(10.0),
-            Some(PlaceUnit::Um) => return Ok(1e-3),
-            None => {}
-        }
-        match column.unit {
-            None | Some(Unit::Millimetre) => Ok(1.0),
-            Some(Unit::Centimetre) => Ok(10.0),
-            Some(Unit::Micrometre) => Ok(1e-3),
-            Some(Unit::Metre) => Ok(1e3),
-            Some(_) => {
-                let what = "the distance has a unit that is no length";
-                Err(asks(self.path, line, what, KesAsk::XUnit))
-            }
-        }
-    }
-
     fn out_of_order(&self, table: &RawTable, x: &[f64], row: usize) -> TextileError {
         let what = if x.get(row) == row.checked_sub(1).and_then(|before| x.get(before)) {
             format!("x is {} twice", x[row])
@@ -286,8 +249,8 @@ impl Reader<'_> {
         };
         let only = (self.n_files == 1 || self.is_friction).then_some(ClothAxis::Warp);
         let axis = axis
-            .or(said.map(|place: KesPlace| place.axis))
-            .or(axis_of(&name))
+            .or_else(|| said.map(|place: KesPlace| place.axis))
+            .or_else(|| axis_of(&name))
             .or(only);
         let Some(axis) = axis else {
             let what = "nothing says whether this is along the warp or the weft";
@@ -339,63 +302,14 @@ impl Reader<'_> {
             line,
         })
     }
+}
 
-    fn check_friction(&self, column: Column, line: usize) -> Result<(), FileError> {
-        let what = match column.unit {
-            None => return Ok(()),
-            Some(_) => "friction with a unit",
-        };
-        let mend = "give the coefficient: the force divided by the load (50 gf)";
-        Err(FileError::content(self.path, line, what, mend))
-    }
-
-    /// What one unit of a column of heights is, µm.
-    fn um_of_heights(
-        &self,
-        column: Column,
-        header: &[String],
-        line: usize,
-    ) -> Result<f64, TextileError> {
-        let ask = |what: &str, ask| Err(asks(self.path, line, what, ask));
-        let volts = ["v", "mv", "volt", "volts"];
-        let in_volts = |word: &String| volts.contains(&word.as_str());
-        let header_says_volts =
-            column.unit.is_none() && header.iter().any(|line| tokens(line).iter().any(in_volts));
-        let is_length = matches!(
-            column.unit,
-            Some(Unit::Metre | Unit::Centimetre | Unit::Millimetre | Unit::Micrometre)
-        );
-        match (self.options.um_per_volt, self.options.height_unit) {
-            (Some(_), Some(HeightUnit::Um | HeightUnit::Mm)) => ask(
-                "a sensitivity, and heights that are no volts",
-                KesAsk::HeightUnit,
-            ),
-            (Some(_), None) if is_length => ask(
-                "a sensitivity, and heights that are no volts",
-                KesAsk::HeightUnit,
-            ),
-            (Some(um_per_volt), _) if !um_per_volt.is_finite() || um_per_volt.abs() < 1e-12 => ask(
-                "the sensitivity is no number other than 0",
-                KesAsk::UmPerVolt,
-            ),
-            (Some(um_per_volt), _) if column.unit == Some(Unit::Millivolt) => {
-                Ok(um_per_volt * 1e-3)
-            }
-            (Some(um_per_volt), _) => Ok(um_per_volt),
-            (None, Some(HeightUnit::Um)) => Ok(1.0),
-            (None, Some(HeightUnit::Mm)) => Ok(1e3),
-            (None, Some(HeightUnit::Volt)) => ask("heights in volts", KesAsk::UmPerVolt),
-            (None, None) if header_says_volts => ask("heights in volts", KesAsk::UmPerVolt),
-            (None, None) => match column.unit {
-                None | Some(Unit::Micrometre) => Ok(1.0),
-                Some(Unit::Millimetre) => Ok(1e3),
-                Some(Unit::Centimetre) => Ok(1e4),
-                Some(Unit::Metre) => Ok(1e6),
-                Some(Unit::Volt | Unit::Millivolt) => ask("heights in volts", KesAsk::UmPerVolt),
-                Some(_) => ask("heights with a unit that is no length", KesAsk::HeightUnit),
-            },
-        }
-    }
+/// What a file is called in notes: where it lies is no part of what it holds.
+pub(super) fn name_of(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
 }
 
 /// Rows at even places from 0.

@@ -128,7 +128,7 @@ pub struct Profiles {
     pub friction: Option<String>,
     /// Where they were imported from.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub imported: Option<KesOrigin>,
+    pub imported: Option<Box<KesOrigin>>,
 }
 
 impl Default for Profiles {
