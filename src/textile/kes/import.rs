@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::marks::n_samples;
 use super::origin::{IMPORTER, KesOrigin};
 use super::section::{covered_mm, suggested};
 use super::{ClothAxis, KesAsk, KesReading, KesSection, KesStroke, asks};
 use crate::surface::{
-    Direction, FrictionTrace, WINDOW_LENGTH_MM, mean_deviation, without_long_waves,
+    Direction, FrictionTrace, OFFICIAL_CUT_OFF_MM, WINDOW_LENGTH_MM, mean_deviation,
+    without_long_waves,
 };
 use crate::textile::loaded::MANIFEST;
 use crate::textile::{
@@ -141,9 +143,12 @@ impl KesImport {
             let smd_um = mean_deviation(&stroke.heights_um[samples.clone()]);
             figures.smd_um.push((stroke.direction, smd_um));
             if is_official {
-                // Filtered before it is cut, so that the section has no ends of its own.
-                let rough = without_long_waves(stroke.step_mm, &stroke.heights_um);
-                let smd_um = mean_deviation(&rough[samples]);
+                // With what the filter reaches on either side, so that the section has no ends.
+                let reach = n_samples(OFFICIAL_CUT_OFF_MM, stroke.step_mm) + 1;
+                let first = samples.start.saturating_sub(reach);
+                let last = (samples.end + reach).min(stroke.heights_um.len());
+                let rough = without_long_waves(stroke.step_mm, &stroke.heights_um[first..last]);
+                let smd_um = mean_deviation(&rough[samples.start - first..samples.end - first]);
                 figures.smd_official_um.push((stroke.direction, smd_um));
             }
         }

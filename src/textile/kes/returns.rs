@@ -1,8 +1,8 @@
 //! How a return stroke is stored whose places rise: told by the cloth, which is the same both ways.
 //!
 //! Both readings are laid over the way out and shifted against it by up to 2 mm (the stage has
-//! play). The better one is taken if it correlates well and leaves clearly less unexplained than the
-//! other; cloth that looks alike both ways, such as a pure sine, does not tell.
+//! play). The better one is taken if it correlates well and leaves clearly less unexplained than
+//! the other; cloth that looks alike both ways, such as a pure sine, does not tell.
 
 use super::ReturnOrder;
 
