@@ -100,7 +100,7 @@ fn code_of_file(error: &FileError) -> u8 {
 fn code_of_textile(error: &TextileError) -> u8 {
     match error {
         TextileError::File(error) => code_of_file(error),
-        TextileError::Cancelled(_) => 1,
+        TextileError::Cancelled(_) | TextileError::Figure(_) => 1,
         _ => 2,
     }
 }

@@ -6,7 +6,9 @@ use clap::{Args, Subcommand};
 
 use super::output::TableOut;
 use super::terminal::Meter;
+use super::textile_catalogue::{self, CatalogueArgs};
 use super::textile_import::{self, ConvertArgs, ImportArgs};
+use super::textile_kes::{self, ImportKesArgs};
 use super::textile_make::{self, MakeCommand};
 use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
@@ -60,6 +62,15 @@ pub(super) enum TextileCommand {
     Import(ImportArgs),
     /// Write measured heights in another format: .x3p, .gsf, .npy, .png or .tif
     Convert(ConvertArgs),
+    /// A textile from files of the Kawabata surface tester (KES-FB4)
+    ImportKes(Box<ImportKesArgs>),
+    /// A sheet for every textile: picture, profiles, spectra, amplitudes, measured figures
+    Catalogue {
+        #[command(flatten)]
+        args: CatalogueArgs,
+        #[command(flatten)]
+        from: FromLibrary,
+    },
 }
 
 /// The library that is meant.
@@ -99,6 +110,8 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         TextileCommand::LearnFourier(args) => textile_models::learn(args),
         TextileCommand::Import(args) => textile_import::import(args),
         TextileCommand::Convert(args) => textile_import::convert(args),
+        TextileCommand::ImportKes(args) => textile_kes::run(args),
+        TextileCommand::Catalogue { args, from } => textile_catalogue::run(&from.open()?, args),
     }
 }
 
@@ -156,10 +169,9 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ),
         ("level", format!("{level} dB re 1 µm")),
     ];
-    for (key, value) in &manifest.measured {
-        if key != "smd_um" {
-            rows.push((key.as_str(), value.to_string()));
-        }
+    if let Some(friction) = textile.friction()? {
+        let [miu, mmd] = [friction.miu(), friction.mmd()].map(|figure| fixed(figure, 4));
+        rows.push(("friction", format!("MIU {miu}, MMD {mmd}")));
     }
     rows.extend(
         textile
@@ -171,7 +183,8 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
     let lines = rows
         .into_iter()
         .map(|(key, value)| format!("{key:14}{value}\n"));
-    output::print(&lines.collect::<String>())
+    let measured = textile_kes::figures(&manifest.measured);
+    output::print(&(lines.collect::<String>() + &measured))
 }
 
 /// Where a surface's spectra come from.

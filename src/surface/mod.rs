@@ -1,5 +1,5 @@
 //! What a surface is: height maps, measured height profiles in four directions, and their local
-//! spectra.
+//! spectra; friction traces beside them.
 //!
 //! Knows nothing of where a surface came from, of fingers, or of vibrations.
 //!
@@ -9,6 +9,8 @@
 //! - a [`Surface`] has spectra in all four directions: fall-backs are applied once, and named
 
 mod areal;
+mod band;
+mod friction;
 mod height_map;
 mod probe;
 mod profile;
@@ -16,6 +18,8 @@ mod spectra;
 mod tracks;
 
 pub use areal::{AREAL_WIRE_MM, Representation};
+pub use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
+pub use friction::{FrictionTrace, mean_deviation};
 pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
 pub use profile::Profile;
@@ -120,6 +124,25 @@ pub enum SurfaceError {
         n_samples: usize,
         /// How many one window takes.
         n_window: usize,
+    },
+    /// A friction trace of less than two samples.
+    #[error("{n_rows} samples of friction; at least two are needed")]
+    TooFew {
+        /// How many there are.
+        n_rows: usize,
+    },
+    /// A coefficient of friction that none can be.
+    #[error(
+        "row {row} of {n_rows}: the friction is {mu}; give the coefficient, force over load, \
+         from -10 to 10"
+    )]
+    NoFriction {
+        /// The row, from 1.
+        row: usize,
+        /// How many rows there are.
+        n_rows: usize,
+        /// What was found.
+        mu: f64,
     },
     /// A height map without a single height.
     #[error("every height is missing; there is no surface to feel")]

@@ -3,6 +3,8 @@
 //! No tilt is removed here: importers do that once, where they know the whole stroke.
 
 use super::SurfaceError;
+use super::band::without_long_waves;
+use super::friction::mean_deviation;
 
 /// The step of a Kawabata recording at 230 samples a mm; steps within 0.1 % of it count as it.
 const KES_STEP_MM: f64 = 1.0 / 230.0;
@@ -47,23 +49,11 @@ impl Profile {
     /// As [`Profile::new`]; uneven places; fewer than two samples.
     pub fn from_positions(x_mm: &[f64], heights_um: Vec<f64>) -> Result<Self, SurfaceError> {
         let n_samples = x_mm.len().min(heights_um.len());
-        let (&[first, .., last], true) = (x_mm, n_samples >= 2) else {
-            return Err(SurfaceError::TooShort {
-                n_samples,
-                n_window: 1000,
-            });
+        let too_short = SurfaceError::TooShort {
+            n_samples,
+            n_window: 1000,
         };
-        let mean_mm = (last - first) / (n_samples - 1) as f64;
-        let is_even = |pair: &[f64]| (pair[1] - pair[0] - mean_mm).abs() <= 0.01 * mean_mm;
-        if let Some(index) = x_mm.windows(2).position(|pair| !is_even(pair)) {
-            let step_mm = x_mm[index + 1] - x_mm[index];
-            return Err(SurfaceError::Uneven {
-                row: index + 2,
-                n_rows: n_samples,
-                step_mm,
-                mean_mm,
-            });
-        }
+        let mean_mm = even_step_mm(x_mm, n_samples)?.ok_or(too_short)?;
         Self::new(mean_mm, heights_um)
     }
 
@@ -80,13 +70,34 @@ impl Profile {
     /// The KES roughness figure: the mean absolute deviation from the mean height,
     /// `SMD = (1/n) Σ |T_i − T̄|`, µm. NaN of no samples.
     pub fn smd_um(&self) -> f64 {
-        let n = self.heights_um.len() as f64;
-        let mean = self.heights_um.iter().sum::<f64>() / n;
-        self.heights_um
-            .iter()
-            .map(|height| (height - mean).abs())
-            .sum::<f64>()
-            / n
+        mean_deviation(&self.heights_um)
+    }
+
+    /// SMD without what varies over more than 1 mm, as the tester's circuit does: see
+    /// [`without_long_waves`].
+    pub fn smd_official_um(&self) -> f64 {
+        mean_deviation(&without_long_waves(self.step_mm, &self.heights_um))
+    }
+}
+
+/// The mean step of places in mm that rise evenly; `None` of less than two samples.
+///
+/// # Errors
+/// A step more than 1 % off the mean.
+pub(super) fn even_step_mm(x_mm: &[f64], n_samples: usize) -> Result<Option<f64>, SurfaceError> {
+    let (&[first, .., last], true) = (x_mm, n_samples >= 2) else {
+        return Ok(None);
+    };
+    let mean_mm = (last - first) / (n_samples - 1) as f64;
+    let is_even = |pair: &[f64]| (pair[1] - pair[0] - mean_mm).abs() <= 0.01 * mean_mm;
+    match x_mm.windows(2).position(|pair| !is_even(pair)) {
+        None => Ok(Some(mean_mm)),
+        Some(index) => Err(SurfaceError::Uneven {
+            row: index + 2,
+            n_rows: n_samples,
+            step_mm: x_mm[index + 1] - x_mm[index],
+            mean_mm,
+        }),
     }
 }
 

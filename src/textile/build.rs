@@ -100,7 +100,8 @@ pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, Textil
     Manifest::from_toml(&read_text(&manifest)?, &manifest)
 }
 
-pub(crate) fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
+/// Writes the files of a textile into a folder, in their order.
+pub fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(|source| FileError::Write {
         path: folder.to_owned(),
         source,
@@ -142,6 +143,7 @@ fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile
     if let (Source::Heightmap(keys), true) = (&manifest.source, names.is_empty()) {
         names.push(keys.file.clone());
     }
+    names.extend(manifest.source.friction().map(ToOwned::to_owned));
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
     let copy = |name: String| {

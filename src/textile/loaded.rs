@@ -1,13 +1,13 @@
 //! A textile that is loaded: its manifest and its surface; its picture on demand.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::library::Store;
 use super::manifest::{Manifest, Source};
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
 use crate::files::{Rgb8Image, decode_png};
-use crate::surface::{Direction, HeightMap, ProfileSet, Representation, Surface};
+use crate::surface::{Direction, FrictionTrace, HeightMap, ProfileSet, Representation, Surface};
 
 /// A textile, ready to be felt.
 #[derive(Debug, Clone)]
@@ -16,6 +16,7 @@ pub struct Textile {
     manifest: Manifest,
     surface: Arc<Surface>,
     store: Store,
+    friction: OnceLock<Arc<FrictionTrace>>,
 }
 
 /// What a textile looks like.
@@ -56,6 +57,7 @@ impl Textile {
             manifest,
             surface: Arc::new(surface),
             store: store.clone(),
+            friction: OnceLock::new(),
         })
     }
 
@@ -84,6 +86,26 @@ impl Textile {
                 .then(|| format!("no {}: {} is felt there", direction.key(), from.key()))
         };
         Direction::ALL.into_iter().filter_map(note).collect()
+    }
+
+    /// Its friction, read when it is first asked for and kept from then on; `None` if the manifest
+    /// names none.
+    ///
+    /// # Errors
+    /// A file that is missing, or no friction trace.
+    pub fn friction(&self) -> Result<Option<Arc<FrictionTrace>>, TextileError> {
+        let Some(name) = self.manifest.source.friction() else {
+            return Ok(None);
+        };
+        if let Some(trace) = self.friction.get() {
+            return Ok(Some(Arc::clone(trace)));
+        }
+        let (text, path) = (
+            self.store.text(&self.id, name)?,
+            self.store.path(&self.id, name),
+        );
+        let trace = Arc::new(profile_file::read_friction(&text, &path)?);
+        Ok(Some(Arc::clone(self.friction.get_or_init(|| trace))))
     }
 
     /// Its picture, decoded now; `None` if the manifest names none.

@@ -12,14 +12,18 @@
 
 mod brownian;
 mod build;
+mod catalogue;
 mod cloth;
+mod curve;
 mod drawn;
 mod fourier;
 mod index;
+mod kes;
 mod knit;
 mod library;
 mod loaded;
 mod manifest;
+mod measured;
 pub mod metrology;
 mod model;
 mod profile_file;
@@ -28,23 +32,31 @@ mod shipped;
 mod weave;
 
 pub use brownian::{Brownian, Generator, Hurst, Tip};
-pub use build::{BuiltFile, build, build_library, make};
+pub use build::{BuiltFile, build, build_library, make, write};
+pub use catalogue::{sheet, write_catalogue, write_figure};
 pub use cloth::Yarn;
 pub use fourier::{
     Composition, Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings,
     example_templates, import, templates_from_toml, templates_to_toml,
 };
 pub use index::{Index, IndexEntry};
+pub use kes::{
+    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesFigures, KesFile,
+    KesFriction, KesImport, KesOptions, KesOrigin, KesPlace, KesReading, KesSection, KesStroke,
+    KesWords, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
+};
 pub use knit::{Knit, Structure};
 pub use library::Library;
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
+pub use measured::{Figure as MeasuredFigure, figures as measured_figures};
 pub use profile_file::read as read_profile;
 pub use restoration::{Reduced, Restoration, Rule};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 
 use std::path::PathBuf;
 
+use crate::figure::FigureError;
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::surface::SurfaceError;
@@ -88,6 +100,21 @@ pub enum TextileError {
     /// Measurements that no model can be made from: what, and how to mend it.
     #[error("{0}")]
     Model(String),
+    /// Files of the surface tester that do not say enough.
+    #[error("{}:{line}: {what}; {ask}", path.display())]
+    Kes {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+        /// What must be said.
+        ask: KesAsk,
+    },
+    /// A picture that cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// The work was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -1,18 +1,19 @@
-//! Profile files: CSV of `x_mm,height_um`.
+//! Profile files: CSV of `x_mm,height_um`; friction files: CSV of `x_mm,mu`.
 
 use std::path::Path;
 
 use super::TextileError;
 use crate::files::{FileError, Table, TableWriter};
-use crate::surface::Profile;
+use crate::surface::{FrictionTrace, Profile};
 
 const COLUMNS: [&str; 2] = ["x_mm", "height_um"];
+const FRICTION_COLUMNS: [&str; 2] = ["x_mm", "mu"];
 
 /// Reads a profile. `path` only names it in errors.
 pub fn read(text: &str, path: &Path) -> Result<Profile, TextileError> {
     let (x_mm, heights_um) = match plain(text) {
         Some(columns) => columns,
-        None => columns(text, path)?,
+        None => columns(text, path, COLUMNS)?,
     };
     Profile::from_positions(&x_mm, heights_um).map_err(|source| TextileError::Surface {
         path: path.to_owned(),
@@ -36,21 +37,43 @@ fn plain(text: &str) -> Option<(Vec<f64>, Vec<f64>)> {
 }
 
 /// The columns of any file, or what is wrong with it and where.
-fn columns(text: &str, path: &Path) -> Result<(Vec<f64>, Vec<f64>), FileError> {
-    let table = Table::read(text, path, &COLUMNS, &[])?;
-    let x_mm = table.required_numbers(COLUMNS[0])?;
-    Ok((x_mm, table.required_numbers(COLUMNS[1])?))
+fn columns(text: &str, path: &Path, [x, y]: [&str; 2]) -> Result<(Vec<f64>, Vec<f64>), FileError> {
+    let table = Table::read(text, path, &[x, y], &[])?;
+    Ok((table.required_numbers(x)?, table.required_numbers(y)?))
+}
+
+/// Reads a friction trace. `path` only names it in errors.
+pub(crate) fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileError> {
+    let (x_mm, mu) = columns(text, path, FRICTION_COLUMNS)?;
+    FrictionTrace::from_positions(&x_mm, mu).map_err(|source| TextileError::Surface {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Writes a friction trace: places to a nanometre, coefficients to a millionth.
+pub(crate) fn write_friction(trace: &FrictionTrace, path: &Path) -> Result<String, FileError> {
+    written(trace.mu(), trace.step_mm(), 1e6, (path, FRICTION_COLUMNS))
 }
 
 /// Writes heights in µm, `step_mm` apart: places to a nanometre, heights to a nanometre. What the
 /// rounding hides cannot differ from machine to machine.
 pub(crate) fn write(heights_um: &[f64], step_mm: f64, path: &Path) -> Result<String, FileError> {
-    let mut table = TableWriter::new(Vec::new(), path, &COLUMNS)?;
-    for (i, height) in heights_um.iter().enumerate() {
+    written(heights_um, step_mm, 1e3, (path, COLUMNS))
+}
+
+fn written(
+    values: &[f64],
+    step_mm: f64,
+    per_unit: f64,
+    (path, columns): (&Path, [&str; 2]),
+) -> Result<String, FileError> {
+    let mut table = TableWriter::new(Vec::new(), path, &columns)?;
+    for (i, value) in values.iter().enumerate() {
         let x_mm = (i as f64 * step_mm * 1e6).round() / 1e6;
         // Adding 0 turns −0 into 0.
-        let height_um = (height * 1e3).round() / 1e3 + 0.0;
-        table.number(x_mm).number(height_um).end_row()?;
+        let value = (value * per_unit).round() / per_unit + 0.0;
+        table.number(x_mm).number(value).end_row()?;
     }
     let bytes = table.finish()?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())

@@ -11,6 +11,7 @@ mod bad_input;
 mod bridge_end_to_end;
 mod commands;
 mod import;
+mod import_kes;
 mod model_surfaces;
 mod no_allocation;
 mod no_allocation_engine;

@@ -16,7 +16,9 @@ use serde::{Deserialize, Serialize};
 use super::TextileError;
 use super::brownian::Brownian;
 use super::fourier::Fourier;
+use super::kes::KesOrigin;
 use super::knit::Knit;
+use super::measured;
 use super::metrology::Heightmap;
 use super::restoration::Restoration;
 use super::weave::Weave;
@@ -145,6 +147,36 @@ pub struct Profiles {
     /// The coefficient of friction along the warp: a CSV of `x_mm,mu`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<String>,
+    /// Where they were imported from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub imported: Option<Box<KesOrigin>>,
+}
+
+impl Default for Profiles {
+    /// No files yet.
+    fn default() -> Self {
+        Self {
+            kind: KINDS[0].to_owned(),
+            warp_forward: None,
+            warp_reverse: None,
+            weft_forward: None,
+            weft_reverse: None,
+            friction: None,
+            imported: None,
+        }
+    }
+}
+
+impl Profiles {
+    /// The file of a direction, to be set.
+    pub(crate) fn file_mut(&mut self, direction: Direction) -> &mut Option<String> {
+        match direction {
+            Direction::WarpForward => &mut self.warp_forward,
+            Direction::WarpReverse => &mut self.warp_reverse,
+            Direction::WeftForward => &mut self.weft_forward,
+            Direction::WeftReverse => &mut self.weft_reverse,
+        }
+    }
 }
 
 /// Profile files by [`Direction::index`], beside the manifest.
@@ -207,6 +239,14 @@ impl Source {
         }
     }
 
+    /// The file of the friction trace, if one was measured.
+    pub fn friction(&self) -> Option<&str> {
+        match self {
+            Self::Profiles(keys) => keys.friction.as_deref(),
+            _ => None,
+        }
+    }
+
     /// The recipe alone: a model without the files that were made from it.
     #[must_use]
     pub fn recipe(&self) -> Self {
@@ -242,6 +282,9 @@ impl Source {
                     return Err(checker.wrong("source", "kind", "no warp profile", mend));
                 }
                 check_name(checker, "source", "friction", keys.friction.as_deref())?;
+                keys.imported
+                    .as_ref()
+                    .map_or(Ok(()), |origin| origin.check(checker))?;
             }
             Self::Weave(keys) => keys.check(checker)?,
             Self::Knit(keys) => keys.check(checker)?,
@@ -308,7 +351,7 @@ impl Manifest {
             check_name(checker, "appearance", "image", Some(&appearance.image))?;
         }
         for (key, value) in &self.measured {
-            checker.within("measured", key, *value, -1e12..=1e12)?;
+            measured::check(checker, key, *value)?;
         }
         self.source.check(checker)
     }

@@ -1,0 +1,328 @@
+//! `selvedge textile import-kes`: a textile from files of the Kawabata surface tester.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::{CliError, output, terminal};
+use crate::files;
+use crate::quantity::fixed;
+use crate::textile::{
+    self, ClothAxis, ColumnRole, Construction, DecimalSign, HeightUnit, KesFile, KesImport,
+    KesOptions, KesPlace, KesReading, KesWords, PlaceUnit, ReturnOrder, measured_figures,
+};
+
+/// Files of the tester, what they do not say, and where the textile goes.
+#[derive(Debug, Args)]
+pub(super) struct ImportKesArgs {
+    /// Exports of the surface tester: text in columns
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// The textile's folder
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// What people call it
+    #[arg(long)]
+    name: String,
+    /// How it is made
+    #[arg(long, value_enum, default_value = "woven")]
+    construction: Made,
+    /// What it is made of
+    #[arg(long, default_value = "")]
+    fibre: String,
+    /// The licence of its files
+    #[arg(long, default_value = "")]
+    licence: String,
+    /// One line of description
+    #[arg(long, default_value = "")]
+    notes: String,
+    /// What a file holds, once a file in their order: warp, weft, warp-forward, warp-return …
+    #[arg(long, value_name = "DIRECTION", value_parser = place)]
+    direction: Vec<KesPlace>,
+    /// The distance between samples, mm
+    #[arg(long, value_name = "MM")]
+    step_mm: Option<f64>,
+    /// The speed of the stroke, mm/s
+    #[arg(long, value_name = "V")]
+    speed_mm_per_s: Option<f64>,
+    /// Samples a second
+    #[arg(long, value_name = "HZ")]
+    rate_hz: Option<f64>,
+    /// The height in µm that 1 V stands for
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    um_per_volt: Option<f64>,
+    /// The unit of places
+    #[arg(long, value_enum)]
+    x_unit: Option<XUnit>,
+    /// The unit of heights
+    #[arg(long, value_enum)]
+    height_unit: Option<ZUnit>,
+    /// The decimal sign
+    #[arg(long, value_enum)]
+    decimal: Option<Decimal>,
+    /// What the columns are: x, t, height, forward, return, warp-forward …, mu, skip
+    #[arg(long, value_delimiter = ',', value_parser = role)]
+    columns: Option<Vec<ColumnRole>>,
+    /// How rows of a return stroke follow one another: as measured, or by place
+    #[arg(long, value_enum)]
+    return_order: Option<Order>,
+    /// The evaluated section, mm on the cloth; warp=FROM,TO or weft=FROM,TO for one axis
+    #[arg(long, value_name = "FROM,TO", value_parser = section, allow_hyphen_values = true)]
+    section: Vec<Section>,
+    /// Also give SMD and MMD without what varies over more than 1 mm
+    #[arg(long)]
+    official_band: bool,
+    /// A trace of friction along the warp
+    #[arg(long, value_name = "FILE")]
+    friction: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Made {
+    Woven,
+    Knitted,
+    Nonwoven,
+    Other,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum XUnit {
+    Mm,
+    Cm,
+    Um,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ZUnit {
+    Um,
+    Mm,
+    #[value(name = "V", alias = "v")]
+    Volt,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Decimal {
+    Point,
+    Comma,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Order {
+    Travel,
+    Mirrored,
+}
+
+/// A section of one axis, or of both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Section {
+    axis: Option<ClothAxis>,
+    mm: [f64; 2],
+}
+
+fn place(word: &str) -> Result<KesPlace, String> {
+    match ColumnRole::from_word(word) {
+        Some(ColumnRole::Height(Some(axis), side)) => Ok(KesPlace { axis, side }),
+        _ => Err("say warp, weft, warp-forward, warp-return, weft-forward or weft-return".into()),
+    }
+}
+
+fn role(word: &str) -> Result<ColumnRole, String> {
+    let unknown = "say x, t, height, forward, return, warp-forward …, mu or skip";
+    ColumnRole::from_word(word).ok_or_else(|| unknown.to_owned())
+}
+
+fn section(text: &str) -> Result<Section, String> {
+    let wrong = || "say FROM,TO in mm, warp=FROM,TO or weft=FROM,TO".to_owned();
+    let (axis, range) = match text.split_once('=') {
+        None => (None, text),
+        Some(("warp", range)) => (Some(ClothAxis::Warp), range),
+        Some(("weft", range)) => (Some(ClothAxis::Weft), range),
+        Some(_) => return Err(wrong()),
+    };
+    let (from, to) = range.split_once(',').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|mm| mm.is_finite());
+    match (number(from), number(to)) {
+        (Some(from), Some(to)) => Ok(Section {
+            axis,
+            mm: [from, to],
+        }),
+        _ => Err(wrong()),
+    }
+}
+
+impl ImportKesArgs {
+    fn options(&self) -> Result<KesOptions, CliError> {
+        let (n_said, n_files) = (self.direction.len(), self.files.len());
+        if n_said != 0 && n_said != n_files {
+            let what = format!("--direction is said {n_said} times for {n_files} files");
+            return Err(CliError::Input(format!("{what}; say it once a file")));
+        }
+        Ok(KesOptions {
+            directions: self.direction.iter().copied().map(Some).collect(),
+            step_mm: self.step_mm,
+            speed_mm_per_s: self.speed_mm_per_s,
+            rate_hz: self.rate_hz,
+            um_per_volt: self.um_per_volt,
+            x_unit: self.x_unit.map(|unit| match unit {
+                XUnit::Mm => PlaceUnit::Mm,
+                XUnit::Cm => PlaceUnit::Cm,
+                XUnit::Um => PlaceUnit::Um,
+            }),
+            height_unit: self.height_unit.map(|unit| match unit {
+                ZUnit::Um => HeightUnit::Um,
+                ZUnit::Mm => HeightUnit::Mm,
+                ZUnit::Volt => HeightUnit::Volt,
+            }),
+            decimal: self.decimal.map(|sign| match sign {
+                Decimal::Point => DecimalSign::Point,
+                Decimal::Comma => DecimalSign::Comma,
+            }),
+            columns: self.columns.clone(),
+            return_order: self.return_order.map(|order| match order {
+                Order::Travel => ReturnOrder::Travel,
+                Order::Mirrored => ReturnOrder::Mirrored,
+            }),
+        })
+    }
+
+    fn sections(&self) -> [Option<[f64; 2]>; 2] {
+        [ClothAxis::Warp, ClothAxis::Weft].map(|axis| {
+            let is_meant = |section: &&Section| section.axis.is_none_or(|said| said == axis);
+            self.section
+                .iter()
+                .rfind(is_meant)
+                .map(|section| section.mm)
+        })
+    }
+
+    fn words(&self) -> KesWords {
+        KesWords {
+            name: self.name.clone(),
+            construction: match self.construction {
+                Made::Woven => Construction::Woven,
+                Made::Knitted => Construction::Knitted,
+                Made::Nonwoven => Construction::Nonwoven,
+                Made::Other => Construction::Other,
+            },
+            fibre: self.fibre.clone(),
+            licence: self.licence.clone(),
+            notes: self.notes.clone(),
+        }
+    }
+}
+
+/// Imports.
+pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
+    let options = args.options()?;
+    let bytes: Vec<Vec<u8>> = args
+        .files
+        .iter()
+        .map(|path| files::read(path))
+        .collect::<Result<_, _>>()?;
+    let friction_bytes = args.friction.as_deref().map(files::read).transpose()?;
+    let given: Vec<KesFile<'_>> = args
+        .files
+        .iter()
+        .zip(&bytes)
+        .map(|(path, bytes)| KesFile { path, bytes })
+        .collect();
+    let friction = args
+        .friction
+        .as_deref()
+        .zip(friction_bytes.as_deref())
+        .map(|(path, bytes)| KesFile { path, bytes });
+    let reading = KesReading::of(&given, friction, &options)?;
+    let import = KesImport::new(reading, args.sections(), args.official_band)?;
+    for note in &import.reading().notes {
+        terminal::notice(note);
+    }
+    let built = import.files(&args.words())?;
+    textile::write(&built, &args.out)?;
+    textile::write_figure(&import.figure(&args.name), &args.out, "import")?;
+    output::print(&report(&import, &args.out)?)
+}
+
+/// What was imported: strokes, sections, figures.
+fn report(import: &KesImport, out: &Path) -> Result<String, CliError> {
+    let mut text = String::new();
+    let failed = |_| CliError::Failed("the report cannot be written; run it again".to_owned());
+    for stroke in &import.reading().strokes {
+        let marks = stroke
+            .marks
+            .iter()
+            .map(|mark| mark.samples.len())
+            .sum::<usize>();
+        writeln!(
+            text,
+            "{:14}{} samples, step {} mm, tilt {} µm/mm taken off, {marks} samples marked",
+            stroke.direction.label(),
+            stroke.heights_um.len(),
+            fixed(stroke.step_mm, 6),
+            fixed(stroke.tilt_um_per_mm, 3),
+        )
+        .map_err(failed)?;
+    }
+    for (axis, name) in [(ClothAxis::Warp, "warp"), (ClothAxis::Weft, "weft")] {
+        let Some(section) = import.section(axis) else {
+            continue;
+        };
+        let how = if section.is_suggested {
+            "suggested: most stationary"
+        } else {
+            "as said"
+        };
+        let [from, to] = [section.from_mm, section.to_mm].map(|mm| fixed(mm, 2));
+        let label = format!("{name} section");
+        writeln!(text, "{label:14}{from} to {to} mm ({how})").map_err(failed)?;
+    }
+    text.push_str(&figures(&import.figures().measured()));
+    writeln!(text, "{}", out.display()).map_err(failed)?;
+    Ok(text)
+}
+
+/// Measured figures, one line each.
+pub(super) fn figures(measured: &std::collections::BTreeMap<String, f64>) -> String {
+    let line = |figure: textile::MeasuredFigure| {
+        let value = format!("{} {}", figure.value, figure.unit).replace('-', "−");
+        let (name, what) = (figure.name, figure.what);
+        format!("{name:14}{value:16}{what}").trim_end().to_owned() + "\n"
+    };
+    measured_figures(measured).into_iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::textile::StrokeSide;
+
+    #[test]
+    fn sections_are_said_for_one_axis_or_both() {
+        assert_eq!(section("5,25").unwrap().mm, [5.0, 25.0]);
+        assert_eq!(
+            section("weft=4.5, 24.5").unwrap().axis,
+            Some(ClothAxis::Weft)
+        );
+        for text in ["5", "bias=5,25", "5;25", "a,b", "nan,25"] {
+            assert!(section(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn directions_are_said_in_words() {
+        let said = place("weft-return").unwrap();
+        assert_eq!(
+            (said.axis, said.side),
+            (ClothAxis::Weft, Some(StrokeSide::Return))
+        );
+        assert_eq!(place("warp").unwrap().side, None);
+        assert_eq!(
+            place("warp_reverse").unwrap().side,
+            Some(StrokeSide::Return)
+        );
+        assert!(
+            place("up").is_err() && place("forward").is_err(),
+            "an axis is needed"
+        );
+    }
+}

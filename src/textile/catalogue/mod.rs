@@ -1,0 +1,128 @@
+//! A catalogue of a library: a sheet for every textile and an index, as a monograph's appendix
+//! prints its fabrics.
+//!
+//! The same library gives the same bytes.
+
+mod index;
+mod sheet;
+
+pub use sheet::sheet;
+
+use std::fs;
+use std::path::Path;
+
+use super::{Library, TextileError};
+use crate::figure::Figure;
+use crate::files::{FileError, encode_png_rgba, write_atomic};
+use crate::progress::Progress;
+
+/// Pixels across a PNG.
+const PNG_WIDTH: u32 = 1720;
+
+/// Writes `ID.svg` and `ID.png` for every textile of a library into a folder, and `index.md` last;
+/// tells how many textiles there are.
+///
+/// # Errors
+/// A textile that cannot be loaded, a folder that cannot be written, the work was stopped.
+pub fn write_catalogue(
+    library: &Library,
+    out: &Path,
+    progress: &mut Progress<'_>,
+) -> Result<usize, TextileError> {
+    fs::create_dir_all(out).map_err(|source| FileError::Write {
+        path: out.to_owned(),
+        source,
+    })?;
+    let mut lines = Vec::new();
+    let n = library.ids().len();
+    for (done, id) in library.ids().iter().enumerate() {
+        progress.step(done as f64 / n.max(1) as f64, id)?;
+        let textile = library.load(id)?;
+        write_figure(&sheet(&textile)?, out, id)?;
+        lines.push(index::line(&textile));
+    }
+    let text = index::text(library, &lines);
+    write_atomic(&out.join("index.md"), text.as_bytes())?;
+    progress.step(1.0, "index.md")?;
+    Ok(n)
+}
+
+/// Writes a figure as `NAME.svg` and `NAME.png` into a folder.
+pub fn write_figure(figure: &Figure, out: &Path, name: &str) -> Result<(), TextileError> {
+    let svg = figure.to_svg()?;
+    write_atomic(&out.join(format!("{name}.svg")), svg.as_bytes())?;
+    let pixels = figure.to_pixels(PNG_WIDTH)?;
+    let path = out.join(format!("{name}.png"));
+    let png = encode_png_rgba(&pixels.rgba, pixels.width, pixels.height, &path)?;
+    Ok(write_atomic(&path, &png)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::{CancelFlag, unheard};
+
+    #[test]
+    fn a_sheet_shows_everything_and_is_the_same_twice() {
+        let textile = Library::shipped().unwrap().load("silk-crepe").unwrap();
+        let svg = sheet(&textile).unwrap().to_svg().unwrap();
+        for part in [
+            "Silk crêpe de chine: woven, silk",
+            "amplitude against speed",
+            "weft reverse",
+            "power, dB re 1 µm²",
+            "Measured: SMD",
+            "model of kind",
+        ] {
+            assert!(svg.contains(part), "{part}");
+        }
+        assert!(
+            svg == sheet(&textile).unwrap().to_svg().unwrap(),
+            "the same bytes"
+        );
+    }
+
+    #[test]
+    fn a_catalogue_has_a_sheet_for_every_textile_and_stops_when_asked() {
+        let shipped = Library::shipped().unwrap();
+        let root = std::env::temp_dir().join(format!("selvedge-sheets-{}", std::process::id()));
+        let folder = root.join("cloths").join("silk");
+        for name in [
+            "textile.toml",
+            "appearance.png",
+            "warp_forward.csv",
+            "warp_reverse.csv",
+        ] {
+            fs::create_dir_all(&folder).unwrap();
+            fs::write(folder.join(name), shipped.file("silk-crepe", name).unwrap()).unwrap();
+        }
+        let manifest = fs::read_to_string(folder.join("textile.toml")).unwrap();
+        let manifest = manifest
+            .replace("weft_forward = \"weft_forward.csv\"\n", "")
+            .replace("weft_reverse = \"weft_reverse.csv\"\n", "");
+        fs::write(folder.join("textile.toml"), manifest).unwrap();
+        let library = Library::open(&root.join("cloths")).unwrap();
+        let out = root.join("sheets");
+        let n = unheard(|progress| write_catalogue(&library, &out, progress)).unwrap();
+        assert_eq!(n, 1);
+        let index = fs::read_to_string(out.join("index.md")).unwrap();
+        assert!(index.contains("# Catalogue of cloths") && index.contains("[silk](silk.svg)"));
+        let svg = fs::read_to_string(out.join("silk.svg")).unwrap();
+        assert!(
+            svg.contains("weft forward: not measured"),
+            "what is missing is said"
+        );
+        assert!(
+            out.join("silk.png").metadata().unwrap().len() > 10_000,
+            "a picture"
+        );
+        let stop = CancelFlag::new();
+        stop.cancel();
+        let stopped = write_catalogue(&library, &out, &mut Progress::new(&mut |_, _| {}, stop));
+        assert!(
+            matches!(stopped, Err(TextileError::Cancelled(_))),
+            "{stopped:?}"
+        );
+        fs::remove_dir_all(&root).unwrap();
+    }
+}

@@ -1,0 +1,372 @@
+//! The sheet of a textile: picture, amplitudes against speed, four profiles, local spectra,
+//! friction; figures and provenance below.
+
+use crate::figure::{
+    Axis, ColourBar, Figure, Ink, Panel, Raster, Row, Scale, Series, Style, Upright, Weight, Words,
+};
+use crate::quantity::level_db;
+use crate::surface::{BIN_SPACING_PER_MM, Direction};
+use crate::tactile::{Band, Filters, SpeedResponse};
+use crate::textile::curve::corners;
+use crate::textile::{Source, Textile, TextileError, measured_figures};
+
+/// The side of the cloth that is shown, mm.
+const PICTURE_MM: f64 = 20.0;
+/// Cells along that side.
+const N_CELLS: u16 = 240;
+/// Speeds of the curves, mm/s, and how many.
+const SPEEDS_MM_PER_S: [f64; 2] = [10.0, 1000.0];
+const N_SPEEDS: u8 = 61;
+/// Amplitudes of the curves, µm: the same on every sheet.
+const AMPLITUDES_UM: [f64; 2] = [0.01, 100.0];
+/// Powers of a bin, dB re 1 µm²: the same on every sheet.
+const POWERS_DB: [f64; 2] = [-50.0, 20.0];
+/// Bins shown: up to 11.5 cycles/mm.
+const N_BINS_SHOWN: usize = 50;
+
+/// The sheet of a textile.
+///
+/// # Errors
+/// Its picture or its friction cannot be read.
+pub fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
+    let manifest = textile.manifest();
+    let mut rows = vec![Row {
+        panels: vec![picture(textile)?, amplitudes(textile)],
+        height_px: 250.0,
+        bar: None,
+    }];
+    rows.extend(profiles(textile));
+    rows.push(spectra(textile));
+    rows.extend(friction(textile)?);
+    let fibre = if manifest.fibre.is_empty() { "" } else { ", " };
+    let made = manifest.construction.word();
+    Ok(Figure {
+        title: format!("{}: {made}{fibre}{}", manifest.name, manifest.fibre),
+        rows,
+        notes: notes(textile),
+        about: about(textile),
+    })
+}
+
+fn axis(label: &str, scale: Scale, range: Option<[f64; 2]>) -> Axis {
+    Axis {
+        label: label.to_owned(),
+        scale,
+        range,
+    }
+}
+
+/// The cloth from its lower left corner, tiled as on a display.
+fn picture(textile: &Textile) -> Result<Panel, TextileError> {
+    let side = |label| axis(label, Scale::Linear, Some([0.0, PICTURE_MM]));
+    let mut panel = Panel {
+        title: "appearance".to_owned(),
+        width: 250.0,
+        x: side("along the warp, mm"),
+        y: side("along the weft, mm"),
+        ..Panel::default()
+    };
+    let Some(appearance) = textile.appearance()? else {
+        panel.words.push(Words {
+            at: [0.5 * PICTURE_MM; 2],
+            text: "no picture".to_owned(),
+            ..Words::default()
+        });
+        return Ok(panel);
+    };
+    let image = &appearance.image;
+    let pixel = |mm: f64, n: usize| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "20 mm at no more than 200 pixels a mm"
+        )]
+        let pixel = (mm * appearance.px_per_mm).floor() as usize;
+        pixel % n.max(1)
+    };
+    let place = |cell: u16| (f64::from(cell) + 0.5) * PICTURE_MM / f64::from(N_CELLS);
+    let mut cells = Vec::new();
+    for row in (0..N_CELLS).rev() {
+        let from_top = image
+            .height
+            .saturating_sub(1 + pixel(place(row), image.height));
+        for column in 0..N_CELLS {
+            let index = from_top * image.width + pixel(place(column), image.width);
+            cells.push(image.pixels.get(index).copied());
+        }
+    }
+    panel.raster = Some(Raster {
+        n_columns: usize::from(N_CELLS),
+        cells,
+    });
+    Ok(panel)
+}
+
+/// Both amplitudes against speed along one axis: the mean of all directions, and each thin.
+fn amplitudes(textile: &Textile) -> Panel {
+    let [slow, fast] = SPEEDS_MM_PER_S;
+    let share = |i: u8| f64::from(i) / f64::from(N_SPEEDS - 1);
+    let speeds: Vec<f64> = (0..N_SPEEDS)
+        .map(|i| slow * (fast / slow).powf(share(i)))
+        .collect();
+    let responses: Vec<SpeedResponse> = speeds
+        .iter()
+        .map(|speed| SpeedResponse::at(*speed, &Filters::default()))
+        .collect();
+    let curve = |direction: Direction, band: Band| -> Vec<f64> {
+        let spectra = textile.surface().spectra(direction);
+        let mean = |response: &SpeedResponse| {
+            let points = 0..spectra.n_points();
+            let all = points.map(|point| {
+                response.squared_amplitudes_um2(spectra.powers_um2(point))[band.index()].sqrt()
+            });
+            all.sum::<f64>() / spectra.n_points() as f64
+        };
+        responses.iter().map(mean).collect()
+    };
+    let mut series = Vec::new();
+    for band in Band::ALL {
+        let ink = match band {
+            Band::Low => Ink::Amber,
+            Band::High => Ink::Cyan,
+        };
+        let line = |values: Vec<f64>, name: String, weight| Series {
+            name,
+            points: speeds
+                .iter()
+                .zip(&values)
+                .map(|(speed, um)| [*speed, *um])
+                .collect(),
+            style: Style::Line,
+            ink,
+            weight,
+            ..Series::default()
+        };
+        let curves = Direction::ALL.map(|direction| curve(direction, band));
+        let mean = (0..speeds.len()).map(|i| 0.25 * curves.iter().map(|c| c[i]).sum::<f64>());
+        let mean: Vec<f64> = mean.collect();
+        series.extend(curves.map(|values| line(values, String::new(), Weight::Thin)));
+        series.push(line(mean, format!("A{}", band.carrier_hz()), Weight::Bold));
+    }
+    Panel {
+        title: "amplitude against speed".to_owned(),
+        width: 430.0,
+        x: axis(
+            "speed along one axis, mm/s",
+            Scale::Log,
+            Some(SPEEDS_MM_PER_S),
+        ),
+        y: axis("peak amplitude, µm", Scale::Log, Some(AMPLITUDES_UM)),
+        series,
+        ..Panel::default()
+    }
+}
+
+/// The profiles that were measured, warp above weft, forward beside reverse.
+fn profiles(textile: &Textile) -> Vec<Row> {
+    let surface = textile.surface();
+    let all = Direction::ALL
+        .into_iter()
+        .filter_map(|direction| surface.profile(direction));
+    let largest_um = all
+        .flat_map(|profile| {
+            let heights = profile.heights_um();
+            let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+            heights.iter().map(move |height| (height - mean).abs())
+        })
+        .fold(0.1, f64::max);
+    let range = Some([-1.05 * largest_um, 1.05 * largest_um]);
+    let panel = |direction: Direction| {
+        let mut panel = Panel {
+            title: direction.label().to_owned(),
+            x: axis(
+                "distance travelled, mm",
+                Scale::Linear,
+                Some([0.0, PICTURE_MM]),
+            ),
+            y: axis("height, µm", Scale::Linear, range),
+            upright: if direction.is_reverse() {
+                Upright::Shared
+            } else {
+                Upright::Upward
+            },
+            is_x_shared: matches!(direction, Direction::WarpForward | Direction::WarpReverse),
+            ..Panel::default()
+        };
+        let Some(profile) = surface.profile(direction) else {
+            panel.title = format!("{}: not measured", direction.label());
+            return panel;
+        };
+        let heights = profile.heights_um();
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        let heights: Vec<f64> = heights.iter().map(|height| height - mean).collect();
+        let length_mm = heights.len() as f64 * profile.step_mm();
+        panel.x.range = Some([0.0, length_mm.max(PICTURE_MM)]);
+        panel.series.push(Series {
+            points: corners(|i| i as f64 * profile.step_mm(), &heights),
+            style: Style::Line,
+            ink: Ink::Black,
+            weight: Weight::Thin,
+            ..Series::default()
+        });
+        panel
+    };
+    let pairs = [
+        [Direction::WarpForward, Direction::WarpReverse],
+        [Direction::WeftForward, Direction::WeftReverse],
+    ];
+    let row = |pair: [Direction; 2]| Row {
+        panels: pair.map(panel).to_vec(),
+        height_px: 100.0,
+        bar: None,
+    };
+    pairs.map(row).to_vec()
+}
+
+/// White paper for little power, black ink for much.
+fn grey(share: f64) -> [u8; 3] {
+    let lightness = 252.0 - 236.0 * share.clamp(0.0, 1.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "16 to 252"
+    )]
+    let lightness = lightness.round() as u8;
+    [lightness; 3]
+}
+
+/// Power by wavenumber and place, one panel a direction.
+fn spectra(textile: &Textile) -> Row {
+    let [least, most] = POWERS_DB;
+    let cell = |power_um2: f64| {
+        let db = 0.5 * level_db(power_um2.max(1e-30));
+        Some(grey((db - least) / (most - least)))
+    };
+    let panel = |direction: Direction| {
+        let spectra = textile.surface().spectra(direction);
+        let n_points = spectra.n_points();
+        let mut cells = Vec::new();
+        for bin in (0..N_BINS_SHOWN).rev() {
+            cells.extend((0..n_points).map(|point| cell(spectra.powers_um2(point)[bin])));
+        }
+        let highest_per_mm = BIN_SPACING_PER_MM * (N_BINS_SHOWN as f64 + 0.5);
+        Panel {
+            title: direction.label().to_owned(),
+            x: axis(
+                "point, mm",
+                Scale::Linear,
+                Some([-0.5, n_points as f64 - 0.5]),
+            ),
+            y: axis(
+                "cycles/mm",
+                Scale::Linear,
+                Some([0.5 * BIN_SPACING_PER_MM, highest_per_mm]),
+            ),
+            upright: if direction == Direction::WarpForward {
+                Upright::Upward
+            } else {
+                Upright::Shared
+            },
+            raster: Some(Raster {
+                n_columns: n_points,
+                cells,
+            }),
+            ..Panel::default()
+        }
+    };
+    Row {
+        panels: Direction::ALL.map(panel).to_vec(),
+        height_px: 190.0,
+        bar: Some(ColourBar {
+            axis: axis("power, dB re 1 µm²", Scale::Linear, Some(POWERS_DB)),
+            colours: (0..=8).map(|i| grey(f64::from(i) / 8.0)).collect(),
+        }),
+    }
+}
+
+/// The trace of friction, if there is one.
+fn friction(textile: &Textile) -> Result<Option<Row>, TextileError> {
+    let Some(trace) = textile.friction()? else {
+        return Ok(None);
+    };
+    let panel = Panel {
+        title: "friction along the warp".to_owned(),
+        x: axis("distance travelled, mm", Scale::Linear, None),
+        y: axis("coefficient", Scale::Linear, None),
+        series: vec![Series {
+            points: corners(|i| i as f64 * trace.step_mm(), trace.mu()),
+            style: Style::Line,
+            ink: Ink::Black,
+            weight: Weight::Thin,
+            ..Series::default()
+        }],
+        ..Panel::default()
+    };
+    Ok(Some(Row {
+        panels: vec![panel],
+        height_px: 90.0,
+        bar: None,
+    }))
+}
+
+/// Figures, where it comes from, and how to read the sheet.
+fn notes(textile: &Textile) -> Vec<String> {
+    let manifest = textile.manifest();
+    let figures: Vec<String> = measured_figures(&manifest.measured)
+        .into_iter()
+        .map(|figure| {
+            let line = format!("{} {} {}", figure.name, figure.value, figure.unit);
+            line.trim_end().replace('-', "−")
+        })
+        .collect();
+    let mut notes = Vec::new();
+    if !figures.is_empty() {
+        notes.push(format!("Measured: {}.", figures.join(" · ")));
+    }
+    notes.push(manifest.notes.clone());
+    notes.push(origin(textile));
+    notes.extend(textile.fall_backs());
+    notes.push(
+        "Amplitudes: means over all points, default filters, no gain; thin: each direction. \
+         Spectra: one-sided power a bin of 0.23 cycles/mm; below the probe's radius of 0.25 mm \
+         what is seen is the instrument."
+            .to_owned(),
+    );
+    notes.retain(|note| !note.is_empty());
+    notes
+}
+
+/// Where a textile comes from, one line.
+fn origin(textile: &Textile) -> String {
+    let manifest = textile.manifest();
+    let source = match &manifest.source {
+        Source::Profiles(keys) => keys.imported.as_ref().map_or_else(
+            || "measured profiles".to_owned(),
+            |origin| format!("measured; imported from {}", origin.files.join(", ")),
+        ),
+        other => format!("model of kind \"{}\", not measured on cloth", other.kind()),
+    };
+    let licence = match manifest.licence.as_str() {
+        "" => String::new(),
+        licence => format!("; licence {licence}"),
+    };
+    format!("Source: {source}{licence}.")
+}
+
+/// All that is known of where a sheet comes from.
+fn about(textile: &Textile) -> Vec<(String, String)> {
+    let mut about = vec![
+        ("textile".to_owned(), textile.id().to_owned()),
+        (
+            "program".to_owned(),
+            format!("selvedge {}", env!("CARGO_PKG_VERSION")),
+        ),
+    ];
+    if let Source::Profiles(keys) = &textile.manifest().source
+        && let Some(origin) = &keys.imported
+    {
+        let files = origin.files.iter().zip(&origin.sha256);
+        about.extend(files.map(|(file, hash)| (format!("sha256 {file}"), hash.clone())));
+    }
+    about
+}

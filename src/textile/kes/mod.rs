@@ -1,0 +1,159 @@
+//! Exports of the Kawabata surface tester (KES-FB4): read, looked at, and made into a textile.
+//!
+//! ```text
+//! files ─▶ text ─▶ dialect (cells, decimal sign) ─▶ columns (what they are) ─▶ places (steps)
+//!       ─▶ strokes (order of travel, one tilt off) ─▶ marks ─▶ section ─▶ figures ─▶ files
+//! ```
+//!
+//! No public file of the tester was found: the layouts are a convention gathered from the
+//! literature and from how laboratories describe their exports. What a file does not say is asked
+//! for, never assumed: see [`KesAsk`].
+//!
+//! # Invariants
+//! - pure: bytes in, bytes out; a window shows the [`KesImport`] before anything is written
+//! - one straight line is taken off every stroke of heights, over its whole length, laid through
+//!   what is not marked; nothing else
+//! - nothing is resampled: uneven steps are refused
+
+mod chart;
+mod columns;
+mod dialect;
+mod import;
+mod marks;
+#[cfg(test)]
+mod mutations;
+mod origin;
+mod places;
+mod reading;
+mod returns;
+mod section;
+mod strokes;
+#[cfg(test)]
+mod tests;
+mod text;
+mod units;
+
+pub use columns::{ClothAxis, ColumnRole, StrokeSide};
+pub use dialect::DecimalSign;
+pub use import::{KesFigures, KesImport, KesWords};
+pub use marks::{Mark, MarkKind};
+pub use origin::KesOrigin;
+pub use reading::{KesFile, KesFriction, KesReading, KesStroke};
+pub use section::{EVALUATED_MM, KesSection};
+
+use std::path::{Path, PathBuf};
+
+use super::TextileError;
+
+/// What is known of files beyond what they say. The default knows nothing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct KesOptions {
+    /// The direction of each file, in their order; missing ones go by the file's name.
+    pub directions: Vec<Option<KesPlace>>,
+    /// The distance between samples, mm: where no column says it, or says it wrongly.
+    pub step_mm: Option<f64>,
+    /// The speed of the stroke, mm/s: with a rate or a column of times.
+    pub speed_mm_per_s: Option<f64>,
+    /// Samples a second.
+    pub rate_hz: Option<f64>,
+    /// What 1 V stands for, µm: heights are in volts then.
+    pub um_per_volt: Option<f64>,
+    /// The unit of places.
+    pub x_unit: Option<PlaceUnit>,
+    /// The unit of heights.
+    pub height_unit: Option<HeightUnit>,
+    /// The decimal sign.
+    pub decimal: Option<DecimalSign>,
+    /// What the columns are.
+    pub columns: Option<Vec<ColumnRole>>,
+    /// How return strokes are stored whose places rise.
+    pub return_order: Option<ReturnOrder>,
+}
+
+/// What a file holds: an axis, and one way along it or whatever its columns say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct KesPlace {
+    /// Warp or weft.
+    pub axis: ClothAxis,
+    /// Out or back.
+    pub side: Option<StrokeSide>,
+}
+
+/// A unit of places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlaceUnit {
+    /// Millimetres.
+    Mm,
+    /// Centimetres.
+    Cm,
+    /// Micrometres.
+    Um,
+}
+
+/// A unit of heights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HeightUnit {
+    /// Micrometres.
+    Um,
+    /// Millimetres.
+    Mm,
+    /// Volts, with `um_per_volt`.
+    Volt,
+}
+
+/// How the rows of a return stroke follow one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReturnOrder {
+    /// As they were measured, from the turn back.
+    Travel,
+    /// Mirrored: by their places on the cloth, like the way out.
+    Mirrored,
+}
+
+/// What must be said because the files do not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum KesAsk {
+    /// The sensitivity.
+    #[error("say --um-per-volt UM, the height in µm that 1 V stands for")]
+    UmPerVolt,
+    /// The distance of samples.
+    #[error("say --step-mm MM, or --speed-mm-per-s V and --rate-hz HZ")]
+    Step,
+    /// The speed.
+    #[error("say --speed-mm-per-s V, the speed of the stroke")]
+    Speed,
+    /// Which stroke it is.
+    #[error(
+        "say --direction once a file: warp or weft, or warp-forward, warp-return, \
+         weft-forward, weft-return"
+    )]
+    Direction,
+    /// How a return stroke is stored.
+    #[error("say --return-order travel (as measured) or mirrored (by place)")]
+    ReturnOrder,
+    /// The decimal sign.
+    #[error("say --decimal point or --decimal comma")]
+    Decimal,
+    /// The unit of places.
+    #[error("say --x-unit mm, cm or um")]
+    XUnit,
+    /// The unit of heights.
+    #[error("say --height-unit um or mm, or --um-per-volt UM for volts")]
+    HeightUnit,
+    /// What the columns are.
+    #[error("say --columns, such as x,forward,return (skip for one that does not matter)")]
+    Columns,
+    /// The evaluated section.
+    #[error("say --section FROM,TO in mm on the cloth (or warp=FROM,TO and weft=FROM,TO)")]
+    Section,
+}
+
+/// An error that asks: what is wrong, where, and what must be said.
+fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> TextileError {
+    TextileError::Kes {
+        path: PathBuf::from(path),
+        line,
+        what: what.into(),
+        ask,
+    }
+}

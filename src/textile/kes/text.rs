@@ -1,0 +1,80 @@
+//! The text of a tester's export: UTF-8, UTF-16 or Latin-1, as old programs write it.
+
+use std::path::Path;
+
+use crate::files::FileError;
+
+/// Larger files are refused before they are read as text.
+const MOST_BYTES: usize = 64 << 20;
+
+/// The text of a file, without a byte-order mark; line ends are what they are.
+///
+/// # Errors
+/// An empty file, one that is no text, one above 64 MB.
+pub(super) fn text_of(bytes: &[u8], path: &Path) -> Result<String, FileError> {
+    let mend = "give the tester's export as text: rows of numbers under an optional header";
+    let wrong = |what: &str| FileError::content(path, 1, what, mend);
+    if bytes.len() > MOST_BYTES {
+        return Err(wrong("this file is larger than 64 MB"));
+    }
+    let text = match bytes {
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        _ => Some(match std::str::from_utf8(bytes) {
+            Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
+            // Latin-1: every byte is the character of its number, 0xb5 the micro sign.
+            Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+        }),
+    };
+    let is_binary = |text: &String| {
+        text.chars()
+            .any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\x0c' | '\x1a'))
+    };
+    match text.filter(|text| !is_binary(text)) {
+        None => Err(wrong("this is not text")),
+        Some(text) if text.trim().is_empty() => Err(wrong("this file is empty")),
+        Some(text) => Ok(text),
+    }
+}
+
+fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
+    let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    char::decode_utf16(units).collect::<Result<_, _>>().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(bytes: &[u8]) -> Result<String, String> {
+        text_of(bytes, Path::new("a.txt")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_old_programs_write_is_text() {
+        assert_eq!(read("\u{feff}x µm".as_bytes()).unwrap(), "x µm");
+        assert_eq!(read(b"x \xb5m").unwrap(), "x µm");
+        let utf16: Vec<u8> = "\u{feff}x µm"
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect();
+        assert_eq!(read(&utf16).unwrap(), "x µm");
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_in_a_line() {
+        for (bytes, what) in [
+            (b"".as_slice(), "empty"),
+            (b" \r\n\t", "empty"),
+            (b"\x89PNG\r\n\x1a\n\0\0", "not text"),
+            (b"\xff\xfe\x00\xd8", "not text"),
+        ] {
+            let error = read(bytes).unwrap_err();
+            assert!(
+                error.starts_with("a.txt:1: this") && error.contains(what),
+                "{error}"
+            );
+            assert!(error.contains("; "), "{error}");
+        }
+    }
+}
