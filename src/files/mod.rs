@@ -21,7 +21,7 @@ pub use atomic::{create, read, read_text, write_atomic};
 pub use digits::push_number;
 pub use hash::sha256_hex;
 pub use json::{from_json_str, to_json_string};
-pub use keys::{keys_from_str, keys_to_string, line_of_key};
+pub use keys::{Keys, keys_from_str, keys_to_string, lay_over, line_of_key, take_text};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use table::{Table, TableWriter};
 

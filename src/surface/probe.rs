@@ -64,11 +64,15 @@ impl Probe {
         let drops = offsets(self.radius_mm, step_mm);
         let margin = drops.len() - 1;
         let n = heights_um.width().saturating_sub(2 * margin);
+        if n == 0 {
+            return Vec::new();
+        }
         let mut lift = vec![0.0; n];
+        let mut rest = vec![0.0; n];
         for row in 0..heights_um.height() {
-            let track = heights_um.row(row);
-            for (i, sum) in lift.iter_mut().enumerate() {
-                *sum += rest_um(&track[i..=i + 2 * margin], &drops);
+            rest_um(heights_um.row(row), &drops, &mut rest);
+            for (sum, height) in lift.iter_mut().zip(&rest) {
+                *sum += height;
             }
         }
         let scale = 1.0 / heights_um.height().max(1) as f64;
@@ -118,14 +122,20 @@ fn offsets(radius_mm: f64, step_mm: f64) -> Vec<f64> {
     (0..).map_while(rise).collect()
 }
 
-/// Where a disc centred over the middle of `track` comes to rest, µm.
-fn rest_um(track: &[f64], drops: &[f64]) -> f64 {
+/// Where a disc comes to rest over a track, µm, for every place that it has room around.
+///
+/// Offset by offset over the whole track, not place by place: neighbours are then worked on at
+/// once, and which of the heights holds the disc does not depend on the order.
+fn rest_um(track: &[f64], drops: &[f64], rest: &mut [f64]) {
     let middle = drops.len() - 1;
-    let (left, right) = track.split_at(middle);
-    let right = right.iter().zip(drops);
-    let left = left.iter().rev().zip(&drops[1..]);
-    let highest = |best: f64, (height, drop): (&f64, &f64)| best.max(height - drop);
-    left.fold(right.fold(f64::NEG_INFINITY, highest), highest)
+    rest.fill(f64::NEG_INFINITY);
+    for shift in 0..=2 * middle {
+        let drop = drops[shift.abs_diff(middle)];
+        for (best, height) in rest.iter_mut().zip(&track[shift..]) {
+            let candidate = height - drop;
+            *best = if candidate > *best { candidate } else { *best };
+        }
+    }
 }
 
 #[cfg(test)]

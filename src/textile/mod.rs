@@ -10,6 +10,7 @@
 //! - every error is one line: what, where, how to mend it
 
 mod build;
+mod cache;
 mod cloth;
 mod index;
 mod knit;
@@ -18,16 +19,20 @@ mod loaded;
 mod manifest;
 mod model;
 mod profile_file;
+mod recipes;
 mod shipped;
 mod weave;
+mod workers;
 
 pub use build::{BuiltFile, build, build_library, make};
-pub use cloth::Yarn;
+pub use cache::BuildCache;
+pub use cloth::{Side, Yarn};
 pub use index::{Index, IndexEntry};
 pub use knit::{Knit, Structure};
-pub use library::Library;
+pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
+pub use recipes::SEVENTY_FOUR;
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 
 use std::path::PathBuf;

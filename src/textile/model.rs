@@ -2,15 +2,26 @@
 
 use std::path::Path;
 
-use super::cloth::{Cloth, portrait, profiles};
+use super::cloth::{Cloth, Side, portrait, profiles};
 use super::manifest::Source;
-use super::{TextileError, profile_file};
-use crate::files::Rgb8Image;
+use super::{TextileError, profile_file, shipped};
+use crate::files::{Rgb8Image, sha256_hex};
 use crate::numerics::Random;
 use crate::surface::{Direction, Probe, ProfileSet};
 
 /// Distance of a model's samples, mm.
 const STEP_MM: f64 = 1.0 / 230.0;
+
+/// What the bytes of a built textile follow from besides its recipe: this program. Raise it when a
+/// model changes what it makes; most changes show in the shipped library's own hash as well.
+const MODEL: &str = "selvedge models 2";
+
+/// Says which models build: other models, other text.
+pub(crate) fn version() -> String {
+    let program = env!("CARGO_PKG_VERSION");
+    let shipped = sha256_hex([shipped::INDEX.as_bytes()]);
+    format!("{MODEL}\n{program}\n{shipped}\n")
+}
 
 /// A model cloth under the virtual tester.
 #[derive(Debug)]
@@ -23,16 +34,19 @@ pub(crate) struct Model {
 impl Model {
     /// The model of a source; `None` if it was measured.
     pub(crate) fn of(source: &Source) -> Option<Self> {
-        let (cloth, seed, noise_um) = match source {
+        let (cloth, seed, noise_um, side) = match source {
             Source::Profiles(_) => return None,
-            Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um),
-            Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um),
+            Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um, weave.side),
+            Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um, knit.side),
         };
         let probe = Probe {
             noise_um,
             ..Probe::default()
         };
-        let random = Random::new(u64::from(seed)).branch("probe");
+        let random = Random::new(u64::from(seed)).branch(match side {
+            Side::Face => "probe",
+            Side::Back => "probe on the back",
+        });
         Some(Self {
             cloth,
             probe,

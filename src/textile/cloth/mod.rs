@@ -4,6 +4,7 @@
 mod fibre;
 mod portrait;
 mod relief;
+mod side;
 mod strand;
 mod stroke;
 mod variation;
@@ -11,6 +12,8 @@ mod yarn;
 
 pub(crate) use fibre::add_hairs;
 pub(crate) use portrait::portrait;
+pub use side::Side;
+pub(crate) use side::turn_over;
 pub(crate) use strand::{Cloth, Node, Strand};
 pub(crate) use stroke::profiles;
 pub(crate) use variation::{Drift, Field, count};
