@@ -10,6 +10,7 @@ use super::editing;
 use super::history::{History, Moment};
 use crate::scene::{Scene, SceneError};
 use crate::tactile::Tuning;
+use crate::textile::is_of_the_program;
 
 /// A scene that is being edited.
 #[derive(Debug, Clone)]
@@ -110,9 +111,12 @@ impl Document {
             .filter(|old| old.parent() != path.parent())
         {
             // A library named relative to the old place would not be found from the new one.
-            scene.library = scene
-                .library_folder(old)
-                .map(|folder| std::path::absolute(&folder).unwrap_or(folder));
+            scene.library = scene.library_folder(old).map(|folder| {
+                if is_of_the_program(&folder) {
+                    return folder;
+                }
+                std::path::absolute(&folder).unwrap_or(folder)
+            });
         }
         scene.write(path)?;
         self.scene.library.clone_from(&scene.library);

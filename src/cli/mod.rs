@@ -23,6 +23,7 @@ mod screenshot;
 mod signals;
 mod terminal;
 mod textile;
+mod textile_levels;
 mod textile_make;
 mod usage;
 mod workbench;

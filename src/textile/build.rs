@@ -6,12 +6,12 @@
 use std::fs;
 use std::path::Path;
 
-use super::{TextileError, workers};
 use super::index::{Index, IndexEntry};
 use super::library::{INDEX, Library};
 use super::loaded::MANIFEST;
 use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
 use super::model::{Model, profiles_of_files};
+use super::{TextileError, workers};
 use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
 use crate::progress::{Progress, unheard};
 use crate::surface::Direction;
@@ -107,8 +107,9 @@ fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
         .try_for_each(|file| write_atomic(&folder.join(&file.name), &file.bytes))
 }
 
-/// Builds every textile of the library `from` into the folder `to` and writes its index with this
-/// default tuning. Manifests of recipes are enough; textiles that are no models are copied. The
+/// Builds every textile of the library `from` into the folder `to`.
+///
+/// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are no models are copied. The
 /// work is shared among `n_threads`, which changes no byte.
 pub fn build_library(
     from: &Library,
@@ -169,9 +170,8 @@ pub(crate) fn index_of(
         };
         Ok((entry, content))
     };
-    let measured = unheard(|progress| {
-        workers::for_each(library.ids(), n_threads, progress, measure)
-    });
+    let measured =
+        unheard(|progress| workers::for_each(library.ids(), n_threads, progress, measure));
     let (textiles, content): (Vec<IndexEntry>, Vec<_>) = measured?.into_iter().unzip();
     let levels: Vec<f64> = textiles.iter().filter_map(IndexEntry::level_db).collect();
     let mean = levels.iter().sum::<f64>() / levels.len().max(1) as f64;

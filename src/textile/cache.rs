@@ -19,7 +19,7 @@ const EXTENSION: &str = "textile";
 /// The first line of an entry.
 const HEAD: &str = "selvedge textile 1";
 /// A staged file that is older was left behind by a program that was killed.
-const STALE: Duration = Duration::from_secs(3600);
+const STALE: Duration = Duration::from_hours(1);
 
 /// A folder of built textiles. Those not used for longest make room for new ones.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -223,7 +223,7 @@ mod tests {
         fs::write(scratch.0.join("notes.txt"), [0; 9000]).unwrap();
         let minutes_ago = |key: &str, minutes: u64| {
             let file = fs::File::options().append(true).open(cache.path(key));
-            let when = SystemTime::now() - Duration::from_secs(60 * minutes);
+            let when = SystemTime::now() - Duration::from_mins(minutes);
             file.unwrap().set_modified(when).unwrap();
         };
         for (key, minutes) in [("a", 3), ("b", 2), ("c", 1)] {
@@ -232,7 +232,10 @@ mod tests {
         }
         assert!(cache.get("a").is_some(), "now it was used last");
         cache.put("d", &files(0, 500));
-        assert_eq!(scratch.entries(), ["a.textile", "c.textile", "d.textile", "notes.txt"]);
+        assert_eq!(
+            scratch.entries(),
+            ["a.textile", "c.textile", "d.textile", "notes.txt"]
+        );
         cache.put("e", &files(0, 5000));
         assert_eq!(cache.get("e"), None, "larger than the bound");
         fs::remove_dir_all(&scratch.0).unwrap();

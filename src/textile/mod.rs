@@ -20,6 +20,7 @@ mod manifest;
 mod model;
 mod profile_file;
 mod recipes;
+mod selection;
 mod shipped;
 mod weave;
 mod workers;
@@ -33,7 +34,9 @@ pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
 pub use recipes::SEVENTY_FOUR;
+pub use selection::{kind_of, most_typical};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
+pub use workers::n_threads;
 
 use std::path::PathBuf;
 
@@ -75,6 +78,16 @@ pub enum TextileError {
         path: PathBuf,
         /// The kind it has.
         kind: &'static str,
+    },
+    /// Nothing was measured on the textiles of a library.
+    #[error(
+        "{}: no levels were measured; build it with \"selvedge textile build\", which writes a \
+         library.toml",
+        library.display()
+    )]
+    NoIndex {
+        /// The library.
+        library: PathBuf,
     },
     /// The work was stopped.
     #[error(transparent)]

@@ -29,7 +29,7 @@ const BACK: &str = "-back";
 #[derive(Debug)]
 pub(crate) struct Recipes {
     path: PathBuf,
-    recipes: Vec<Recipe>,
+    surfaces: Vec<Recipe>,
     index: Option<Index>,
     cache: Option<BuildCache>,
 }
@@ -65,7 +65,7 @@ impl Recipes {
         if beside.is_file() {
             let index = Index::from_toml(&read_text(&beside)?, &beside)?;
             let listed = index.textiles.iter().map(|entry| &entry.id);
-            if listed.eq(recipes.recipes.iter().map(|recipe| &recipe.id)) {
+            if listed.eq(recipes.surfaces.iter().map(|recipe| &recipe.id)) {
                 recipes.index = Some(index);
             }
         }
@@ -75,26 +75,26 @@ impl Recipes {
     fn parse(text: &str, path: &Path, cache: Option<BuildCache>) -> Result<Self, TextileError> {
         let file: File = keys_from_str(text, path)?;
         let mut cloths: Vec<(String, Keys)> = Vec::with_capacity(file.textiles.len());
-        let mut recipes: Vec<Recipe> = Vec::new();
+        let mut surfaces: Vec<Recipe> = Vec::new();
         for (nth, keys) in file.textiles.into_iter().enumerate() {
             let wrong = |key: &str, what: String, mend: &str| {
                 FileError::content(path, line_of_key(text, "textile", nth, key), what, mend)
             };
             let (id, sides, keys) = cloth(keys, &cloths, &wrong)?;
             for side in sides {
-                let recipe = Recipe::of(&id, side, keys.clone(), path)
+                let recipe = Recipe::of(&id, side, &keys, path)
                     .map_err(|error| within(&id, error, &wrong))?;
-                if recipes.iter().any(|known| known.id == recipe.id) {
+                if surfaces.iter().any(|known| known.id == recipe.id) {
                     let what = format!("textile \"{}\" twice", recipe.id);
                     return Err(wrong("id", what, "give it another id").into());
                 }
-                recipes.push(recipe);
+                surfaces.push(recipe);
             }
             cloths.push((id, keys));
         }
         Ok(Self {
             path: path.to_owned(),
-            recipes,
+            surfaces,
             index: None,
             cache,
         })
@@ -107,7 +107,10 @@ impl Recipes {
 
     /// The ids, in order.
     pub(crate) fn ids(&self) -> Vec<String> {
-        self.recipes.iter().map(|recipe| recipe.id.clone()).collect()
+        self.surfaces
+            .iter()
+            .map(|recipe| recipe.id.clone())
+            .collect()
     }
 
     /// Levels that were measured before.
@@ -117,7 +120,7 @@ impl Recipes {
 
     /// The manifest of a textile before it is built; `None` if there is none of that id.
     pub(crate) fn manifest(&self, id: &str) -> Option<&Manifest> {
-        let recipe = self.recipes.iter().find(|recipe| recipe.id == id)?;
+        let recipe = self.surfaces.iter().find(|recipe| recipe.id == id)?;
         Some(&recipe.manifest)
     }
 
@@ -142,8 +145,8 @@ impl Recipes {
 }
 
 impl Recipe {
-    fn of(id: &str, side: Side, keys: Keys, path: &Path) -> Result<Self, TextileError> {
-        let text = keys_to_string(&keys, path)?;
+    fn of(id: &str, side: Side, keys: &Keys, path: &Path) -> Result<Self, TextileError> {
+        let text = keys_to_string(keys, path)?;
         let mut manifest = Manifest::from_toml(&text, path)?;
         let mut id = id.to_owned();
         if side == Side::Back {

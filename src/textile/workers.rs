@@ -10,7 +10,7 @@ use super::TextileError;
 use crate::progress::Progress;
 
 /// Threads that work is shared among when nobody says how many.
-pub(crate) fn n_threads() -> usize {
+pub fn n_threads() -> usize {
     thread::available_parallelism().map_or(1, NonZeroUsize::get)
 }
 
@@ -99,11 +99,13 @@ mod tests {
 
     #[test]
     fn a_failure_and_a_raised_flag_end_the_work() {
-        let failed = |id: &str| Err::<(), _>(TextileError::Unknown {
-            id: id.to_owned(),
-            library: String::new(),
-            known: String::new(),
-        });
+        let failed = |id: &str| {
+            Err::<(), _>(TextileError::Unknown {
+                id: id.to_owned(),
+                library: String::new(),
+                known: String::new(),
+            })
+        };
         let error = unheard(|p| for_each(&ids(5), 2, p, failed)).unwrap_err();
         assert!(error.to_string().contains("\"0\""), "{error}");
         let flag = CancelFlag::new();

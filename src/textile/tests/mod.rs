@@ -1,4 +1,5 @@
 //! Tests of the floor as a whole.
 
 mod models;
+mod seventy_four;
 mod shipped;
