@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn the_time_left_follows_from_the_share_done() {
-        let spent = Duration::from_millis(3000);
+        let spent = Duration::from_secs(3);
         assert_eq!(times(0.0, spent), "3 s");
         assert_eq!(times(0.25, spent), "3 s, about 9 s left,");
         assert_eq!(times(1.0, spent), "3 s, about 0 s left,");

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::output::TableOut;
-use super::terminal::{self, Meter};
-use super::{CliError, signals};
+use super::terminal::Meter;
+use super::{CliError, output, signals};
 use crate::progress::{CancelFlag, Progress};
 use crate::quantity::{factor_of_gain, fixed, level_db};
 use crate::tactile::{Band, Filters, Levels, Tuning};
@@ -30,7 +30,7 @@ const LEVELS_HEADER: [&str; 10] = [
     "tuned_a320_um",
 ];
 
-/// Writes the table, and what the library spans to stderr.
+/// Writes the table, and when it goes to a file what the library spans to standard output.
 pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliError> {
     let cancel = CancelFlag::shared(signals::stop_flag()?);
     let mut meter = Meter::new("reading");
@@ -71,8 +71,12 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         row.end_row()?;
     }
     table.finish()?;
-    terminal::notice(&spread(&all, (&tuning, reference_db)));
-    Ok(())
+    match out {
+        // The table itself is on standard output.
+        None => Ok(()),
+        Some(file) if file == Path::new("-") => Ok(()),
+        Some(_) => output::print(&spread(&all, (&tuning, reference_db))),
+    }
 }
 
 /// What a library spans: ranges before and after its tuning, variation, anisotropy.
@@ -94,7 +98,7 @@ fn spread(all: &[Measured], tuning: (&Tuning, f64)) -> String {
     let n = all.len();
     format!(
         "{n} surfaces; A40 spans {plain40} dB and A320 {plain320} dB, tuned {tuned40} and \
-         {tuned320} dB; {n_strong} differ by more than {STRONG_DB} dB from direction to direction"
+         {tuned320} dB; {n_strong} differ by more than {STRONG_DB} dB from direction to direction\n"
     )
 }
 

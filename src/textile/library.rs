@@ -21,6 +21,9 @@ use crate::tactile::Tuning;
 /// The name of the index in a library's folder.
 pub(crate) const INDEX: &str = "library.toml";
 
+/// Textiles that are named when one is not found; more would hide what is wrong.
+const NAMED: usize = 20;
+
 /// Where a library's files lie.
 #[derive(Debug, Clone)]
 pub(crate) enum Store {
@@ -232,10 +235,12 @@ pub fn is_of_the_program(name: &Path) -> bool {
 
 /// There is no textile of that id.
 pub(crate) fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError {
-    let known = if ids.is_empty() {
-        "no textiles".to_owned()
-    } else {
-        ids.join(", ")
+    let known = match ids.split_at_checked(NAMED) {
+        _ if ids.is_empty() => "no textiles".to_owned(),
+        Some((named, rest)) if !rest.is_empty() => {
+            format!("{} and {} more", named.join(", "), rest.len())
+        }
+        _ => ids.join(", "),
     };
     TextileError::Unknown {
         id: id.to_owned(),
