@@ -214,6 +214,29 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
+    #[test]
+    fn a_library_of_the_program_keeps_its_name_wherever_the_scene_is_saved() {
+        let folder = std::env::temp_dir().join(format!("selvedge-moved-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for (named, is_kept) in [("seventy-four", true), ("textiles", false)] {
+            let scene = Scene {
+                library: Some(named.into()),
+                ..document().scene().clone()
+            };
+            let from = Path::new("/somewhere/a.scene.toml").to_owned();
+            let mut document = Document::new(scene, Some(from), Tuning::default());
+            document.save_as(&folder.join("b.scene.toml")).unwrap();
+            let library = document.scene().library.clone().unwrap();
+            assert_eq!(
+                library == Path::new(named),
+                is_kept,
+                "{}",
+                library.display()
+            );
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
     proptest! {
         #[test]
         fn undo_takes_everything_back_and_redo_brings_it_again(

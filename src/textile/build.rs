@@ -109,8 +109,8 @@ fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
 
 /// Builds every textile of the library `from` into the folder `to`.
 ///
-/// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are no models are copied. The
-/// work is shared among `n_threads`, which changes no byte.
+/// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are
+/// no models are copied. The work is shared among `n_threads`, which changes no byte.
 pub fn build_library(
     from: &Library,
     to: &Path,
