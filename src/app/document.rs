@@ -10,6 +10,7 @@ use super::editing;
 use super::history::{History, Moment};
 use crate::scene::{Scene, SceneError};
 use crate::tactile::Tuning;
+use crate::textile::is_of_the_program;
 
 /// A scene that is being edited.
 #[derive(Debug, Clone)]
@@ -110,9 +111,12 @@ impl Document {
             .filter(|old| old.parent() != path.parent())
         {
             // A library named relative to the old place would not be found from the new one.
-            scene.library = scene
-                .library_folder(old)
-                .map(|folder| std::path::absolute(&folder).unwrap_or(folder));
+            scene.library = scene.library_folder(old).map(|folder| {
+                if is_of_the_program(&folder) {
+                    return folder;
+                }
+                std::path::absolute(&folder).unwrap_or(folder)
+            });
         }
         scene.write(path)?;
         self.scene.library.clone_from(&scene.library);
@@ -207,6 +211,29 @@ mod tests {
         assert_eq!(Scene::read(&path).unwrap(), *document.scene());
         document.undo();
         assert!(document.is_edited(), "undone after saving");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_library_of_the_program_keeps_its_name_wherever_the_scene_is_saved() {
+        let folder = std::env::temp_dir().join(format!("selvedge-moved-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for (named, is_kept) in [("seventy-four", true), ("textiles", false)] {
+            let scene = Scene {
+                library: Some(named.into()),
+                ..document().scene().clone()
+            };
+            let from = Path::new("/somewhere/a.scene.toml").to_owned();
+            let mut document = Document::new(scene, Some(from), Tuning::default());
+            document.save_as(&folder.join("b.scene.toml")).unwrap();
+            let library = document.scene().library.clone().unwrap();
+            assert_eq!(
+                library == Path::new(named),
+                is_kept,
+                "{}",
+                library.display()
+            );
+        }
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

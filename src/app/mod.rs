@@ -77,5 +77,6 @@ pub use error::AppError;
 pub use native::{EndSwitch, run};
 pub use raster::{Picture, Rasteriser};
 pub use screenshot::{Screenshot, Theme, screenshot};
+pub use settings::build_cache;
 pub use study::studies;
 pub use window::{Drive, Workbench};

@@ -10,6 +10,7 @@ use eframe::egui;
 use super::error::AppError;
 use super::job::{Job, Polled};
 use super::rendering::Rendering;
+use super::settings::build_cache;
 use super::shelf;
 use super::view::ShelfItem;
 use crate::engine::PreparedScene;
@@ -87,7 +88,7 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
     let loaded = match &origin {
         Origin::New => LoadedScene::from_toml(EMPTY, Path::new("new scene"))?,
         Origin::Shipped => LoadedScene::shipped()?,
-        Origin::File(path) => LoadedScene::read(path)?,
+        Origin::File(path) => LoadedScene::read(path, build_cache().as_ref())?,
     };
     let mut cache = TableCache::default();
     let accuracy = rendering.accuracy();

@@ -26,6 +26,7 @@ mod textile;
 mod textile_catalogue;
 mod textile_import;
 mod textile_kes;
+mod textile_levels;
 mod textile_make;
 mod textile_models;
 mod usage;

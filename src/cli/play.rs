@@ -16,6 +16,7 @@ use clap::Args;
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::{CliError, output, signals, terminal};
+use crate::app;
 use crate::bridge::{
     Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target, fault_bit,
 };
@@ -64,7 +65,7 @@ pub(super) struct PlayArgs {
 
 /// Plays, and says how punctual it was.
 pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
-    let loaded = LoadedScene::read(&args.scene)?;
+    let loaded = LoadedScene::read(&args.scene, app::build_cache().as_ref())?;
     let source = source_of(args)?;
     check_port(&args.port)?;
     let scene = PreparedScene::prepare(&loaded, args.method, &Accuracy::within_db(args.budget_db))?;

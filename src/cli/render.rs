@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::render_out::{AmplitudeTable, DriveFile, SampleKind};
 use super::terminal::Meter;
 use super::{CliError, output, signals};
+use crate::app;
 use crate::files::to_json_string;
 use crate::progress::Cancelled;
 use crate::render::array::{Accuracy, Method};
@@ -82,7 +83,7 @@ struct StatsFile<'a> {
 
 /// Replays, and writes what was asked for.
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let loaded = LoadedScene::read(&args.scene)?;
+    let loaded = LoadedScene::read(&args.scene, app::build_cache().as_ref())?;
     let path = ExplorationPath::read(&args.path)?;
     let scene = RenderScene::of(&loaded);
     let stop = signals::stop_flag()?;

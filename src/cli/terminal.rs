@@ -49,9 +49,9 @@ impl Meter {
         }
         self.due = now + if self.is_terminal { REFRESH } else { LOG_EVERY };
         self.is_shown = true;
-        let seconds = now.duration_since(self.started).as_secs();
+        let spent = now.duration_since(self.started);
         let percent = (share * 100.0).floor();
-        let line = format!("{} {percent} %, {seconds} s {what}", self.doing);
+        let line = format!("{} {percent} %, {} {what}", self.doing, times(share, spent));
         if self.is_terminal {
             drop(write!(io::stderr(), "\r\x1b[2K{line}"));
             drop(io::stderr().flush());
@@ -61,10 +61,33 @@ impl Meter {
     }
 }
 
+/// Time spent, and the time left if the rest goes as fast; at first nobody knows.
+fn times(share: f64, spent: Duration) -> String {
+    let seconds = spent.as_secs();
+    if share < 0.02 {
+        return format!("{seconds} s");
+    }
+    let left = (spent.as_secs_f64() * (1.0 / share - 1.0)).ceil().max(0.0);
+    format!("{seconds} s, about {left} s left,")
+}
+
 impl Drop for Meter {
     fn drop(&mut self) {
         if self.is_shown && self.is_terminal {
             drop(write!(io::stderr(), "\r\x1b[2K"));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_follows_from_the_share_done() {
+        let spent = Duration::from_secs(3);
+        assert_eq!(times(0.0, spent), "3 s");
+        assert_eq!(times(0.25, spent), "3 s, about 9 s left,");
+        assert_eq!(times(1.0, spent), "3 s, about 0 s left,");
     }
 }

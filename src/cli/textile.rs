@@ -5,17 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use super::output::TableOut;
-use super::terminal::Meter;
 use super::textile_catalogue::{self, CatalogueArgs};
 use super::textile_import::{self, ConvertArgs, ImportArgs};
 use super::textile_kes::{self, ImportKesArgs};
-use super::textile_make::{self, MakeCommand};
+use super::textile_levels::levels;
+use super::textile_make::{self, BuildArgs, MakeCommand};
 use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
-use crate::quantity::{factor_of_gain, fixed};
+use crate::app;
+use crate::quantity::fixed;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, Representation, Surface};
-use crate::tactile::{Band, Filters, Levels, Tuning};
-use crate::textile::{Library, Textile};
+use crate::tactile::{Filters, Levels};
+use crate::textile::{Library, most_typical};
 
 /// What to do with textiles.
 #[derive(Debug, Subcommand)]
@@ -53,6 +54,13 @@ pub(super) enum TextileCommand {
         #[command(flatten)]
         from: FromLibrary,
     },
+    /// Pick the most typical textile of each kind of construction out of a library
+    Select {
+        #[command(flatten)]
+        from: FromLibrary,
+    },
+    /// Build every textile of a library into a folder
+    Build(BuildArgs),
     /// Make a textile from a recipe, or a library from recipes
     #[command(subcommand)]
     Make(MakeCommand),
@@ -76,15 +84,16 @@ pub(super) enum TextileCommand {
 /// The library that is meant.
 #[derive(Debug, Args)]
 pub(super) struct FromLibrary {
-    /// Folder of textiles (the library shipped in the program if none is named)
-    #[arg(long, value_name = "FOLDER")]
+    /// Folder of textiles, file of recipes or "seventy-four" (the shipped library of sixteen if
+    /// none is named)
+    #[arg(long, value_name = "LIBRARY")]
     library: Option<PathBuf>,
 }
 
 impl FromLibrary {
-    fn open(&self) -> Result<Library, CliError> {
+    pub(super) fn open(&self) -> Result<Library, CliError> {
         Ok(match &self.library {
-            Some(folder) => Library::open(folder)?,
+            Some(name) => Library::named(name, app::build_cache().as_ref())?,
             None => Library::shipped()?,
         })
     }
@@ -106,6 +115,8 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         } => show(&from.open()?, id),
         TextileCommand::Spectra { id, out, from } => spectra(&from.open()?, id, out.as_deref()),
         TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
+        TextileCommand::Select { from } => select(&from.open()?),
+        TextileCommand::Build(args) => textile_make::build(args),
         TextileCommand::Make(command) => textile_make::run(command),
         TextileCommand::LearnFourier(args) => textile_models::learn(args),
         TextileCommand::Import(args) => textile_import::import(args),
@@ -131,6 +142,17 @@ fn list(library: &Library) -> Result<(), CliError> {
         format!("{id:a$}  {construction:b$}  {fibre:c$}  {name}\n")
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
+    output::print(&lines.concat())
+}
+
+fn select(library: &Library) -> Result<(), CliError> {
+    let chosen = most_typical(library)?;
+    let width = chosen.iter().map(|(_, id)| id.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let lines: Vec<String> = chosen
+        .iter()
+        .map(|(kind, id)| format!("{id:width$}  {kind}\n"))
+        .collect();
     output::print(&lines.concat())
 }
 
@@ -220,67 +242,4 @@ fn spectra(library: &Library, id: &str, out: Option<&Path>) -> Result<(), CliErr
         }
     }
     table.finish()
-}
-
-const LEVELS_HEADER: [&str; 10] = [
-    "textile",
-    "a40_um",
-    "a320_um",
-    "level_db",
-    "cv40",
-    "cv320",
-    "anisotropy40_db",
-    "anisotropy320_db",
-    "tuned_a40_um",
-    "tuned_a320_um",
-];
-
-fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliError> {
-    let mut all: Vec<(std::sync::Arc<Textile>, Levels)> = Vec::new();
-    let mut meter = Meter::new("reading");
-    for (done, id) in library.ids().iter().enumerate() {
-        meter.show(done as f64 / library.ids().len() as f64, id);
-        let textile = library.load(id)?;
-        let levels = Levels::of(textile.surface(), &Filters::default());
-        all.push((textile, levels));
-    }
-    let tuning = library.default_tuning();
-    let known: Vec<f64> = all
-        .iter()
-        .filter_map(|(_, levels)| levels.level_db())
-        .collect();
-    let mean_db = known.iter().sum::<f64>() / known.len().max(1) as f64;
-    let reference_db = tuning.compression_reference_db.unwrap_or(mean_db);
-    let mut table = TableOut::new(out, &LEVELS_HEADER)?;
-    for (textile, levels) in &all {
-        let row = table.rows();
-        row.text(textile.id())
-            .number(levels.mean_um[0])
-            .number(levels.mean_um[1]);
-        match levels.level_db() {
-            Some(level_db) => row.number(level_db),
-            None => row.text(""),
-        };
-        for value in levels.cv.into_iter().chain(levels.anisotropy_db) {
-            row.number(value);
-        }
-        for band in Band::ALL {
-            row.number(tuned_um(textile, levels, (&tuning, reference_db), band));
-        }
-        row.end_row()?;
-    }
-    table.finish()
-}
-
-/// The mean amplitude of a band with a tuning and the textile's own gain, µm.
-fn tuned_um(
-    textile: &Textile,
-    levels: &Levels,
-    (tuning, reference_db): (&Tuning, f64),
-    band: Band,
-) -> f64 {
-    let gain_db = tuning.band_gain_db(band)
-        + textile.manifest().gain_db
-        + tuning.compression_gain_db(levels.level_db(), reference_db);
-    levels.mean_um[band.index()] * factor_of_gain(gain_db)
 }

@@ -3,14 +3,17 @@
 //! A recipe is a manifest whose source is a model: `selvedge textile show ID --recipe` prints one.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::{Args, Subcommand};
 
 use super::terminal::Meter;
+use super::textile::FromLibrary;
 use super::textile_models::{self, BrownianArgs, FourierArgs, RestorationArgs};
 use super::{CliError, output, signals};
 use crate::files::{self, FileError};
 use crate::progress::{CancelFlag, Progress};
+use crate::quantity::fixed;
 use crate::textile::{self, Library, Manifest};
 
 /// What to make.
@@ -34,6 +37,19 @@ pub(super) enum MakeCommand {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
+}
+
+/// A library of recipes, and where its textiles go.
+#[derive(Debug, Args)]
+pub(super) struct BuildArgs {
+    #[command(flatten)]
+    from: FromLibrary,
+    /// The folder that the textiles are written to, with a library.toml
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Threads that share the work (as many as the machine has); the bytes are the same
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
+    threads: Option<u8>,
 }
 
 /// A recipe, and where the textile goes.
@@ -74,17 +90,31 @@ pub(super) fn make(kind: &str, recipe: &Path, out: &Path) -> Result<(), CliError
 }
 
 fn make_library(from: &Path, to: &Path) -> Result<(), CliError> {
-    let library = Library::open(from)?;
+    build_into(&Library::open(from)?, to, None)
+}
+
+/// Builds every textile of a library anew, whatever is kept from before.
+pub(super) fn build(args: &BuildArgs) -> Result<(), CliError> {
+    build_into(&args.from.open()?, &args.out, args.threads)
+}
+
+fn build_into(library: &Library, to: &Path, n_threads: Option<u8>) -> Result<(), CliError> {
+    let started = Instant::now();
     let mut tuning = library.default_tuning();
     // The reference level follows from the textiles made.
     tuning.compression_reference_db = None;
     let cancel = CancelFlag::shared(signals::stop_flag()?);
+    let n_threads = n_threads.map_or_else(textile::n_threads, usize::from);
     let mut meter = Meter::new("making");
     let mut report = |share: f64, doing: &str| meter.show(share, doing);
     let mut progress = Progress::new(&mut report, cancel);
-    let index = textile::build_library(&library, to, tuning, &mut progress)?;
+    let index = textile::build_library(library, to, tuning, n_threads, &mut progress)?;
     let n_made = index.textiles.len();
-    output::print(&format!("{}: {n_made} textiles\n", to.display()))
+    let seconds = fixed(started.elapsed().as_secs_f64(), 1);
+    output::print(&format!(
+        "{}: {n_made} textiles in {seconds} s, {n_threads} threads\n",
+        to.display()
+    ))
 }
 
 /// Prints the recipe of a model.

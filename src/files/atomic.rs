@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{FileError, line_at};
 
@@ -61,9 +62,12 @@ pub fn create(path: &Path) -> Result<BufWriter<File>, FileError> {
     })?))
 }
 
+/// A name that no other process and no other thread of this one stages under.
 fn staged_path(path: &Path) -> PathBuf {
+    static STAGED: AtomicU64 = AtomicU64::new(0);
+    let nth = STAGED.fetch_add(1, Ordering::Relaxed);
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
+    name.push(format!(".{}-{nth}.part", std::process::id()));
     path.with_file_name(name)
 }
 

@@ -72,6 +72,33 @@ pub fn keys_to_string<T: Serialize>(value: &T, path: &Path) -> Result<String, Fi
         .map_err(|e| FileError::content(path, 1, e.to_string(), "this cannot be saved as TOML"))
 }
 
+/// Keys and values as a file states them, of whatever kind.
+pub type Keys = toml::Table;
+
+/// The text under `key`, taken out; `None` if it is not there or no text.
+pub fn take_text(keys: &mut Keys, key: &str) -> Option<String> {
+    match keys.remove(key)? {
+        toml::Value::String(text) => Some(text),
+        other => {
+            keys.insert(key.to_owned(), other);
+            None
+        }
+    }
+}
+
+/// Lays keys over others: a table within is laid over the table of its name, anything else stands
+/// in the place of what was there.
+pub fn lay_over(under: &mut Keys, over: Keys) {
+    for (key, value) in over {
+        match (under.get_mut(&key), value) {
+            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
+            (_, value) => {
+                under.insert(key, value);
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use serde::Deserialize;
@@ -113,5 +140,17 @@ mod tests {
             keys_from_str::<Thing>(&text, Path::new("a.toml")).unwrap(),
             thing
         );
+    }
+
+    #[test]
+    fn tables_are_laid_over_one_another_key_by_key() {
+        let read = |text: &str| keys_from_str::<Keys>(text, Path::new("a.toml")).unwrap();
+        let mut keys = read("a = 1\nid = \"x\"\n[t]\nb = 2\nc = [3, 4]\n[t.u]\nd = 5\n");
+        lay_over(&mut keys, read("e = 6\n[t]\nc = [7]\n[t.u]\nd = \"f\"\n"));
+        let wanted = "a = 1\ne = 6\nid = \"x\"\n[t]\nb = 2\nc = [7]\n[t.u]\nd = \"f\"\n";
+        assert_eq!(keys, read(wanted));
+        assert_eq!(take_text(&mut keys, "id"), Some("x".to_owned()));
+        assert_eq!(take_text(&mut keys, "a"), None);
+        assert!(keys.contains_key("a"), "what is no text stays");
     }
 }

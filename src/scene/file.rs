@@ -11,6 +11,7 @@ use super::{ArrayLayout, Geometry, SceneError};
 use crate::files::{self, FileError};
 use crate::geometry::{Displacement, Frame, Point, Rotation};
 use crate::tactile::{Filters, Tuning};
+use crate::textile::is_of_the_program;
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
 /// and upper edge no longer, mm.
@@ -21,8 +22,8 @@ const EDGE_MM: f64 = 1e-6;
 pub struct Scene {
     /// What people call it.
     pub name: String,
-    /// The library's folder, relative to the scene's file; `None` is the library shipped in the
-    /// program.
+    /// The library's folder or file of recipes, relative to the scene's file, or the name of one
+    /// that is part of the program; `None` is the library shipped in the program.
     pub library: Option<PathBuf>,
     /// Width and height of the workspace, mm.
     pub size_mm: [f64; 2],
@@ -162,9 +163,13 @@ impl Scene {
             .rposition(|t| t.contains(t.workspace_from_textile().into_point(point)))
     }
 
-    /// The library's folder as seen from where the program runs, for a scene file at `path`.
+    /// The library's folder as seen from where the program runs, for a scene file at `path`. A
+    /// library of the program keeps its name.
     pub fn library_folder(&self, path: &Path) -> Option<PathBuf> {
         let folder = self.library.as_ref()?;
+        if is_of_the_program(folder) {
+            return Some(folder.clone());
+        }
         Some(
             path.parent()
                 .map_or_else(|| folder.clone(), |beside| beside.join(folder)),

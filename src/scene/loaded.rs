@@ -7,10 +7,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Scene, SceneError};
+use super::{PlacedTextile, Scene, SceneError};
 use crate::files::{self, FileError};
+use crate::progress::unheard;
 use crate::tactile::{Filters, Levels, Tuning};
-use crate::textile::{Library, Textile, TextileError};
+use crate::textile::{BuildCache, Library, Textile, TextileError, is_of_the_program};
 
 /// The scene of four textiles that is part of the program.
 const SHIPPED: &str = include_str!("../../assets/scenes/four-alternatives.scene.toml");
@@ -32,14 +33,19 @@ impl LoadedScene {
         Self::from_toml(SHIPPED, Path::new(SHIPPED_PATH))
     }
 
-    /// Reads a scene file and loads what it places.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
-        Self::from_toml(&files::read_text(path)?, path)
+    /// Reads a scene file and loads what it places. Textiles that are built for it are kept in
+    /// `cache`.
+    pub fn read(path: &Path, cache: Option<&BuildCache>) -> Result<Self, SceneError> {
+        Self::from_text(&files::read_text(path)?, path, cache)
     }
 
     /// Reads the text of a scene file and loads what it places. The library's folder is relative
     /// to `path`.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, SceneError> {
+        Self::from_text(text, path, None)
+    }
+
+    fn from_text(text: &str, path: &Path, cache: Option<&BuildCache>) -> Result<Self, SceneError> {
         let scene = Scene::from_toml(text, path)?;
         let wrong = |(table, nth, key), what: String, mend: &str| {
             let line = files::line_of_key(text, table, nth, key);
@@ -47,11 +53,11 @@ impl LoadedScene {
         };
         let library = match scene.library_folder(path) {
             None => Library::shipped()?,
-            Some(folder) if !folder.is_dir() => {
+            Some(folder) if !is_of_the_program(&folder) && !folder.exists() => {
                 let what = format!("there is no library in {}", folder.display());
                 return Err(wrong(("", 0, "library"), what, "name a folder of textiles"));
             }
-            Some(folder) => Library::open(&folder)?,
+            Some(folder) => Library::named(&folder, cache)?,
         };
         let unknown = scene.textiles.iter().enumerate().find_map(|(nth, placed)| {
             let error = library.manifest(&placed.id).err()?;
@@ -78,19 +84,21 @@ impl LoadedScene {
     /// Another scene over the same library: textiles that are loaded already are kept.
     pub fn with_scene(&self, scene: Scene) -> Result<Self, SceneError> {
         scene.check()?;
-        let mut textiles: Vec<Arc<Textile>> = Vec::with_capacity(scene.textiles.len());
-        for placed in &scene.textiles {
-            let is_it = |textile: &&Arc<Textile>| textile.id() == placed.id;
-            let known = textiles
-                .iter()
-                .find(is_it)
-                .or_else(|| self.textiles.iter().find(is_it));
-            let textile = match known {
-                Some(textile) => Arc::clone(textile),
-                None => self.library.load(&placed.id)?,
-            };
-            textiles.push(textile);
+        let mut fresh: Vec<String> = Vec::new();
+        for PlacedTextile { id, .. } in &scene.textiles {
+            let is_known = self.textiles.iter().any(|textile| textile.id() == id);
+            if !is_known && !fresh.contains(id) {
+                fresh.push(id.clone());
+            }
         }
+        let fresh = unheard(|progress| self.library.load_all(&fresh, progress))?;
+        let find = |placed: &PlacedTextile| {
+            let mut known = self.textiles.iter().chain(&fresh);
+            known
+                .find(|textile| textile.id() == placed.id)
+                .map(Arc::clone)
+        };
+        let textiles: Vec<_> = scene.textiles.iter().filter_map(find).collect();
         let levels_db = levels_db(&textiles, &scene.filters);
         Ok(Self {
             scene,
@@ -154,7 +162,6 @@ fn levels_db(textiles: &[Arc<Textile>], filters: &Filters) -> Vec<Option<f64>> {
 mod tests {
     use super::*;
     use crate::geometry::Point;
-    use crate::scene::PlacedTextile;
 
     fn placed(id: &str) -> PlacedTextile {
         PlacedTextile {
@@ -216,6 +223,27 @@ mod tests {
             "still the same"
         );
         assert_eq!(moved.levels_db()[1], loaded.levels_db()[2]);
+    }
+
+    #[test]
+    fn a_scene_names_a_library_of_the_program_and_builds_what_it_places() {
+        let text = "name = \"A\"\nlibrary = \"seventy-four\"\nsize_mm = [60, 60]\n[[textile]]\n\
+                    id = \"silk-charmeuse-back\"\norigin_mm = [0, 0]\nsize_mm = [50, 50]\n";
+        let loaded = LoadedScene::from_toml(text, Path::new("/nowhere/a.toml")).unwrap();
+        assert_eq!(loaded.library().ids().len(), 74);
+        let [textile] = loaded.textiles() else {
+            panic!("{:?}", loaded.textiles());
+        };
+        assert_eq!(textile.manifest().name, "Silk charmeuse, back");
+        let stored = loaded.library().index().unwrap().entry(textile.id());
+        let apart_db = loaded.levels_db()[0].unwrap() - stored.unwrap().level_db().unwrap();
+        assert!(apart_db.abs() < 1e-4, "{apart_db} dB");
+        let again = Scene::from_toml(&loaded.scene().to_toml().unwrap(), Path::new("b.toml"));
+        assert_eq!(again.unwrap().library, Some("seventy-four".into()));
+        let moved = text.replace("seventy-four", "./seventy-four");
+        let error = LoadedScene::from_toml(&moved, Path::new("/nowhere/a.toml")).unwrap_err();
+        let expected = "/nowhere/a.toml:2: there is no library in";
+        assert!(error.to_string().starts_with(expected), "{error}");
     }
 
     #[test]

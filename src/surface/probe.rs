@@ -64,7 +64,11 @@ impl Probe {
         let drops = offsets(self.radius_mm, step_mm);
         let margin = drops.len() - 1;
         let n = heights_um.width().saturating_sub(2 * margin);
-        let (mut lift, mut rest) = (vec![0.0; n], vec![0.0; n]);
+        if n == 0 {
+            return Vec::new();
+        }
+        let mut lift = vec![0.0; n];
+        let mut rest = vec![0.0; n];
         for row in 0..heights_um.height() {
             rest_um(heights_um.row(row), &drops, &mut rest);
             for (sum, height) in lift.iter_mut().zip(&rest) {
@@ -118,17 +122,18 @@ fn offsets(radius_mm: f64, step_mm: f64) -> Vec<f64> {
     (0..).map_while(rise).collect()
 }
 
-/// Where a disc comes to rest over every place of a track that it reaches all around, µm.
+/// Where a disc comes to rest over a track, µm, for every place that it has room around.
+///
+/// Offset by offset over the whole track, not place by place: neighbours are then worked on at
+/// once, and which of the heights holds the disc does not depend on the order.
 fn rest_um(track: &[f64], drops: &[f64], rest: &mut [f64]) {
-    let margin = drops.len() - 1;
+    let middle = drops.len() - 1;
     rest.fill(f64::NEG_INFINITY);
-    for (offset, drop) in drops.iter().enumerate() {
-        // All places for one offset at a time: this runs several places in one instruction.
-        for from in [margin - offset, margin + offset] {
-            for (best, height) in rest.iter_mut().zip(&track[from.min(track.len())..]) {
-                let touch = height - drop;
-                *best = if touch > *best { touch } else { *best };
-            }
+    for shift in 0..=2 * middle {
+        let drop = drops[shift.abs_diff(middle)];
+        for (best, height) in rest.iter_mut().zip(&track[shift..]) {
+            let candidate = height - drop;
+            *best = if candidate > *best { candidate } else { *best };
         }
     }
 }

@@ -6,14 +6,14 @@
 use std::fs;
 use std::path::Path;
 
-use super::TextileError;
 use super::index::{Index, IndexEntry};
 use super::library::{INDEX, Library};
 use super::loaded::MANIFEST;
 use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
 use super::model::{Model, profiles_of_files};
+use super::{TextileError, workers};
 use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
-use crate::progress::Progress;
+use crate::progress::{Progress, unheard};
 use crate::surface::Direction;
 use crate::tactile::{Filters, Levels, Tuning};
 
@@ -111,26 +111,28 @@ pub fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
         .try_for_each(|file| write_atomic(&folder.join(&file.name), &file.bytes))
 }
 
-/// Builds every textile of the library `from` into the folder `to` and writes its index with this
-/// default tuning. Manifests of recipes are enough; textiles that are no models are copied.
+/// Builds every textile of the library `from` into the folder `to`.
+///
+/// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are
+/// no models are copied. The work is shared among `n_threads`, which changes no byte.
 pub fn build_library(
     from: &Library,
     to: &Path,
     tuning: Tuning,
+    n_threads: usize,
     progress: &mut Progress<'_>,
 ) -> Result<Index, TextileError> {
-    let n = from.ids().len().max(1) as f64;
-    for (done, id) in from.ids().iter().enumerate() {
-        progress.step(done as f64 / n, id)?;
+    let build = |id: &str| {
         let recipe = from.manifest(id)?;
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
             Source::Profiles(_) | Source::Heightmap(_) => copied(from, id, &recipe)?,
             _ => build(&recipe, &path)?,
         };
-        write(&files, &to.join(id))?;
-    }
-    let index = measure(from.ids(), to, tuning)?;
+        Ok(write(&files, &to.join(id))?)
+    };
+    workers::for_each(from.ids(), n_threads, progress, build)?;
+    let index = index_of(&Library::of_folder(to, from.ids()), tuning, n_threads)?;
     let path = to.join(INDEX);
     write_atomic(&path, index.to_toml(&path)?.as_bytes())?;
     progress.step(1.0, INDEX)?;
@@ -153,36 +155,36 @@ fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile
     names.into_iter().map(copy).collect()
 }
 
-fn measure(ids: &[String], folder: &Path, tuning: Tuning) -> Result<Index, TextileError> {
-    // A library without an index: what the folder holds, whatever an old index says.
-    let built = Library::of_folder(folder, ids);
-    index_of(&built, tuning)
-}
-
 /// The index of a library, from its profiles: levels with the default filters (to six digits), the
 /// mean level, the hash of what they were made from.
-pub(crate) fn index_of(library: &Library, tuning: Tuning) -> Result<Index, TextileError> {
-    let mut textiles = Vec::new();
-    let mut content: Vec<Vec<u8>> = Vec::new();
-    for id in library.ids() {
+pub(crate) fn index_of(
+    library: &Library,
+    tuning: Tuning,
+    n_threads: usize,
+) -> Result<Index, TextileError> {
+    let measure = |id: &str| {
         let textile = library.load(id)?;
         let levels = Levels::of(textile.surface(), &Filters::default());
         let [a40_um, a320_um] = levels.mean_um.map(six_digits);
-        textiles.push(IndexEntry {
-            id: id.clone(),
+        let mut content = vec![id.as_bytes().to_vec(), textile.file(MANIFEST)?];
+        for name in textile.manifest().source.files().0.into_iter().flatten() {
+            content.push(textile.file(&name)?);
+        }
+        let id = id.to_owned();
+        let entry = IndexEntry {
+            id,
             a40_um,
             a320_um,
-        });
-        content.push(id.clone().into_bytes());
-        content.push(library.file(id, MANIFEST)?.into_owned());
-        for name in textile.manifest().source.files().0.into_iter().flatten() {
-            content.push(library.file(id, &name)?.into_owned());
-        }
-    }
+        };
+        Ok((entry, content))
+    };
+    let measured =
+        unheard(|progress| workers::for_each(library.ids(), n_threads, progress, measure));
+    let (textiles, content): (Vec<IndexEntry>, Vec<_>) = measured?.into_iter().unzip();
     let levels: Vec<f64> = textiles.iter().filter_map(IndexEntry::level_db).collect();
     let mean = levels.iter().sum::<f64>() / levels.len().max(1) as f64;
     Ok(Index {
-        content_hash: sha256_hex(content.iter().map(Vec::as_slice)),
+        content_hash: sha256_hex(content.iter().flatten().map(Vec::as_slice)),
         compression_reference_db: (mean * 1e4).round() / 1e4,
         tuning,
         textiles,

@@ -12,6 +12,7 @@
 
 mod brownian;
 mod build;
+mod cache;
 mod catalogue;
 mod cloth;
 mod curve;
@@ -27,14 +28,18 @@ mod measured;
 pub mod metrology;
 mod model;
 mod profile_file;
+mod recipes;
 mod restoration;
+mod selection;
 mod shipped;
 mod weave;
+mod workers;
 
 pub use brownian::{Brownian, Generator, Hurst, Tip};
 pub use build::{BuiltFile, build, build_library, make, write};
+pub use cache::BuildCache;
 pub use catalogue::{sheet, write_catalogue, write_figure};
-pub use cloth::Yarn;
+pub use cloth::{Side, Yarn};
 pub use fourier::{
     Composition, Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings,
     example_templates, import, templates_from_toml, templates_to_toml,
@@ -46,13 +51,16 @@ pub use kes::{
     KesWords, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
 };
 pub use knit::{Knit, Structure};
-pub use library::Library;
+pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
 pub use measured::{Figure as MeasuredFigure, figures as measured_figures};
 pub use profile_file::read as read_profile;
+pub use recipes::SEVENTY_FOUR;
 pub use restoration::{Reduced, Restoration, Rule};
+pub use selection::{kind_of, most_typical};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
+pub use workers::n_threads;
 
 use std::path::PathBuf;
 
@@ -115,6 +123,16 @@ pub enum TextileError {
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// Nothing was measured on the textiles of a library.
+    #[error(
+        "{}: no levels were measured; build it with \"selvedge textile build\", which writes a \
+         library.toml",
+        library.display()
+    )]
+    NoIndex {
+        /// The library.
+        library: PathBuf,
+    },
     /// The work was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
-use super::cloth::{Cloth, PX_PER_MM, portrait, profiles, relief_map};
+use super::cloth::{Cloth, PX_PER_MM, Side, portrait, profiles, relief_map};
 use super::drawn::Drawn;
 use super::manifest::Source;
-use super::{TextileError, profile_file};
-use crate::files::Rgb8Image;
+use super::{TextileError, profile_file, shipped};
+use crate::files::{Rgb8Image, sha256_hex};
 use crate::numerics::Random;
 use crate::surface::{Direction, HeightMap, Probe, ProfileSet, SurfaceError};
 
@@ -16,6 +16,17 @@ const STEP_MM: f64 = 1.0 / 230.0;
 
 /// Distance of the points of a model's relief, about, mm: finer than the wire can follow.
 const RELIEF_STEP_MM: f64 = 0.02;
+
+/// What the bytes of a built textile follow from besides its recipe: this program. Raise it when a
+/// model changes what it makes; most changes show in the shipped library's own hash as well.
+const MODEL: &str = "selvedge models 2";
+
+/// Says which models build: other models, other text.
+pub(crate) fn version() -> String {
+    let program = env!("CARGO_PKG_VERSION");
+    let shipped = sha256_hex([shipped::INDEX.as_bytes()]);
+    format!("{MODEL}\n{program}\n{shipped}\n")
+}
 
 /// A model, ready to be felt.
 #[derive(Debug)]
@@ -33,10 +44,10 @@ pub(crate) enum Model {
 impl Model {
     /// The model of a source; `None` if it was measured.
     pub(crate) fn of(source: &Source) -> Result<Option<Self>, TextileError> {
-        let (cloth, seed, noise_um) = match source {
+        let (cloth, seed, noise_um, side) = match source {
             Source::Profiles(_) | Source::Heightmap(_) => return Ok(None),
-            Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um),
-            Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um),
+            Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um, weave.side),
+            Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um, knit.side),
             Source::Fourier(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),
             Source::Brownian(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),
             Source::Restoration(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),
@@ -45,10 +56,14 @@ impl Model {
             noise_um,
             ..Probe::default()
         };
+        let random = Random::new(u64::from(seed)).branch(match side {
+            Side::Face => "probe",
+            Side::Back => "probe on the back",
+        });
         Ok(Some(Self::Cloth {
             cloth: Box::new(cloth),
             probe,
-            random: Random::new(u64::from(seed)).branch("probe"),
+            random,
         }))
     }
 

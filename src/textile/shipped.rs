@@ -5,6 +5,12 @@
 /// `library.toml`.
 pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
 
+/// The recipes of the seventy-four.
+pub(crate) const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
+
+/// What was measured on the seventy-four, as a `library.toml`.
+pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
+
 /// One embedded file of a textile.
 macro_rules! embedded {
     ($id:literal, $name:literal) => {

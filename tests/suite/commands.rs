@@ -368,3 +368,56 @@ fn ports_can_be_listed_anywhere() {
     let outcome = Lab::new().run(&["bridge", "list"]);
     assert_eq!(outcome.code, 0, "{outcome:?}");
 }
+
+#[test]
+fn the_seventy_four_are_listed_without_building_one() {
+    let lab = Lab::with_scene();
+    let library = ["--library", "seventy-four"];
+    let list = lab.print(&[&["textile", "list"], &library[..]].concat());
+    assert_eq!(list.lines().count(), 74);
+    let select = lab.print(&[&["textile", "select"], &library[..]].concat());
+    let mut chosen: Vec<&str> = select.lines().filter_map(|l| l.split(' ').next()).collect();
+    let shipped = lab.print(&["textile", "list"]);
+    let mut main: Vec<&str> = shipped
+        .lines()
+        .filter_map(|l| l.split(' ').next())
+        .collect();
+    chosen.sort_unstable();
+    main.sort_unstable();
+    assert_eq!(chosen, main, "the most typical are the main library");
+    let show = [&["textile", "show", "denim-back", "--recipe"], &library[..]].concat();
+    assert!(
+        lab.print(&show).contains("side = \"back\""),
+        "the other side"
+    );
+}
+
+#[test]
+fn a_file_of_recipes_is_built_into_a_library() {
+    let lab = Lab::with_scene();
+    let recipes = "[[textile]]\nid = \"a\"\nname = \"A\"\nconstruction = \"woven\"\n\
+        fibre = \"wool\"\nsource = { kind = \"weave\", seed = 1, interlacing = \"plain\", \
+        warp_per_cm = 12, weft_per_cm = 12, warp = { width_um = 500, thickness_um = 150, \
+        colour = \"#888888\" }, weft = { width_um = 500, thickness_um = 150, \
+        colour = \"#999999\" } }\n[[textile]]\nid = \"b\"\nlike = \"a\"\n\
+        source.interlacing = \"herringbone\"\n";
+    lab.write("two.toml", recipes);
+    let build = ["textile", "build", "--library", "two.toml", "--out", "two"];
+    // On a busy machine these say how far they are, so stderr is not looked at.
+    let said = lab.run(&[&build[..], &["--threads", "2"]].concat()).out;
+    assert!(
+        said.starts_with("two: 2 textiles in ") && said.contains("2 threads"),
+        "{said}"
+    );
+    let levels = |library: &str| lab.run(&["textile", "levels", "--library", library]).out;
+    assert_eq!(levels("two").lines().count(), 3);
+    // Without a library.toml beside the recipes their mean level is the reference as well.
+    assert_eq!(
+        levels("two"),
+        levels("two.toml"),
+        "built before or on the spot"
+    );
+    let table = ["textile", "levels", "--library", "two", "--out", "l.csv"];
+    let spans = lab.run(&table).out;
+    assert!(spans.starts_with("2 surfaces; A40 spans "), "{spans}");
+}

@@ -77,6 +77,7 @@ impl Lab {
         command
             .args(args)
             .current_dir(&self.folder)
+            .env("XDG_CACHE_HOME", self.folder.join("cache"))
             .stdin(Stdio::null());
         for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
             command.env_remove(variable);

@@ -14,6 +14,7 @@ use std::thread::{self, JoinHandle};
 use std::{fs, io};
 
 use crate::files::{FileError, read_text, write_atomic};
+use crate::textile::BuildCache;
 
 /// The name of the file.
 const NAME: &str = "settings.toml";
@@ -39,6 +40,13 @@ struct Keeper {
     has_failed: bool,
     /// When it was written last, s.
     written_s: f64,
+}
+
+/// Where textiles that were built from recipes are kept for this user: a folder that may be
+/// deleted at any time. `None` on a system without such a place.
+pub fn build_cache() -> Option<BuildCache> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(BuildCache::in_folder(&folders.cache_dir().join("textiles")))
 }
 
 impl Settings {

@@ -4,6 +4,7 @@
 mod fibre;
 mod portrait;
 mod relief;
+mod side;
 mod strand;
 mod stroke;
 mod variation;
@@ -12,6 +13,8 @@ mod yarn;
 pub(crate) use fibre::add_hairs;
 pub(crate) use portrait::{PX_PER_MM, portrait};
 pub(crate) use relief::relief_map;
+pub use side::Side;
+pub(crate) use side::turn_over;
 pub(crate) use strand::{Cloth, Node, Strand};
 pub(crate) use stroke::profiles;
 pub(crate) use variation::{Drift, Field, count};

@@ -37,6 +37,8 @@ pub(crate) struct Relief {
 
 /// How far beyond its ends a straight piece is drawn, in half widths: bends have no gaps then.
 const OVERHANG: f64 = 0.3;
+/// What rounding can add to a height, µm, by far.
+const ROUNDING_UM: f64 = 1e-6;
 
 /// Two neighbouring nodes in the coordinates of a window.
 struct Piece<'a> {
@@ -46,6 +48,8 @@ struct Piece<'a> {
     ends: [&'a Node; 2],
     strand: &'a Strand,
     index: u32,
+    /// No point of it is higher, µm.
+    highest_um: f64,
 }
 
 impl Relief {
@@ -76,9 +80,10 @@ impl Relief {
             let tops = self.top.row_mut(row);
             for column in first_x..last_x {
                 let x = window.start_mm[0] + column as f64 * window.step_mm[0] - piece.from[0];
-                if let Some(height) = piece.height_um(x, y)
-                    && height > heights[column]
-                {
+                if piece.highest_um <= heights[column] {
+                    continue;
+                }
+                if let Some(height) = piece.height_above_um(heights[column], [x, y]) {
                     heights[column] = height;
                     tops[column] = piece.index;
                 }
@@ -180,6 +185,8 @@ impl<'a> Piece<'a> {
             [1.0, 0.0]
         };
         let length_mm = if length_mm > 1e-9 { length_mm } else { 0.0 };
+        let [a, b] = ends;
+        let highest_um = a.z_um.max(b.z_um) + a.half_thickness_um.max(b.half_thickness_um);
         Self {
             from,
             along,
@@ -187,11 +194,13 @@ impl<'a> Piece<'a> {
             ends,
             strand,
             index,
+            highest_um: highest_um + ROUNDING_UM,
         }
     }
 
-    /// Height of the strand at (x, y) from the start of the piece, µm; `None` beside it.
-    fn height_um(&self, x: f64, y: f64) -> Option<f64> {
+    /// Height of the strand at (x, y) from the start of the piece, µm; `None` beside it and where
+    /// it is not above `above_um`.
+    fn height_above_um(&self, above_um: f64, [x, y]: [f64; 2]) -> Option<f64> {
         let [a, b] = self.ends;
         let run = x * self.along[0] + y * self.along[1];
         let side = y * self.along[0] - x * self.along[1];
@@ -211,12 +220,13 @@ impl<'a> Piece<'a> {
         }
         let thickness = mix(a.half_thickness_um, b.half_thickness_um);
         let height = mix(a.z_um, b.z_um) + thickness * racetrack(across, self.strand.flatness);
-        if self.strand.ridge_um <= 0.0 {
-            return Some(height);
+        if height <= above_um || self.strand.ridge_um <= 0.0 {
+            return (height > above_um).then_some(height);
         }
         // A ridge climbs over the yarn while it runs along: half a turn from flank to flank.
         let phase = mix(a.twist_rad, b.twist_rad) + 2.5 * across;
-        Some(height - self.strand.ridge_um * (0.5 - 0.5 * phase.cos()))
+        let height = height - self.strand.ridge_um * (0.5 - 0.5 * phase.cos());
+        (height > above_um).then_some(height)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Knit;
-use super::structure::Stitch;
+use super::structure::{Pile, Stitch};
 use crate::numerics::Random;
 use crate::textile::cloth::{Drift, Field, Node, Strand, YarnRun, count};
 
@@ -64,8 +64,9 @@ impl<'a> Bed<'a> {
         }
     }
 
-    /// The courses; those of a second bed lie `behind_um` lower and half a wale aside.
-    pub(super) fn courses(&self, behind_um: f64, random: &Random) -> Vec<Strand> {
+    /// The courses; those of a second bed lie `behind_um` lower and half a wale aside. `facing` is
+    /// 1 where face stitches show their legs above, −1 where they show them below.
+    pub(super) fn courses(&self, behind_um: f64, facing: f64, random: &Random) -> Vec<Strand> {
         let yarn = &self.knit.yarn;
         let bands = yarn.bands(self.size_mm[0], &mut random.branch("bands"));
         let mut run = random.branch("yarns");
@@ -77,7 +78,7 @@ impl<'a> Bed<'a> {
             let mut nodes = Vec::with_capacity(self.n[0] * usize::from(PIECES) + 1);
             for wale in 0..self.n[0] {
                 for k in 0..PIECES {
-                    nodes.push(self.node(&run, [wale, course], (k, loop_mm), behind_um));
+                    nodes.push(self.node(&run, [wale, course], (k, loop_mm), (behind_um, facing)));
                 }
             }
             if let Some(&first) = nodes.first() {
@@ -101,7 +102,7 @@ impl<'a> Bed<'a> {
         run: &YarnRun<'_>,
         [wale, course]: [usize; 2],
         (piece, loop_mm): (u8, f64),
-        behind_um: f64,
+        (behind_um, facing): (f64, f64),
     ) -> Node {
         let share = f64::from(piece) / f64::from(PIECES);
         let t = TAU * share;
@@ -123,7 +124,8 @@ impl<'a> Bed<'a> {
         let height = self.height_mm() * stitch.length * (0.5 + 0.5 * pull);
         let u_mm = middle + stitch.shift * self.pitch_mm[1] - 0.5 * height * t.cos();
         let depth = self.knit.loop_depth_um * pull;
-        let z_um = stitch.lift * self.knit.relief_um * pull - stitch.face * depth * (2.0 * t).cos()
+        let z_um = stitch.lift * self.knit.relief_um * pull
+            - facing * stitch.face * depth * (2.0 * t).cos()
             + self.needles_um[wale] * (0.5 - 0.5 * t.cos())
             + self.knit.pucker_um * self.pucker.at(u_mm, w_mm)
             - behind_um;
@@ -161,8 +163,12 @@ impl<'a> Bed<'a> {
         }
     }
 
-    /// The loops of pile, one from every stitch, leaning with the nap.
+    /// The pile, a loop or a tuft from every stitch, leaning with the nap; none for other
+    /// structures.
     pub(super) fn pile(&self, random: &Random) -> Vec<Strand> {
+        let Some(pile) = self.knit.structure.pile() else {
+            return Vec::new();
+        };
         let mut random = random.branch("pile");
         let field = Field::new(self.size_mm, 2.5, &mut random);
         let mut strands = Vec::with_capacity(self.n[0] * self.n[1]);
@@ -171,7 +177,10 @@ impl<'a> Bed<'a> {
             for wale in 0..self.n[0] {
                 let root = [self.courses_mm[course], self.wales_mm[wale]];
                 let clump = (self.knit.pile_clump * field.at(root[0], root[1])).exp();
-                strands.push(self.pile_loop(&run, root, clump, &mut random));
+                strands.push(match pile {
+                    Pile::Loops => self.pile_loop(&run, root, clump, &mut random),
+                    Pile::Cut => self.tuft(&run, root, clump, &mut random),
+                });
             }
         }
         strands
@@ -200,6 +209,29 @@ impl<'a> Bed<'a> {
                 root[1] + lean[1] * rise + width * across * heading.cos(),
             ];
             run.node(place, height * rise, place[1])
+        };
+        let nodes = (0..=PILE_PIECES).map(node).collect();
+        run.strand(nodes)
+    }
+
+    /// The cut ends of a loop of pile: they bend with the nap and open like a brush.
+    fn tuft(&self, run: &YarnRun<'_>, root: [f64; 2], clump: f64, random: &mut Random) -> Strand {
+        // Shearing leaves less difference in height than loops have.
+        let height = self.knit.pile_um * clump * random.uniform_in(0.9, 1.1);
+        let lean = [
+            self.pitch_mm[1] * (1.0 + 0.3 * random.normal()),
+            0.3 * self.pitch_mm[0] * random.normal(),
+        ];
+        let node = |k: u8| {
+            let share = f64::from(k) / f64::from(PILE_PIECES);
+            let place = [
+                root[0] + lean[0] * share * share,
+                root[1] + lean[1] * share * share,
+            ];
+            let rise = (0.5 * PI * share).sin();
+            let mut node = run.node(place, height * rise, place[1]);
+            node.half_width_mm *= 0.5 + share;
+            node
         };
         let nodes = (0..=PILE_PIECES).map(node).collect();
         run.strand(nodes)

@@ -16,7 +16,7 @@ pub use structure::Structure;
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::cloth::{Cloth, Yarn, add_hairs};
+use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
 use super::manifest::{Checker, ProfileFiles};
 use crate::numerics::Random;
 use crate::surface::Representation;
@@ -45,6 +45,9 @@ pub struct Knit {
     /// Whether it is felt along four strokes or at every point of its relief.
     #[serde(default, skip_serializing_if = "Representation::is_default")]
     pub representation: Representation,
+    /// Which side of the cloth is touched.
+    #[serde(default, skip_serializing_if = "Side::is_face")]
+    pub side: Side,
     /// Chooses the irregularities.
     pub seed: u32,
     /// Which stitch stands where.
@@ -69,7 +72,7 @@ pub struct Knit {
     /// (tucks above plain ones), µm; below 0 where the others stand out.
     #[serde(default)]
     pub relief_um: f64,
-    /// Height of pile loops under the probe's load, µm.
+    /// Height of the pile under the probe's load, µm.
     #[serde(default)]
     pub pile_um: f64,
     /// How unevenly the pile stands: standard deviation of the logarithm.
@@ -181,21 +184,33 @@ impl Knit {
     pub(crate) fn cloth(&self) -> Cloth {
         let random = Random::new(u64::from(self.seed));
         let bed = course::Bed::new(self, &random);
-        let mut strands = bed.courses(0.0, &random.branch("front"));
+        let mut strands = bed.courses(0.0, 1.0, &random.branch("front"));
         let behind_um = 2.0 * self.loop_depth_um + self.yarn.thickness_um;
         if self.structure.has_second_bed() {
-            strands.extend(bed.courses(behind_um, &random.branch("second bed")));
+            // Both beds of such a cloth turn their legs outwards; the one behind is not felt, and
+            // which way it faces shows only when the cloth is turned over.
+            let facing = if self.side.is_face() { 1.0 } else { -1.0 };
+            let second = random.branch("second bed");
+            strands.extend(bed.courses(behind_um, facing, &second));
         }
-        if self.structure.has_pile() {
-            strands.extend(bed.pile(&random));
-        }
+        strands.extend(bed.pile(&random));
         let floor_um = -(behind_um + self.yarn.thickness_um + self.relief_um.abs());
         let mut cloth = Cloth {
             size_mm: bed.size_mm,
             strands,
             floor_um,
         };
-        add_hairs(&mut cloth, 0, &self.yarn, &mut random.branch("hairs"));
+        if self.side.is_face() {
+            add_hairs(&mut cloth, 0, &self.yarn, &mut random.branch("hairs"));
+            return cloth;
+        }
+        turn_over(&mut cloth.strands, cloth.size_mm[1]);
+        cloth.floor_um = cloth.lowest_um();
+        // A nap is raised on one side only.
+        if !self.structure.is_brushed() {
+            let random = random.branch("back");
+            add_hairs(&mut cloth, 0, &self.yarn, &mut random.branch("hairs"));
+        }
         cloth
     }
 }

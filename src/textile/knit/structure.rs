@@ -25,6 +25,17 @@ pub enum Structure {
     Terry,
     /// Jersey back with a float yarn laid in and brushed: the nap comes from the yarn's hairs.
     Fleece,
+    /// Jersey back with a tuft of cut pile standing on every stitch: plush, velour.
+    Plush,
+}
+
+/// What stands out of the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pile {
+    /// Loops.
+    Loops,
+    /// Sheared loops.
+    Cut,
 }
 
 /// One stitch of a repeat.
@@ -52,7 +63,7 @@ impl Structure {
     /// Wales and courses in a repeat.
     pub(crate) fn repeat(self) -> [usize; 2] {
         match self {
-            Self::Jersey | Self::ReverseJersey | Self::Terry | Self::Fleece => [1, 1],
+            Self::Jersey | Self::ReverseJersey | Self::Terry | Self::Fleece | Self::Plush => [1, 1],
             Self::Rib11 | Self::Interlock => [2, 1],
             Self::Rib22 => [4, 1],
             Self::Pique => [2, 4],
@@ -70,7 +81,7 @@ impl Structure {
         };
         match self {
             Self::Jersey => FACE,
-            Self::ReverseJersey | Self::Terry | Self::Fleece => BACK,
+            Self::ReverseJersey | Self::Terry | Self::Fleece | Self::Plush => BACK,
             Self::Rib11 => rib(wale.is_multiple_of(2)),
             Self::Rib22 => rib(wale % 4 < 2),
             Self::Interlock => {
@@ -102,8 +113,17 @@ impl Structure {
         matches!(self, Self::Interlock)
     }
 
-    /// Whether loops of pile stand out of the ground.
-    pub(crate) fn has_pile(self) -> bool {
-        matches!(self, Self::Terry)
+    /// The pile that stands out of the ground, if any.
+    pub(crate) fn pile(self) -> Option<Pile> {
+        match self {
+            Self::Terry => Some(Pile::Loops),
+            Self::Plush => Some(Pile::Cut),
+            _ => None,
+        }
+    }
+
+    /// Whether its fibres were raised on the side that the recipe describes, and only there.
+    pub(crate) fn is_brushed(self) -> bool {
+        matches!(self, Self::Fleece)
     }
 }

@@ -47,7 +47,7 @@ fn five_brownian_surfaces_are_equally_rough_and_their_exponents_come_back() {
     }
     assert_eq!(exponents, [0.1, 0.3, 0.5, 0.7, 0.9]);
     let index = library.index().unwrap();
-    assert_eq!(index_of(&library, index.tuning).unwrap(), *index);
+    assert_eq!(index_of(&library, index.tuning, 2).unwrap(), *index);
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn rebuild_the_brownian_library() {
     let library = library();
     let tuning = library.index().unwrap().tuning;
     let index =
-        crate::progress::unheard(|progress| build_library(&library, &out, tuning, progress));
+        crate::progress::unheard(|progress| build_library(&library, &out, tuning, 2, progress));
     assert_eq!(index.unwrap().textiles.len(), 5);
 }
 

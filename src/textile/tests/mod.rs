@@ -3,4 +3,5 @@
 mod areal;
 mod brownian;
 mod models;
+mod seventy_four;
 mod shipped;

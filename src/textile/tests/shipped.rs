@@ -167,7 +167,7 @@ fn the_shipped_textiles_are_as_rough_as_such_cloth() {
 fn the_shipped_index_is_what_its_profiles_give() {
     let library = Library::shipped().unwrap();
     let index = library.index().unwrap();
-    assert_eq!(index_of(&library, index.tuning).unwrap(), *index);
+    assert_eq!(index_of(&library, index.tuning, 2).unwrap(), *index);
     for id in library.ids() {
         let manifest = library.manifest(id).unwrap();
         let hash = manifest.source.recipe_hash(Path::new(id)).unwrap();
@@ -201,6 +201,6 @@ fn rebuild_the_shipped_library() {
     let library = Library::shipped().unwrap();
     let tuning = library.index().unwrap().tuning;
     let index =
-        crate::progress::unheard(|progress| build_library(&library, &out, tuning, progress));
+        crate::progress::unheard(|progress| build_library(&library, &out, tuning, 2, progress));
     assert_eq!(index.unwrap().textiles.len(), 16);
 }

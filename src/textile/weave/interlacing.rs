@@ -16,18 +16,35 @@ pub enum Interlacing {
 }
 
 /// The interlacings known by name, with their rows.
-pub const NAMES: [(&str, &[&str]); 10] = [
+pub const NAMES: [(&str, &[&str]); 15] = [
     ("plain", &["X.", ".X"]),
     ("twill-2-1", &["XX.", ".XX", "X.X"]),
     ("twill-2-2", &["XX..", ".XX.", "..XX", "X..X"]),
     ("twill-3-1", &["XXX.", ".XXX", "X.XX", "XX.X"]),
+    ("twill-1-3", &["X...", ".X..", "..X.", "...X"]),
+    (
+        "herringbone",
+        &[
+            "XX..XX..", ".XX..XX.", "..XX..XX", "X..XX..X", "..XX..XX", ".XX..XX.", "XX..XX..",
+            "X..XX..X",
+        ],
+    ),
     ("satin-5", &[".XXXX", "XXX.X", "X.XXX", "XXXX.", "XX.XX"]),
+    (
+        "satin-8",
+        &[
+            ".XXXXXXX", "XXX.XXXX", "XXXXXX.X", "X.XXXXXX", "XXXX.XXX", "XXXXXXX.", "XX.XXXXX",
+            "XXXXX.XX",
+        ],
+    ),
+    ("sateen-5", &["X....", "...X.", ".X...", "....X", "..X.."]),
     ("basket-2-2", &["XX..", "XX..", "..XX", "..XX"]),
     (
         "basket-3-3",
         &["XXX...", "XXX...", "XXX...", "...XXX", "...XXX", "...XXX"],
     ),
     ("warp-rib", &["X.", "X.", ".X", ".X"]),
+    ("weft-rib", &["XX..", "..XX"]),
     (
         "crepe",
         &[

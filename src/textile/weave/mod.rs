@@ -16,7 +16,7 @@ pub use interlacing::{Interlacing, NAMES};
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::cloth::{Cloth, Yarn, add_hairs};
+use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
 use super::manifest::{Checker, ProfileFiles};
 use crate::numerics::Random;
 use crate::surface::Representation;
@@ -45,6 +45,9 @@ pub struct Weave {
     /// Whether it is felt along four strokes or at every point of its relief.
     #[serde(default, skip_serializing_if = "Representation::is_default")]
     pub representation: Representation,
+    /// Which side of the cloth is touched.
+    #[serde(default, skip_serializing_if = "Side::is_face")]
+    pub side: Side,
     /// Chooses the irregularities.
     pub seed: u32,
     /// Which yarn lies on top where.
@@ -173,25 +176,30 @@ impl Weave {
                 floor_um,
             };
         };
-        let (size_mm, ends, picks) = crossing::strands(self, &repeat, &random);
-        let n_ends = ends.len();
+        let (size_mm, mut ends, mut picks) = crossing::strands(self, &repeat, &random);
+        let hairs = match self.side {
+            Side::Face => random,
+            Side::Back => {
+                turn_over(&mut ends, size_mm[1]);
+                turn_over(&mut picks, size_mm[1]);
+                random.branch("back")
+            }
+        };
         let mut cloth = Cloth {
             size_mm,
             strands: ends,
             floor_um,
         };
         // Hairs of the warp are rooted before the weft is there, so that each yarn has its own.
-        let mut picks = picks;
-        add_hairs(&mut cloth, 0, &self.warp, &mut random.branch("warp hairs"));
+        add_hairs(&mut cloth, 0, &self.warp, &mut hairs.branch("warp hairs"));
         let from = cloth.strands.len();
         cloth.strands.append(&mut picks);
         add_hairs(
             &mut cloth,
             from,
             &self.weft,
-            &mut random.branch("weft hairs"),
+            &mut hairs.branch("weft hairs"),
         );
-        debug_assert!(cloth.strands.len() >= n_ends, "ends stay");
         cloth
     }
 }

@@ -1,0 +1,116 @@
+//! `selvedge textile levels`: how strong every textile of a library is, and what the library spans.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::output::TableOut;
+use super::terminal::Meter;
+use super::{CliError, output, signals};
+use crate::progress::{CancelFlag, Progress};
+use crate::quantity::{factor_of_gain, fixed, level_db};
+use crate::tactile::{Band, Filters, Levels, Tuning};
+use crate::textile::{Library, Textile};
+
+/// A textile and its levels.
+type Measured = (Arc<Textile>, Levels);
+
+/// A textile whose directions differ by more is strongly anisotropic, dB.
+const STRONG_DB: f64 = 10.0;
+
+const LEVELS_HEADER: [&str; 10] = [
+    "textile",
+    "a40_um",
+    "a320_um",
+    "level_db",
+    "cv40",
+    "cv320",
+    "anisotropy40_db",
+    "anisotropy320_db",
+    "tuned_a40_um",
+    "tuned_a320_um",
+];
+
+/// Writes the table, and when it goes to a file what the library spans to standard output.
+pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliError> {
+    let cancel = CancelFlag::shared(signals::stop_flag()?);
+    let mut meter = Meter::new("reading");
+    let mut report = |share: f64, id: &str| meter.show(share, id);
+    let mut progress = Progress::new(&mut report, cancel);
+    let textiles = library.load_all(library.ids(), &mut progress)?;
+    drop(meter);
+    let all: Vec<Measured> = textiles
+        .into_iter()
+        .map(|textile| {
+            let levels = Levels::of(textile.surface(), &Filters::default());
+            (textile, levels)
+        })
+        .collect();
+    let tuning = library.default_tuning();
+    let known: Vec<f64> = all
+        .iter()
+        .filter_map(|(_, levels)| levels.level_db())
+        .collect();
+    let mean_db = known.iter().sum::<f64>() / known.len().max(1) as f64;
+    let reference_db = tuning.compression_reference_db.unwrap_or(mean_db);
+    let mut table = TableOut::new(out, &LEVELS_HEADER)?;
+    for (textile, levels) in &all {
+        let row = table.rows();
+        row.text(textile.id())
+            .number(levels.mean_um[0])
+            .number(levels.mean_um[1]);
+        match levels.level_db() {
+            Some(level_db) => row.number(level_db),
+            None => row.text(""),
+        };
+        for value in levels.cv.into_iter().chain(levels.anisotropy_db) {
+            row.number(value);
+        }
+        for band in Band::ALL {
+            row.number(tuned_um(textile, levels, (&tuning, reference_db), band));
+        }
+        row.end_row()?;
+    }
+    table.finish()?;
+    match out {
+        // The table itself is on standard output.
+        None => Ok(()),
+        Some(file) if file == Path::new("-") => Ok(()),
+        Some(_) => output::print(&spread(&all, (&tuning, reference_db))),
+    }
+}
+
+/// What a library spans: ranges before and after its tuning, variation, anisotropy.
+fn spread(all: &[Measured], tuning: (&Tuning, f64)) -> String {
+    let range_db = |of: &dyn Fn(&Measured) -> f64| {
+        let levels = all.iter().map(|one| level_db(of(one)));
+        let audible: Vec<f64> = levels.filter(|db| db.is_finite()).collect();
+        let highest = audible.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = audible.iter().copied().fold(f64::INFINITY, f64::min);
+        fixed((highest - lowest).max(0.0), 1)
+    };
+    let [plain40, plain320] = [0, 1].map(|b| range_db(&|(_, levels)| levels.mean_um[b]));
+    let [tuned40, tuned320] = Band::ALL
+        .map(|band| range_db(&|(textile, levels)| tuned_um(textile, levels, tuning, band)));
+    let n_strong = all
+        .iter()
+        .filter(|(_, levels)| levels.anisotropy_db.into_iter().any(|db| db > STRONG_DB))
+        .count();
+    let n = all.len();
+    format!(
+        "{n} surfaces; A40 spans {plain40} dB and A320 {plain320} dB, tuned {tuned40} and \
+         {tuned320} dB; {n_strong} differ by more than {STRONG_DB} dB from direction to direction\n"
+    )
+}
+
+/// The mean amplitude of a band with a tuning and the textile's own gain, µm.
+fn tuned_um(
+    textile: &Textile,
+    levels: &Levels,
+    (tuning, reference_db): (&Tuning, f64),
+    band: Band,
+) -> f64 {
+    let gain_db = tuning.band_gain_db(band)
+        + textile.manifest().gain_db
+        + tuning.compression_gain_db(levels.level_db(), reference_db);
+    levels.mean_um[band.index()] * factor_of_gain(gain_db)
+}
