@@ -113,9 +113,9 @@ mod tests {
 
     #[test]
     fn a_line_is_found_and_taken_off() {
-        let values: Vec<f64> = (0..50).map(|i| 3.0 - 0.25 * f64::from(i)).collect();
-        let points: Vec<[f64; 2]> = (0..50)
-            .map(|i| [f64::from(i), values[i as usize]])
+        let values: Vec<f64> = (0..50_u8).map(|i| 3.0 - 0.25 * f64::from(i)).collect();
+        let points: Vec<[f64; 2]> = (0..50_u8)
+            .map(|i| [f64::from(i), values[usize::from(i)]])
             .collect();
         let fit = LineFit::through(&points).unwrap();
         assert!(

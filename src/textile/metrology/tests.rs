@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::files::Number;
+use crate::textile::TextileError;
 use crate::textile::metrology::samples::{all, map, sur};
 
 /// Heights alike to `um`, missing in the same places.
@@ -146,13 +147,10 @@ fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
 }
 
 #[test]
-fn what_is_not_stated_is_asked_for_and_what_is_known_better_is_said() {
-    let path = Path::new("a.txt");
-    let read = |text: &str, asked: &Asked| open(text.as_bytes(), path, asked);
-    let two = "0.0 1.0\n0.1 2.0\n0.2 3.0\n";
+fn what_is_not_stated_or_wrong_is_asked_for_in_one_line() {
     for (text, expected) in [
         (
-            two,
+            TWO_COLUMNS,
             "the unit of the heights is not stated; give height_unit (--height-unit)",
         ),
         ("1\n2\n3\n", "the unit of the heights is not stated"),
@@ -181,36 +179,46 @@ fn what_is_not_stated_is_asked_for_and_what_is_known_better_is_said() {
             "every height is missing",
         ),
     ] {
-        let error = read(text, &Asked::default()).unwrap_err().to_string();
+        let error = read_text(text, &Asked::default()).unwrap_err().to_string();
         assert!(error.contains(expected), "{text:?}: {error}");
         assert!(
             error.starts_with("a.txt:") && !error.contains('\n'),
             "{error}"
         );
     }
+}
+
+const TWO_COLUMNS: &str = "0.0 1.0\n0.1 2.0\n0.2 3.0\n";
+
+fn read_text(text: &str, asked: &Asked) -> Result<Measured, TextileError> {
+    open(text.as_bytes(), Path::new("a.txt"), asked)
+}
+
+#[test]
+fn units_that_are_given_count_and_what_is_known_better_is_said() {
     let mut asked = Asked {
         height_unit: Some(LengthUnit::Nanometre),
         ..Asked::default()
     };
-    let error = read(two, &asked).unwrap_err().to_string();
+    let error = read_text(TWO_COLUMNS, &asked).unwrap_err().to_string();
     assert!(
         error.contains("the unit of the places is not stated"),
         "{error}"
     );
     asked.length_unit = Some(LengthUnit::Millimetre);
-    let profile = read(two, &asked).unwrap();
+    let profile = read_text(TWO_COLUMNS, &asked).unwrap();
     assert_eq!(
         (profile.step_mm[0], profile.heights_um.row(0)[2]),
         (0.1, 0.003)
     );
-    let falling = read("0.2;3,0\n0.1;2,0\n0.0;1,5\n", &asked).unwrap();
+    let falling = read_text("0.2;3,0\n0.1;2,0\n0.0;1,5\n", &asked).unwrap();
     assert_eq!(
         falling.heights_um.row(0)[0],
         0.0015,
         "falling places are turned round"
     );
     // A file that states its unit wrongly.
-    let stated = read("x_mm,height_m\n0,1\n0.1,2\n0.2,3\n", &asked).unwrap();
+    let stated = read_text("x_mm,height_m\n0,1\n0.1,2\n0.2,3\n", &asked).unwrap();
     assert_eq!(stated.heights_um.row(0)[1], 0.002);
     assert!(stated.warnings[0].contains("states heights in m; they are taken in nm"));
 }
@@ -280,8 +288,8 @@ fn lying_and_foreign_files_are_refused_in_one_line() {
 }
 
 /// A file of the test data: asked for, points missing, Sq in µm, and whose Sq it is:
-/// `ST` SurfaceTopography 1.27.1, `SFZ` surfalize 0.19.2, `RSC` rosettasciio 0.15.0, `NP` a plain
-/// reading with NumPy 2.4.6 of a file that the others refuse.
+/// `ST` `SurfaceTopography` 1.27.1, `SFZ` `surfalize` 0.19.2, `RSC` `rosettasciio` 0.15.0, `NP` a
+/// plain reading with `numpy` 2.4.6 of a file that the others refuse.
 const FILES: [(&str, &str, usize, f64, &str); 20] = [
     (
         "openfmc/ISO5436-sample1.x3p",

@@ -169,9 +169,9 @@ fn a_trace_explains_what_an_areal_surface_is_felt_as() {
     for (contactor, amplitudes_um) in found.iter().enumerate() {
         let trace = ContactTrace::of(&scene, 0, contactor, &pose).unwrap();
         let touch = trace.touch.unwrap();
-        for b in 0..2 {
-            let error = (trace.amplitudes_um[b] - amplitudes_um[b]).abs();
-            assert!(error <= 1e-9 * amplitudes_um[b], "{contactor}");
+        for (traced_um, felt_um) in trace.amplitudes_um.iter().zip(amplitudes_um) {
+            let error = (traced_um - felt_um).abs();
+            assert!(error <= 1e-9 * felt_um, "{contactor}");
         }
         let [warp, weft] = touch.directions.map(Option::unwrap);
         assert_eq!([warp.point, weft.point], [touch.points[0], touch.points[3]]);
