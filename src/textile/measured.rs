@@ -43,7 +43,7 @@ const fn known(
 }
 
 /// In the order in which a sheet shows them.
-const KNOWN: [Known; 24] = [
+const KNOWN: [Known; 25] = [
     known(["smd", "_um"], ["SMD", "roughness", "µm"], [0.0, 1e4], true),
     known(
         ["smd_official", "_um"],
@@ -54,13 +54,23 @@ const KNOWN: [Known; 24] = [
     known(
         ["hurst", ""],
         ["H", "Hurst exponent found", ""],
-        [-1.0, 3.0],
+        [0.0, 2.0],
         false,
     ),
     known(
         ["hurst_error", ""],
         ["± H", "standard error of H", ""],
         [0.0, 10.0],
+        false,
+    ),
+    known(
+        ["n_missing", ""],
+        [
+            "missing",
+            "points without a height, filled for the strokes",
+            "",
+        ],
+        [0.0, 64e6],
         false,
     ),
     known(["miu", ""], ["MIU", "mean friction", ""], [0.0, 10.0], true),

@@ -153,6 +153,14 @@ fn loudest_um(harness: &Harness<'_, Workbench>) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Brings a pane to the front by its tab, whose title is shortened where there is little room.
+fn click_tab(harness: &mut Harness<'_, Workbench>, title: &str) {
+    let first = title.split(' ').next().unwrap_or(title);
+    let tab = harness.query_by_label(title);
+    tab.unwrap_or_else(|| harness.get_by_label(first)).click();
+    harness.run_steps(2);
+}
+
 fn press(harness: &mut Harness<'_, Workbench>, modifiers: Modifiers, key: Key) {
     harness.key_press_modifiers(modifiers, key);
     harness.run_steps(3);

@@ -101,8 +101,7 @@ fn the_response_pane_computes_when_it_is_seen_and_something_changed() {
         .set_value_accesskit(30.0);
     harness.run_steps(3);
     assert_eq!(curves_computed(&harness), n_first + 2, "another speed");
-    harness.get_by_label("Spatial spectra").click();
-    harness.run_steps(2);
+    click_tab(&mut harness, "Spatial spectra");
     let n_hidden = curves_computed(&harness);
     stroke(&mut harness, 20);
     assert_eq!(curves_computed(&harness), n_hidden, "hidden again");

@@ -28,8 +28,7 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
         harness.run_steps(4);
         assert!(drawn(harness, title) > before, "{title} is not drawn");
         if let Some(front) = front {
-            harness.get_by_label(front).click();
-            harness.run_steps(2);
+            click_tab(harness, front);
         }
     }
     harness.render().unwrap();
