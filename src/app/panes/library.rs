@@ -23,7 +23,11 @@ const ROW: f32 = 36.0;
 const SWATCH: f32 = 28.0;
 /// How much cloth that piece shows, mm.
 const SWATCH_MM: f32 = 14.0;
-/// Most letters of a label.
+/// Width of a letter of a label, points.
+const LETTER: f32 = 8.0;
+/// Most letters of a label that the list shows: files may hold longer ones than can be typed.
+const MOST_SHOWN: usize = 5;
+/// Most letters that can be typed for a label.
 const MOST_LETTERS: usize = 3;
 /// Most rows of the scene that are in sight at once.
 const SCENE_ROWS: usize = 6;
@@ -256,22 +260,30 @@ fn show_placed(
         ui.label(RichText::new(words).color(Palette::in_ui(ui).dim));
         return;
     }
+    let labels = label_width(scene);
     let rows = ScrollArea::vertical().id_salt("placed").auto_shrink(false);
     rows.show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
         for index in range {
             if let Some(cloth) = scene.cloths.get(index) {
                 let marks = [selected == Some(index), scene.is_marked(index)];
-                show_cloth(ui, (index, cloth), audition, marks, wishes);
+                show_cloth(ui, (index, cloth), audition, (marks, labels), wishes);
             }
         }
     });
+}
+
+/// Room for the longest label, points: all names begin at one place.
+fn label_width(scene: &SceneView) -> f32 {
+    let letters = scene.cloths.iter().map(|cloth| cloth.label.chars().count());
+    let most = letters.max().unwrap_or(1).min(MOST_SHOWN);
+    (LETTER * most as f32).max(18.0)
 }
 
 fn show_cloth(
     ui: &mut Ui,
     (index, cloth): (usize, &Cloth),
     audition: &Audition,
-    [is_selected, is_marked]: [bool; 2],
+    ([is_selected, is_marked], labels): ([bool; 2], f32),
     wishes: &mut Wishes,
 ) {
     let palette = Palette::in_ui(ui);
@@ -312,13 +324,20 @@ fn show_cloth(
             };
             let (left, middle) = (rect.left() + 6.0, rect.center().y);
             if is_selected {
-                show_label_field(ui, rect, (index, cloth), wishes);
+                let place = rect.with_max_x(rect.left() + labels + 6.0);
+                show_label_field(ui, place, (index, cloth), wishes);
             } else {
                 let label = RichText::new(&cloth.label).font(theme::number());
-                paint_line(ui, pos2(left, middle), 18.0, label.color(palette.dim));
+                paint_line(ui, pos2(left, middle), labels, label.color(palette.dim));
             }
             let text = RichText::new(&cloth.name).font(theme::body()).color(ink);
-            paint_line(ui, pos2(left + 20.0, middle), rect.width() - 26.0, text);
+            let from = labels + 2.0;
+            paint_line(
+                ui,
+                pos2(left + from, middle),
+                rect.width() - from - 6.0,
+                text,
+            );
             if response.clicked() {
                 let choice = (!is_selected).then_some(index);
                 wishes.push(ShowCommand::SelectCloth(choice).into());
@@ -330,9 +349,14 @@ fn show_cloth(
 }
 
 /// The label of the chosen textile, to be typed over.
-fn show_label_field(ui: &mut Ui, row: Rect, (index, cloth): (usize, &Cloth), wishes: &mut Wishes) {
+fn show_label_field(
+    ui: &mut Ui,
+    place: Rect,
+    (index, cloth): (usize, &Cloth),
+    wishes: &mut Wishes,
+) {
     let mut label = cloth.label.clone();
-    let place = Rect::from_min_size(row.min, vec2(24.0, row.height())).shrink2(vec2(0.0, 2.0));
+    let place = place.shrink2(vec2(0.0, 2.0));
     let field = TextEdit::singleline(&mut label)
         .font(theme::number())
         .char_limit(MOST_LETTERS)
