@@ -129,39 +129,6 @@ fn to_byte(value: f64) -> u8 {
     ((value / GREY_STEP).round() * GREY_STEP).clamp(0.0, 255.0) as u8
 }
 
-/// The files and the hash that every model's keys hold alike, read and set.
-macro_rules! profile_file_keys {
-    ($keys:ty) => {
-        impl $keys {
-            /// The profile files that stand for the recipe, if it names them.
-            pub(crate) fn files(&self) -> crate::textile::manifest::ProfileFiles {
-                crate::textile::manifest::ProfileFiles([
-                    self.warp_forward.clone(),
-                    self.warp_reverse.clone(),
-                    self.weft_forward.clone(),
-                    self.weft_reverse.clone(),
-                ])
-            }
-
-            /// Names the profile files, and the recipe that they came from.
-            pub(crate) fn set_files(
-                &mut self,
-                files: crate::textile::manifest::ProfileFiles,
-                recipe_hash: Option<String>,
-            ) {
-                [
-                    self.warp_forward,
-                    self.warp_reverse,
-                    self.weft_forward,
-                    self.weft_reverse,
-                ] = files.0;
-                self.recipe_hash = recipe_hash;
-            }
-        }
-    };
-}
-pub(crate) use profile_file_keys;
-
 #[cfg(test)]
 mod tests {
     use super::*;

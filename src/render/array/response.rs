@@ -278,11 +278,12 @@ impl TextileResponse {
             let (warp, weft) = (pick(warp), pick(weft));
             [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
         };
+        let [least_um, most_um] = self.ends_um([warp, weft]);
         PointSpread {
             at_place_um: has_place.then(|| together(|powers| powers.at_place)),
             rms_um: together(|powers| powers.mean),
-            least_um: self.ends_um([warp, weft])[0],
-            most_um: self.ends_um([warp, weft])[1],
+            least_um,
+            most_um,
         }
     }
 

@@ -18,8 +18,8 @@ pub use hurst::Hurst;
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::drawn::{Drawn, profile_file_keys, thinned};
-use super::manifest::Checker;
+use super::drawn::{Drawn, thinned};
+use super::manifest::{Checker, profile_file_keys};
 use crate::numerics::{Grid, Random};
 use crate::surface::{HeightMap, Probe, ProfileSet};
 

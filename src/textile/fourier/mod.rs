@@ -20,8 +20,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::drawn::{Drawn, profile_file_keys};
-use super::manifest::Checker;
+use super::drawn::Drawn;
+use super::manifest::{Checker, profile_file_keys};
 use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
 use crate::numerics::Random;
 use crate::surface::HeightMap;

@@ -7,6 +7,7 @@ mod checker;
 mod profiles;
 
 pub(crate) use checker::Checker;
+pub(crate) use profiles::profile_file_keys;
 pub use profiles::{ProfileFiles, Profiles};
 
 use std::collections::BTreeMap;

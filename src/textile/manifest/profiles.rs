@@ -73,3 +73,36 @@ impl ProfileFiles {
         self.0[direction.index()].as_deref()
     }
 }
+
+/// The files and the hash that the keys of every recipe hold alike, read and set.
+macro_rules! profile_file_keys {
+    ($keys:ty) => {
+        impl $keys {
+            /// The profile files that stand for the recipe, if it names them.
+            pub(crate) fn files(&self) -> crate::textile::manifest::ProfileFiles {
+                crate::textile::manifest::ProfileFiles([
+                    self.warp_forward.clone(),
+                    self.warp_reverse.clone(),
+                    self.weft_forward.clone(),
+                    self.weft_reverse.clone(),
+                ])
+            }
+
+            /// Names the profile files, and the recipe that they came from.
+            pub(crate) fn set_files(
+                &mut self,
+                files: crate::textile::manifest::ProfileFiles,
+                recipe_hash: Option<String>,
+            ) {
+                [
+                    self.warp_forward,
+                    self.warp_reverse,
+                    self.weft_forward,
+                    self.weft_reverse,
+                ] = files.0;
+                self.recipe_hash = recipe_hash;
+            }
+        }
+    };
+}
+pub(crate) use profile_file_keys;

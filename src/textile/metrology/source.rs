@@ -13,7 +13,7 @@ use crate::surface::{
     WINDOW_LENGTH_MM,
 };
 use crate::textile::TextileError;
-use crate::textile::manifest::{Checker, ProfileFiles};
+use crate::textile::manifest::{Checker, profile_file_keys};
 
 /// Measured heights (`kind = "heightmap"`, or `"x3p"` for a file of that format).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,16 +24,16 @@ pub struct Heightmap {
     /// Hash of the recipe that the profiles came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe_hash: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_forward: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_reverse: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_forward: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
     /// Whether it is felt along four strokes or at every point of its relief.
@@ -81,6 +81,8 @@ fn default_seed() -> u32 {
     1
 }
 
+profile_file_keys!(Heightmap);
+
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
     pub(super) fn new(file: String, asked: &Asked) -> Self {
@@ -104,27 +106,6 @@ impl Heightmap {
             noise_um: default_noise(),
             seed: default_seed(),
         }
-    }
-
-    /// The profile files that were made.
-    pub(crate) fn files(&self) -> ProfileFiles {
-        ProfileFiles([
-            self.warp_forward.clone(),
-            self.warp_reverse.clone(),
-            self.weft_forward.clone(),
-            self.weft_reverse.clone(),
-        ])
-    }
-
-    /// Names the profile files that were made, and the recipe that they came from.
-    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
-        [
-            self.warp_forward,
-            self.warp_reverse,
-            self.weft_forward,
-            self.weft_reverse,
-        ] = files.0;
-        self.recipe_hash = recipe_hash;
     }
 
     /// Refuses values out of range.

@@ -16,8 +16,8 @@ pub use reduced::Reduced;
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::drawn::{Drawn, profile_file_keys};
-use super::manifest::Checker;
+use super::drawn::Drawn;
+use super::manifest::{Checker, profile_file_keys};
 use crate::numerics::{Grid, Random};
 use crate::surface::HeightMap;
 

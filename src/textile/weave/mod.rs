@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::TextileError;
 use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
-use super::manifest::{Checker, ProfileFiles};
+use super::manifest::{Checker, profile_file_keys};
 use crate::numerics::Random;
 use crate::surface::Representation;
 
@@ -30,16 +30,16 @@ pub struct Weave {
     /// Hash of the recipe that the profiles came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe_hash: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_forward: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_reverse: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_forward: Option<String>,
-    /// See [`ProfileFiles`].
+    /// See [`crate::textile::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
     /// Whether it is felt along four strokes or at every point of its relief.
@@ -114,6 +114,8 @@ fn default_noise_um() -> f64 {
     0.2
 }
 
+profile_file_keys!(Weave);
+
 impl Weave {
     /// Refuses what cannot be woven.
     pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
@@ -141,27 +143,6 @@ impl Weave {
         }
         self.warp.check(checker, "source.warp")?;
         self.weft.check(checker, "source.weft")
-    }
-
-    /// The profile files that stand for the recipe, if it names them.
-    pub(crate) fn files(&self) -> ProfileFiles {
-        ProfileFiles([
-            self.warp_forward.clone(),
-            self.warp_reverse.clone(),
-            self.weft_forward.clone(),
-            self.weft_reverse.clone(),
-        ])
-    }
-
-    /// Names the profile files, and the recipe that they came from.
-    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
-        [
-            self.warp_forward,
-            self.warp_reverse,
-            self.weft_forward,
-            self.weft_reverse,
-        ] = files.0;
-        self.recipe_hash = recipe_hash;
     }
 
     /// The cloth. Empty if the interlacing is none: [`Weave::check`] refuses that.
