@@ -66,6 +66,7 @@ impl Workbench {
             Some(Polled::Working) | None => {}
         }
         self.poll_exports(ctx);
+        self.poll_lab(ctx);
         self.transient.ports.poll();
         self.poll_measuring();
         match self.transient.dialogs.poll() {

@@ -43,6 +43,8 @@ mod history;
 mod inbox;
 mod inspect;
 mod job;
+mod keep;
+mod lab;
 mod maps;
 mod native;
 mod opening;

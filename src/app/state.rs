@@ -10,6 +10,7 @@ use super::dialogs::Dialogs;
 use super::export::Exports;
 use super::history::Moment;
 use super::job::Job;
+use super::lab::Lab;
 use super::maps::Maps;
 use super::opening::{Opening, Origin};
 use super::panes::{
@@ -86,6 +87,8 @@ pub(crate) struct Transient {
     pub(crate) curves: Curves,
     /// The textile whose curves were shown last.
     pub(crate) asked_textile: Option<usize>,
+    /// The textile lab.
+    pub(crate) lab: Lab,
     /// What the pointer rests on.
     pub(crate) hovered: Hovered,
     /// What the timeline remembers.

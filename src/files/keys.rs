@@ -75,6 +75,37 @@ pub fn keys_to_string<T: Serialize>(value: &T, path: &Path) -> Result<String, Fi
 /// Keys and values as a file states them, of whatever kind.
 pub type Keys = toml::Table;
 
+/// What a key states.
+pub type KeyValue = toml::Value;
+
+/// The value of a key in a table; `""` is the file itself, `outer.inner` a table within a table.
+/// `None` if it is not stated.
+pub fn value_at<'a>(keys: &'a Keys, table: &str, key: &str) -> Option<&'a KeyValue> {
+    if table.is_empty() {
+        return keys.get(key);
+    }
+    let (outer, inner) = table.split_once('.').unwrap_or((table, ""));
+    value_at(keys.get(outer)?.as_table()?, inner, key)
+}
+
+/// States a key in a table, which is added if it is not there; `None` takes the key away.
+pub fn set_value(keys: &mut Keys, table: &str, key: &str, value: Option<KeyValue>) {
+    if table.is_empty() {
+        match value {
+            Some(value) => keys.insert(key.to_owned(), value),
+            None => keys.remove(key),
+        };
+        return;
+    }
+    let (outer, inner) = table.split_once('.').unwrap_or((table, ""));
+    let within = keys
+        .entry(outer)
+        .or_insert_with(|| KeyValue::Table(Keys::new()));
+    if let KeyValue::Table(within) = within {
+        set_value(within, inner, key, value);
+    }
+}
+
 /// The text under `key`, taken out; `None` if it is not there or no text.
 pub fn take_text(keys: &mut Keys, key: &str) -> Option<String> {
     match keys.remove(key)? {

@@ -35,7 +35,10 @@ pub use gray16::{
 pub use hash::{md5_hex, sha256_hex};
 pub use inflate::{deflate, inflate};
 pub use json::{from_json_str, to_json_string};
-pub use keys::{Keys, keys_from_str, keys_to_string, lay_over, line_of_key, take_text};
+pub use keys::{
+    KeyValue, Keys, keys_from_str, keys_to_string, lay_over, line_of_key, set_value, take_text,
+    value_at,
+};
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use table::{Table, TableWriter};

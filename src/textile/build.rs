@@ -166,10 +166,8 @@ pub(crate) fn index_of(
         let textile = library.load(id)?;
         let levels = Levels::of(textile.surface(), &Filters::default());
         let [a40_um, a320_um] = levels.mean_um.map(six_digits);
-        let mut content = vec![id.as_bytes().to_vec(), textile.file(MANIFEST)?];
-        for name in textile.manifest().source.files().0.into_iter().flatten() {
-            content.push(textile.file(&name)?);
-        }
+        let mut content = vec![id.as_bytes().to_vec()];
+        content.extend(textile.content()?);
         let id = id.to_owned();
         let entry = IndexEntry {
             id,

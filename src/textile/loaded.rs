@@ -6,7 +6,7 @@ use super::library::Store;
 use super::manifest::{Manifest, Source};
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
-use crate::files::{Rgb8Image, decode_png};
+use crate::files::{Rgb8Image, decode_png, sha256_hex};
 use crate::surface::{Direction, FrictionTrace, HeightMap, ProfileSet, Representation, Surface};
 
 /// A textile, ready to be felt.
@@ -111,6 +111,26 @@ impl Textile {
     /// The bytes of a file of its own.
     pub(crate) fn file(&self, name: &str) -> Result<Vec<u8>, TextileError> {
         Ok(self.store.read(&self.id, name)?.into_owned())
+    }
+
+    /// Its manifest and its profile files, as bytes.
+    pub(crate) fn content(&self) -> Result<Vec<Vec<u8>>, TextileError> {
+        let names = self.manifest.source.files().0.into_iter().flatten();
+        let names = std::iter::once(MANIFEST.to_owned()).chain(names);
+        names.map(|name| self.file(&name)).collect()
+    }
+
+    /// SHA-256 of its manifest and of the files that its surface comes from: what a textile that
+    /// is made from it names.
+    ///
+    /// # Errors
+    /// A file that has vanished.
+    pub fn content_hash(&self) -> Result<String, TextileError> {
+        let mut content = self.content()?;
+        if let (Source::Heightmap(keys), 1) = (&self.manifest.source, content.len()) {
+            content.push(self.file(&keys.file)?);
+        }
+        Ok(sha256_hex(content.iter().map(Vec::as_slice)))
     }
 
     /// Its picture, decoded now; `None` if the manifest names none.

@@ -27,11 +27,13 @@ mod manifest;
 mod measured;
 pub mod metrology;
 mod model;
+mod parameter;
 mod profile_file;
 mod recipes;
 mod restoration;
 mod selection;
 mod shipped;
+mod trial;
 mod weave;
 mod workers;
 
@@ -53,12 +55,18 @@ pub use kes::{
 pub use knit::{Knit, Structure};
 pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
-pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
+pub use manifest::{
+    AppearanceKeys, Construction, Manifest, Parent, ProfileFiles, Profiles, Provenance, Source,
+};
 pub use measured::{Figure as MeasuredFigure, figures as measured_figures};
+pub use parameter::{
+    Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
+};
 pub use profile_file::read as read_profile;
-pub use recipes::SEVENTY_FOUR;
+pub use recipes::{SEVENTY_FOUR, is_id};
 pub use restoration::{Reduced, Restoration, Rule};
 pub use selection::{kind_of, most_typical};
+pub use trial::Trial;
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 pub use workers::n_threads;
 

@@ -92,10 +92,19 @@ impl Model {
 
     /// The relief of the whole cloth, which repeats: heights of the model itself, without a probe;
     /// `None` of what is no cloth.
-    fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+    pub(crate) fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
         match self {
             Self::Cloth { cloth, .. } => Some(relief_map(cloth, RELIEF_STEP_MM)),
             Self::Drawn(_) => None,
+        }
+    }
+
+    /// Heights over an area to look at: a cloth's relief with points about so far apart, or the
+    /// patch of what was drawn.
+    pub(crate) fn relief(&self, step_mm: f64) -> Result<HeightMap, SurfaceError> {
+        match self {
+            Self::Cloth { cloth, .. } => relief_map(cloth, step_mm),
+            Self::Drawn(drawn) => Ok(drawn.patch.clone()),
         }
     }
 

@@ -15,6 +15,8 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::keep::Keep;
+use super::lab::LabCommand;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
@@ -42,6 +44,10 @@ pub(crate) enum Command {
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
     Accuracy(AccuracyCommand),
+    /// Do something in the textile lab.
+    Lab(LabCommand),
+    /// Keep a new textile.
+    Keep(Keep),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -73,6 +79,12 @@ impl From<CompareCommand> for Command {
 impl From<PlayCommand> for Command {
     fn from(command: PlayCommand) -> Self {
         Self::Play(command)
+    }
+}
+
+impl From<LabCommand> for Command {
+    fn from(command: LabCommand) -> Self {
+        Self::Lab(command)
     }
 }
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use super::trace::ContactInspector;
 use crate::geometry::{Rotation, Velocity};
 use crate::render::plan::{Axis, Component, PointGrid};
-use crate::surface::{Direction, LocalSpectra};
+use crate::surface::{Direction, LocalSpectra, Surface};
 use crate::tactile::{Filters, SpeedResponse};
 
 /// One textile as it is heard through filters and gains, apart from where it lies: cheap to clone,
@@ -126,6 +126,18 @@ impl ContactInspector {
 }
 
 impl TextileResponse {
+    /// A surface by itself, lying straight, without gains.
+    pub fn of_surface(surface: &Surface, filters: &Filters) -> Self {
+        let spectra = Direction::ALL.map(|direction| Arc::clone(surface.spectra(direction)));
+        Self {
+            points: spectra.each_ref().map(|found| PointGrid::new(found.shape())),
+            spectra,
+            textile_from_workspace: Rotation::NONE,
+            filters: *filters,
+            factors: [1.0; 2],
+        }
+    }
+
     /// Whether both hear the same spectra, placed alike, through the same filters and gains.
     pub fn is_same(&self, other: &Self) -> bool {
         let bits = |response: &Self| response.factors.map(f64::to_bits);

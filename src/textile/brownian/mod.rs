@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::TextileError;
 use super::drawn::{Drawn, thinned};
 use super::manifest::{Checker, profile_file_keys};
+use super::parameter::{Number, numbers};
 use crate::numerics::{Grid, Random};
 use crate::surface::{HeightMap, Probe, ProfileSet};
 
@@ -105,6 +106,17 @@ pub struct Brownian {
 
 profile_file_keys!(Brownian);
 
+/// The numbers of a Brownian surface that are always there, and its two amplitudes.
+pub(crate) const NUMBERS: &[Number<Brownian>] = numbers! { Brownian;
+    hurst "Hurst exponent" 0.01..=0.99 "" "Low is jagged, high gently rolling";
+    length_mm "Side" 5.0..=50.0 "mm" "Side of the patch";
+    step_mm "Step" 0.005..=0.2 "mm" "Distance of its points: 1000 along a side are the most";
+    noise_um "Noise of the tip" 0.0..=10.0 "µm" "Noise of the tip, rms";
+    smd_um "Roughness SMD" 0.0..=1000.0 "µm" "Amplitude: the mean roughness of the four strokes";
+    rise_um "Rise over 1 mm" 0.0..=1000.0 "µm"
+        "Amplitude: the expected rms rise between points 1 mm apart";
+};
+
 fn exact() -> Generator {
     Generator::Exact
 }
@@ -154,11 +166,7 @@ impl Brownian {
 
     /// Refuses what is no Brownian surface.
     pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        let within = |key, value, range| checker.within("source", key, value, range);
-        within("hurst", self.hurst, 0.01..=0.99)?;
-        within("length_mm", self.length_mm, 5.0..=50.0)?;
-        within("step_mm", self.step_mm, 0.005..=0.2)?;
-        within("noise_um", self.noise_um, 0.0..=10.0)?;
+        Number::check(NUMBERS, self, (checker, "source"))?;
         let n = self.length_mm / self.step_mm;
         if n > MOST_POINTS + 0.5 {
             let what = format!("length_mm / step_mm is {n:.0} points");
@@ -166,8 +174,7 @@ impl Brownian {
             return Err(checker.wrong("source", "step_mm", what, mend));
         }
         match (self.smd_um, self.rise_um) {
-            (Some(smd_um), None) => within("smd_um", smd_um, 0.0..=1000.0)?,
-            (None, Some(rise_um)) => within("rise_um", rise_um, 0.0..=1000.0)?,
+            (Some(_), None) | (None, Some(_)) => {}
             (both, _) => {
                 let key = if both.is_some() { "rise_um" } else { "kind" };
                 let mend = "give exactly one of smd_um and rise_um";

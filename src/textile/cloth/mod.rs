@@ -18,5 +18,6 @@ pub(crate) use side::turn_over;
 pub(crate) use strand::{Cloth, Node, Strand};
 pub(crate) use stroke::profiles;
 pub(crate) use variation::{Drift, Field, count};
+pub(crate) use yarn::NUMBERS as YARN_NUMBERS;
 pub use yarn::Yarn;
 pub(crate) use yarn::YarnRun;

@@ -7,6 +7,7 @@ use super::variation::{Drift, count};
 use crate::numerics::Random;
 use crate::textile::TextileError;
 use crate::textile::manifest::Checker;
+use crate::textile::parameter::{Number, numbers};
 
 /// A yarn: section, twist, irregularity, loose fibres, colour.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,6 +75,36 @@ pub struct Yarn {
     pub colour_cv: f64,
 }
 
+/// The numbers of a yarn.
+pub(crate) const NUMBERS: &[Number<Yarn>] = numbers! { Yarn;
+    width_um "Width" 10.0..=5000.0 "µm" "Width of the section as it lies in the cloth";
+    thickness_um "Thickness" 10.0..=5000.0 "µm" "Thickness of the section as it lies in the cloth";
+    flatness "Flatness" 0.0..=0.9 "" "Share of the width that is flat: 0 elliptic, 0.9 a tape";
+    count_cv "Uneven count" 0.0..=0.6 "" "Variation of the thickness from yarn to yarn";
+    uneven_cv "Unevenness" 0.0..=0.6 "" "Variation of the thickness along a yarn";
+    uneven_mm "Length of unevenness" 0.5..=50.0 "mm"
+        "Correlation length of the variation along a yarn";
+    slubs_per_m "Slubs" 0.0..=200.0 "/m" "Thick places per metre of yarn";
+    slub_gain "Gain of slubs" 0.0..=4.0 "" "How much thicker a slub is: 0.5 is half as thick again";
+    slub_mm "Length of slubs" 0.5..=100.0 "mm" "Length of a slub";
+    band_cv "Bands" 0.0..=0.6 ""
+        "Barré: standard deviation of the thickness between groups of yarns";
+    band_mm "Width of bands" 0.5..=20.0 "mm" "Width of a band";
+    twist_per_m "Twist" 0.0..=5000.0 "/m" "Turns per metre";
+    plies "Plies" 1.0..=8.0 "" "Plies, or filament bundles, that show as ridges";
+    ridge_um "Ridges" 0.0..=500.0 "µm" "Depth of the ridges";
+    hairs_per_mm2 "Hairs" 0.0..=100.0 "/mm²" "Loose fibres on the surface";
+    hair_mm "Length of hairs" 0.1..=10.0 "mm" "Length of a loose fibre";
+    hair_um "Thickness of hairs" 1.0..=500.0 "µm"
+        "Thickness of a loose fibre, or of a tuft that acts as one";
+    hair_lift_um "Lift of hairs" 0.0..=3000.0 "µm"
+        "How far a loose fibre stands off the yarn under the probe's load";
+    hair_clump "Clumped hairs" 0.0..=2.0 ""
+        "How unevenly the loose fibres are raised: standard deviation of the logarithm";
+    colour_cv "Uneven colour" 0.0..=0.6 ""
+        "How much the lightness varies from yarn to yarn, standard deviation";
+};
+
 fn default_uneven_mm() -> f64 {
     3.0
 }
@@ -96,32 +127,7 @@ fn default_hair_um() -> f64 {
 impl Yarn {
     /// Refuses figures that no yarn has.
     pub(crate) fn check(&self, checker: &Checker<'_>, table: &str) -> Result<(), TextileError> {
-        let share = 0.0..=0.6;
-        let limits = [
-            ("width_um", self.width_um, 10.0..=5000.0),
-            ("thickness_um", self.thickness_um, 10.0..=5000.0),
-            ("flatness", self.flatness, 0.0..=0.9),
-            ("count_cv", self.count_cv, share.clone()),
-            ("uneven_cv", self.uneven_cv, share.clone()),
-            ("uneven_mm", self.uneven_mm, 0.5..=50.0),
-            ("slubs_per_m", self.slubs_per_m, 0.0..=200.0),
-            ("slub_gain", self.slub_gain, 0.0..=4.0),
-            ("slub_mm", self.slub_mm, 0.5..=100.0),
-            ("band_cv", self.band_cv, share.clone()),
-            ("band_mm", self.band_mm, 0.5..=20.0),
-            ("twist_per_m", self.twist_per_m, 0.0..=5000.0),
-            ("plies", f64::from(self.plies), 1.0..=8.0),
-            ("ridge_um", self.ridge_um, 0.0..=500.0),
-            ("hairs_per_mm2", self.hairs_per_mm2, 0.0..=100.0),
-            ("hair_mm", self.hair_mm, 0.1..=10.0),
-            ("hair_um", self.hair_um, 1.0..=500.0),
-            ("hair_lift_um", self.hair_lift_um, 0.0..=3000.0),
-            ("hair_clump", self.hair_clump, 0.0..=2.0),
-            ("colour_cv", self.colour_cv, share),
-        ];
-        for (key, value, range) in limits {
-            checker.within(table, key, value, range)?;
-        }
+        Number::check(NUMBERS, self, (checker, table))?;
         if parse_colour(&self.colour).is_none() {
             let what = format!("colour is \"{}\"", self.colour);
             return Err(checker.wrong(table, "colour", what, "write it as \"#rrggbb\""));

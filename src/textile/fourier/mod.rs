@@ -14,6 +14,7 @@ mod tests;
 pub use readings::{Imported, Readings, import};
 pub use series::FourierSeries;
 pub use template::FourierTemplate;
+pub(crate) use template::NUMBERS as TEMPLATE_NUMBERS;
 
 use std::path::Path;
 
@@ -22,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::TextileError;
 use super::drawn::Drawn;
 use super::manifest::{Checker, profile_file_keys};
+use super::parameter::{Number, numbers};
 use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
 use crate::numerics::Random;
 use crate::surface::HeightMap;
@@ -104,6 +106,14 @@ pub struct Fourier {
 
 profile_file_keys!(Fourier);
 
+/// The numbers of a surface from a template.
+pub(crate) const NUMBERS: &[Number<Fourier>] = numbers! { Fourier;
+    length_mm "Mirrored beyond" 5.0..=100.0 "mm" "Beyond this the surface is mirrored";
+    step_mm "Step" 0.004..=0.5 "mm" "Distance of the samples";
+    lowest_per_m "From" 0.0..=1e5 "/m" "Harmonics below this are left out, cycles per metre";
+    highest_per_m "To" 0.0..=1e5 "/m" "Harmonics above this are left out, cycles per metre";
+};
+
 fn default_lowest_per_m() -> f64 {
     100.0
 }
@@ -151,9 +161,7 @@ impl Fourier {
     /// Refuses what cannot be drawn.
     pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
-        within("length_mm", self.length_mm, 5.0..=100.0)?;
-        within("step_mm", self.step_mm, 0.004..=0.5)?;
-        within("lowest_per_m", self.lowest_per_m, 0.0..=1e5)?;
+        Number::check(NUMBERS, self, (checker, "source"))?;
         within("highest_per_m", self.highest_per_m, self.lowest_per_m..=1e5)?;
         let most_per_m = 500.0 / self.step_mm;
         if self.highest_per_m > most_per_m {

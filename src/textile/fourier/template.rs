@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::numerics::RealTransform;
 use crate::surface::Profile;
 use crate::textile::TextileError;
+use crate::textile::parameter::{Number, numbers};
 
 /// Most harmonics of a template.
 pub(super) const MOST_HARMONICS: usize = 2000;
@@ -39,6 +40,11 @@ pub struct FourierTemplate {
     /// Their standard deviation, µm.
     pub sd_sin_um: Vec<f64>,
 }
+
+/// The numbers of a template beside its coefficients.
+pub(crate) const NUMBERS: &[Number<FourierTemplate>] = numbers! { FourierTemplate;
+    fundamental_per_m "Harmonic 1" 0.1..=10_000.0 "/m" "Harmonic 1, cycles per metre";
+};
 
 impl FourierTemplate {
     /// The template of a material by several of its profiles, with harmonics 1 … `n_harmonics` (as
@@ -97,9 +103,13 @@ impl FourierTemplate {
     /// What is wrong with it, if anything: the key, what, and how to mend it.
     pub(crate) fn fault(&self) -> Option<(&'static str, String, String)> {
         let n = self.mean_cos_um.len();
-        if !(0.1..=10_000.0).contains(&self.fundamental_per_m) {
-            let what = format!("fundamental_per_m is {}", self.fundamental_per_m);
-            return Some(("fundamental_per_m", what, "give 0.1 to 10000".to_owned()));
+        for number in NUMBERS {
+            let (key, least, most) = (number.key, number.least, number.most);
+            let value = (number.get)(self).unwrap_or(least);
+            if !(least..=most).contains(&value) {
+                let what = format!("{key} is {value}");
+                return Some((key, what, format!("give {least} to {most}")));
+            }
         }
         if n == 0 || n > MOST_HARMONICS {
             let what = format!("{n} harmonics");

@@ -196,6 +196,7 @@ impl KesImport {
             source: Source::Profiles(profiles),
             appearance: None,
             measured: self.figures.measured(),
+            provenance: None,
         };
         let path = Path::new(MANIFEST);
         let text = manifest.to_toml(path)?;

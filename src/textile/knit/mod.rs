@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::TextileError;
 use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
 use super::manifest::{Checker, profile_file_keys};
+use super::parameter::{Number, numbers};
 use crate::numerics::Random;
 use crate::surface::Representation;
 
@@ -133,31 +134,39 @@ fn default_noise_um() -> f64 {
 
 profile_file_keys!(Knit);
 
+/// The numbers of a knit.
+pub(crate) const NUMBERS: &[Number<Knit>] = numbers! { Knit;
+    wales_per_cm "Wales" 1.0..=40.0 "/cm" "Columns of loops per centimetre";
+    courses_per_cm "Courses" 1.0..=50.0 "/cm" "Rows of loops per centimetre";
+    loop_height "Height of loops" 1.0..=3.0 ""
+        "Height of a loop in courses: above 1, since loops overlap";
+    bulge "Bulge" 0.0..=0.3 ""
+        "How much the loop bulges at head and feet, share of the wale pitch";
+    leg_spread "Spread of legs" 0.0..=0.15 ""
+        "How far the legs of a loop stand apart beyond half a wale, share of the wale pitch";
+    needle_um "Needle lines" 0.0..=200.0 "µm" "Standard deviation of the height of a wale";
+    loop_depth_um "Depth of loops" 1.0..=2000.0 "µm"
+        "How far legs and arcs stand before and behind the middle of the cloth";
+    relief_um "Relief" -1000.0..=3000.0 "µm"
+        "Height of the raised above the sunken stitches of a rib or a piqué";
+    pile_um "Pile" 0.0..=5000.0 "µm" "Height of the pile under the probe's load";
+    pile_clump "Uneven pile" 0.0..=2.0 ""
+        "How unevenly the pile stands: standard deviation of the logarithm";
+    tension_drift "Tension drift" 0.0..=0.5 ""
+        "Standard deviation of the loop size from place to place";
+    drift_mm "Drift length" 1.0..=10.0 "mm" "Over what length tension and bow change";
+    pitch_cv "Uneven pitch" 0.0..=0.3 ""
+        "Standard deviation of the places of wales and courses, share of their pitch";
+    bow_um "Bow" 0.0..=2000.0 "µm" "Standard deviation of the bow of a course";
+    pucker_um "Pucker" 0.0..=500.0 "µm" "Out-of-plane puckering by lively twist, rms";
+    pucker_mm "Size of puckers" 0.5..=10.0 "mm" "Size of the puckers";
+    noise_um "Noise of the probe" 0.0..=10.0 "µm" "Noise of the probe, rms";
+};
+
 impl Knit {
     /// Refuses what cannot be knitted.
     pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        let limits = [
-            ("wales_per_cm", self.wales_per_cm, 1.0..=40.0),
-            ("courses_per_cm", self.courses_per_cm, 1.0..=50.0),
-            ("loop_height", self.loop_height, 1.0..=3.0),
-            ("bulge", self.bulge, 0.0..=0.3),
-            ("leg_spread", self.leg_spread, 0.0..=0.15),
-            ("needle_um", self.needle_um, 0.0..=200.0),
-            ("loop_depth_um", self.loop_depth_um, 1.0..=2000.0),
-            ("relief_um", self.relief_um, -1000.0..=3000.0),
-            ("pile_um", self.pile_um, 0.0..=5000.0),
-            ("pile_clump", self.pile_clump, 0.0..=2.0),
-            ("tension_drift", self.tension_drift, 0.0..=0.5),
-            ("drift_mm", self.drift_mm, 1.0..=10.0),
-            ("pitch_cv", self.pitch_cv, 0.0..=0.3),
-            ("bow_um", self.bow_um, 0.0..=2000.0),
-            ("pucker_um", self.pucker_um, 0.0..=500.0),
-            ("pucker_mm", self.pucker_mm, 0.5..=10.0),
-            ("noise_um", self.noise_um, 0.0..=10.0),
-        ];
-        for (key, value, range) in limits {
-            checker.within("source", key, value, range)?;
-        }
+        Number::check(NUMBERS, self, (checker, "source"))?;
         self.yarn.check(checker, "source.yarn")
     }
 

@@ -5,10 +5,12 @@
 
 mod checker;
 mod profiles;
+mod provenance;
 
 pub(crate) use checker::Checker;
 pub(crate) use profiles::profile_file_keys;
 pub use profiles::{ProfileFiles, Profiles};
+pub use provenance::{Parent, Provenance};
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -58,6 +60,9 @@ pub struct Manifest<S = Source> {
     /// Figures with units in their names, such as `smd_um`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub measured: BTreeMap<String, f64>,
+    /// The textiles that it was made from, and by which program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
 }
 
 /// How a textile is made.
@@ -286,6 +291,9 @@ impl Manifest {
         for (key, value) in &self.measured {
             measured::check(checker, key, *value)?;
         }
+        if let Some(provenance) = &self.provenance {
+            provenance.check(checker)?;
+        }
         self.source.check(checker)
     }
 }
@@ -303,6 +311,7 @@ impl<S> Manifest<S> {
             source: wrap(self.source),
             appearance: self.appearance,
             measured: self.measured,
+            provenance: self.provenance,
         }
     }
 }

@@ -166,6 +166,7 @@ fn manifest(
             .map(|(key, um)| (key.to_owned(), um))
             .into_iter()
             .collect(),
+        provenance: None,
     }
 }
 

@@ -11,6 +11,7 @@ mod reduced;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use reduced::NUMBERS as REDUCED_NUMBERS;
 pub use reduced::Reduced;
 
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use super::TextileError;
 use super::drawn::Drawn;
 use super::manifest::{Checker, profile_file_keys};
+use super::parameter::{Number, numbers};
 use crate::numerics::{Grid, Random};
 use crate::surface::HeightMap;
 
@@ -88,6 +90,12 @@ pub struct Restoration {
 
 profile_file_keys!(Restoration);
 
+/// The numbers of a restored surface beside those of its profiles.
+pub(crate) const NUMBERS: &[Number<Restoration>] = numbers! { Restoration;
+    length_mm "Side" 5.0..=100.0 "mm" "Side of the patch";
+    step_mm "Step" 0.002..=0.1 "mm" "Distance of the samples";
+};
+
 fn yes() -> bool {
     true
 }
@@ -125,8 +133,7 @@ impl Restoration {
 
     /// Refuses what cannot be restored.
     pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        checker.within("source", "length_mm", self.length_mm, 5.0..=100.0)?;
-        checker.within("source", "step_mm", self.step_mm, 0.002..=0.1)?;
+        Number::check(NUMBERS, self, (checker, "source"))?;
         for (is_weft, table) in [(false, "source.warp"), (true, "source.weft")] {
             if let Some((key, what, mend)) = self.of_axis(is_weft).fault() {
                 return Err(checker.wrong(table, key, what, mend));

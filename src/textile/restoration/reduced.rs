@@ -8,6 +8,7 @@ use super::period::{line, period};
 use crate::numerics::{Complex, Random, RealTransform, without_line};
 use crate::surface::Profile;
 use crate::textile::TextileError;
+use crate::textile::parameter::{Number, numbers};
 
 /// Bands an octave of the residual.
 const BANDS_PER_OCTAVE: f64 = 3.0;
@@ -42,6 +43,14 @@ pub struct Reduced {
     #[serde(default)]
     pub residual_um: Vec<f64>,
 }
+
+/// The numbers of a reduced profile.
+pub(crate) const NUMBERS: &[Number<Reduced>] = numbers! { Reduced;
+    smd_um "Roughness SMD" 0.0..=1e5 "µm" "What the restored profile is brought to";
+    period_mm "Period" 1e-3..=1e3 "mm" "The period of its harmonics";
+    residual_from_per_mm "Residual from" 1e-4..=1e3 "/mm"
+        "Where the first band of the residual begins, cycles per mm";
+};
 
 impl Reduced {
     /// Reduces a profile to at most `n_harmonics` harmonics and the spectrum of the rest.
@@ -132,17 +141,21 @@ impl Reduced {
             let is_wrong = |value: &&f64| !(least..=most).contains(*value);
             values.iter().find(is_wrong).copied()
         };
+        for &Number {
+            key,
+            least,
+            most,
+            get,
+            ..
+        } in NUMBERS
+        {
+            if let Some(value) = get(self).and_then(|value| outside(&[value], least, most)) {
+                return Some((key, format!("{key} holds {value}"), range(least, most)));
+            }
+        }
         for (key, values, least, most) in [
-            ("smd_um", &[self.smd_um][..], 0.0, 1e5),
-            ("period_mm", &[self.period_mm.unwrap_or(1.0)][..], 1e-3, 1e3),
             ("amplitude_um", &self.amplitude_um[..], 0.0, 1e5),
             ("phase_deg", &self.phase_deg[..], -1e6, 1e6),
-            (
-                "residual_from_per_mm",
-                &[self.residual_from_per_mm][..],
-                1e-4,
-                1e3,
-            ),
             ("residual_um", &self.residual_um[..], 0.0, 1e5),
         ] {
             if let Some(value) = outside(values, least, most) {

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::TextileError;
 use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
 use super::manifest::{Checker, profile_file_keys};
+use super::parameter::{Number, numbers};
 use crate::numerics::Random;
 use crate::surface::Representation;
 
@@ -116,26 +117,30 @@ fn default_noise_um() -> f64 {
 
 profile_file_keys!(Weave);
 
+/// The numbers of a weave.
+pub(crate) const NUMBERS: &[Number<Weave>] = numbers! { Weave;
+    warp_per_cm "Ends" 2.0..=100.0 "/cm" "Ends per centimetre";
+    weft_per_cm "Picks" 2.0..=100.0 "/cm" "Picks per centimetre";
+    crimp_share "Crimp of the warp" 0.0..=1.0 "" "Share of the crimp that the warp takes";
+    compaction "Compaction" 0.1..=1.2 ""
+        "How far apart crossing yarns stand, as a share of half the sum of their thicknesses";
+    float_lift_um "Lift of floats" 0.0..=500.0 "µm"
+        "How far a float bulges for every crossing that it passes";
+    tension_drift "Tension drift" 0.0..=0.5 ""
+        "Standard deviation of the crimp share from place to place";
+    drift_mm "Drift length" 1.0..=10.0 "mm" "Over what length tension and bow change";
+    pitch_cv "Uneven pitch" 0.0..=0.3 ""
+        "Standard deviation of the places of yarns, share of their pitch";
+    bow_um "Bow" 0.0..=2000.0 "µm" "Standard deviation of the bow of a yarn";
+    pucker_um "Pucker" 0.0..=500.0 "µm" "Out-of-plane puckering by lively twist, rms";
+    pucker_mm "Size of puckers" 0.5..=10.0 "mm" "Size of the puckers";
+    noise_um "Noise of the probe" 0.0..=10.0 "µm" "Noise of the probe, rms";
+};
+
 impl Weave {
     /// Refuses what cannot be woven.
     pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        let limits = [
-            ("warp_per_cm", self.warp_per_cm, 2.0..=100.0),
-            ("weft_per_cm", self.weft_per_cm, 2.0..=100.0),
-            ("crimp_share", self.crimp_share, 0.0..=1.0),
-            ("compaction", self.compaction, 0.1..=1.2),
-            ("float_lift_um", self.float_lift_um, 0.0..=500.0),
-            ("tension_drift", self.tension_drift, 0.0..=0.5),
-            ("drift_mm", self.drift_mm, 1.0..=10.0),
-            ("pitch_cv", self.pitch_cv, 0.0..=0.3),
-            ("bow_um", self.bow_um, 0.0..=2000.0),
-            ("pucker_um", self.pucker_um, 0.0..=500.0),
-            ("pucker_mm", self.pucker_mm, 0.5..=10.0),
-            ("noise_um", self.noise_um, 0.0..=10.0),
-        ];
-        for (key, value, range) in limits {
-            checker.within("source", key, value, range)?;
-        }
+        Number::check(NUMBERS, self, (checker, "source"))?;
         if let Err(what) = self.interlacing.repeat() {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
             let mend = format!("give rows of X and . or one of {}", names.join(", "));

@@ -1,0 +1,230 @@
+//! A recipe while it is edited: its keys, of which any may be wrong for the moment.
+
+use std::path::Path;
+
+use super::{ParameterKind, Place, groups};
+use crate::files::{
+    FileError, KeyValue, Keys, keys_from_str, keys_to_string, line_of_key, set_value, value_at,
+};
+use crate::textile::manifest::{Construction, Manifest, Source};
+use crate::textile::restoration::{Reduced, Restoration, Rule};
+use crate::textile::{
+    Brownian, Fourier, Generator, Library, Textile, TextileError, example_templates,
+};
+
+/// What a draft is called where an error names a file.
+const DRAFT: &str = "the recipe";
+/// Most harmonics that are kept of a profile that is restored.
+const N_HARMONICS: usize = 12;
+
+/// A recipe while it is edited: a manifest's keys. Reading it checks them all, as the reader of
+/// files does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draft {
+    keys: Keys,
+}
+
+/// What is wrong with a draft.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// The parameter that is wrong; `None` if it is none that can be set by itself.
+    pub place: Option<Place>,
+    /// What is wrong and how to mend it, one line.
+    pub words: String,
+}
+
+impl Draft {
+    /// The recipe of a manifest, without files, picture and figures made from it.
+    ///
+    /// # Errors
+    /// A source that is no recipe.
+    pub fn of(manifest: &Manifest) -> Result<Self, TextileError> {
+        let path = Path::new(DRAFT);
+        if groups(manifest.source.kind()).is_empty() {
+            return Err(TextileError::NoRecipe {
+                path: path.to_owned(),
+                kind: manifest.source.kind(),
+            });
+        }
+        let recipe = Manifest {
+            source: manifest.source.recipe(),
+            appearance: None,
+            measured: std::collections::BTreeMap::new(),
+            provenance: None,
+            ..manifest.clone()
+        };
+        let mut keys: Keys = keys_from_str(&recipe.to_toml(path)?, path)?;
+        for parameter in groups(manifest.source.kind())
+            .iter()
+            .flat_map(|group| &group.parameters)
+        {
+            let Place { table, key } = parameter.place;
+            let first = match parameter.kind {
+                ParameterKind::Choice(words) => words.first().copied(),
+                _ => None,
+            };
+            // Files leave out the usual words; a draft states them.
+            if let (Some(word), None) = (first, value_at(&keys, table, key)) {
+                set_value(&mut keys, table, key, Some(word.into()));
+            }
+        }
+        Ok(Self { keys })
+    }
+
+    /// The kind of recipe, as files spell it.
+    pub fn kind(&self) -> &str {
+        let kind = value_at(&self.keys, "source", "kind");
+        kind.and_then(KeyValue::as_str).unwrap_or_default()
+    }
+
+    /// The value of a parameter; `None` if it is left out.
+    pub fn value(&self, place: Place) -> Option<&KeyValue> {
+        value_at(&self.keys, place.table, place.key)
+    }
+
+    /// The value of a parameter as a number; `None` if it is left out or no number.
+    pub fn number(&self, place: Place) -> Option<f64> {
+        let value = self.value(place)?;
+        let whole = || value.as_integer().and_then(|n| i32::try_from(n).ok());
+        value.as_float().or_else(|| whole().map(f64::from))
+    }
+
+    /// Sets a parameter, or leaves it out.
+    pub fn set(&mut self, place: Place, value: Option<KeyValue>) {
+        set_value(&mut self.keys, place.table, place.key, value);
+    }
+
+    /// The value that a parameter has where a file does not state it; `None` if it must be stated.
+    pub fn default_of(&self, place: Place) -> Option<KeyValue> {
+        let mut without = self.clone();
+        without.set(place, None);
+        let manifest = without.read().ok()?;
+        Self::of(&manifest).ok()?.value(place).cloned()
+    }
+
+    /// Whether a table of the recipe is there: the weft profile may be left out.
+    pub fn has_table(&self, table: &str) -> bool {
+        let (outer, inner) = table.rsplit_once('.').unwrap_or(("", table));
+        value_at(&self.keys, outer, inner).is_some()
+    }
+
+    /// The manifest, checked as one that is read from a file.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn read(&self) -> Result<Manifest, Fault> {
+        let path = Path::new(DRAFT);
+        let text = keys_to_string(&self.keys, path).map_err(|error| self.fault("", &error))?;
+        Manifest::from_toml(&text, path).map_err(|error| match &error {
+            TextileError::File(file) => self.fault(&text, file),
+            other => Fault {
+                place: None,
+                words: other.to_string(),
+            },
+        })
+    }
+
+    /// What is wrong with a file, said of the parameter on its line.
+    fn fault(&self, text: &str, error: &FileError) -> Fault {
+        let FileError::Content {
+            line, what, mend, ..
+        } = error
+        else {
+            return Fault {
+                place: None,
+                words: error.to_string(),
+            };
+        };
+        let groups = groups(self.kind());
+        let mut places = groups
+            .iter()
+            .flat_map(|group| &group.parameters)
+            .map(|parameter| parameter.place);
+        let place = places.find(|&place| {
+            self.value(place).is_some()
+                && line_of_key(text, place.table, 0, place.key) == *line
+        });
+        Fault {
+            place,
+            words: format!("{what}; {mend}"),
+        }
+    }
+}
+
+/// An example of a kind of recipe, to begin with.
+///
+/// # Errors
+/// A kind that is no recipe.
+pub fn example(kind: &str) -> Result<Manifest, TextileError> {
+    let (name, source) = match kind {
+        "weave" => return Library::shipped()?.manifest("wool-twill"),
+        "knit" => return Library::shipped()?.manifest("polyamide-jersey"),
+        "brownian" => {
+            // Coarser than is usual: what is edited should be seen at once.
+            let surface = Brownian {
+                step_mm: 0.05,
+                ..Brownian::new(0.5, 6.0, Generator::Exact, 1)
+            };
+            ("Brownian surface", Source::Brownian(Box::new(surface)))
+        }
+        "fourier" => {
+            let templates = example_templates()?;
+            let none = || TextileError::Model("there is no example of a template".to_owned());
+            let template = templates.into_iter().next().ok_or_else(none)?;
+            let surface = Fourier::new(template, 1);
+            ("Fourier surface", Source::Fourier(Box::new(surface)))
+        }
+        "restoration" => {
+            let mut manifest = restored(&*Library::shipped()?.load("polyester-panama")?)?;
+            "Restored panama".clone_into(&mut manifest.name);
+            return Ok(manifest);
+        }
+        other => {
+            let what = format!("a source of kind \"{other}\" is not a recipe");
+            return Err(TextileError::Model(what));
+        }
+    };
+    Ok(manifest_of(name, source))
+}
+
+/// The recipe that restores a textile from its warp and its weft profile: what repeats in them and
+/// the spectrum of the rest.
+///
+/// # Errors
+/// A textile whose profiles are too short.
+pub fn restored(textile: &Textile) -> Result<Manifest, TextileError> {
+    use crate::surface::Direction::{WarpForward, WarpReverse, WeftForward, WeftReverse};
+
+    let surface = textile.surface();
+    let profile = |forward, reverse| surface.profile(forward).or_else(|| surface.profile(reverse));
+    let none = || TextileError::Model(format!("{} has no warp profile", textile.id()));
+    let warp = profile(WarpForward, WarpReverse).ok_or_else(none)?;
+    let weft = profile(WeftForward, WeftReverse);
+    let warp = Reduced::of(warp, N_HARMONICS)?;
+    let weft = weft.map(|weft| Reduced::of(weft, N_HARMONICS)).transpose()?;
+    let source = Restoration::new(warp, weft, Rule::Additive, 1);
+    let own = textile.manifest();
+    let mut manifest = manifest_of(
+        &format!("{}, restored", own.name),
+        Source::Restoration(Box::new(source)),
+    );
+    manifest.construction = own.construction;
+    manifest.fibre.clone_from(&own.fibre);
+    Ok(manifest)
+}
+
+fn manifest_of(name: &str, source: Source) -> Manifest {
+    Manifest {
+        name: name.to_owned(),
+        construction: Construction::Other,
+        fibre: "none".to_owned(),
+        gain_db: 0.0,
+        noise_floor_um2_mm: None,
+        licence: String::new(),
+        notes: String::new(),
+        source,
+        appearance: None,
+        measured: std::collections::BTreeMap::new(),
+        provenance: None,
+    }
+}
