@@ -10,6 +10,7 @@ use eframe::egui::{Id, Vec2};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
+use super::perspective::Perspective;
 use crate::files;
 
 /// Widths and heights of the default arrangement, points.
@@ -48,11 +49,13 @@ pub(crate) enum Pane {
     Accuracy,
     /// A textile's amplitudes over direction and speed of movement.
     Response,
+    /// A recipe of a textile, and what becomes of it.
+    Lab,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 13] = [
+    pub(crate) const ALL: [Self; 14] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -66,6 +69,7 @@ impl Pane {
         Self::Response,
         Self::Accuracy,
         Self::Compare,
+        Self::Lab,
     ];
 
     /// Its title.
@@ -84,6 +88,7 @@ impl Pane {
             Self::Compare => "Compare",
             Self::Accuracy => "Accuracy",
             Self::Response => "Response",
+            Self::Lab => "Textile lab",
         }
     }
 
@@ -93,6 +98,7 @@ impl Pane {
             Self::ContactSpectrum => "Contact",
             Self::DriveSpectrum => "Drive",
             Self::DriveWave => "Wave",
+            Self::Lab => "Lab",
             Self::SpatialSpectra => "Spatial",
             Self::Workspace
             | Self::Library
@@ -135,7 +141,7 @@ pub(crate) fn is_roomy(size: Vec2) -> bool {
 fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let left = (size.x - CONTROLS).max(CONTROLS);
     let library = tabs(tiles, &[Pane::Library]);
-    let workspace = tabs(tiles, &[Pane::Workspace]);
+    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab]);
     let upper = [(library, LIBRARY), (workspace, left - LIBRARY)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
@@ -164,7 +170,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
-    let workspace = tabs(tiles, &[Pane::Workspace]);
+    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab]);
     let controls = tabs(tiles, &[Pane::Tuning, Pane::Bridge, Pane::Library]);
     let pictures = tabs(
         tiles,
@@ -192,7 +198,8 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
     )
 }
 
-fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
+/// Panes behind each other, the first in front.
+pub(crate) fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
     let children: Vec<TileId> = panes.iter().map(|pane| tiles.insert_pane(*pane)).collect();
     let front = children.first().copied();
     let id = tiles.insert_tab_tile(children);
@@ -203,7 +210,12 @@ fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
     id
 }
 
-fn linear(tiles: &mut Tiles<Pane>, direction: LinearDir, parts: &[(TileId, f32)]) -> TileId {
+/// Tiles beside or below each other, with their shares.
+pub(crate) fn linear(
+    tiles: &mut Tiles<Pane>,
+    direction: LinearDir,
+    parts: &[(TileId, f32)],
+) -> TileId {
     let mut linear = Linear::new(direction, parts.iter().map(|(id, _)| *id).collect());
     for &(id, share) in parts {
         linear.shares.set_share(id, share);
@@ -216,20 +228,20 @@ pub(crate) fn to_text(tree: &Tree<Pane>) -> Option<String> {
     files::to_json_string(tree, Path::new("arrangement")).ok()
 }
 
-/// The arrangement from text, with every pane in it; `None` when it is not a sound one.
-pub(crate) fn from_text(text: &str) -> Option<Tree<Pane>> {
+/// The arrangement of a perspective from text, with every pane in it; `None` when it is not a sound one.
+pub(crate) fn from_text(text: &str, perspective: Perspective) -> Option<Tree<Pane>> {
     let mut tree: Tree<Pane> = files::from_json_str(text, Path::new("arrangement")).ok()?;
     let found = panes_of(&tree)?;
     for pane in Pane::ALL.into_iter().filter(|pane| !found.contains(pane)) {
-        insert(&mut tree, pane)?;
+        insert(&mut tree, pane, perspective)?;
     }
     Some(tree)
 }
 
 /// Puts a pane that is not in the tree behind a pane that it stands beside by default, or else
 /// behind any; `None` when there is none.
-fn insert(tree: &mut Tree<Pane>, pane: Pane) -> Option<()> {
-    let defaults = [ROOMY, Vec2::ZERO].map(default_tree);
+fn insert(tree: &mut Tree<Pane>, pane: Pane, perspective: Perspective) -> Option<()> {
+    let defaults = [ROOMY, Vec2::ZERO].map(|size| perspective.default_tree(size));
     let beside = defaults.iter().flat_map(|tree| neighbours(tree, pane));
     let mut candidates = beside.chain(Pane::ALL.into_iter().rev());
     let neighbour = candidates.find_map(|pane| tile_of(tree, pane))?;
@@ -324,6 +336,10 @@ pub(crate) fn is_shown(tree: &Tree<Pane>, pane: Pane) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn from_text(text: &str) -> Option<Tree<Pane>> {
+        super::from_text(text, Perspective::Explore)
+    }
 
     const SIZES: [Vec2; 3] = [
         Vec2::new(1400.0, 900.0),

@@ -9,6 +9,7 @@ use super::arrangement::{self, Pane};
 use super::command::{Command, PlaySource, ShowCommand};
 use super::desk::Desk;
 use super::panes::{self, Wishes};
+use super::perspective::Perspective;
 use super::pointer::Ground;
 use super::state::{After, Transient};
 use super::tab_row::TabRow;
@@ -160,6 +161,7 @@ impl Workbench {
         panes::Appearance {
             map: kept.colour_map,
             zoom: kept.zoom,
+            perspective: kept.perspective,
             dots: self.workspace.dot_style,
             greys_below: self.workspace.greys_below,
             overlays: self.workspace.overlays,
@@ -172,21 +174,45 @@ impl Workbench {
     /// changes a lot; what was arranged by hand stays.
     fn arrange(&mut self, size: egui::Vec2) {
         let before = std::mem::replace(&mut self.transient.desk_size, size);
-        if before != egui::Vec2::ZERO {
-            let is_other = arrangement::is_roomy(before) != arrangement::is_roomy(size);
-            if is_other && self.settings.kept.arrangement.is_none() {
-                self.tree = arrangement::default_tree(size);
-            }
+        let perspective = self.settings.kept.perspective;
+        if before == egui::Vec2::ZERO {
+            self.tree = self.arrangement_of(perspective);
             return;
         }
-        let kept = self.settings.kept.arrangement.as_deref();
-        let tree = kept.map(arrangement::from_text);
+        if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
+            let kept = &self.settings.kept.arrangements;
+            for (resting, kept) in self.resting.iter_mut().zip(kept) {
+                resting.take_if(|_| kept.is_none());
+            }
+            if kept[perspective.index()].is_none() {
+                self.tree = perspective.default_tree(size);
+            }
+        }
+    }
+
+    /// The arrangement of a perspective that was kept, or its default one.
+    fn arrangement_of(&mut self, perspective: Perspective) -> Tree<Pane> {
+        let kept = self.settings.kept.arrangements[perspective.index()].as_deref();
+        let tree = kept.map(|text| arrangement::from_text(text, perspective));
         if tree.as_ref().is_some_and(Option::is_none) {
             let words = "The arrangement that was kept could not be used: the default one is shown";
             self.transient.notices.give(words);
         }
-        let default = || arrangement::default_tree(size);
-        self.tree = tree.flatten().unwrap_or_else(default);
+        let size = self.transient.desk_size;
+        tree.flatten()
+            .unwrap_or_else(|| perspective.default_tree(size))
+    }
+
+    /// Arranges the window for something else; what was arranged before stays as it is.
+    pub(crate) fn arrange_for(&mut self, perspective: Perspective) {
+        let before = std::mem::replace(&mut self.settings.kept.perspective, perspective);
+        if before == perspective {
+            return;
+        }
+        let resting = self.resting[perspective.index()].take();
+        let tree = resting.unwrap_or_else(|| self.arrangement_of(perspective));
+        let left = std::mem::replace(&mut self.tree, tree);
+        self.resting[before.index()] = Some(left);
     }
 }
 

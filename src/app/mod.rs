@@ -43,12 +43,12 @@ mod history;
 mod inbox;
 mod inspect;
 mod job;
-mod keep;
 mod lab;
 mod maps;
 mod native;
 mod opening;
 mod panes;
+mod perspective;
 mod pointer;
 #[cfg(target_os = "linux")]
 mod pointer_x11;

@@ -5,6 +5,7 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use super::command::{
     Chosen, Command, FileCommand, Look, PlayCommand, PlaySource, Purpose, ShowCommand, Tool,
 };
+use super::perspective::Perspective;
 use super::workspace::Overlay;
 use crate::tactile::Band;
 
@@ -28,6 +29,7 @@ pub(crate) fn table() -> Vec<Shortcut> {
     table.extend(play_keys());
     table.extend(show_keys());
     table.extend(overlay_keys());
+    table.extend(perspective_keys());
     table.extend(chosen_keys());
     table
 }
@@ -159,6 +161,16 @@ fn show_keys() -> Vec<Shortcut> {
         ),
     ];
     keys.into_iter().map(bare).collect()
+}
+
+fn perspective_keys() -> Vec<Shortcut> {
+    let keys = [Key::Num1, Key::Num2];
+    let pairs = keys.into_iter().zip(Perspective::ALL);
+    let arrange = |(at, perspective): (Key, Perspective)| {
+        let command = ShowCommand::Perspective(perspective);
+        key(CTRL, at, perspective.what(), command.into())
+    };
+    pairs.map(arrange).collect()
 }
 
 fn overlay_keys() -> Vec<Shortcut> {

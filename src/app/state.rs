@@ -14,7 +14,8 @@ use super::lab::Lab;
 use super::maps::Maps;
 use super::opening::{Opening, Origin};
 use super::panes::{
-    Ask, ContactSpectrogram, DriveSpectrogram, Notices, SpatialSpectra, TransportState, WaveScale,
+    Ask, ContactSpectrogram, DriveSpectrogram, LabPictures, Notices, SpatialSpectra,
+    TransportState, WaveScale,
 };
 use super::ports::Ports;
 use super::query::IntervalMeter;
@@ -89,6 +90,8 @@ pub(crate) struct Transient {
     pub(crate) asked_textile: Option<usize>,
     /// The textile lab.
     pub(crate) lab: Lab,
+    /// What the lab pictures, as it was drawn last.
+    pub(crate) lab_pictures: LabPictures,
     /// What the pointer rests on.
     pub(crate) hovered: Hovered,
     /// What the timeline remembers.

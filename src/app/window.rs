@@ -15,6 +15,7 @@ use super::document::Document;
 use super::error::AppError;
 use super::felt::Felt;
 use super::opening::{Opened, Origin, open};
+use super::perspective::Perspective;
 use super::pointer::PointerTap;
 use super::preparing::Preparing;
 use super::rendering::Rendering;
@@ -50,6 +51,8 @@ pub struct Workbench {
     pub(crate) settings: Settings,
     /// Which pane stands where.
     pub(crate) tree: Tree<Pane>,
+    /// The arrangements of the other perspectives, as far as they were shown.
+    pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
     /// How the workspace is looked at.
     pub(crate) workspace: WorkspaceState,
     pub(crate) transient: Transient,
@@ -129,6 +132,7 @@ impl Workbench {
         let mut workbench = Self {
             document: document_of(&loaded, opened.path.as_deref()),
             tree: arrangement::default_tree(egui::Vec2::ZERO),
+            resting: Default::default(),
             workspace: WorkspaceState::default(),
             transient: Transient::default(),
             switch: engine.stop_switch(),

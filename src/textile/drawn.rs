@@ -96,7 +96,7 @@ const GREY: f64 = 150.0;
 const GREY_STEP: f64 = 6.0;
 
 /// A relief in grey: its slope towards the upper left, scaled to its own usual slope.
-fn lit(heights_um: &Grid<f64>) -> Rgb8Image {
+pub fn lit(heights_um: &Grid<f64>) -> Rgb8Image {
     let (width, height) = (heights_um.width(), heights_um.height());
     let mut slopes = Vec::with_capacity(width * height);
     for row in (0..height).rev() {

@@ -42,6 +42,7 @@ pub use build::{BuiltFile, build, build_library, make, write};
 pub use cache::BuildCache;
 pub use catalogue::{sheet, write_catalogue, write_figure};
 pub use cloth::{Side, Yarn};
+pub use drawn::lit;
 pub use fourier::{
     Composition, Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings,
     example_templates, import, templates_from_toml, templates_to_toml,

@@ -15,8 +15,8 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::export::Exportable;
-use super::keep::Keep;
 use super::lab::LabCommand;
+use super::perspective::Perspective;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
@@ -46,8 +46,6 @@ pub(crate) enum Command {
     Accuracy(AccuracyCommand),
     /// Do something in the textile lab.
     Lab(LabCommand),
-    /// Keep a new textile.
-    Keep(Keep),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -234,6 +232,8 @@ pub(crate) enum ShowCommand {
     Look(Look),
     /// Show or hide a pane; a pane behind others comes to the front.
     Pane(Pane),
+    /// Arrange the window for this.
+    Perspective(Perspective),
     /// Put every pane back in its place.
     DefaultArrangement,
     /// Look closer at this contactor.

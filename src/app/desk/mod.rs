@@ -71,6 +71,7 @@ impl Desk<'_> {
             }),
             Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
             Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
+            Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
         }
     }
 
@@ -168,6 +169,30 @@ impl Desk<'_> {
     }
 }
 
+/// A recipe and what becomes of it.
+impl Desk<'_> {
+    fn show_lab(&mut self, ui: &mut Ui) {
+        let bench = &mut *self.bench;
+        bench.follow_lab(ui.ctx());
+        let lab = &mut bench.transient.lab;
+        let mut hands = panes::LabHands {
+            keep: std::mem::take(&mut lab.fields),
+            plan: std::mem::take(&mut lab.plan),
+        };
+        let view = panes::LabView {
+            lab,
+            items: bench.shelf.items(),
+            ids: bench.loaded.library().ids(),
+            map: bench.settings.kept.colour_map,
+            scale: bench.workspace.scale,
+        };
+        let pictures = &mut bench.transient.lab_pictures;
+        panes::show_lab(ui, &view, (&mut hands, pictures), self.wishes);
+        let lab = &mut bench.transient.lab;
+        (lab.fields, lab.plan) = (hands.keep, hands.plan);
+    }
+}
+
 /// Views that are drawn and exported.
 impl Workbench {
     /// How the heatmaps are drawn.
@@ -244,7 +269,7 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.wishes);
                 }
             }
-            Pane::Library | Pane::Tuning | Pane::Bridge => {}
+            Pane::Lab | Pane::Library | Pane::Tuning | Pane::Bridge => {}
         }
     }
 }

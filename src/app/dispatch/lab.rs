@@ -8,7 +8,8 @@ use crate::app::command::Command;
 use crate::app::keep::Keep;
 use crate::app::lab::{self, Beginning, Compared, Family, LabCommand, Plan, Preview, Task, taken};
 use crate::app::window::Workbench;
-use crate::textile::RECIPES;
+use crate::progress::Progress;
+use crate::textile::{Manifest, RECIPES};
 
 impl Workbench {
     pub(super) fn dispatch_lab(&mut self, ctx: &egui::Context, command: LabCommand) {
@@ -51,7 +52,8 @@ impl Workbench {
     fn begin_lab(&mut self, ctx: &egui::Context, beginning: Beginning) {
         let library = Arc::clone(self.loaded.library());
         let filters = self.document.scene().filters;
-        let work = move |progress: &mut _| lab::begin(&beginning, &library, &filters, progress);
+        let work =
+            move |progress: &mut Progress<'_>| lab::begin(&beginning, &library, &filters, progress);
         self.transient.lab.refusal = None;
         let task = Task::start(("selvedge-lab-begin", ctx), self.is_stepped, work);
         self.transient.lab.beginning = Some(task);
@@ -60,7 +62,7 @@ impl Workbench {
     fn compare_in_lab(&mut self, ctx: &egui::Context, id: String) {
         let library = Arc::clone(self.loaded.library());
         let filters = self.document.scene().filters;
-        let work = move |progress: &mut crate::progress::Progress<'_>| {
+        let work = move |progress: &mut Progress<'_>| {
             progress.step(0.1, &id).map_err(|stop| stop.to_string())?;
             let textile = library.load(&id).map_err(|error| error.to_string())?;
             Compared::of(&textile, &filters, progress).map_err(|stop| stop.to_string())
@@ -87,7 +89,7 @@ impl Workbench {
         let lab = &mut self.transient.lab;
         let Some(steps) = &lab.steps else { return };
         let (draft, filters) = (steps.now().clone(), self.document.scene().filters);
-        let work = move |progress: &mut _| Family::of(&draft, &plan, &filters, progress);
+        let work = move |progress: &mut Progress<'_>| Family::of(&draft, &plan, &filters, progress);
         lab.refusal = None;
         let task = Task::start(("selvedge-lab-family", ctx), self.is_stepped, work);
         lab.trying = Some(task);
@@ -96,7 +98,7 @@ impl Workbench {
     fn keep_recipes(
         &mut self,
         ctx: &egui::Context,
-        recipes: Result<Vec<(String, crate::textile::Manifest)>, String>,
+        recipes: Result<Vec<(String, Manifest)>, String>,
         feels: bool,
     ) {
         let lab = &mut self.transient.lab;
@@ -104,7 +106,7 @@ impl Workbench {
             Err(words) => lab.refusal = Some(words),
             Ok(recipes) => {
                 lab.refusal = None;
-                let work = move |progress: &mut _| lab::built(&recipes, progress);
+                let work = move |progress: &mut Progress<'_>| lab::built(&recipes, progress);
                 let task = Task::start(("selvedge-lab-keep", ctx), self.is_stepped, work);
                 lab.keeping = Some((Some(task), feels));
                 self.poll_lab(ctx);
@@ -151,7 +153,7 @@ impl Workbench {
         let lab = &mut self.transient.lab;
         if let Some((serial, manifest)) = lab.due() {
             lab.n_computed += 1;
-            let work = move |progress: &mut _| Preview::of(manifest, &filters, progress);
+            let work = move |progress: &mut Progress<'_>| Preview::of(manifest, &filters, progress);
             let task = Task::start(("selvedge-lab", ctx), self.is_stepped, work);
             lab.previewing = Some((serial, Some(task)));
             self.take_lab();

@@ -33,9 +33,11 @@ impl Workbench {
                 arrangement::toggle(&mut self.tree, pane);
                 self.keep_arrangement();
             }
+            ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
             ShowCommand::DefaultArrangement => {
-                self.tree = arrangement::default_tree(self.transient.desk_size);
-                self.settings.kept.arrangement = None;
+                let perspective = self.settings.kept.perspective;
+                self.tree = perspective.default_tree(self.transient.desk_size);
+                self.settings.kept.arrangements[perspective.index()] = None;
             }
             ShowCommand::SelectContactor(contactor) => {
                 self.send(engine::Command::Watch(contactor));
@@ -62,6 +64,7 @@ impl Workbench {
 
     /// Keeps the arrangement as it is now.
     pub(crate) fn keep_arrangement(&mut self) {
-        self.settings.kept.arrangement = arrangement::to_text(&self.tree);
+        let perspective = self.settings.kept.perspective;
+        self.settings.kept.arrangements[perspective.index()] = arrangement::to_text(&self.tree);
     }
 }

@@ -6,7 +6,7 @@ use eframe::egui::Theme;
 
 use super::write::ExportError;
 use super::{
-    Exportable, Exported, Kind, Origin, accuracy, comparison, compression, contactors, drive,
+    Exportable, Exported, Kind, Origin, accuracy, comparison, compression, contactors, drive, lab,
     response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
@@ -42,6 +42,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Response => Some(Workbench::gather_response),
         Pane::Accuracy => Some(Workbench::gather_accuracy),
         Pane::Compare => Some(Workbench::gather_comparison),
+        Pane::Lab => Some(Workbench::gather_lab),
         Pane::Workspace | Pane::Library | Pane::Bridge => None,
     }
 }
@@ -232,6 +233,16 @@ impl Workbench {
             return Err("There is nothing to export yet: the curves are being computed");
         }
         Ok(response::curves(&view, origin))
+    }
+
+    fn gather_lab(&mut self) -> Result<Exported, &'static str> {
+        let lab = &self.transient.lab;
+        let preview = lab.preview.as_ref().ok_or(
+            "There is nothing to export yet: the surface is being made in the textile lab",
+        )?;
+        let scene = self.document.scene();
+        let origin = Origin::of(scene, &self.document.tuning(), None);
+        Ok(lab::curves(lab, preview, self.workspace.scale, origin))
     }
 
     fn gather_accuracy(&mut self) -> Result<Exported, &'static str> {

@@ -16,7 +16,9 @@ mod steps;
 mod task;
 
 pub(crate) use command::{Beginning, LabCommand, Look, Page, Plan};
-pub(crate) use family::{Family, FamilyFields, Member};
+#[cfg(test)]
+pub(crate) use family::Member;
+pub(crate) use family::{Family, FamilyFields, key_value};
 pub(crate) use fields::KeepFields;
 pub(crate) use preview::{Compared, Felt, Preview, SPEEDS_MM_PER_S, Shown, speeds_mm_per_s};
 pub(crate) use steps::Steps;
@@ -28,9 +30,7 @@ use std::sync::Arc;
 use super::keep::NewTextile;
 use crate::progress::Progress;
 use crate::tactile::Filters;
-use crate::textile::{
-    self, Draft, Fault, Library, Manifest, Parent, Provenance, TextileError,
-};
+use crate::textile::{self, Draft, Fault, Library, Manifest, Parent, Provenance, TextileError};
 
 /// A recipe that begins.
 #[derive(Debug)]

@@ -90,8 +90,13 @@ impl Felt {
         vec![
             Shown::of("SMD", mean(&crate::surface::Profile::smd_um), 2, "µm")
                 .said("Mean absolute deviation of the heights, mean of the strokes"),
-            Shown::of("SMD ≤ 1 mm", mean(&crate::surface::Profile::smd_official_um), 2, "µm")
-                .said("The same without waves longer than 1 mm, as the tester reads it"),
+            Shown::of(
+                "SMD ≤ 1 mm",
+                mean(&crate::surface::Profile::smd_official_um),
+                2,
+                "µm",
+            )
+            .said("The same without waves longer than 1 mm, as the tester reads it"),
             Shown::of("Rq", mean(&rq), 2, "µm").said("Root mean square of the heights"),
             Shown::of("Level", level, 1, "dB").said("Mean of both bands at 100 mm/s, re 1 µm"),
             low,
@@ -173,7 +178,9 @@ impl Preview {
         let felt = Felt::of(&trial.surface, filters, progress).map_err(|stop| stop.to_string())?;
         let found = |key| {
             let mut measured = trial.measured.iter();
-            measured.find(|(known, _)| *known == key).map(|(_, value)| *value)
+            measured
+                .find(|(known, _)| *known == key)
+                .map(|(_, value)| *value)
         };
         let asked = match &manifest.source {
             crate::textile::Source::Brownian(keys) => Some(keys.hurst),
@@ -200,7 +207,10 @@ impl Preview {
         figures.splice(3..3, relief);
         if let Some([_, found, _]) = self.hurst {
             let shown = Shown::of("Hurst exponent", found, 2, "");
-            figures.insert(0, shown.said("Estimated from the strokes; beside it the one asked"));
+            figures.insert(
+                0,
+                shown.said("Estimated from the strokes; beside it the one asked"),
+            );
         }
         figures
     }

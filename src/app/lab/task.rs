@@ -124,7 +124,9 @@ mod tests {
         let (go, begin) = std::sync::mpsc::channel::<()>();
         let mut task = Some(Task::start(("test", &ctx), false, move |progress| {
             begin.recv().map_err(|error| error.to_string())?;
-            progress.step(0.5, "half").map_err(|stop| stop.to_string())?;
+            progress
+                .step(0.5, "half")
+                .map_err(|stop| stop.to_string())?;
             Ok(7)
         }));
         assert!(taken(&mut task).is_none(), "it waits");

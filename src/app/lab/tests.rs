@@ -40,7 +40,12 @@ fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
     let recipes = vec![lab.to_keep(&library).unwrap()];
     let [one, again] = [(); 2].map(|()| unheard(|progress| built(&recipes, progress)).unwrap());
     assert_eq!(one, again, "no clock, no chance");
-    let manifest = &one[0].files.iter().find(|file| file.name == "textile.toml").unwrap().bytes;
+    let manifest = &one[0]
+        .files
+        .iter()
+        .find(|file| file.name == "textile.toml")
+        .unwrap()
+        .bytes;
     let text = String::from_utf8(manifest.clone()).unwrap();
     let manifest = Manifest::from_toml(&text, Path::new("textile.toml")).unwrap();
     let provenance = manifest.provenance.as_ref().unwrap();
@@ -64,15 +69,17 @@ fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
                 kind = \"profiles\"\nwarp_forward = \"w.csv\"\n";
     std::fs::write(textile.join("textile.toml"), text).unwrap();
     let library = Library::open(&folder).unwrap();
-    let begin = |from: Beginning| {
-        unheard(|progress| begin(&from, &library, &Filters::default(), progress))
-    };
+    let begin =
+        |from: Beginning| unheard(|progress| begin(&from, &library, &Filters::default(), progress));
     let refusal = begin(Beginning::Copy("measured".to_owned())).unwrap_err();
     assert!(refusal.contains("is not a recipe"), "{refusal}");
     let begun = begin(Beginning::Restore("measured".to_owned())).unwrap();
     assert_eq!(begun.draft.kind(), "restoration");
     let (parent, compared) = begun.parent.unwrap();
-    assert_eq!((parent.id.as_str(), compared.name.as_str()), ("measured", "M"));
+    assert_eq!(
+        (parent.id.as_str(), compared.name.as_str()),
+        ("measured", "M")
+    );
     std::fs::remove_dir_all(folder).unwrap();
 }
 
@@ -87,8 +94,16 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
     let draft = lab.steps.as_ref().unwrap().now().clone();
     let filters = Filters::default();
     let family = unheard(|progress| Family::of(&draft, &plan, &filters, progress)).unwrap();
-    let labels: Vec<&str> = family.members.iter().map(|member| member.label.as_str()).collect();
-    let wanted = ["Hurst exponent 0.2", "Hurst exponent 0.5", "Hurst exponent 0.8"];
+    let labels: Vec<&str> = family
+        .members
+        .iter()
+        .map(|member| member.label.as_str())
+        .collect();
+    let wanted = [
+        "Hurst exponent 0.2",
+        "Hurst exponent 0.5",
+        "Hurst exponent 0.8",
+    ];
     assert_eq!(labels, wanted);
     // Of equally rough surfaces the jagged one is stronger at 320 Hz.
     let high = |member: &Member| member.felt.levels.mean_um[1];
@@ -97,7 +112,14 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
     let library = Library::shipped().unwrap();
     let kept = lab.family_to_keep(&library).unwrap();
     let ids: Vec<&str> = kept.iter().map(|(id, _)| id.as_str()).collect();
-    assert_eq!(ids, ["brownian-surface-1", "brownian-surface-2", "brownian-surface-3"]);
+    assert_eq!(
+        ids,
+        [
+            "brownian-surface-1",
+            "brownian-surface-2",
+            "brownian-surface-3"
+        ]
+    );
     assert_eq!(kept[2].1.name, "Brownian surface, Hurst exponent 0.8");
     let beyond = Plan {
         ends: [0.2, 8.0],
@@ -118,9 +140,15 @@ fn a_preview_is_due_until_it_is_shown_and_not_while_it_is_stopped() {
     let preview = unheard(|progress| Preview::of(manifest, &filters, progress)).unwrap();
     let [asked, found, _] = preview.hurst.unwrap();
     assert!(asked == 0.5 && (found - asked).abs() < 0.3, "{found}");
-    assert_eq!(preview.felt.over_speed[Direction::WeftReverse.index()].len(), 49);
+    assert_eq!(
+        preview.felt.over_speed[Direction::WeftReverse.index()].len(),
+        49
+    );
     lab.show(serial, preview);
     assert!(lab.due().is_none() && lab.is_fresh());
     lab.has_changed();
-    assert!(lab.due().is_some() && lab.preview.is_some(), "the last one stays");
+    assert!(
+        lab.due().is_some() && lab.preview.is_some(),
+        "the last one stays"
+    );
 }

@@ -4,7 +4,8 @@ use eframe::egui::{self, Align, Button, Layout, RichText, Stroke, Ui, WidgetInfo
 
 use super::Wishes;
 use super::menu::{Appearance, show_scene_menu, show_view_menu};
-use crate::app::command::Command;
+use crate::app::command::{Command, ShowCommand};
+use crate::app::perspective::Perspective;
 use crate::app::shortcuts::hint;
 use crate::app::theme::{self, Palette, ROW, STEP};
 use crate::app::view::{Live, SceneView, Status};
@@ -32,6 +33,8 @@ pub(crate) fn show(
         show_view_menu(ui, appearance, wishes);
         ui.add_space(STEP);
         show_history(ui, scene, wishes);
+        ui.add_space(2.0 * STEP);
+        show_perspectives(ui, appearance.perspective, wishes);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             show_all_off(ui, wishes);
             show_armed(ui, live);
@@ -45,6 +48,33 @@ pub(crate) fn show(
             });
         });
     });
+}
+
+/// What the window is arranged for: quiet tabs.
+fn show_perspectives(ui: &mut Ui, shown: Perspective, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    for perspective in Perspective::ALL {
+        let is_shown = perspective == shown;
+        let ink = if is_shown { palette.text } else { palette.dim };
+        let text = RichText::new(perspective.title()).color(ink);
+        let tab = Button::new(text).frame_when_inactive(false).selected(false);
+        let response = ui.add(tab.min_size(vec2(0.0, ROW)));
+        response.widget_info(|| {
+            let label = format!("{} perspective", perspective.title());
+            WidgetInfo::selected(egui::Role::Tab, true, is_shown, label)
+        });
+        if is_shown {
+            let foot = response.rect.bottom() - 1.0;
+            let line = Stroke::new(1.5, palette.selection);
+            ui.painter()
+                .hline(response.rect.x_range().shrink(6.0), foot, line);
+        }
+        let command: Command = ShowCommand::Perspective(perspective).into();
+        let tip = format!("{} ({})", perspective.what(), hint(ui.ctx(), &command));
+        if response.on_hover_text(tip).clicked() && !is_shown {
+            wishes.push(command);
+        }
+    }
 }
 
 /// The scene's name and whether it is saved.

@@ -90,6 +90,7 @@ fn kind(command: &Command) -> &'static str {
         Command::File(_) => "Files",
         Command::Play(_) => "Play and record",
         Command::Show(_)
+        | Command::Lab(_)
         | Command::Accuracy(_)
         | Command::Compare(_)
         | Command::Dismiss

@@ -7,6 +7,7 @@ use eframe::egui::{self, Button, ThemePreference, Ui};
 use super::Wishes;
 use crate::app::arrangement::Pane;
 use crate::app::command::{Command, DotStyle, FileCommand, Purpose, ShowCommand};
+use crate::app::perspective::Perspective;
 use crate::app::shortcuts::hint;
 use crate::app::theme::ColourMap;
 use crate::app::view::SceneView;
@@ -19,6 +20,8 @@ const ZOOMS: [u8; 5] = [100, 125, 150, 175, 200];
 /// What is shown how, as the menu ticks it.
 #[derive(Debug, Clone)]
 pub(crate) struct Appearance {
+    /// What the window is arranged for.
+    pub(crate) perspective: Perspective,
     /// The colours that stand for numbers.
     pub(crate) map: ColourMap,
     /// Size of everything: 1 is 100 %.
@@ -86,6 +89,12 @@ fn show_recent(ui: &mut Ui, recent: &[PathBuf], wishes: &mut Wishes) {
 pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut Wishes) {
     ui.menu_button("View", |ui| {
         ui.set_min_width(220.0);
+        for perspective in Perspective::ALL {
+            let command = ShowCommand::Perspective(perspective);
+            let is_shown = perspective == appearance.perspective;
+            choice(ui, perspective.title(), is_shown, command, wishes);
+        }
+        ui.separator();
         ui.menu_button("Panes", |ui| {
             for (pane, is_shown) in &appearance.panes {
                 let command = ShowCommand::Pane(*pane);

@@ -15,6 +15,7 @@ mod export;
 mod header;
 mod heatmap;
 mod help;
+mod lab;
 mod library;
 mod menu;
 mod notices;
@@ -46,12 +47,13 @@ pub(crate) use heatmap::{
     HeatmapStyle, digits as cell_digits, show as show_heatmaps, show_corner as show_heatmap_corner,
 };
 pub(crate) use help::show as show_help;
+pub(crate) use lab::{LabHands, LabPictures, LabView, show as show_lab};
 pub(crate) use library::show as show_library;
 pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use question::show as show_question;
 pub(crate) use response::{
-    ResponseView, ends_db as response_ends_db, show as show_response,
+    ResponseView, ends_db as response_ends_db, fill_range as response_range, show as show_response,
     show_corner as show_response_corner,
 };
 pub(crate) use spatial::{

@@ -6,6 +6,7 @@ use eframe::egui::ThemePreference;
 
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::command::DotStyle;
+use crate::app::perspective::Perspective;
 use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
 use crate::app::workspace::Overlays;
@@ -44,8 +45,10 @@ pub(crate) struct Kept {
     pub(crate) pixels_per_mm: Option<f64>,
     /// How scenes are rendered.
     pub(crate) rendering: Rendering,
-    /// Where each pane stands, as text that whoever arranges them understands.
-    pub(crate) arrangement: Option<String>,
+    /// What the window is arranged for.
+    pub(crate) perspective: Perspective,
+    /// Where each pane stands in each perspective, as text that whoever arranges them understands.
+    pub(crate) arrangements: [Option<String>; Perspective::ALL.len()],
     /// Size of the window, points.
     pub(crate) window_size: Option<[f32; 2]>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
@@ -65,7 +68,8 @@ impl Default for Kept {
             amplitude: AmplitudeScale::default(),
             pixels_per_mm: None,
             rendering: Rendering::default(),
-            arrangement: None,
+            perspective: Perspective::default(),
+            arrangements: Default::default(),
             window_size: None,
             recent_scenes: Vec::new(),
         }

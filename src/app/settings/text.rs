@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::kept::Kept;
 use crate::app::command::DotStyle;
+use crate::app::perspective::Perspective;
 use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
 use crate::app::workspace::Overlays;
@@ -48,8 +49,11 @@ struct Keys {
     #[serde(skip_serializing_if = "Value::is_missing")]
     window_size: Value<[f32; 2]>,
     recent_scenes: Value<Vec<PathBuf>>,
+    perspective: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     arrangement: Value<String>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    arrangement_cloth: Value<String>,
 }
 
 /// What a key states.
@@ -100,7 +104,9 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         taken("rendering_method", keys.rendering_method, odd),
         &methods(),
     );
+    let perspective = choice(taken("perspective", keys.perspective, odd), &perspectives());
     for (key, is_odd) in [
+        ("perspective", perspective.is_err()),
         ("theme", theme.is_err()),
         ("colour_map", map.is_err()),
         ("dots", dots.is_err()),
@@ -136,7 +142,11 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             method: method.ok().flatten().unwrap_or(first.rendering.method),
             budget_db: budget_db.unwrap_or(first.rendering.budget_db),
         },
-        arrangement: taken("arrangement", keys.arrangement, odd),
+        perspective: perspective.ok().flatten().unwrap_or(first.perspective),
+        arrangements: [
+            taken("arrangement", keys.arrangement, odd),
+            taken("arrangement_cloth", keys.arrangement_cloth, odd),
+        ],
         window_size: taken("window_size", keys.window_size, odd),
         ..first
     }
@@ -172,6 +182,10 @@ fn colour_maps() -> [(ColourMap, &'static str); 3] {
     ColourMap::ALL.map(|map| (map, map.label()))
 }
 
+fn perspectives() -> [(Perspective, &'static str); Perspective::ALL.len()] {
+    Perspective::ALL.map(|one| (one, one.word()))
+}
+
 fn methods() -> [(Method, &'static str); 4] {
     Method::ALL.map(|method| (method, method.name()))
 }
@@ -195,7 +209,9 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         error_budget_db: Value::Known(kept.rendering.budget_db),
         window_size: kept.window_size.into(),
         recent_scenes: Value::Known(recent.filter(is_text).cloned().collect()),
-        arrangement: kept.arrangement.clone().into(),
+        perspective: word(&kept.perspective, &perspectives()).into(),
+        arrangement: kept.arrangements[0].clone().into(),
+        arrangement_cloth: kept.arrangements[1].clone().into(),
     };
     keys_to_string(&keys, path)
 }
@@ -229,7 +245,11 @@ mod tests {
                 method: Method::Banded,
                 budget_db: 0.0,
             },
-            arrangement: Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),
+            perspective: Perspective::Cloth,
+            arrangements: [
+                Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),
+                Some("{}".to_owned()),
+            ],
             window_size: Some([1600.0, 1000.5]),
             ..Kept::default()
         };

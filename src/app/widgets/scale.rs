@@ -123,14 +123,18 @@ impl Scale {
         self.least + share.clamp(0.0, 1.0) * (self.most - self.least)
     }
 
-    /// Reads what was typed: digits with a comma or a point, any minus, the unit or none.
+    /// Reads what was typed and brings it within the ends.
     pub(super) fn parsed(&self, text: &str) -> Option<f64> {
+        let value = self.read(text)?;
+        Some(value.clamp(self.least, self.most))
+    }
+
+    /// Reads what was typed: digits with a comma or a point, any minus, the unit or none.
+    pub(super) fn read(&self, text: &str) -> Option<f64> {
         let bare = text.trim().trim_end_matches(self.unit).trim();
         let plain = bare.replace('−', "-").replace(',', ".");
         let value = plain.parse::<f64>().ok()? / self.factor;
-        value
-            .is_finite()
-            .then(|| value.clamp(self.least, self.most))
+        value.is_finite().then_some(value)
     }
 }
 

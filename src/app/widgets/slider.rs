@@ -23,12 +23,35 @@ const MOST_MARKS: u8 = 8;
 /// How much finer Shift moves.
 const FINE: f64 = 0.1;
 
+/// How a row with a slider is laid out, and what may be typed in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RowShape {
+    /// Width of the name, points.
+    pub(crate) name: f32,
+    /// Whether a number beyond the rail may be typed: whoever takes it says what is wrong with it.
+    pub(crate) takes_any: bool,
+}
+
 /// Shows the slider; says the new value when the user changed it.
 pub(crate) fn slider_row(
     ui: &mut Ui,
     name: &str,
     ink: Color32,
     scale: Scale,
+    value: f64,
+) -> (Option<f64>, Response) {
+    let shape = RowShape {
+        name: NAME,
+        takes_any: false,
+    };
+    slider_row_as(ui, (name, ink), (shape, scale), value)
+}
+
+/// The same in a row of another shape.
+pub(crate) fn slider_row_as(
+    ui: &mut Ui,
+    (name, ink): (&str, Color32),
+    (shape, scale): (RowShape, Scale),
     value: f64,
 ) -> (Option<f64>, Response) {
     let width = ui.available_width();
@@ -43,7 +66,7 @@ pub(crate) fn slider_row(
         palette.text,
     );
     let rail = Rect::from_min_max(
-        pos2(row.left() + NAME, row.top()),
+        pos2(row.left() + shape.name, row.top()),
         pos2(row.right() - NUMBER - 8.0, row.bottom()),
     );
     let id = ui.scope_id().with(("slider", name));
@@ -62,7 +85,7 @@ pub(crate) fn slider_row(
         number,
         id.with("number"),
         name,
-        &scale,
+        (&scale, shape),
         slid.unwrap_or(value),
     );
     let new = typed.or(slid).filter(|new| (new - value).abs() > 1e-9);
@@ -244,7 +267,7 @@ fn number_field(
     rect: Rect,
     id: Id,
     name: &str,
-    scale: &Scale,
+    (scale, shape): (&Scale, RowShape),
     value: f64,
 ) -> Option<f64> {
     let editing: Option<String> = ui.data(|data| data.get_temp(id));
@@ -278,7 +301,12 @@ fn number_field(
     if response.lost_focus() {
         ui.data_mut(|data| data.remove::<String>(id));
         let is_cancelled = ui.input(|input| input.key_pressed(Key::Escape));
-        return scale.parsed(&text).filter(|_| !is_cancelled);
+        let typed = if shape.takes_any {
+            scale.read(&text)
+        } else {
+            scale.parsed(&text)
+        };
+        return typed.filter(|_| !is_cancelled);
     }
     ui.data_mut(|data| data.insert_temp(id, text));
     None

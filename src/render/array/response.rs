@@ -130,7 +130,9 @@ impl TextileResponse {
     pub fn of_surface(surface: &Surface, filters: &Filters) -> Self {
         let spectra = Direction::ALL.map(|direction| Arc::clone(surface.spectra(direction)));
         Self {
-            points: spectra.each_ref().map(|found| PointGrid::new(found.shape())),
+            points: spectra
+                .each_ref()
+                .map(|found| PointGrid::new(found.shape())),
             spectra,
             textile_from_workspace: Rotation::NONE,
             filters: *filters,

@@ -42,9 +42,8 @@ impl Provenance {
 
     /// Refuses what cannot be where a textile comes from.
     pub(super) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        let wrong = |key: &str, what: String, mend: &str| {
-            Err(checker.wrong("provenance", key, what, mend))
-        };
+        let wrong =
+            |key: &str, what: String, mend: &str| Err(checker.wrong("provenance", key, what, mend));
         let is_line = |text: &str| {
             !text.trim().is_empty()
                 && text.chars().count() <= MOST_LETTERS
@@ -52,7 +51,11 @@ impl Provenance {
         };
         if !is_line(&self.made_by) {
             let what = format!("made_by is {:?}", self.made_by);
-            return wrong("made_by", what, "name the program and its version in a line");
+            return wrong(
+                "made_by",
+                what,
+                "name the program and its version in a line",
+            );
         }
         let n_parents = self.parents.len();
         if n_parents > MOST_PARENTS {

@@ -141,8 +141,7 @@ impl Draft {
             .flat_map(|group| &group.parameters)
             .map(|parameter| parameter.place);
         let place = places.find(|&place| {
-            self.value(place).is_some()
-                && line_of_key(text, place.table, 0, place.key) == *line
+            self.value(place).is_some() && line_of_key(text, place.table, 0, place.key) == *line
         });
         Fault {
             place,
@@ -196,12 +195,18 @@ pub fn restored(textile: &Textile) -> Result<Manifest, TextileError> {
     use crate::surface::Direction::{WarpForward, WarpReverse, WeftForward, WeftReverse};
 
     let surface = textile.surface();
-    let profile = |forward, reverse| surface.profile(forward).or_else(|| surface.profile(reverse));
+    let profile = |forward, reverse| {
+        surface
+            .profile(forward)
+            .or_else(|| surface.profile(reverse))
+    };
     let none = || TextileError::Model(format!("{} has no warp profile", textile.id()));
     let warp = profile(WarpForward, WarpReverse).ok_or_else(none)?;
     let weft = profile(WeftForward, WeftReverse);
     let warp = Reduced::of(warp, N_HARMONICS)?;
-    let weft = weft.map(|weft| Reduced::of(weft, N_HARMONICS)).transpose()?;
+    let weft = weft
+        .map(|weft| Reduced::of(weft, N_HARMONICS))
+        .transpose()?;
     let source = Restoration::new(warp, weft, Rule::Additive, 1);
     let own = textile.manifest();
     let mut manifest = manifest_of(

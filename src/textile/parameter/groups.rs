@@ -197,7 +197,10 @@ fn brownian_groups() -> Vec<Group> {
     );
     let tip = of(
         "tip",
-        ("Tip", "A point, or the 5 mm wide wire of the virtual tester"),
+        (
+            "Tip",
+            "A point, or the 5 mm wide wire of the virtual tester",
+        ),
         ParameterKind::Choice(TIPS),
     );
     let cut_off = |key, name, what| {
@@ -242,7 +245,10 @@ fn brownian_groups() -> Vec<Group> {
 fn restoration_groups() -> Vec<Group> {
     let rule = of(
         "composition",
-        ("Composition", "How a warp and a weft profile become a surface"),
+        (
+            "Composition",
+            "How a warp and a weft profile become a surface",
+        ),
         ParameterKind::Choice(RULES),
     );
     let residual = of(
@@ -311,7 +317,10 @@ fn reduced(table: &'static str, title: &'static str) -> Group {
 fn seed() -> Parameter {
     of(
         "seed",
-        ("Seed", "Chooses the irregularities: another seed, another piece"),
+        (
+            "Seed",
+            "Chooses the irregularities: another seed, another piece",
+        ),
         ParameterKind::Seed,
     )
 }

@@ -181,8 +181,16 @@ fn words_of(view: &ResponseView<'_>, spread: &PointSpread) -> String {
 
 /// Fills between two rows of places: the range over all points.
 fn fill_between(painter: &Painter, lower: &[egui::Pos2], upper: &[egui::Pos2], ink: Color32) {
+    fill_range(painter, (lower, upper), ink.gamma_multiply(RANGE));
+}
+
+/// Fills between two rows of places with an ink.
+pub(crate) fn fill_range(
+    painter: &Painter,
+    (lower, upper): (&[egui::Pos2], &[egui::Pos2]),
+    ink: Color32,
+) {
     let mut mesh = egui::Mesh::default();
-    let ink = ink.gamma_multiply(RANGE);
     for (low, high) in lower.iter().zip(upper) {
         mesh.colored_vertex(*low, ink);
         mesh.colored_vertex(*high, ink);

@@ -1,0 +1,124 @@
+//! Perspectives: what the window is arranged for. Each keeps its own arrangement of all the panes.
+//!
+//! Another one joins as a variant with its words and its default tree; everything else follows.
+
+use eframe::egui::{Id, Vec2};
+use egui_tiles::{LinearDir, TileId, Tiles, Tree};
+
+use super::arrangement::{self, Pane, is_roomy, linear, tabs};
+
+/// Width of the library beside the lab, points.
+const LIBRARY: f32 = 200.0;
+/// Height of what stands below the lab, points.
+const BELOW: f32 = 168.0;
+
+/// What the window is arranged for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Perspective {
+    /// To feel a scene.
+    #[default]
+    Explore,
+    /// To make cloth.
+    Cloth,
+}
+
+impl Perspective {
+    /// All, in the order in which they are offered.
+    pub(crate) const ALL: [Self; 2] = [Self::Explore, Self::Cloth];
+
+    /// Its place in [`Self::ALL`].
+    pub(crate) fn index(self) -> usize {
+        let mut all = Self::ALL.into_iter();
+        all.position(|one| one == self).unwrap_or_default()
+    }
+
+    /// What people call it.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::Explore => "Explore",
+            Self::Cloth => "Cloth",
+        }
+    }
+
+    /// What it is for.
+    pub(crate) fn what(self) -> &'static str {
+        match self {
+            Self::Explore => "Feel a scene",
+            Self::Cloth => "Make cloth: the library and the textile lab",
+        }
+    }
+
+    /// The word that files use.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Explore => "explore",
+            Self::Cloth => "cloth",
+        }
+    }
+
+    /// The arrangement that a window of this size begins with, points.
+    pub(crate) fn default_tree(self, size: Vec2) -> Tree<Pane> {
+        match self {
+            Self::Explore => arrangement::default_tree(size),
+            Self::Cloth => {
+                let mut tiles = Tiles::default();
+                let root = cloth(&mut tiles, size);
+                Tree::new(Id::unique("cloth"), root, tiles)
+            }
+        }
+    }
+}
+
+/// The library on the left, the lab in the middle, every other pane in a row of tabs below it.
+fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
+    let middle = [Pane::Lab, Pane::Workspace];
+    let is_roomy = is_roomy(size);
+    let stands = |pane: &Pane| !middle.contains(pane) && !(is_roomy && *pane == Pane::Library);
+    let mut below: Vec<Pane> = Pane::ALL.into_iter().filter(stands).collect();
+    // In front stands what shows the amplitudes of the contactors.
+    below.sort_by_key(|pane| *pane != Pane::Heatmaps);
+    let below = tabs(tiles, &below);
+    let middle = tabs(tiles, &middle);
+    let height = (size.y - BELOW).max(BELOW);
+    let parts = [(middle, height), (below, BELOW)];
+    let middle = linear(tiles, LinearDir::Vertical, &parts);
+    if !is_roomy {
+        return middle;
+    }
+    let library = tabs(tiles, &[Pane::Library]);
+    let parts = [(library, LIBRARY), (middle, size.x - LIBRARY)];
+    linear(tiles, LinearDir::Horizontal, &parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::arrangement::{from_text, is_shown, to_text};
+
+    #[test]
+    fn every_perspective_holds_every_pane_and_survives_being_kept() {
+        for perspective in Perspective::ALL {
+            for size in [Vec2::new(1400.0, 900.0), Vec2::new(700.0, 450.0)] {
+                let tree = perspective.default_tree(size);
+                for pane in Pane::ALL {
+                    let tile = arrangement::tile_of(&tree, pane);
+                    assert!(tile.is_some(), "{perspective:?} {pane:?}");
+                }
+                let text = to_text(&tree).unwrap();
+                assert_eq!(from_text(&text, perspective), Some(tree));
+            }
+        }
+    }
+
+    #[test]
+    fn the_lab_stands_in_front_where_cloth_is_made_and_behind_where_it_is_felt() {
+        let size = Vec2::new(1400.0, 900.0);
+        let shows =
+            |perspective: Perspective, pane| is_shown(&perspective.default_tree(size), pane);
+        assert!(shows(Perspective::Cloth, Pane::Lab));
+        assert!(shows(Perspective::Cloth, Pane::Library));
+        assert!(!shows(Perspective::Cloth, Pane::Workspace));
+        assert!(!shows(Perspective::Explore, Pane::Lab));
+        assert!(shows(Perspective::Explore, Pane::Workspace));
+    }
+}
