@@ -15,6 +15,7 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::keep::Keep;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
@@ -42,6 +43,8 @@ pub(crate) enum Command {
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
     Accuracy(AccuracyCommand),
+    /// Keep new textiles in the library.
+    Keep(Keep),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -67,6 +70,12 @@ impl From<FileCommand> for Command {
 impl From<CompareCommand> for Command {
     fn from(command: CompareCommand) -> Self {
         Self::Compare(command)
+    }
+}
+
+impl From<Keep> for Command {
+    fn from(command: Keep) -> Self {
+        Self::Keep(command)
     }
 }
 
