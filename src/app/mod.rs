@@ -43,6 +43,7 @@ mod history;
 mod inbox;
 mod inspect;
 mod job;
+mod keep;
 mod lab;
 mod maps;
 mod native;

@@ -10,6 +10,7 @@ use super::dialogs::Dialogs;
 use super::export::Exports;
 use super::history::Moment;
 use super::job::Job;
+use super::keep::Keeping;
 use super::lab::Lab;
 use super::maps::Maps;
 use super::opening::{Opening, Origin};
@@ -56,6 +57,8 @@ pub(crate) struct Transient {
     pub(crate) reading: Option<Job<Result<Take, SceneError>>>,
     /// A recorded exploration on its way into a file.
     pub(crate) saving: Option<Job<Result<Take, SceneError>>>,
+    /// New textiles on their way into the library.
+    pub(crate) keeping: Keeping,
     /// What is being exported.
     pub(crate) exports: Exports,
     /// The engine as it was seen last.

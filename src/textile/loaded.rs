@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::build::content_of;
 use super::library::Store;
 use super::manifest::{Manifest, Source};
 use super::model::{Model, profiles_of_files};
@@ -108,29 +109,15 @@ impl Textile {
         Ok(Some(Arc::clone(self.friction.get_or_init(|| trace))))
     }
 
-    /// The bytes of a file of its own.
-    pub(crate) fn file(&self, name: &str) -> Result<Vec<u8>, TextileError> {
-        Ok(self.store.read(&self.id, name)?.into_owned())
-    }
-
-    /// Its manifest and its profile files, as bytes.
-    pub(crate) fn content(&self) -> Result<Vec<Vec<u8>>, TextileError> {
-        let names = self.manifest.source.files().0.into_iter().flatten();
-        let names = std::iter::once(MANIFEST.to_owned()).chain(names);
-        names.map(|name| self.file(&name)).collect()
-    }
-
     /// SHA-256 of its manifest and of the files that its surface comes from: what a textile that
     /// is made from it names.
     ///
     /// # Errors
     /// A file that has vanished.
     pub fn content_hash(&self) -> Result<String, TextileError> {
-        let mut content = self.content()?;
-        if let (Source::Heightmap(keys), 1) = (&self.manifest.source, content.len()) {
-            content.push(self.file(&keys.file)?);
-        }
-        Ok(sha256_hex(content.iter().map(Vec::as_slice)))
+        let content = content_of(&self.store, &self.id)?;
+        // The first part is the id, under which the textile may not be found for ever.
+        Ok(sha256_hex(content.iter().skip(1).map(Vec::as_slice)))
     }
 
     /// Its picture, decoded now; `None` if the manifest names none.

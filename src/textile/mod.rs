@@ -19,6 +19,7 @@ mod curve;
 mod drawn;
 mod fourier;
 mod index;
+mod keeping;
 mod kes;
 mod knit;
 mod library;
@@ -48,6 +49,7 @@ pub use fourier::{
     example_templates, import, templates_from_toml, templates_to_toml,
 };
 pub use index::{Index, IndexEntry};
+pub use keeping::id_of_name;
 pub use kes::{
     ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesFigures, KesFile,
     KesFriction, KesImport, KesOptions, KesOrigin, KesPlace, KesReading, KesSection, KesStroke,
@@ -64,7 +66,7 @@ pub use parameter::{
     Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
 };
 pub use profile_file::read as read_profile;
-pub use recipes::{SEVENTY_FOUR, is_id};
+pub use recipes::SEVENTY_FOUR;
 pub use restoration::{Reduced, Restoration, Rule};
 pub use selection::{kind_of, most_typical};
 pub use trial::Trial;

@@ -176,7 +176,7 @@ fn cloth(
         sides: Vec<Side>,
     }
 
-    let id = take_text(&mut keys, "id").filter(|id| is_id(id));
+    let id = take_text(&mut keys, "id").filter(|id| is_name(id));
     let Some(id) = id else {
         let mend = "give it an id of letters, digits and hyphens, in quotes";
         return Err(wrong("id", "a textile without an id".to_owned(), mend));
@@ -208,7 +208,7 @@ fn cloth(
 }
 
 /// Whether an id can be the name of a folder everywhere.
-pub fn is_id(id: &str) -> bool {
+fn is_name(id: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     !id.is_empty() && id.chars().all(is_plain)
 }

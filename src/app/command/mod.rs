@@ -15,6 +15,7 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::keep::Keep;
 use super::lab::LabCommand;
 use super::perspective::Perspective;
 use super::probe::Probe;
@@ -44,6 +45,8 @@ pub(crate) enum Command {
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
     Accuracy(AccuracyCommand),
+    /// Keep new textiles in the library.
+    Keep(Keep),
     /// Do something in the textile lab.
     Lab(LabCommand),
     /// Change what is shown how.
@@ -71,6 +74,12 @@ impl From<FileCommand> for Command {
 impl From<CompareCommand> for Command {
     fn from(command: CompareCommand) -> Self {
         Self::Compare(command)
+    }
+}
+
+impl From<Keep> for Command {
+    fn from(command: Keep) -> Self {
+        Self::Keep(command)
     }
 }
 

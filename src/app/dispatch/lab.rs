@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use eframe::egui;
 
-use crate::app::command::Command;
 use crate::app::keep::Keep;
 use crate::app::lab::{self, Beginning, Compared, Family, LabCommand, Plan, Preview, Task, taken};
 use crate::app::window::Workbench;
@@ -127,14 +126,13 @@ impl Workbench {
         lab.keeping = None;
         match outcome {
             Ok(textiles) => {
-                for textile in textiles.into_iter().map(Arc::new) {
-                    let keep = if feels {
-                        Keep::Feel(textile)
-                    } else {
-                        Keep::Save(textile)
-                    };
-                    self.dispatch(ctx, Command::Keep(keep));
-                }
+                let textiles = Arc::new(textiles);
+                let keep = if feels {
+                    Keep::Feel(textiles)
+                } else {
+                    Keep::Save(textiles)
+                };
+                self.dispatch(ctx, keep.into());
             }
             Err(_) if was_stopped => {}
             Err(words) => lab.refusal = Some(format!("Nothing was kept: {words}")),

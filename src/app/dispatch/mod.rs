@@ -6,6 +6,7 @@ mod device;
 mod edit;
 mod export;
 mod file;
+mod keep;
 mod lab;
 mod play;
 mod show;
@@ -32,6 +33,7 @@ impl Workbench {
             Command::Play(command) => self.dispatch_play(command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
+            Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),

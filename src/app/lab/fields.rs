@@ -1,9 +1,6 @@
 //! How a textile is called that is kept: what is typed, and what is wrong with it.
 
-use crate::textile::is_id;
-
-/// Most letters of an id that is made from a name.
-const MOST_LETTERS: usize = 40;
+use crate::textile::id_of_name;
 
 /// What is typed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -37,7 +34,7 @@ impl KeepFields {
     /// The id follows the name until it is typed.
     pub(crate) fn follow_name(&mut self) {
         if !self.has_own_id {
-            self.id = id_of(&self.name);
+            self.id = id_of_name(&self.name).unwrap_or_default();
         }
     }
 
@@ -47,27 +44,13 @@ impl KeepFields {
         if self.name.trim().is_empty() {
             return Some("The name is empty; give the textile a name".to_owned());
         }
-        if !is_id(id) {
-            let words = "write it with letters a–z, digits, - and _";
+        if id_of_name(id).as_deref() != Some(id) {
+            let words = "write it with letters a to z, digits and single hyphens";
             return Some(format!("The id \"{id}\" can be no folder's name; {words}"));
         }
-        let is_taken = known.iter().any(|known| known.eq_ignore_ascii_case(id));
+        let is_taken = known.iter().any(|known| known == id);
         is_taken.then(|| format!("The library has a textile \"{id}\"; choose another id"))
     }
-}
-
-/// An id that reads like a name.
-fn id_of(name: &str) -> String {
-    let mut id = String::new();
-    for c in name.to_lowercase().chars() {
-        if c.is_ascii_alphanumeric() {
-            id.push(c);
-        } else if !id.is_empty() && !id.ends_with('-') {
-            id.push('-');
-        }
-    }
-    id.truncate(MOST_LETTERS);
-    id.trim_end_matches('-').to_owned()
 }
 
 #[cfg(test)]
@@ -80,7 +63,7 @@ mod tests {
         assert_eq!(fields.id, "wool-twill-changed");
         fields.name = "Köper  Nr. 3 ".to_owned();
         fields.follow_name();
-        assert_eq!(fields.id, "k-per-nr-3");
+        assert_eq!(fields.id, "koper-nr-3");
         fields.id = "mine".to_owned();
         fields.has_own_id = true;
         fields.name = "Other".to_owned();
@@ -97,7 +80,13 @@ mod tests {
             ..KeepFields::default()
         };
         assert_eq!(with("a", "a-1").refusal(&known), None);
-        for (name, id) in [(" ", "a"), ("a", ""), ("a", "../a"), ("a", "Wool-Twill")] {
+        for (name, id) in [
+            (" ", "a"),
+            ("a", ""),
+            ("a", "../a"),
+            ("a", "Wool-Twill"),
+            ("a", "wool-twill"),
+        ] {
             let words = with(name, id).refusal(&known).unwrap();
             assert!(words.contains(';') && !words.contains('\n'), "{words}");
         }
