@@ -117,6 +117,11 @@ impl Workbench {
         [transient.maps.n_computed(), transient.curves.n_computed()]
     }
 
+    /// Previews of recipes that were begun in the textile lab.
+    pub fn previews_computed(&self) -> u64 {
+        self.transient.lab.n_computed
+    }
+
     /// The scene's name.
     pub fn scene_name(&self) -> &str {
         &self.document.scene().name

@@ -174,6 +174,19 @@ mod tests {
     }
 
     #[test]
+    fn a_value_is_found_set_and_taken_away_where_its_table_says() {
+        let read = |text: &str| keys_from_str::<Keys>(text, Path::new("a.toml")).unwrap();
+        let mut keys = read("a = 1\n[t.u]\nb = 2\n");
+        assert_eq!(value_at(&keys, "t.u", "b"), Some(&KeyValue::Integer(2)));
+        assert_eq!(value_at(&keys, "", "a"), Some(&KeyValue::Integer(1)));
+        assert_eq!(value_at(&keys, "t.v", "b"), None);
+        set_value(&mut keys, "t.u", "b", None);
+        set_value(&mut keys, "v", "c", Some("d".into()));
+        set_value(&mut keys, "", "a", Some(KeyValue::Integer(3)));
+        assert_eq!(keys, read("a = 3\n[t.u]\n[v]\nc = \"d\"\n"));
+    }
+
+    #[test]
     fn tables_are_laid_over_one_another_key_by_key() {
         let read = |text: &str| keys_from_str::<Keys>(text, Path::new("a.toml")).unwrap();
         let mut keys = read("a = 1\nid = \"x\"\n[t]\nb = 2\nc = [3, 4]\n[t.u]\nd = 5\n");

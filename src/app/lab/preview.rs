@@ -199,10 +199,11 @@ impl Preview {
     pub(crate) fn figures(&self) -> Vec<Shown> {
         let mut figures = self.felt.figures();
         let relief = [
-            Shown::of("Sa", self.relief.sa_um(), 2, "µm")
-                .said("Mean absolute deviation of the heights over the area"),
+            Shown::of("Sa", self.relief.sa_um(), 2, "µm").said(
+                "Mean absolute deviation of the heights themselves, over the area, without a probe",
+            ),
             Shown::of("Sq", self.relief.sq_um(), 2, "µm")
-                .said("Root mean square of the heights over the area"),
+                .said("Root mean square of the heights themselves, over the area, without a probe"),
         ];
         figures.splice(3..3, relief);
         if let Some([_, found, _]) = self.hurst {

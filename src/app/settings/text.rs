@@ -268,6 +268,15 @@ mod tests {
     }
 
     #[test]
+    fn a_file_from_before_perspectives_arranges_the_first_one() {
+        let (kept, odd) = read("arrangement = \"a tree\"\n", path()).unwrap();
+        assert_eq!((kept.perspective, odd), (Perspective::Explore, None));
+        assert_eq!(kept.arrangements, [Some("a tree".to_owned()), None]);
+        let (kept, odd) = read("theme = \"dark\"\nperspective = \"moon\"\n", path()).unwrap();
+        assert_eq!((kept.perspective, odd), (Perspective::Explore, Some(2)));
+    }
+
+    #[test]
     fn keys_of_a_newer_version_are_passed_over() {
         let text = "theme = \"dark\"\n[sound]\nvolume = 3\n";
         let (kept, odd) = read(text, path()).unwrap();

@@ -5,6 +5,7 @@ mod around;
 mod basics;
 mod compare;
 mod export;
+mod lab;
 mod overlays;
 #[cfg(unix)]
 mod ports;

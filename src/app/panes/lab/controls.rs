@@ -23,7 +23,12 @@ pub(super) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, wishes
             show_steps(ui, view.lab.steps.as_ref(), wishes);
         });
     });
-    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, wishes));
+    ui.allocate_ui_with_layout(size, line, |ui| {
+        show_pages(ui, view.lab.page, wishes);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            show_name(ui, view.lab.steps.as_ref());
+        });
+    });
     ui.add_space(STEP);
     let Some(steps) = &view.lab.steps else {
         return;
@@ -95,9 +100,14 @@ fn show_steps(ui: &mut Ui, steps: Option<&Steps>, wishes: &mut Wishes) {
     let is_changed = steps.is_some_and(|steps| steps.now() != steps.first());
     // From the right.
     let all = [
-        ("↺", "Back to the start", is_changed, LabCommand::Restart),
-        ("→", "Redo in the lab", forth, LabCommand::Redo),
-        ("←", "Undo in the lab", back, LabCommand::Undo),
+        (
+            "Start",
+            "Back to the start",
+            is_changed,
+            LabCommand::Restart,
+        ),
+        ("Redo", "Redo in the lab", forth, LabCommand::Redo),
+        ("Undo", "Undo in the lab", back, LabCommand::Undo),
     ];
     for (sign, name, can, command) in all {
         let refusal = (!can).then_some("Nothing has changed");
@@ -111,6 +121,18 @@ fn show_steps(ui: &mut Ui, steps: Option<&Steps>, wishes: &mut Wishes) {
             wishes.push(command.into());
         }
     }
+}
+
+/// What is edited: the name of the recipe and its kind.
+fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
+    let Some(manifest) = steps.and_then(|steps| steps.first().read().ok()) else {
+        return;
+    };
+    let kind = manifest.source.kind();
+    let words = format!("{} · {kind}", manifest.name);
+    let text = super::small(&words, Palette::in_ui(ui).dim);
+    let tip = "What the recipe began with";
+    ui.add(egui::Label::new(text).truncate()).on_hover_text(tip);
 }
 
 fn show_pages(ui: &mut Ui, shown: Page, wishes: &mut Wishes) {

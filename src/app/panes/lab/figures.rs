@@ -8,7 +8,7 @@ use crate::app::theme::{self, Palette, STEP};
 use crate::quantity;
 
 /// Height of a row, points.
-const ROW: f32 = 17.0;
+const ROW: f32 = 15.0;
 /// Width of the column of units, points.
 const UNIT: f32 = 26.0;
 /// Width of a column of numbers, points.

@@ -185,7 +185,7 @@ type Parts = [Rect; 5];
 
 fn grid(rect: Rect) -> Parts {
     let tall = rect.height() - 2.0 * GAP;
-    let (upper, middle) = (0.27 * tall, 0.37 * tall);
+    let (upper, middle) = (0.25 * tall, 0.34 * tall);
     let (profile, rest) = rect.split_top_bottom_at_y(rect.top() + upper);
     let rest = rest.with_min_y(rest.top() + GAP);
     let (pictures, below) = rest.split_top_bottom_at_y(rest.top() + middle);

@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align2, Color32, ColorImage, Mesh, Painter, Rect, Sense, Shape, Stroke, TextureHandle,
-    TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Color32, ColorImage, Mesh, Painter, Rect, Sense, Shape, Stroke, TextureFilter,
+    TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{LabView, title};
@@ -26,6 +26,12 @@ const N_ROWS: u8 = 96;
 const WAVENUMBERS: [f64; 2] = [BIN_SPACING_PER_MM, 50.0];
 /// Width of the colour bar with its numbers, points.
 const BAR: f32 = 40.0;
+
+/// How the relief is read: smooth however far away it is.
+const READ: TextureOptions = TextureOptions {
+    mipmap_mode: Some(TextureFilter::Linear),
+    ..TextureOptions::LINEAR
+};
 
 /// The pictures as they were drawn last.
 #[derive(Default)]
@@ -59,7 +65,7 @@ impl LabPictures {
             .iter()
             .map(|&[r, g, b]| Color32::from_rgb(r, g, b));
         let image = ColorImage::new([picture.width, picture.height], pixels.collect());
-        let texture = ctx.load_texture("lab relief", image, TextureOptions::LINEAR);
+        let texture = ctx.load_texture("lab relief", image, READ);
         self.n_made += 1;
         self.relief = Some((Arc::clone(preview), texture.clone()));
         texture
@@ -79,7 +85,14 @@ impl LabPictures {
         }
         let rows = rows_db(spectra);
         let n_points = rows.first().map_or(0, Vec::len);
-        let colour = |db: &f64| map.colour(share(*db));
+        let colour = |db: &f64| {
+            if db.is_finite() {
+                map.colour(share(*db))
+            } else {
+                // Finer than the samples: nothing is known there.
+                Color32::TRANSPARENT
+            }
+        };
         // The top row of a picture holds the highest wavenumbers.
         let pixels = rows.iter().rev().flat_map(|row| row.iter().map(colour));
         let image = ColorImage::new([n_points, rows.len()], pixels.collect());
@@ -236,6 +249,8 @@ pub(super) fn show_spectra(
     let texture = pictures.spectra(ui.ctx(), spectra, view.map);
     let mut mesh = Mesh::with_texture(texture.id());
     let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let floor = Palette::in_ui(ui).floor;
+    ui.painter().rect_filled(area, 0, floor);
     mesh.add_rect_with_uv(area, all, Color32::WHITE);
     ui.painter().add(Shape::mesh(mesh));
     paint_axes(ui.painter(), area, spectra);

@@ -66,9 +66,10 @@ fn show_head(ui: &mut Ui, look: Look, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     ui.horizontal(|ui| {
         ui.label(super::small("profile", palette.dim));
-        for (direction, letters) in Direction::ALL
-            .into_iter()
-            .zip(["warp →", "warp ←", "weft →", "weft ←"])
+        for (direction, letters) in
+            Direction::ALL
+                .into_iter()
+                .zip(["warp", "warp back", "weft", "weft back"])
         {
             let tip = format!("Profile along {}", direction.label());
             if toggle(ui, letters, direction == look.direction, &tip) {
@@ -184,8 +185,8 @@ impl Plot {
     }
 
     fn paint_units(&self, painter: &Painter) {
-        let corner = self.area.left_top() + vec2(-5.0, -2.0);
-        paint_unit(painter, corner, Align2::RIGHT_BOTTOM, "µm");
+        let corner = self.area.left_top() + vec2(4.0, 1.0);
+        paint_unit(painter, corner, Align2::LEFT_TOP, "µm");
         let corner = self.area.right_bottom() + vec2(-2.0, -1.0);
         paint_unit(painter, corner, Align2::RIGHT_BOTTOM, "mm");
     }
