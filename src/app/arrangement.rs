@@ -228,7 +228,8 @@ pub(crate) fn to_text(tree: &Tree<Pane>) -> Option<String> {
     files::to_json_string(tree, Path::new("arrangement")).ok()
 }
 
-/// The arrangement of a perspective from text, with every pane in it; `None` when it is not a sound one.
+/// The arrangement of a perspective from text, with every pane in it; `None` when it is not a sound
+/// one.
 pub(crate) fn from_text(text: &str, perspective: Perspective) -> Option<Tree<Pane>> {
     let mut tree: Tree<Pane> = files::from_json_str(text, Path::new("arrangement")).ok()?;
     let found = panes_of(&tree)?;

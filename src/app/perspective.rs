@@ -69,11 +69,21 @@ impl Perspective {
     }
 }
 
-/// The library on the left, the lab in the middle, every other pane in a row of tabs below it.
+/// The library on the left, the lab in the middle, every other pane in a row of tabs below it; in
+/// a small window the lab in front of all.
 fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let middle = [Pane::Lab, Pane::Workspace];
-    let is_roomy = is_roomy(size);
-    let stands = |pane: &Pane| !middle.contains(pane) && !(is_roomy && *pane == Pane::Library);
+    if !is_roomy(size) {
+        let mut all = Pane::ALL;
+        all.sort_by_key(|pane| match pane {
+            Pane::Lab => 0,
+            Pane::Library => 1,
+            Pane::Workspace => 2,
+            _ => 3,
+        });
+        return tabs(tiles, &all);
+    }
+    let stands = |pane: &Pane| !middle.contains(pane) && *pane != Pane::Library;
     let mut below: Vec<Pane> = Pane::ALL.into_iter().filter(stands).collect();
     // In front stands what shows the amplitudes of the contactors.
     below.sort_by_key(|pane| *pane != Pane::Heatmaps);
@@ -82,9 +92,6 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let height = (size.y - BELOW).max(BELOW);
     let parts = [(middle, height), (below, BELOW)];
     let middle = linear(tiles, LinearDir::Vertical, &parts);
-    if !is_roomy {
-        return middle;
-    }
     let library = tabs(tiles, &[Pane::Library]);
     let parts = [(library, LIBRARY), (middle, size.x - LIBRARY)];
     linear(tiles, LinearDir::Horizontal, &parts)

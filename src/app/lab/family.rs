@@ -1,6 +1,7 @@
 //! A family: recipes that differ in one parameter, and what is felt of each.
 
 use super::{Felt, Plan, Preview};
+use crate::app::widgets::round_step;
 use crate::files::KeyValue;
 use crate::progress::Progress;
 use crate::quantity;
@@ -33,9 +34,11 @@ impl FamilyFields {
         } else {
             [0.5 * middle, 1.5 * middle]
         };
+        // Round numbers: a family is told by its values.
+        let step = round_step((most - least).min(middle.abs().max(1e-6)) / 50.0);
         let short = |value: f64| {
-            let rounded = (value.clamp(least, most) * 1e4).round() / 1e4;
-            format!("{rounded}")
+            let rounded = ((value / step).round() * step).clamp(least, most);
+            format!("{}", (rounded * 1e6).round() / 1e6)
         };
         self.ends = ends.map(short);
         if self.n.is_empty() {

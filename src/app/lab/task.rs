@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn a_task_that_is_stopped_ends_at_its_next_step_and_says_so() {
         let ctx = egui::Context::default();
-        let (go, begin) = std::sync::mpsc::channel::<()>();
+        let (go, begin) = std::sync::mpsc::sync_channel::<()>(1);
         let mut task = Some(Task::start(("test", &ctx), false, move |progress| {
             begin.recv().map_err(|error| error.to_string())?;
             progress

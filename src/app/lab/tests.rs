@@ -61,10 +61,13 @@ fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
 fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
     let folder = std::env::temp_dir().join(format!("selvedge-lab-{}", std::process::id()));
     let textile = folder.join("measured");
-    let shipped = Library::shipped().unwrap();
     std::fs::create_dir_all(&textile).unwrap();
-    let profile = shipped.file("wool-twill", "warp_forward.csv").unwrap();
-    std::fs::write(textile.join("w.csv"), profile).unwrap();
+    let row = |i: u32| {
+        let x_mm = f64::from(i) / 100.0;
+        format!("{x_mm},{}\n", 5.0 * (x_mm * 6.0).sin())
+    };
+    let rows: String = (0..2000).map(row).collect();
+    std::fs::write(textile.join("w.csv"), format!("x_mm,height_um\n{rows}")).unwrap();
     let text = "name = \"M\"\nconstruction = \"woven\"\nfibre = \"wool\"\n[source]\n\
                 kind = \"profiles\"\nwarp_forward = \"w.csv\"\n";
     std::fs::write(textile.join("textile.toml"), text).unwrap();

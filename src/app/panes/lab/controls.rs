@@ -23,12 +23,7 @@ pub(super) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, wishes
             show_steps(ui, view.lab.steps.as_ref(), wishes);
         });
     });
-    ui.allocate_ui_with_layout(size, line, |ui| {
-        show_pages(ui, view.lab.page, wishes);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_name(ui, view.lab.steps.as_ref());
-        });
-    });
+    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, wishes));
     ui.add_space(STEP);
     let Some(steps) = &view.lab.steps else {
         return;
@@ -124,15 +119,16 @@ fn show_steps(ui: &mut Ui, steps: Option<&Steps>, wishes: &mut Wishes) {
 }
 
 /// What is edited: the name of the recipe and its kind.
-fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
+pub(super) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
     let Some(manifest) = steps.and_then(|steps| steps.first().read().ok()) else {
         return;
     };
     let kind = manifest.source.kind();
     let words = format!("{} · {kind}", manifest.name);
-    let text = super::small(&words, Palette::in_ui(ui).dim);
+    let text = super::small(&words, Palette::in_ui(ui).text);
     let tip = "What the recipe began with";
-    ui.add(egui::Label::new(text).truncate()).on_hover_text(tip);
+    ui.label(text).on_hover_text(tip);
+    ui.add_space(2.0 * STEP);
 }
 
 fn show_pages(ui: &mut Ui, shown: Page, wishes: &mut Wishes) {

@@ -24,7 +24,7 @@ const RANGE: f32 = 0.14;
 const FAINTEST: f32 = 0.3;
 
 /// Shows the plot.
-pub(super) fn show(ui: &mut Ui, rect: Rect, view: &LabView<'_>, preview: &Preview) {
+pub(super) fn show(ui: &Ui, rect: Rect, view: &LabView<'_>, preview: &Preview) {
     let direction = view.lab.look.direction;
     let family = view.lab.family.as_ref();
     let family = family.filter(|_| view.lab.page == Page::Family);

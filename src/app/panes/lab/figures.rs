@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, view: &LabView<'_>, preview: &Preview) {
         for shown in preview.figures() {
             let others = others.as_ref().map_or(&[][..], Vec::as_slice);
             let other = others.iter().find(|other| other.name == shown.name);
-            let other = other.map(|other| other.value);
+            let other = compared.map(|_| other.map(|other| other.value));
             // Of a Brownian surface: the exponent that was asked for.
             let asked = preview.hurst.filter(|_| shown.name == "Hurst exponent");
             let note = asked.map(|[asked, _, error]| {
@@ -46,7 +46,12 @@ pub(super) fn show(ui: &mut Ui, view: &LabView<'_>, preview: &Preview) {
     });
 }
 
-fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<f64>, Option<String>)) {
+/// `other` is the column of what is compared, if there is one, and its number.
+#[expect(
+    clippy::option_option,
+    reason = "no column, an empty cell, or a number"
+)]
+fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<String>)) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), ROW);
     let line = Layout::left_to_right(Align::Center);
@@ -60,7 +65,8 @@ fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<f64>, Option<String>))
                 RichText::new(digits).font(theme::number())
             };
             if let Some(other) = other {
-                cell(ui, NUMBER, Align::Max, number(other).color(palette.line));
+                let text = other.map_or_else(|| RichText::new(""), number);
+                cell(ui, NUMBER, Align::Max, text.color(palette.line));
             }
             let value = number(shown.value).color(palette.text);
             cell(ui, NUMBER, Align::Max, value);

@@ -35,7 +35,7 @@ const WIDE: f32 = 720.0;
 /// Height of the line over the plots, points.
 const LINE: f32 = 26.0;
 /// Least height of the plots, points: where there is less room they scroll.
-const LEAST: f32 = 470.0;
+const LEAST: f32 = 420.0;
 /// From one plot to the next, points.
 const GAP: f32 = 10.0;
 /// How dim a preview is that is not of the recipe as it is.
@@ -112,6 +112,7 @@ fn show_standing(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
     let lab = view.lab;
     let size = vec2(ui.available_width(), LINE);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        controls::show_name(ui, lab.steps.as_ref());
         controls::show_compared(ui, view, wishes);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(share) = lab.share() {

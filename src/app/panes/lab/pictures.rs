@@ -143,7 +143,7 @@ pub(super) fn rows_db(spectra: &LocalSpectra) -> Vec<Vec<f64>> {
 
 /// Shows the relief, as much of it as there is room for.
 pub(super) fn show_relief(
-    ui: &mut Ui,
+    ui: &Ui,
     rect: Rect,
     (view, preview): (&LabView<'_>, &Arc<Preview>),
     pictures: &mut LabPictures,
@@ -227,7 +227,7 @@ fn paint_ruler(painter: &Painter, picture: Rect, along_mm: f64) {
 
 /// Shows the local spectra of the stroke that is looked at.
 pub(super) fn show_spectra(
-    ui: &mut Ui,
+    ui: &Ui,
     rect: Rect,
     (view, preview): (&LabView<'_>, &Arc<Preview>),
     pictures: &mut LabPictures,

@@ -136,7 +136,8 @@ fn tell(response: Response, plot: &Plot, (profile, compared): (&Profile, Option<
     let place = quantity::with_unit(x_mm, 2, "mm");
     let height = quantity::with_unit(height, 1, "µm");
     let words = format!(
-        "{place}  {height}{other}\nIn travel order. Drag to move along, Ctrl+wheel to look closer, double click to see all"
+        "{place}  {height}{other}\nIn travel order. Drag to move along, Ctrl+wheel to look closer, \
+         double click to see all"
     );
     response.on_hover_text_at_pointer(words);
 }

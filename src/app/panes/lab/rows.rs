@@ -68,7 +68,7 @@ fn scale(range: Range, first: f64, value: f64) -> Scale {
     let step = if range.is_whole {
         1.0
     } else {
-        crate::app::widgets::round_step((most - least) / 500.0).min(1.0)
+        crate::app::widgets::round_step((most - least) / 100.0).min(1.0)
     };
     let curve = if is_far {
         Curve::Decades(if least > 0.0 {
@@ -155,7 +155,7 @@ pub(super) fn choice(
     words: &[&'static str],
 ) -> Option<KeyValue> {
     let now = draft.value(parameter.place).and_then(KeyValue::as_str);
-    let now = now.or(words.first().copied()).unwrap_or_default();
+    let now = now.or_else(|| words.first().copied()).unwrap_or_default();
     combo(ui, parameter, now, words).map(KeyValue::from)
 }
 
