@@ -12,13 +12,14 @@ use eframe::egui::{Context, Pos2, RawInput, Rect, vec2};
 use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
+use crate::app::lab::{Beginning, LabCommand};
 use crate::app::panes::density_db;
 use crate::app::signals::N_ROWS;
 use crate::app::{Drive, Workbench};
 use crate::files::{self, Table};
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 11] = [
+const ALL: [Exportable; 12] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -29,6 +30,7 @@ const ALL: [Exportable; 11] = [
     Exportable::Pane(Pane::Response),
     Exportable::Pane(Pane::Accuracy),
     Exportable::Pane(Pane::Compare),
+    Exportable::Pane(Pane::Lab),
     Exportable::Timeline,
 ];
 
@@ -62,6 +64,9 @@ impl Desk {
         let stroke = PlayCommand::Source(PlaySource::Stroke);
         desk.bench.dispatch(&desk.ctx, stroke.into());
         // What is found on threads is found while its pane is in sight.
+        let brownian = LabCommand::Begin(Beginning::Example("brownian"));
+        desk.bench.dispatch(&desk.ctx, brownian.into());
+        desk.bench.follow_lab(&desk.ctx);
         for pane in [Pane::Response, Pane::Accuracy, Pane::Compare] {
             desk.bench
                 .dispatch(&desk.ctx, ShowCommand::Pane(pane).into());

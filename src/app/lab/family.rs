@@ -35,7 +35,11 @@ impl FamilyFields {
             [0.5 * middle, 1.5 * middle]
         };
         // Round numbers: a family is told by its values.
-        let step = round_step((most - least).min(middle.abs().max(1e-6)) / 50.0);
+        let step = if most - least <= 1.0 {
+            round_step((most - least) / 25.0)
+        } else {
+            round_step(middle.abs().max(1e-6) / 50.0)
+        };
         let short = |value: f64| {
             let rounded = ((value / step).round() * step).clamp(least, most);
             format!("{}", (rounded * 1e6).round() / 1e6)

@@ -26,7 +26,6 @@ fn small() -> Lab {
         key,
     };
     let steps = lab.steps.as_mut().unwrap();
-    steps.set(at("generator"), Some("periodic".into()), false);
     steps.set(at("step_mm"), Some(0.1.into()), false);
     lab
 }

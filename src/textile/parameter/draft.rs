@@ -159,10 +159,11 @@ pub fn example(kind: &str) -> Result<Manifest, TextileError> {
         "weave" => return Library::shipped()?.manifest("wool-twill"),
         "knit" => return Library::shipped()?.manifest("polyamide-jersey"),
         "brownian" => {
-            // Coarser than is usual: what is edited should be seen at once.
+            // Coarser than is usual and without the costly embedding: what is edited should be
+            // seen at once.
             let surface = Brownian {
                 step_mm: 0.05,
-                ..Brownian::new(0.5, 6.0, Generator::Exact, 1)
+                ..Brownian::new(0.5, 6.0, Generator::Periodic, 1)
             };
             ("Brownian surface", Source::Brownian(Box::new(surface)))
         }

@@ -146,7 +146,7 @@ fn a_family_is_tried_and_all_of_it_is_kept() {
     harness.run_steps(3);
     harness.get_by_label("Try").click();
     harness.run_steps(4);
-    save(&mut harness, "family");
+    harness.render().unwrap();
     harness.get_by_label("Keep all 5").click();
     harness.run_steps(4);
     let library = Library::open(&folder.0.join("library")).unwrap();
@@ -168,49 +168,5 @@ fn a_copy_is_compared_with_its_parent_and_a_cloth_without_recipe_is_restored() {
     harness.run_steps(4);
     assert!(shows(&harness, "Ripple, restored"));
     harness.get_by_role_and_label(Role::ComboBox, "Compared with");
-    save(&mut harness, "restored");
-}
-
-fn save(harness: &mut Harness<'_, Workbench>, name: &str) {
-    let picture = harness.render().unwrap();
-    picture.save(format!("/tmp/lab-pics/{name}.png")).unwrap();
-}
-
-#[test]
-fn pictures() {
-    let mut harness = Harness::builder()
-        .with_size(vec2(1400.0, 900.0))
-        .with_step_dt(1.0 / 40.0)
-        .with_max_steps(200)
-        .renderer(Soft(Rasteriser::default()))
-        .build_eframe(move |cc| Workbench::new(&cc.egui_ctx, None, Drive::Stepped).unwrap());
-    harness.run_steps(3);
-    harness.get_by_label("Cloth perspective").click();
-    harness.run_steps(4);
-    harness.get_by_label("Begin with").click();
-    harness.run_steps(3);
-    harness.get_by_label("A copy of").click();
-    harness.run_steps(3);
-    save(&mut harness, "menu");
-    harness.get_by_label("Polyamide taffeta").click();
-    harness.run_steps(4);
-    type_number(&mut harness, "Ends", "20");
-    save(&mut harness, "copy");
-    harness.get_by_label_contains("Warp yarn").click();
-    harness
-        .get_by_label("Look at 2 mm of it; the wheel looks closer, a drag moves along")
-        .click();
-    harness.run_steps(12);
-    save(&mut harness, "yarn");
-    harness.set_size(vec2(960.0, 600.0));
-    harness.run_steps(6);
-    save(&mut harness, "narrow");
-    harness.set_size(vec2(700.0, 900.0));
-    harness.run_steps(6);
-    save(&mut harness, "slim");
-    harness.set_size(vec2(1600.0, 1000.0));
-    harness.ctx.set_theme(eframe::egui::Theme::Light);
-    harness.get_by_label("Explore perspective").click();
-    harness.run_steps(6);
-    save(&mut harness, "explore");
+    harness.render().unwrap();
 }
