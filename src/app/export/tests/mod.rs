@@ -1,24 +1,27 @@
 //! Every exportable pane of a window that explores the shipped scene: its numbers, its kinds of
 //! files, and what is said when there is nothing.
 
+mod over_cloth;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use eframe::App as _;
-use eframe::egui::{Context, Pos2, RawInput, Rect, vec2};
+use eframe::egui::vec2;
 
 use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
 use crate::app::panes::density_db;
 use crate::app::signals::N_ROWS;
-use crate::app::{Drive, Workbench};
+use crate::app::headless::Headless;
+use crate::app::workspace::Overlay;
+use crate::tactile::Band;
 use crate::files::{self, Table};
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 11] = [
+const ALL: [Exportable; 13] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -29,44 +32,43 @@ const ALL: [Exportable; 11] = [
     Exportable::Pane(Pane::Response),
     Exportable::Pane(Pane::Accuracy),
     Exportable::Pane(Pane::Compare),
+    Exportable::Pane(Pane::Workspace),
+    Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
 ];
 
-/// Ticks between two frames: 10 frames a second of simulated time.
-const TICKS_A_FRAME: u32 = 4;
-
-/// A window without a screen.
-struct Desk {
-    ctx: Context,
-    bench: Workbench,
-    frame: eframe::Frame,
-    n_ticks: u32,
-}
-
-impl Desk {
-    fn new() -> Self {
-        let ctx = Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(&ctx, ShowCommand::ToggleNumbers.into());
-        Self {
-            ctx,
-            bench,
-            frame: eframe::Frame::_new_kittest(),
-            n_ticks: 0,
-        }
+/// The exploration that is exported from.
+impl Headless {
+    fn fresh() -> Self {
+        let mut desk = Self::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        desk.dispatch(ShowCommand::ToggleNumbers);
+        desk
     }
 
     /// A window whose display has explored by itself for as many ticks.
     fn explored(n_ticks: u32) -> Self {
-        let mut desk = Self::new();
-        let stroke = PlayCommand::Source(PlaySource::Stroke);
-        desk.bench.dispatch(&desk.ctx, stroke.into());
+        let mut desk = Self::fresh();
+        desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
+        desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
-        for pane in [Pane::Response, Pane::Accuracy, Pane::Compare] {
-            desk.bench
-                .dispatch(&desk.ctx, ShowCommand::Pane(pane).into());
-            desk.go_on(n_ticks / 3);
+        let panes = [Pane::Response, Pane::Accuracy, Pane::Compare];
+        for pane in panes {
+            desk.dispatch(ShowCommand::Pane(pane));
+            desk.pass_ticks(n_ticks / 3);
             desk.settle();
+        }
+        desk
+    }
+
+    /// The same with the library measured.
+    fn collected(n_ticks: u32) -> Self {
+        let mut desk = Self::explored(n_ticks);
+        desk.dispatch(ShowCommand::Pane(Pane::Collection));
+        desk.pass_ticks(2);
+        let n_textiles = desk.bench.shelf.items().len() as u64;
+        while desk.bench.n_textiles_measured() < n_textiles {
+            thread::sleep(Duration::from_millis(5));
+            desk.pass_ticks(1);
         }
         desk
     }
@@ -86,31 +88,13 @@ impl Desk {
         panic!("a thread never came to its end");
     }
 
-    fn go_on(&mut self, n_ticks: u32) {
-        let ctx = self.ctx.clone();
-        let end = self.n_ticks + n_ticks;
-        while self.n_ticks < end {
-            self.n_ticks = end.min(self.n_ticks + TICKS_A_FRAME);
-            let input = RawInput {
-                screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(1400.0, 900.0))),
-                time: Some(f64::from(self.n_ticks) / 40.0),
-                ..RawInput::default()
-            };
-            let output = ctx.run_ui(input, |ui| {
-                self.bench.logic(&ctx, &mut self.frame);
-                self.bench.ui(ui, &mut self.frame);
-            });
-            output.drop_without_applying_deltas();
-        }
-    }
-
     fn exported(&mut self, what: Exportable) -> Exported {
         let exported = self.bench.exported(what);
         exported.unwrap_or_else(|words| panic!("{what:?}: {words}"))
     }
 
     fn file(&mut self, command: FileCommand) {
-        self.bench.dispatch(&self.ctx.clone(), command.into());
+        self.dispatch(command);
     }
 
     fn notices(&self) -> String {
@@ -153,7 +137,7 @@ fn column(exported: &Exported, name: &str) -> Vec<f64> {
 
 #[test]
 fn every_pane_is_exported_as_every_kind_the_same_twice() {
-    let mut desk = Desk::explored(90);
+    let mut desk = Headless::collected(90);
     for what in ALL {
         let exported = desk.exported(what);
         assert!(exported.sheet.n_rows() > 0, "{what:?}");
@@ -193,7 +177,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
 
 #[test]
 fn heatmaps_hold_the_amplitudes_of_every_contactor() {
-    let mut desk = Desk::explored(60);
+    let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::Heatmaps));
     let dots = &desk.bench.transient.live.dots;
     for (band, name) in ["a40_um", "a320_um"].into_iter().enumerate() {
@@ -216,7 +200,7 @@ fn heatmaps_hold_the_amplitudes_of_every_contactor() {
 
 #[test]
 fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
-    let mut desk = Desk::explored(400);
+    let mut desk = Headless::explored(400);
     for (what, name) in [
         (Pane::ContactSpectrum, "level_db"),
         (Pane::DriveSpectrum, "amplitude_um"),
@@ -263,7 +247,7 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
 
 #[test]
 fn the_waveform_is_the_sum_of_both_bands_with_their_amplitudes() {
-    let mut desk = Desk::explored(60);
+    let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::DriveWave));
     let shown = desk.bench.drive_wave_view();
     let times = column(&exported, "t_s");
@@ -285,7 +269,7 @@ fn the_waveform_is_the_sum_of_both_bands_with_their_amplitudes() {
 
 #[test]
 fn spatial_spectra_hold_every_bin_of_every_direction() {
-    let mut desk = Desk::explored(60);
+    let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::SpatialSpectra));
     let (density, level) = (
         column(&exported, "density_um2_mm"),
@@ -307,10 +291,10 @@ fn spatial_spectra_hold_every_bin_of_every_direction() {
 
 #[test]
 fn the_compression_curve_holds_the_library_at_its_levels() {
-    let mut desk = Desk::explored(4);
+    let mut desk = Headless::explored(4);
     let edit = crate::app::command::Edit::Compression(0.5);
-    desk.bench.dispatch(&desk.ctx.clone(), edit.into());
-    desk.go_on(4);
+    desk.dispatch(edit);
+    desk.pass_ticks(4);
     let exported = desk.exported(Exportable::Pane(Pane::Tuning));
     let (before, after) = (
         column(&exported, "level_in_db"),
@@ -328,7 +312,7 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
 
 #[test]
 fn the_timeline_holds_speed_and_means_of_every_tick() {
-    let mut desk = Desk::explored(80);
+    let mut desk = Headless::explored(80);
     let exported = desk.exported(Exportable::Timeline);
     let glimpses: Vec<_> = desk.bench.transient.history.glimpses().copied().collect();
     let ticks: Vec<f64> = glimpses.iter().map(|glimpse| glimpse.tick as f64).collect();
@@ -345,12 +329,12 @@ fn the_timeline_holds_speed_and_means_of_every_tick() {
 #[test]
 fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
     let folder = Folder::new("seen");
-    let mut desk = Desk::explored(60);
+    let mut desk = Headless::collected(60);
     for what in ALL {
         let path = folder.0.join(what.file_name(Kind::Csv));
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
-        desk.go_on(7);
+        desk.pass_ticks(7);
         let ask = desk.bench.transient.ask.as_ref();
         let suggested = ask.map(|ask| ask.path.clone()).unwrap_or_default();
         let last = desk.bench.transient.exports.last.clone();
@@ -367,10 +351,10 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
 #[test]
 fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
     let folder = Folder::new("kind");
-    let mut desk = Desk::explored(30);
+    let mut desk = Headless::explored(30);
     let purpose = Purpose::Export(Exportable::Pane(Pane::DriveWave));
     desk.file(FileCommand::Ask(purpose));
-    desk.go_on(2);
+    desk.pass_ticks(2);
     for name in ["wave.pdf", "wave", "wave.png.txt"] {
         let path = folder.0.join(name);
         desk.file(FileCommand::Use(purpose, path));
@@ -400,8 +384,8 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
 
 #[test]
 fn with_nothing_to_show_it_is_said_what_to_do() {
-    let mut desk = Desk::new();
-    desk.go_on(2);
+    let mut desk = Headless::fresh();
+    desk.pass_ticks(2);
     let has_levels = |what: &Exportable| *what == Exportable::Pane(Pane::Tuning);
     for what in ALL.into_iter().filter(|what| !has_levels(what)) {
         let is_chosen = what == Exportable::Timeline || what == ALL[0] || what == ALL[1];
@@ -415,8 +399,8 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         assert!(desk.notices().contains(words), "{what:?}");
         assert!(desk.bench.transient.exports.seen.is_none(), "{what:?}");
     }
-    let workspace = Exportable::Pane(Pane::Workspace);
-    assert!(!is_exportable(Pane::Workspace) && desk.bench.exported(workspace).is_err());
+    let library = Exportable::Pane(Pane::Library);
+    assert!(!is_exportable(Pane::Library) && desk.bench.exported(library).is_err());
 }
 
 #[test]
@@ -434,7 +418,7 @@ fn every_export_has_a_name_of_its_own() {
 
 #[test]
 fn curves_errors_and_differences_are_those_of_their_panes() {
-    let mut desk = Desk::explored(90);
+    let mut desk = Headless::explored(90);
     let response = desk.exported(Exportable::Pane(Pane::Response));
     let rms_um = column(&response, "a320_rms_um");
     let curves = &desk.bench.transient.curves;
