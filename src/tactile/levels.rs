@@ -107,9 +107,8 @@ mod tests {
 
     #[test]
     fn at_half_the_speed_a_finer_sine_sounds_at_the_same_frequency() {
-        let sine = |per_mm: f64| {
-            surface(move |x_mm| 3.0 * (std::f64::consts::TAU * per_mm * x_mm).sin())
-        };
+        let sine =
+            |per_mm: f64| surface(move |x_mm| 3.0 * (std::f64::consts::TAU * per_mm * x_mm).sin());
         let filters = Filters::default();
         let coarse = Levels::at(100.0, &sine(3.22), &filters);
         let fine = Levels::at(50.0, &sine(6.44), &filters);

@@ -251,7 +251,11 @@ fn measure(
     for (done, (id, surface)) in wanted.into_iter().enumerate() {
         progress.step(done as f64 / n, &id)?;
         let loaded = surface.map_or_else(
-            || library.load(&id).map(|textile| Arc::clone(textile.surface())),
+            || {
+                library
+                    .load(&id)
+                    .map(|textile| Arc::clone(textile.surface()))
+            },
             Ok,
         );
         let outcome = loaded

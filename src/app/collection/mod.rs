@@ -87,6 +87,8 @@ pub(crate) enum CollectionCommand {
     Choose(Choice),
     /// Select these textiles, by their ids.
     Select(Vec<String>, Joining),
+    /// Carry a textile into the workspace, which comes in sight.
+    Carry,
     /// Stop measuring.
     Stop,
     /// Go on with it.

@@ -19,6 +19,7 @@ fn window() -> Headless {
 /// A window with the pane in front.
 fn in_front() -> Headless {
     let mut window = window();
+    window.pass(1);
     window.dispatch(ShowCommand::Pane(Pane::Collection));
     window
 }
@@ -60,7 +61,9 @@ fn raw_figures_are_the_levels_of_the_surface_at_the_chosen_speed() {
     for speed_mm_per_s in [20.0, 100.0] {
         choose(&mut window, |choice| choice.speed_mm_per_s = speed_mm_per_s);
         window.pass(2);
-        let found = shown(&mut window, |one| (one.item.id.clone(), one.figures.cloned()));
+        let found = shown(&mut window, |one| {
+            (one.item.id.clone(), one.figures.cloned())
+        });
         for (id, figures) in found {
             let surface = Arc::clone(library.load(&id).unwrap().surface());
             let levels = Levels::at(speed_mm_per_s, &surface, &Filters::default());
@@ -85,14 +88,20 @@ fn tuned_levels_are_what_gains_and_compression_make_of_them() {
         let expected_db = reference_db - 6.0 + manifest_db;
         assert!((level_db - expected_db).abs() < 1e-9, "{level_db}");
     }
-    let [raw, tuned] = [false, true].map(|is_tuned| {
-        shown(&mut window, |one| one.mean_um(is_tuned).unwrap()[1])
-    });
+    let [raw, tuned] =
+        [false, true].map(|is_tuned| shown(&mut window, |one| one.mean_um(is_tuned).unwrap()[1]));
     let gains = shown(&mut window, |one| one.gains_db[1]);
     for ((raw, tuned), gain_db) in raw.iter().zip(tuned).zip(gains) {
-        assert!((level_db(tuned / raw) - gain_db).abs() < 1e-9, "{gain_db} dB");
+        assert!(
+            (level_db(tuned / raw) - gain_db).abs() < 1e-9,
+            "{gain_db} dB"
+        );
     }
-    assert_eq!(window.bench.n_textiles_measured(), n_measured, "no slider measures");
+    assert_eq!(
+        window.bench.n_textiles_measured(),
+        n_measured,
+        "no slider measures"
+    );
 }
 
 #[test]
@@ -107,7 +116,11 @@ fn nothing_is_measured_behind_other_panes_and_work_ends_when_nobody_looks() {
     let n_measured = window.bench.n_textiles_measured();
     thread::sleep(Duration::from_millis(100));
     window.pass(10);
-    assert_eq!(window.bench.n_textiles_measured(), n_measured, "hidden again");
+    assert_eq!(
+        window.bench.n_textiles_measured(),
+        n_measured,
+        "hidden again"
+    );
     window.dispatch(ShowCommand::Pane(Pane::Collection));
     measure(&mut window, 16);
     assert_eq!(window.bench.n_textiles_measured(), 16, "each once");
@@ -141,10 +154,18 @@ fn search_kind_and_order_work_together() {
         };
     });
     let a40_um = shown(&mut window, |one| one.mean_um(true).unwrap()[0]);
-    assert!(a40_um.len() > 1 && a40_um.is_sorted_by(|a, b| a >= b), "{a40_um:?}");
+    assert!(
+        a40_um.len() > 1 && a40_um.is_sorted_by(|a, b| a >= b),
+        "{a40_um:?}"
+    );
     let kinds = shown(&mut window, |one| one.item.kind.clone());
-    assert!(kinds.iter().all(|kind| kind == "knitted · polyester"), "{kinds:?}");
-    choose(&mut window, |choice| choice.sort = choice.sort.after(SortBy::Name));
+    assert!(
+        kinds.iter().all(|kind| kind == "knitted · polyester"),
+        "{kinds:?}"
+    );
+    choose(&mut window, |choice| {
+        choice.sort = choice.sort.after(SortBy::Name)
+    });
     let names = shown(&mut window, |one| one.item.name.to_lowercase());
     assert!(names.is_sorted(), "{names:?}");
 }
@@ -155,12 +176,18 @@ fn a_figure_that_was_not_measured_has_no_value_and_gains_change_amplitudes_alone
     measure(&mut window, 16);
     let miu = Measure::Figure("MIU".to_owned());
     let values = shown(&mut window, |one| one.value(&miu, true));
-    let stated = shown(&mut window, |one| one.item.measured.iter().any(|f| f.name == "MIU"));
+    let stated = shown(&mut window, |one| {
+        one.item.measured.iter().any(|f| f.name == "MIU")
+    });
     for (value, is_stated) in values.iter().zip(stated) {
         assert_eq!(value.is_some(), is_stated);
     }
-    for measure in [Measure::Variation(Band::Low), Measure::Anisotropy(Band::High)] {
-        let of = |window: &mut Headless, is_tuned| shown(window, |one| one.value(&measure, is_tuned));
+    for measure in [
+        Measure::Variation(Band::Low),
+        Measure::Anisotropy(Band::High),
+    ] {
+        let of =
+            |window: &mut Headless, is_tuned| shown(window, |one| one.value(&measure, is_tuned));
         assert_eq!(of(&mut window, true), of(&mut window, false), "{measure:?}");
     }
 }
@@ -168,11 +195,24 @@ fn a_figure_that_was_not_measured_has_no_value_and_gains_change_amplitudes_alone
 #[test]
 fn what_is_selected_joins_toggles_and_is_marked_in_the_library() {
     let mut window = in_front();
-    let ids = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+    let ids = |names: &[&str]| {
+        names
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect::<Vec<_>>()
+    };
     for (chosen, joining, expected) in [
         (ids(&["denim"]), Joining::Alone, ids(&["denim"])),
-        (ids(&["silk-crepe"]), Joining::Also, ids(&["denim", "silk-crepe"])),
-        (ids(&["denim", "wool-rib"]), Joining::Toggled, ids(&["silk-crepe", "wool-rib"])),
+        (
+            ids(&["silk-crepe"]),
+            Joining::Also,
+            ids(&["denim", "silk-crepe"]),
+        ),
+        (
+            ids(&["denim", "wool-rib"]),
+            Joining::Toggled,
+            ids(&["silk-crepe", "wool-rib"]),
+        ),
         (ids(&["denim"]), Joining::Alone, ids(&["denim"])),
     ] {
         window.dispatch(CollectionCommand::Select(chosen, joining));
@@ -200,13 +240,21 @@ fn pictures() {
     use crate::app::raster::Rasteriser;
     use crate::app::theme::Palette;
     use eframe::egui::Theme;
-    let Ok(out) = std::env::var("PICTURES") else { return };
+    let Ok(out) = std::env::var("PICTURES") else {
+        return;
+    };
     let scene = std::env::var("SCENE").ok();
     for (name, theme) in [("dark", Theme::Dark), ("light", Theme::Light)] {
-        let mut window = Headless::new(scene.as_deref().map(std::path::Path::new), vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::new(
+            scene.as_deref().map(std::path::Path::new),
+            vec2(1400.0, 900.0),
+            1.0,
+        )
+        .unwrap();
         window.ctx.set_theme(theme);
-        window.dispatch(ShowCommand::Pane(Pane::Collection));
         let mut rasteriser = Rasteriser::default();
+        rasteriser.apply(&mut window.run().textures_delta);
+        window.dispatch(ShowCommand::Pane(Pane::Collection));
         let n = window.bench.shelf.items().len() as u64;
         let began = std::time::Instant::now();
         let mut most = Duration::ZERO;
@@ -219,7 +267,9 @@ fn pictures() {
         }
         println!("{name}: {:?}, longest frame {most:?}", began.elapsed());
         let mut shot = |window: &mut Headless, what: &str| {
-            for _ in 0..30 { rasteriser.apply(&mut window.run().textures_delta); }
+            for _ in 0..30 {
+                rasteriser.apply(&mut window.run().textures_delta);
+            }
             let mut last = window.run();
             rasteriser.apply(&mut last.textures_delta);
             let primitives = window.ctx.tessellate(last.shapes, last.pixels_per_point);
@@ -229,16 +279,36 @@ fn pictures() {
             std::fs::write(path, bytes).unwrap();
         };
         shot(&mut window, "plot");
-        let some: Vec<String> = window.bench.shelf.items().iter().skip(2).step_by(3).map(|i| i.id.clone()).collect();
+        let some: Vec<String> = window
+            .bench
+            .shelf
+            .items()
+            .iter()
+            .skip(2)
+            .step_by(3)
+            .map(|i| i.id.clone())
+            .collect();
         window.dispatch(CollectionCommand::Select(some.clone(), Joining::Alone));
         window.bench.transient.collection.pointed = Some(some[0].clone());
         shot(&mut window, "selected");
-        choose(&mut window, |choice| choice.axes = [Measure::Figure("SMD".to_owned()), Measure::Variation(Band::High)]);
+        choose(&mut window, |choice| {
+            choice.axes = [
+                Measure::Figure("SMD".to_owned()),
+                Measure::Variation(Band::High),
+            ]
+        });
         shot(&mut window, "figures");
         choose(&mut window, |choice| choice.mode = Mode::Cloths);
         shot(&mut window, "cloths");
-        let exported = window.bench.exported(crate::app::export::Exportable::Pane(Pane::Collection)).unwrap();
-        exported.write(std::path::Path::new(&format!("{out}/export.png"))).unwrap();
-        exported.write(std::path::Path::new(&format!("{out}/export.csv"))).unwrap();
+        let exported = window
+            .bench
+            .exported(crate::app::export::Exportable::Pane(Pane::Collection))
+            .unwrap();
+        exported
+            .write(std::path::Path::new(&format!("{out}/export.png")))
+            .unwrap();
+        exported
+            .write(std::path::Path::new(&format!("{out}/export.csv")))
+            .unwrap();
     }
 }

@@ -10,8 +10,8 @@ use super::arrangement::{self, Pane};
 use super::collection::Asked;
 use super::export::{Exportable, is_exportable};
 use super::panes::{
-    self, CollectionTyped, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle,
-    SpatialSource, Wishes,
+    self, CollectionTyped, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView,
+    HeatmapStyle, SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::TabRow;

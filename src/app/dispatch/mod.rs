@@ -32,7 +32,7 @@ impl Workbench {
             Command::Play(command) => self.dispatch_play(command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
-            Command::Collection(command) => self.dispatch_collection(command),
+            Command::Collection(command) => self.dispatch_collection(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

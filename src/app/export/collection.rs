@@ -7,7 +7,7 @@ use crate::figure::{Axis, Ink, Panel, Row, Scale, Series, Style, Tone, Weight, W
 use crate::quantity;
 use crate::tactile::Band;
 
-/// Up to this many textiles are all named; of more, those that are selected.
+/// Up to this many textiles are all named where none is selected; else those that are.
 const MOST_NAMED: usize = 20;
 /// Height of the plot, px.
 const HEIGHT_PX: f64 = 560.0;
@@ -54,7 +54,12 @@ fn panel(view: &CollectionView<'_>) -> Panel {
     let at = |entry: &Entry<'_>| point(entry, view, is_tuned);
     let dots = |name: &str, ink, takes: &dyn Fn(&Entry<'_>) -> bool| Series {
         name: name.to_owned(),
-        points: view.entries.iter().filter(|one| takes(one)).filter_map(at).collect(),
+        points: view
+            .entries
+            .iter()
+            .filter(|one| takes(one))
+            .filter_map(at)
+            .collect(),
         ink,
         ..Series::default()
     };
@@ -62,7 +67,7 @@ fn panel(view: &CollectionView<'_>) -> Panel {
     if is_tuned {
         series.extend(view.entries.iter().filter_map(|one| {
             let points = vec![point(one, view, false)?, at(one)?];
-            Some(Series {
+            (points[0] != points[1]).then(|| Series {
                 points,
                 style: Style::Line,
                 ink: Ink::Grey,
@@ -73,7 +78,7 @@ fn panel(view: &CollectionView<'_>) -> Panel {
     }
     series.push(dots("library", Ink::Grey, &|one| !one.is_selected));
     series.push(dots("selected", Ink::Black, &|one| one.is_selected));
-    let are_few = view.entries.len() <= MOST_NAMED;
+    let are_few = view.entries.len() <= MOST_NAMED && view.selected().next().is_none();
     let named = view.entries.iter().filter(|one| are_few || one.is_selected);
     let words = named.filter_map(|one| {
         Some(Words {
@@ -82,7 +87,11 @@ fn panel(view: &CollectionView<'_>) -> Panel {
             tone: Tone::Aside,
         })
     });
-    let [x, y] = view.choice.axes.each_ref().map(|measure| axis_of(measure, view));
+    let [x, y] = view
+        .choice
+        .axes
+        .each_ref()
+        .map(|measure| axis_of(measure, view));
     Panel {
         x,
         y,
@@ -115,7 +124,10 @@ fn sheet(view: &CollectionView<'_>) -> Sheet {
         entries.iter().map(value).collect()
     };
     let mean_um = |band: Band, is_tuned: bool| -> Vec<f64> {
-        let um = |one: &Entry<'_>| one.mean_um(is_tuned).map_or(f64::NAN, |um| um[band.index()]);
+        let um = |one: &Entry<'_>| {
+            one.mean_um(is_tuned)
+                .map_or(f64::NAN, |um| um[band.index()])
+        };
         entries.iter().map(um).collect()
     };
     let gain_db = |b: usize| -> Vec<f64> { entries.iter().map(|one| one.gains_db[b]).collect() };
@@ -125,12 +137,18 @@ fn sheet(view: &CollectionView<'_>) -> Sheet {
     let [low, high] = Band::ALL;
     let measured = Measure::Figure("SMD".to_owned());
     let is_tuned = view.choice.is_tuned;
-    let smd: Vec<f64> = entries.iter().map(|one| smd_um(one).0.unwrap_or(f64::NAN)).collect();
+    let smd: Vec<f64> = entries
+        .iter()
+        .map(|one| smd_um(one).0.unwrap_or(f64::NAN))
+        .collect();
     Sheet::default()
         .with("textile", words(&|item| &item.id))
         .with("name", words(&|item| &item.name))
         .with("construction", words(&|item| item.construction))
-        .with("structure", words(&|item| item.structure.unwrap_or_default()))
+        .with(
+            "structure",
+            words(&|item| item.structure.unwrap_or_default()),
+        )
         .with("raw_a40_um", mean_um(low, false))
         .with("raw_a320_um", mean_um(high, false))
         .with("raw_level_db", number(&Measure::Level, false))
@@ -139,10 +157,19 @@ fn sheet(view: &CollectionView<'_>) -> Sheet {
         .with("tuned_a40_um", mean_um(low, true))
         .with("tuned_a320_um", mean_um(high, true))
         .with("tuned_level_db", number(&Measure::Level, true))
-        .with("variation_40_percent", number(&Measure::Variation(low), false))
-        .with("variation_320_percent", number(&Measure::Variation(high), false))
+        .with(
+            "variation_40_percent",
+            number(&Measure::Variation(low), false),
+        )
+        .with(
+            "variation_320_percent",
+            number(&Measure::Variation(high), false),
+        )
         .with("anisotropy_40_db", number(&Measure::Anisotropy(low), false))
-        .with("anisotropy_320_db", number(&Measure::Anisotropy(high), false))
+        .with(
+            "anisotropy_320_db",
+            number(&Measure::Anisotropy(high), false),
+        )
         .with("smd_um", smd)
         .with("measured_smd_um", number(&measured, false))
         .with("x", number(&view.choice.axes[0], is_tuned))

@@ -158,9 +158,7 @@ fn map_panel(
         .collect();
     let cell = |index: usize| {
         let mean_db = own.get(index)?.mean_db;
-        mean_db
-            .is_finite()
-            .then(|| colour(map, mean_db / most_db))
+        mean_db.is_finite().then(|| colour(map, mean_db / most_db))
     };
     cells::panel(band, grid, cell, Vec::new())
 }

@@ -77,7 +77,13 @@ pub(super) fn maps(
          x. u along the warp, w along the weft, from the textile’s origin."
     );
     let title = format!("{band} over the cloth at {speed}, {direction}");
-    Some(Exported::new(title, sheet(&all, probe), rows, &note, origin))
+    Some(Exported::new(
+        title,
+        sheet(&all, probe),
+        rows,
+        &note,
+        origin,
+    ))
 }
 
 /// Points of a textile along warp and weft whose cells are seen: half a millimetre beyond its edge.
@@ -96,17 +102,24 @@ fn cells_of(cloth: &Cloth) -> [usize; 2] {
 fn height_px(row: &[Mapped<'_>]) -> f64 {
     let n = row.len().max(1) as f64;
     let across: f64 = row.iter().map(|one| one.n_cells[0] as f64).sum();
-    let upward = row.iter().map(|one| one.n_cells[1] as f64).fold(1.0, f64::max);
+    let upward = row
+        .iter()
+        .map(|one| one.n_cells[1] as f64)
+        .fold(1.0, f64::max);
     let [least, most] = HEIGHTS_PX;
     let room_px = ROOM_PX - LABELS_PX * (n - 1.0);
-    (room_px * upward / across.max(1.0)).clamp(least, most).round()
+    (room_px * upward / across.max(1.0))
+        .clamp(least, most)
+        .round()
 }
 
 fn panel(one: &Mapped<'_>) -> Panel {
     let wanted = &one.shown.wanted;
     let [n_warp, n_weft] = one.n_cells;
     // Rows of a raster come from the top, the weft runs upward.
-    let places = (0..n_weft).rev().flat_map(|w| (0..n_warp).map(move |u| [u, w]));
+    let places = (0..n_weft)
+        .rev()
+        .flat_map(|w| (0..n_warp).map(move |u| [u, w]));
     let colour = |place| {
         let share = wanted.scale.share(one.amplitude_um(place));
         Some(rgb(wanted.colours, share))
@@ -149,7 +162,10 @@ fn sheet(all: &[Mapped<'_>], probe: Probe) -> Sheet {
         .with("amplitude_um", number(&|one, at| one.amplitude_um(at)))
         .with("place", places)
         .with("label", words(|cloth| &cloth.label))
-        .with("band_hz", number(&|one, _| one.shown.wanted.band.carrier_hz()))
+        .with(
+            "band_hz",
+            number(&|one, _| one.shown.wanted.band.carrier_hz()),
+        )
         .with("speed_mm_per_s", number(&|_, _| probe.speed_mm_per_s))
         .with("direction_deg", number(&|_, _| probe.direction_deg))
 }

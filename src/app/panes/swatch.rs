@@ -8,12 +8,7 @@ use crate::app::view::ClothPicture;
 
 /// Paints `shown_mm` millimetres of cloth along both sides of a square; an empty field until the
 /// picture is there.
-pub(super) fn paint(
-    painter: &Painter,
-    rect: Rect,
-    shown_mm: f32,
-    picture: Option<ClothPicture>,
-) {
+pub(super) fn paint(painter: &Painter, rect: Rect, shown_mm: f32, picture: Option<ClothPicture>) {
     let palette = Palette::of(painter.ctx().theme());
     let Some(picture) = picture else {
         painter.rect_filled(rect, 3, palette.raised);

@@ -13,12 +13,12 @@ use eframe::egui::vec2;
 use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
+use crate::app::headless::Headless;
 use crate::app::panes::density_db;
 use crate::app::signals::N_ROWS;
-use crate::app::headless::Headless;
 use crate::app::workspace::Overlay;
-use crate::tactile::Band;
 use crate::files::{self, Table};
+use crate::tactile::Band;
 use crate::{figure, quantity};
 
 const ALL: [Exportable; 13] = [

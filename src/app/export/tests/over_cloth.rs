@@ -27,7 +27,12 @@ fn the_map_holds_what_lies_under_the_pointer_at_every_point_of_every_textile() {
         assert_eq!(maps.amplitude_um(index, at), Some(*amplitude_um), "{at:?}");
     }
     assert_eq!(column(&exported, "band_hz")[0], 320.0);
-    let panels: usize = exported.figure.rows.iter().map(|row| row.panels.len()).sum();
+    let panels: usize = exported
+        .figure
+        .rows
+        .iter()
+        .map(|row| row.panels.len())
+        .sum();
     assert_eq!(panels, scene.textiles.len(), "one panel a textile");
 }
 
@@ -35,7 +40,9 @@ fn the_map_holds_what_lies_under_the_pointer_at_every_point_of_every_textile() {
 fn without_a_map_the_entry_says_how_to_show_one() {
     let mut desk = Headless::fresh();
     desk.pass_ticks(1);
-    desk.file(FileCommand::Ask(Purpose::Export(Exportable::Pane(Pane::Workspace))));
+    desk.file(FileCommand::Ask(Purpose::Export(Exportable::Pane(
+        Pane::Workspace,
+    ))));
     assert!(desk.notices().contains("“Overlay”"), "{}", desk.notices());
 }
 

@@ -64,20 +64,19 @@ fn show_piece(
         ui.allocate_exact_size(vec2(SIDE, SIDE + WORDS), Sense::click_and_drag());
     let name = format!("Piece of {}", entry.item.name);
     let (is_selected, is_usable) = (entry.is_selected, entry.item.flaw.is_none());
-    response.widget_info(|| {
-        WidgetInfo::selected(egui::Role::ListItem, is_usable, is_selected, &name)
-    });
+    response
+        .widget_info(|| WidgetInfo::selected(egui::Role::ListItem, is_usable, is_selected, &name));
     let square = Rect::from_min_size(rect.min, vec2(SIDE, SIDE));
     swatch::paint(ui.painter(), square, SHOWN_MM, picture);
     if entry.is_selected || entry.is_marked || response.hovered() {
         let (width, ink) = if entry.is_selected {
-            (2.0, palette.selection)
+            (3.0, palette.selection)
         } else {
             (1.0, palette.line)
         };
         let stroke = Stroke::new(width, ink);
-        let edge = square.expand(width);
-        ui.painter().rect_stroke(edge, 0, stroke, StrokeKind::Inside);
+        ui.painter()
+            .rect_stroke(square, 0, stroke, StrokeKind::Inside);
     }
     if entry.placed.is_some() {
         let stroke = Stroke::new(1.5, palette.panel);
@@ -93,9 +92,13 @@ fn show_piece(
         "cannot be read"
     };
     let lines = [
-        RichText::new(&entry.item.name).font(theme::small()).color(ink),
+        RichText::new(&entry.item.name)
+            .font(theme::small())
+            .color(ink),
         RichText::new(kind).font(theme::small()).color(palette.dim),
-        RichText::new(structure).font(theme::small()).color(palette.dim),
+        RichText::new(structure)
+            .font(theme::small())
+            .color(palette.dim),
     ];
     for (below, line) in [9.0, 23.0, 37.0].into_iter().zip(lines) {
         let at = pos2(square.left(), square.bottom() + below);

@@ -94,7 +94,9 @@ fn show_kinds(ui: &mut Ui, choice: &mut Choice, view: &CollectionView<'_>) {
 fn show_orders(ui: &mut Ui, choice: &mut Choice) {
     let name = |by| {
         let mut orders = ORDERS.into_iter();
-        orders.find(|(order, _)| *order == by).map_or("", |one| one.1)
+        orders
+            .find(|(order, _)| *order == by)
+            .map_or("", |one| one.1)
     };
     let width = KINDS.min(ui.available_width());
     let text = format!("by {}", name(choice.sort.by));

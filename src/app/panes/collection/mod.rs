@@ -19,10 +19,12 @@ use crate::app::shelf::Shelf;
 use crate::app::theme::{Palette, STEP};
 use crate::app::workspace::LibraryItem;
 
-/// Below this width the table stands below the plot, points.
+/// Below this width, and where it is hardly wider than high, the table stands below the plot,
+/// points and width over height.
 const SIDE_BY_SIDE: f32 = 620.0;
+const WIDE: f32 = 1.15;
 /// Width of the table beside the plot, points.
-const TABLE: f32 = 396.0;
+const TABLE: f32 = 416.0;
 /// Height of the line at the bottom, points.
 const STATUS: f32 = 22.0;
 
@@ -59,11 +61,12 @@ pub(crate) fn show(
                 cloths::show(ui, shelf, view, typed.pointed, wishes);
             }),
             Mode::Plot => {
-                let is_wide = room.width() >= SIDE_BY_SIDE;
+                let is_wide = room.width() >= SIDE_BY_SIDE && room.width() > WIDE * room.height();
                 let (plot, table) = if is_wide {
                     room.split_left_right_at_x(room.right() - TABLE)
                 } else {
-                    room.split_top_bottom_at_y(room.top() + (0.6 * room.height()).round())
+                    let height = (0.62 * room.height()).min(0.9 * room.width());
+                    room.split_top_bottom_at_y(room.top() + height.round())
                 };
                 within(ui, plot, |ui| {
                     plot::show(ui, shelf, view, typed.pointed, wishes);
@@ -120,6 +123,7 @@ fn answer(
         }
     }
     if response.drag_started() {
+        wishes.push(CollectionCommand::Carry.into());
         DragAndDrop::set_payload(ui.ctx(), LibraryItem { id: id.clone() });
     }
 }

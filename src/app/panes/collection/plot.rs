@@ -25,6 +25,8 @@ const SIDES: [f32; 2] = [22.0, 15.0];
 const MANY: usize = 32;
 /// How much cloth a piece shows, mm.
 const SHOWN_MM: f32 = 9.0;
+/// The most height of the plot over its width.
+const TALLEST: f32 = 1.1;
 /// Contactors that are taken to sound when it is asked what is just noticed.
 const N_ACTIVE: usize = 24;
 
@@ -42,6 +44,7 @@ pub(super) fn show(
     let [x, y] = &view.choice.axes;
     let name = format!("Plot of {} over {}", y.name(), x.name());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
+    let area = area.with_max_y(area.bottom().min(area.top() + TALLEST * area.width()));
     let Some(plot) = Plot::of(area, view) else {
         let words = if view.progress.is_some() {
             "The library is being measured"
@@ -74,7 +77,8 @@ pub(super) fn show(
         );
         let name = format!("{} in the plot", one.entry.item.name);
         let is_selected = one.entry.is_selected;
-        response.widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, true, is_selected, &name));
+        response
+            .widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, true, is_selected, &name));
         if picture.is_some() {
             swatch::paint(ui.painter(), square, SHOWN_MM, picture);
         } else {
@@ -117,12 +121,18 @@ fn frame_selecting(
     }
     let (from, to) = ui.input(|input| {
         let pointer = &input.pointer;
-        let began = pointer.press_origin().or_else(|| response.interact_pointer_pos());
+        let began = pointer
+            .press_origin()
+            .or_else(|| response.interact_pointer_pos());
         (began, pointer.latest_pos())
     });
     let began = ui.scope_id().with("frame began");
     let kept = ui.data(|data| data.get_temp(began));
-    let from = if response.drag_started() { from } else { kept.or(from) };
+    let from = if response.drag_started() {
+        from
+    } else {
+        kept.or(from)
+    };
     if let Some(from) = from {
         ui.data_mut(|data| data.insert_temp(began, from));
     }
@@ -145,9 +155,23 @@ fn frame_selecting(
 fn paint_axes(painter: &Painter, plot: &Plot, view: &CollectionView<'_>) {
     let palette = Palette::of(painter.ctx().theme());
     let area = plot.area;
-    paint_ticks(painter, area, (&plot.x, Side::Bottom), &plot.x.ticks(area.width(), 44.0));
-    paint_ticks(painter, area, (&plot.y, Side::Left), &plot.y.ticks(area.height(), 28.0));
-    let ink = |measure: &Measure| measure.band().map_or(palette.dim, |band| palette.band(band));
+    paint_ticks(
+        painter,
+        area,
+        (&plot.x, Side::Bottom),
+        &plot.x.ticks(area.width(), 44.0),
+    );
+    paint_ticks(
+        painter,
+        area,
+        (&plot.y, Side::Left),
+        &plot.y.ticks(area.height(), 28.0),
+    );
+    let ink = |measure: &Measure| {
+        measure
+            .band()
+            .map_or(palette.dim, |band| palette.band(band))
+    };
     let [x, y] = &view.choice.axes;
     let at = pos2(area.left(), area.top() - 4.0);
     let (text, font) = (y.label(view.items), theme::small());
@@ -167,7 +191,8 @@ fn paint_tuning(ui: &Ui, placed: &[Placed<'_>]) {
         } else {
             palette.line.gamma_multiply(0.45)
         };
-        ui.painter().line_segment([raw, one.at], Stroke::new(1.0, ink));
+        ui.painter()
+            .line_segment([raw, one.at], Stroke::new(1.0, ink));
         ui.painter().circle_filled(raw, 1.5, ink);
     }
 }
@@ -237,10 +262,18 @@ fn words_of(entry: &Entry<'_>, view: &CollectionView<'_>) -> String {
     let how = if is_tuned { ", as tuned" } else { "" };
     let (smd, is_measured) = crate::app::collection::smd_um(entry);
     let smd = smd.map_or_else(String::new, |um| {
-        let of = if is_measured { "measured" } else { "of the heights" };
+        let of = if is_measured {
+            "measured"
+        } else {
+            "of the heights"
+        };
         format!("\nSMD {} {of}", quantity::with_unit(um, 2, "µm"))
     });
-    let scene = if entry.placed.is_some() { "\nIn the scene" } else { "" };
+    let scene = if entry.placed.is_some() {
+        "\nIn the scene"
+    } else {
+        ""
+    };
     format!(
         "{}\n{}\nA40 {}, A320 {}\nlevel {}, at {speed}{how}\nvariation {} over all points\n\
          anisotropy {}{smd}{scene}\nClick to select it, double click to add it, drag it into the \

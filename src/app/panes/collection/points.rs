@@ -50,7 +50,8 @@ impl Plot {
             tunings.iter().filter_map(pair)
         });
         let both: Vec<[f64; 2]> = both.collect();
-        let ends = |axis: usize, measure: &Measure| ends(both.iter().map(|pair| pair[axis]), measure);
+        let ends =
+            |axis: usize, measure: &Measure| ends(both.iter().map(|pair| pair[axis]), measure);
         let (mut x_ends, mut y_ends) = (ends(0, x)?, ends(1, y)?);
         if x.is_log() && y.is_log() {
             alike(area, &mut x_ends, &mut y_ends);
@@ -105,7 +106,10 @@ fn ends(values: impl Iterator<Item = f64>, measure: &Measure) -> Option<[f64; 2]
         let step = |value: f64, round: fn(f64) -> f64| {
             10_f64.powf(round(STEPS_A_DECADE * value.log10()) / STEPS_A_DECADE)
         };
-        return Some([step(least / BEYOND, f64::floor), step(most * BEYOND, f64::ceil)]);
+        return Some([
+            step(least / BEYOND, f64::floor),
+            step(most * BEYOND, f64::ceil),
+        ]);
     }
     let beside = BESIDE * (most - least).max(1e-9);
     let from_zero = least >= 0.0 && least < 0.5 * most;
@@ -115,7 +119,10 @@ fn ends(values: impl Iterator<Item = f64>, measure: &Measure) -> Option<[f64; 2]
 /// Widens the shorter of two logarithmic axes, so that a decade is as long on both.
 fn alike(area: Rect, x: &mut [f64; 2], y: &mut [f64; 2]) {
     let decades = |ends: &[f64; 2]| (ends[1] / ends[0]).log10();
-    let each = [decades(x) / f64::from(area.width()), decades(y) / f64::from(area.height())];
+    let each = [
+        decades(x) / f64::from(area.width()),
+        decades(y) / f64::from(area.height()),
+    ];
     let most = each[0].max(each[1]);
     for (ends, length) in [(x, area.width()), (y, area.height())] {
         let missing = (most * f64::from(length) - decades(ends)) / 2.0;

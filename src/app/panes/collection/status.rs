@@ -82,9 +82,8 @@ fn words(view: &CollectionView<'_>) -> String {
     if view.choice.mode == Mode::Plot && !view.is_halted {
         let (is_tuned, axes) = (view.choice.is_tuned, &view.choice.axes);
         for (index, axis) in axes.iter().enumerate() {
-            let has_none = |one: &&crate::app::collection::Entry<'_>| {
-                one.value(axis, is_tuned).is_none()
-            };
+            let has_none =
+                |one: &&crate::app::collection::Entry<'_>| one.value(axis, is_tuned).is_none();
             let n_without = view.entries.iter().filter(has_none).count();
             if n_without > 0 && (index == 0 || axes[0] != axes[1]) {
                 words += &format!(" · {n_without} without {}", axis.name());

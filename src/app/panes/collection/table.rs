@@ -48,7 +48,9 @@ pub(super) fn show(
     ui.painter().hline(head.x_range(), head.bottom(), line);
     ui.spacing_mut().item_spacing.y = 0.0;
     let listed = view.listed();
-    let rows = ScrollArea::vertical().id_salt("collected").auto_shrink(false);
+    let rows = ScrollArea::vertical()
+        .id_salt("collected")
+        .auto_shrink(false);
     rows.show_rows(ui, LINE, listed.len(), |ui, range| {
         for entry in &listed[range] {
             show_row(ui, entry, view.choice.is_tuned, pointed, wishes);
@@ -73,13 +75,7 @@ fn cells(row: Rect) -> [Rect; 6] {
 }
 
 /// A heading: a click sorts by it.
-fn show_heading(
-    ui: &Ui,
-    cell: Rect,
-    column: usize,
-    choice: &Choice,
-    wishes: &mut Wishes,
-) {
+fn show_heading(ui: &Ui, cell: Rect, column: usize, choice: &Choice, wishes: &mut Wishes) {
     let (by, name, unit, decimals) = COLUMNS[column];
     let palette = Palette::in_ui(ui);
     let response = ui.interact(cell, ui.scope_id().with(("sort", column)), Sense::click());
@@ -95,14 +91,24 @@ fn show_heading(
     let (anchor, x) = if decimals > 0 {
         (Align2::RIGHT_CENTER, cell.right() - 4.0)
     } else {
-        (Align2::LEFT_CENTER, cell.left() + if column == 0 { 4.0 } else { 10.0 })
+        (
+            Align2::LEFT_CENTER,
+            cell.left() + if column == 0 { 4.0 } else { 10.0 },
+        )
     };
     let middle = cell.top() + 10.0;
     let text = painter.text(pos2(x, middle), anchor, name, theme::small(), ink);
     let below = pos2(x, middle + 13.0);
     painter.text(below, anchor, unit, theme::small(), palette.dim);
     if is_sorted {
-        let at = pos2(if decimals > 0 { text.left() - 6.0 } else { text.right() + 6.0 }, middle);
+        let at = pos2(
+            if decimals > 0 {
+                text.left() - 6.0
+            } else {
+                text.right() + 6.0
+            },
+            middle,
+        );
         paint_arrow(ui, at, choice.sort, palette.text);
     }
     paint_focus(ui, &response);
@@ -118,9 +124,14 @@ fn show_heading(
 
 fn paint_arrow(ui: &Ui, at: egui::Pos2, sort: Sort, ink: Color32) {
     let up = if sort.is_falling { 1.0 } else { -1.0 };
-    let corners = [vec2(-3.0, -2.0 * up), vec2(3.0, -2.0 * up), vec2(0.0, 2.5 * up)];
+    let corners = [
+        vec2(-3.0, -2.0 * up),
+        vec2(3.0, -2.0 * up),
+        vec2(0.0, 2.5 * up),
+    ];
     let corners = corners.map(|by| at + by).to_vec();
-    ui.painter().add(Shape::convex_polygon(corners, ink, Stroke::NONE));
+    ui.painter()
+        .add(Shape::convex_polygon(corners, ink, Stroke::NONE));
 }
 
 fn show_row(
@@ -142,13 +153,15 @@ fn show_row(
     }
     paint_focus(ui, &response);
     let (_, is_stated) = smd_um(entry);
-    for ((by, _, _, decimals), (cell, text)) in COLUMNS.into_iter().zip(cells(row).iter().zip(texts))
+    for ((by, _, _, decimals), (cell, text)) in
+        COLUMNS.into_iter().zip(cells(row).iter().zip(texts))
     {
         if decimals > 0 {
             let is_dim = by == SortBy::Roughness && !is_stated;
             let ink = if is_dim { palette.dim } else { palette.text };
             let at = pos2(cell.right() - 4.0, cell.center().y);
-            ui.painter().text(at, Align2::RIGHT_CENTER, text, theme::number(), ink);
+            ui.painter()
+                .text(at, Align2::RIGHT_CENTER, text, theme::number(), ink);
             continue;
         }
         let is_name = by == SortBy::Name;
