@@ -4,7 +4,7 @@
 //! What was measured is kept by speed and filters. Surfaces stay in memory only while the pane is in
 //! sight, up to a bound.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
@@ -44,16 +44,22 @@ pub(crate) struct Figures {
     pub(crate) smd_um: f64,
 }
 
+/// What was found of textiles by their ids; `None` of one that cannot be read.
+type Found = BTreeMap<String, Option<Figures>>;
+
 /// What was measured so far.
 #[derive(Debug, Default)]
 pub(crate) struct Measurements {
     /// The newest last.
-    found: Vec<(Asked, BTreeMap<String, Result<Figures, String>>)>,
+    found: Vec<(Asked, Found)>,
     surfaces: BTreeMap<String, Arc<Surface>>,
     n_bytes: usize,
     work: Option<Work>,
     halted: Option<Asked>,
     n_measured: u64,
+    /// What could not be read, in words, and which of it was told.
+    flaws: Vec<String>,
+    flawed: BTreeSet<String>,
 }
 
 /// A thread at work.
@@ -130,6 +136,11 @@ impl Measurements {
         }
     }
 
+    /// What could not be read since this was asked last, each textile once, in words.
+    pub(crate) fn take_flaws(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.flaws)
+    }
+
     /// Ends what is at work and lets surfaces go: nobody looks.
     pub(crate) fn rest(&mut self) {
         self.take();
@@ -162,7 +173,7 @@ impl Measurements {
 
     /// What was found of a textile.
     pub(crate) fn figures(&self, asked: &Asked, id: &str) -> Option<&Figures> {
-        self.of(asked)?.get(id)?.as_ref().ok()
+        self.of(asked)?.get(id)?.as_ref()
     }
 
     /// Textiles measured so far: it stands still while nothing changes or nobody looks.
@@ -170,7 +181,7 @@ impl Measurements {
         self.n_measured
     }
 
-    fn of(&self, asked: &Asked) -> Option<&BTreeMap<String, Result<Figures, String>>> {
+    fn of(&self, asked: &Asked) -> Option<&Found> {
         let of = self.found.iter().find(|(other, _)| other == asked);
         of.map(|(_, found)| found)
     }
@@ -188,10 +199,18 @@ impl Measurements {
         }
         for (id, outcome) in news {
             self.n_measured += 1;
-            let figures = outcome.map(|(figures, surface)| {
-                self.keep(&id, surface);
-                figures
-            });
+            let figures = match outcome {
+                Ok((figures, surface)) => {
+                    self.keep(&id, surface);
+                    Some(figures)
+                }
+                Err(flaw) => {
+                    if self.flawed.insert(id.clone()) {
+                        self.flaws.push(flaw);
+                    }
+                    None
+                }
+            };
             self.place(asked).insert(id, figures);
         }
     }
@@ -204,9 +223,9 @@ impl Measurements {
         }
     }
 
-    fn place(&mut self, asked: Asked) -> &mut BTreeMap<String, Result<Figures, String>> {
+    fn place(&mut self, asked: Asked) -> &mut Found {
         let known = self.found.iter().position(|(other, _)| *other == asked);
-        let newest = known.map_or_else(|| (asked, BTreeMap::new()), |at| self.found.remove(at));
+        let newest = known.map_or_else(|| (asked, Found::new()), |at| self.found.remove(at));
         if self.found.len() >= MOST_KEPT {
             self.found.remove(0);
         }

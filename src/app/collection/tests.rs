@@ -164,7 +164,7 @@ fn search_kind_and_order_work_together() {
         "{kinds:?}"
     );
     choose(&mut window, |choice| {
-        choice.sort = choice.sort.after(SortBy::Name)
+        choice.sort = choice.sort.after(SortBy::Name);
     });
     let names = shown(&mut window, |one| one.item.name.to_lowercase());
     assert!(names.is_sorted(), "{names:?}");
@@ -266,10 +266,11 @@ fn pictures() {
             thread::sleep(Duration::from_millis(10));
         }
         println!("{name}: {:?}, longest frame {most:?}", began.elapsed());
-        let mut shot = |window: &mut Headless, what: &str| {
+        let mut shot = |window: &mut Headless, what: &str, pointed: Option<&str>| {
             for _ in 0..30 {
                 rasteriser.apply(&mut window.run().textures_delta);
             }
+            window.bench.transient.collection.pointed = pointed.map(str::to_owned);
             let mut last = window.run();
             rasteriser.apply(&mut last.textures_delta);
             let primitives = window.ctx.tessellate(last.shapes, last.pixels_per_point);
@@ -278,7 +279,8 @@ fn pictures() {
             let bytes = crate::files::encode_png_rgba(&picture.rgba, 1400, 900, &path).unwrap();
             std::fs::write(path, bytes).unwrap();
         };
-        shot(&mut window, "plot");
+        shot(&mut window, "plot", None);
+        shot(&mut window, "pointed", Some("jute-plain"));
         let some: Vec<String> = window
             .bench
             .shelf
@@ -290,16 +292,16 @@ fn pictures() {
             .collect();
         window.dispatch(CollectionCommand::Select(some.clone(), Joining::Alone));
         window.bench.transient.collection.pointed = Some(some[0].clone());
-        shot(&mut window, "selected");
+        shot(&mut window, "selected", None);
         choose(&mut window, |choice| {
             choice.axes = [
                 Measure::Figure("SMD".to_owned()),
                 Measure::Variation(Band::High),
             ]
         });
-        shot(&mut window, "figures");
+        shot(&mut window, "figures", None);
         choose(&mut window, |choice| choice.mode = Mode::Cloths);
-        shot(&mut window, "cloths");
+        shot(&mut window, "cloths", None);
         let exported = window
             .bench
             .exported(crate::app::export::Exportable::Pane(Pane::Collection))
@@ -310,5 +312,10 @@ fn pictures() {
         exported
             .write(std::path::Path::new(&format!("{out}/export.csv")))
             .unwrap();
+        window.dispatch(ShowCommand::Overlay(crate::app::workspace::Overlay::Map(Band::Low)));
+        window.dispatch(ShowCommand::Pane(Pane::Workspace));
+        window.pass(3);
+        let exported = window.bench.exported(crate::app::export::Exportable::Pane(Pane::Workspace)).unwrap();
+        exported.write(std::path::Path::new(&format!("{out}/map.png"))).unwrap();
     }
 }

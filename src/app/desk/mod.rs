@@ -204,6 +204,9 @@ impl Workbench {
         let ids = usable.map(|item| item.id.clone());
         let library = self.shelf.library();
         collection.measurements.catch_up(ctx, library, asked, ids);
+        for flaw in self.transient.collection.measurements.take_flaws() {
+            self.transient.notices.give(flaw);
+        }
     }
 
     /// Lets the measurements of the library rest while nobody looks at them.

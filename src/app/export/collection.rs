@@ -1,7 +1,7 @@
 //! The library as the collection shows it: one row a textile, and the plot.
 
 use super::{Exported, Origin, Sheet, axis};
-use crate::app::collection::{CollectionView, Entry, Measure, smd_um};
+use crate::app::collection::{CollectionView, Entry, Measure};
 use crate::app::view::ShelfItem;
 use crate::figure::{Axis, Ink, Panel, Row, Scale, Series, Style, Tone, Weight, Words};
 use crate::quantity;
@@ -67,7 +67,8 @@ fn panel(view: &CollectionView<'_>) -> Panel {
     if is_tuned {
         series.extend(view.entries.iter().filter_map(|one| {
             let points = vec![point(one, view, false)?, at(one)?];
-            (points[0] != points[1]).then(|| Series {
+            let is_moved = points[0].map(f64::to_bits) != points[1].map(f64::to_bits);
+            is_moved.then(|| Series {
                 points,
                 style: Style::Line,
                 ink: Ink::Grey,
@@ -137,10 +138,6 @@ fn sheet(view: &CollectionView<'_>) -> Sheet {
     let [low, high] = Band::ALL;
     let measured = Measure::Figure("SMD".to_owned());
     let is_tuned = view.choice.is_tuned;
-    let smd: Vec<f64> = entries
-        .iter()
-        .map(|one| smd_um(one).0.unwrap_or(f64::NAN))
-        .collect();
     Sheet::default()
         .with("textile", words(&|item| &item.id))
         .with("name", words(&|item| &item.name))
@@ -170,7 +167,7 @@ fn sheet(view: &CollectionView<'_>) -> Sheet {
             "anisotropy_320_db",
             number(&Measure::Anisotropy(high), false),
         )
-        .with("smd_um", smd)
+        .with("heights_smd_um", number(&Measure::Roughness, false))
         .with("measured_smd_um", number(&measured, false))
         .with("x", number(&view.choice.axes[0], is_tuned))
         .with("y", number(&view.choice.axes[1], is_tuned))

@@ -265,7 +265,7 @@ fn seventy_four_textiles_are_measured_without_blocking_a_frame() {
         harness.step();
         n_frames += 1;
         assert!(
-            began.elapsed() < Duration::from_secs(120),
+            began.elapsed() < Duration::from_mins(2),
             "{n_frames} frames"
         );
         thread::sleep(Duration::from_millis(5));

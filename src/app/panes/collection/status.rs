@@ -74,7 +74,7 @@ fn words(view: &CollectionView<'_>) -> String {
         format!("{n_shown} of {n_all} textiles")
     };
     if view.n_selected > 0 {
-        words += &format!(", {} selected", view.n_selected);
+        words = format!("{words}, {} selected", view.n_selected);
     }
     if let Some(n_done) = view.progress {
         return format!("{words} · measured {n_done} of {n_all}");
@@ -86,7 +86,7 @@ fn words(view: &CollectionView<'_>) -> String {
                 |one: &&crate::app::collection::Entry<'_>| one.value(axis, is_tuned).is_none();
             let n_without = view.entries.iter().filter(has_none).count();
             if n_without > 0 && (index == 0 || axes[0] != axes[1]) {
-                words += &format!(" · {n_without} without {}", axis.name());
+                words = format!("{words} · {n_without} without {}", axis.name());
             }
         }
     }
