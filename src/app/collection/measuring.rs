@@ -1,8 +1,8 @@
 //! Levels of every textile of the library at a chosen speed: on a thread, one after the other, each
 //! shown as soon as it is there.
 //!
-//! What was measured is kept by speed and filters. Surfaces stay in memory only while the pane is in
-//! sight, up to a bound.
+//! What was measured is kept by speed and filters. Surfaces stay in memory only while the pane is
+//! in sight, up to a bound.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

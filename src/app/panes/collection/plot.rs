@@ -197,7 +197,7 @@ fn paint_tuning(ui: &Ui, placed: &[Placed<'_>]) {
     }
 }
 
-/// A frame around a textile within which no other is told from it by either amplitude, by the model.
+/// A frame around a textile within which no other is told from it by either amplitude, by a model.
 fn paint_just_noticed(
     painter: &Painter,
     plot: &Plot,
