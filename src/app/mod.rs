@@ -45,6 +45,7 @@ mod history;
 mod inbox;
 mod inspect;
 mod job;
+mod keep;
 mod maps;
 mod native;
 mod opening;

@@ -16,6 +16,7 @@ use super::arrangement::Pane;
 use super::collection::CollectionCommand;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::keep::Keep;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     Accuracy(AccuracyCommand),
     /// Change what is shown or selected of the library as a whole.
     Collection(CollectionCommand),
+    /// Keep new textiles in the library.
+    Keep(Keep),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -70,6 +73,12 @@ impl From<FileCommand> for Command {
 impl From<CompareCommand> for Command {
     fn from(command: CompareCommand) -> Self {
         Self::Compare(command)
+    }
+}
+
+impl From<Keep> for Command {
+    fn from(command: Keep) -> Self {
+        Self::Keep(command)
     }
 }
 

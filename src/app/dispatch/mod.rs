@@ -7,6 +7,7 @@ mod device;
 mod edit;
 mod export;
 mod file;
+mod keep;
 mod play;
 mod show;
 
@@ -33,6 +34,7 @@ impl Workbench {
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
             Command::Collection(command) => self.dispatch_collection(ctx, command),
+            Command::Keep(keep) => self.keep(ctx, keep),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),
