@@ -69,6 +69,7 @@ impl Workbench {
         self.poll_exports(ctx);
         self.transient.ports.poll();
         self.poll_measuring();
+        self.rest_collection();
         match self.transient.dialogs.poll() {
             Some(Answer::Path(purpose, path)) => {
                 self.dispatch(ctx, FileCommand::Use(purpose, path).into());

@@ -92,6 +92,7 @@ fn kind(command: &Command) -> &'static str {
         Command::Show(_)
         | Command::Accuracy(_)
         | Command::Compare(_)
+        | Command::Collection(_)
         | Command::Dismiss
         | Command::DismissNotice(_) => "View",
     }
