@@ -49,13 +49,15 @@ pub(crate) enum Pane {
     Accuracy,
     /// A textile's amplitudes over direction and speed of movement.
     Response,
+    /// The whole library at once.
+    Collection,
     /// A recipe of a textile, and what becomes of it.
     Lab,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 14] = [
+    pub(crate) const ALL: [Self; 15] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -69,6 +71,7 @@ impl Pane {
         Self::Response,
         Self::Accuracy,
         Self::Compare,
+        Self::Collection,
         Self::Lab,
     ];
 
@@ -88,6 +91,7 @@ impl Pane {
             Self::Compare => "Compare",
             Self::Accuracy => "Accuracy",
             Self::Response => "Response",
+            Self::Collection => "Collection",
             Self::Lab => "Textile lab",
         }
     }
@@ -108,7 +112,8 @@ impl Pane {
             | Self::Why
             | Self::Response
             | Self::Accuracy
-            | Self::Compare => self.title(),
+            | Self::Compare
+            | Self::Collection => self.title(),
         }
     }
 
@@ -141,7 +146,7 @@ pub(crate) fn is_roomy(size: Vec2) -> bool {
 fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let left = (size.x - CONTROLS).max(CONTROLS);
     let library = tabs(tiles, &[Pane::Library]);
-    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab]);
+    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab, Pane::Collection]);
     let upper = [(library, LIBRARY), (workspace, left - LIBRARY)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
@@ -170,7 +175,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
-    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab]);
+    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab, Pane::Collection]);
     let controls = tabs(tiles, &[Pane::Tuning, Pane::Bridge, Pane::Library]);
     let pictures = tabs(
         tiles,

@@ -1,6 +1,7 @@
 //! What an edit makes of a scene: pure, and the only place that knows.
 
 use super::command::Edit;
+use super::free_places::free_places;
 use crate::geometry::{Displacement, Point, Rotation};
 use crate::scene::{PlacedTextile, Scene};
 use crate::tactile::{Band, Tuning};
@@ -21,8 +22,15 @@ pub(crate) fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
         Edit::Compression(share) => tuning.compression = *share,
         Edit::Filters(filters) => scene.filters = *filters,
         Edit::AddCloth(id, middle) => {
-            let added = new_cloth(scene, id, *middle);
+            let added = new_cloth(scene, id, *middle, new_size_mm(scene.size_mm));
             scene.textiles.push(added);
+        }
+        Edit::AddCloths(ids) => {
+            let (side_mm, middles) = free_places(scene, ids.len());
+            for (id, middle) in ids.iter().zip(middles) {
+                let added = new_cloth(scene, id, middle, [side_mm; 2]);
+                scene.textiles.push(added);
+            }
         }
         Edit::RemoveCloth(index) => {
             if *index < scene.textiles.len() {
@@ -84,8 +92,7 @@ pub(crate) fn new_size_mm(workspace_mm: [f64; 2]) -> [f64; 2] {
     [side_mm.max(LEAST_SIDE_MM); 2]
 }
 
-fn new_cloth(scene: &Scene, id: &str, middle: Point) -> PlacedTextile {
-    let size_mm = new_size_mm(scene.size_mm);
+fn new_cloth(scene: &Scene, id: &str, middle: Point, size_mm: [f64; 2]) -> PlacedTextile {
     let origin = middle - half_diagonal(size_mm);
     PlacedTextile {
         id: id.to_owned(),

@@ -10,6 +10,10 @@ use super::command::Command;
 use super::error::AppError;
 use super::window::{Drive, Workbench};
 
+/// Ticks from frame to frame where time passes quickly.
+#[cfg(test)]
+const TICKS_A_FRAME: u32 = 4;
+
 /// A workbench, the toolkit around it, and no display.
 pub(super) struct Headless {
     pub(super) ctx: Context,
@@ -17,7 +21,7 @@ pub(super) struct Headless {
     frame: eframe::Frame,
     size: Vec2,
     pixels_per_point: f32,
-    n_frames: u32,
+    n_ticks: u32,
 }
 
 impl Headless {
@@ -38,7 +42,7 @@ impl Headless {
             ctx,
             size,
             pixels_per_point,
-            n_frames: 0,
+            n_ticks: 0,
         })
     }
 
@@ -49,7 +53,12 @@ impl Headless {
 
     /// Runs the next frame.
     pub(super) fn run(&mut self) -> FullOutput {
-        self.n_frames += 1;
+        self.run_after(1)
+    }
+
+    /// Runs a frame so many ticks after the last one.
+    fn run_after(&mut self, n_ticks: u32) -> FullOutput {
+        self.n_ticks += n_ticks;
         let input = self.input();
         let Self {
             ctx, bench, frame, ..
@@ -67,10 +76,20 @@ impl Headless {
         }
     }
 
+    /// Lets so many ticks pass with fewer frames, which nobody looks at.
+    #[cfg(test)]
+    pub(super) fn pass_ticks(&mut self, n_ticks: u32) {
+        let end = self.n_ticks + n_ticks;
+        while self.n_ticks < end {
+            let next = TICKS_A_FRAME.min(end - self.n_ticks);
+            self.run_after(next).drop_without_applying_deltas();
+        }
+    }
+
     fn input(&self) -> RawInput {
         let mut input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
-            time: Some(f64::from(self.n_frames) / 40.0),
+            time: Some(f64::from(self.n_ticks) / 40.0),
             predicted_dt: 0.025,
             focused: true,
             ..RawInput::default()

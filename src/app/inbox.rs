@@ -70,6 +70,7 @@ impl Workbench {
         self.poll_lab(ctx);
         self.transient.ports.poll();
         self.poll_measuring();
+        self.rest_collection();
         match self.transient.dialogs.poll() {
             Some(Answer::Path(purpose, path)) => {
                 self.dispatch(ctx, FileCommand::Use(purpose, path).into());

@@ -122,6 +122,16 @@ impl Workbench {
         self.transient.lab.n_computed
     }
 
+    /// The textiles of the library that are selected, by their ids in order.
+    pub fn selected_textiles(&self) -> Vec<String> {
+        self.transient.collection.selected.iter().cloned().collect()
+    }
+
+    /// Textiles of the library measured so far, at whichever speed.
+    pub fn n_textiles_measured(&self) -> u64 {
+        self.transient.collection.measurements.n_measured()
+    }
+
     /// The scene's name.
     pub fn scene_name(&self) -> &str {
         &self.document.scene().name

@@ -53,6 +53,15 @@ struct Key {
     wanted: Wanted,
 }
 
+/// A map as it is shown.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ShownMap<'a> {
+    /// The amplitudes.
+    pub(crate) map: &'a VelocityMap,
+    /// What they are of, and how they are coloured.
+    pub(crate) wanted: Wanted,
+}
+
 /// A map and its picture on the graphics card.
 struct Slot {
     key: Key,
@@ -164,6 +173,16 @@ impl Maps {
         let slot = self.slots.get(textile)?.as_ref()?;
         let factor = slot.key.response.factors()[slot.key.wanted.band.index()];
         (factor > 0.0).then(|| (slot.texture.id(), slot.map.n_points()))
+    }
+
+    /// The map of a textile; `None` while there is none, and for a textile that is not felt at all.
+    pub(crate) fn shown(&self, textile: usize) -> Option<ShownMap<'_>> {
+        self.picture(textile)?;
+        let slot = self.slots.get(textile)?.as_ref()?;
+        Some(ShownMap {
+            map: &slot.map,
+            wanted: slot.key.wanted,
+        })
     }
 
     /// The amplitude that a textile's map shows at a place along its warp and weft, mm; in µm.

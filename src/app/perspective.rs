@@ -72,14 +72,15 @@ impl Perspective {
 /// The library on the left, the lab in the middle, every other pane in a row of tabs below it; in
 /// a small window the lab in front of all.
 fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
-    let middle = [Pane::Lab, Pane::Workspace];
+    let middle = [Pane::Lab, Pane::Collection, Pane::Workspace];
     if !is_roomy(size) {
         let mut all = Pane::ALL;
         all.sort_by_key(|pane| match pane {
             Pane::Lab => 0,
             Pane::Library => 1,
-            Pane::Workspace => 2,
-            _ => 3,
+            Pane::Collection => 2,
+            Pane::Workspace => 3,
+            _ => 4,
         });
         return tabs(tiles, &all);
     }

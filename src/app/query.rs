@@ -1,6 +1,8 @@
 //! From document and snapshot to the views that panes draw: pure queries, and the words for what
 //! the engine has to say.
 
+use std::sync::Arc;
+
 use super::audition::Audition;
 use super::command::Part;
 use super::document::Document;
@@ -54,6 +56,7 @@ pub(crate) fn scene_view(
         undo: document.undo_name(),
         redo: document.redo_name(),
         marks: Marks::default(),
+        picked: Arc::default(),
     }
 }
 

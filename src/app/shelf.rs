@@ -12,7 +12,7 @@ use eframe::egui::{
 
 use super::job::{Job, Polled};
 use super::view::{ClothPicture, ShelfItem};
-use crate::textile::{Appearance, Library};
+use crate::textile::{Appearance, Library, kind_of, measured_figures};
 
 /// Most pictures that are read in one go.
 const AT_ONCE: usize = 8;
@@ -23,7 +23,7 @@ type Read = (String, Result<Option<(ColorImage, Vec2)>, String>);
 /// A library in sight.
 pub(crate) struct Shelf {
     library: Arc<Library>,
-    items: Vec<ShelfItem>,
+    items: Arc<[ShelfItem]>,
     pictures: BTreeMap<String, (TextureHandle, ClothPicture)>,
     /// Textiles whose pictures were asked for, whatever came of it.
     asked: BTreeSet<String>,
@@ -36,7 +36,7 @@ impl Shelf {
     pub(crate) fn new(library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
         Self {
             library,
-            items,
+            items: items.into(),
             pictures: BTreeMap::new(),
             asked: BTreeSet::new(),
             wanted: Vec::new(),
@@ -49,7 +49,7 @@ impl Shelf {
     pub(crate) fn with_library(self, library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
         Self {
             library,
-            items,
+            items: items.into(),
             ..self
         }
     }
@@ -57,6 +57,16 @@ impl Shelf {
     /// The textiles, in the library's order.
     pub(crate) fn items(&self) -> &[ShelfItem] {
         &self.items
+    }
+
+    /// The same, to keep while the shelf is used.
+    pub(crate) fn shared_items(&self) -> Arc<[ShelfItem]> {
+        Arc::clone(&self.items)
+    }
+
+    /// The library that they stand in.
+    pub(crate) fn library(&self) -> &Arc<Library> {
+        &self.library
     }
 
     /// The textile with this id.
@@ -137,6 +147,18 @@ impl std::fmt::Debug for Shelf {
     }
 }
 
+impl ShelfItem {
+    /// Whether all words of a search are found in its name, its id or what it is, in any order and
+    /// in letters of any size.
+    pub(crate) fn matches(&self, sought: &str) -> bool {
+        let structure = self.structure.unwrap_or_default();
+        let texts = [&self.name, &self.id, &self.kind, structure].map(str::to_lowercase);
+        let sought = sought.to_lowercase();
+        let mut words = sought.split_whitespace();
+        words.all(|word| texts.iter().any(|text| text.contains(word)))
+    }
+}
+
 /// What the manifests of a library say; one that cannot be read is listed with the reason.
 pub(crate) fn items_of(library: &Library) -> Vec<ShelfItem> {
     let item = |id: &String| {
@@ -148,6 +170,9 @@ pub(crate) fn items_of(library: &Library) -> Vec<ShelfItem> {
             Ok(manifest) => ShelfItem {
                 id: id.clone(),
                 kind: kind(manifest.construction.word(), &manifest.fibre),
+                construction: manifest.construction.word(),
+                structure: kind_of(&manifest),
+                measured: measured_figures(&manifest.measured),
                 name: manifest.name,
                 gain_db: manifest.gain_db,
                 level_db,
@@ -158,6 +183,9 @@ pub(crate) fn items_of(library: &Library) -> Vec<ShelfItem> {
                 id: id.clone(),
                 name: id.clone(),
                 kind: String::new(),
+                construction: "",
+                structure: None,
+                measured: Vec::new(),
                 gain_db: 0.0,
                 level_db,
                 mean_um,
@@ -220,6 +248,16 @@ mod tests {
             assert!(item.level_db.is_some() && !item.kind.is_empty(), "{item:?}");
         }
         assert!(shelf.item("felt-hat").is_none(), "there is none of that id");
+    }
+
+    #[test]
+    fn a_search_finds_words_in_any_order_in_name_kind_or_id() {
+        let shelf = shipped();
+        let silk = shelf.item("silk-crepe").unwrap();
+        for sought in ["", " Silk ", "woven crêpe", "chine wov", "silk-cr", "plain"] {
+            assert!(silk.matches(sought), "{sought}");
+        }
+        assert!(!silk.matches("silk knitted"));
     }
 
     #[test]

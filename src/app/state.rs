@@ -4,6 +4,7 @@ use eframe::egui::{Rect, Vec2};
 
 use super::accuracy::AccuracyWatch;
 use super::audition::Audition;
+use super::collection::Collection;
 use super::compare::Comparison;
 use super::curves::Curves;
 use super::dialogs::Dialogs;
@@ -77,6 +78,8 @@ pub(crate) struct Transient {
     pub(crate) spatial: SpatialSpectra,
     /// The explanation that is shown, and whether it is held.
     pub(crate) why: (Option<Why>, bool),
+    /// The library as a whole.
+    pub(crate) collection: Collection,
     /// What is compared, and what came of it.
     pub(crate) comparison: Comparison,
     /// How accurate rendering was found to be.

@@ -3,7 +3,9 @@
 //! A pane that has these needs neither the engine nor the scene's file; a test can write them by
 //! hand. Words for people are made here or later, never in the engine.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use eframe::egui::{TextureId, Vec2};
 
@@ -12,6 +14,7 @@ use super::sensation::Sensation;
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
+use crate::textile::MeasuredFigure;
 
 /// The scene as it is drawn.
 #[derive(Debug, Clone)]
@@ -44,6 +47,8 @@ pub(crate) struct SceneView {
     pub(crate) redo: Option<&'static str>,
     /// What every view marks.
     pub(crate) marks: Marks,
+    /// The ids of the library's textiles that are selected.
+    pub(crate) picked: Arc<BTreeSet<String>>,
 }
 
 /// What is chosen, and what the pointer rests on, in whichever view.
@@ -87,8 +92,13 @@ impl SceneView {
         cloth == Some(index) || hovered.cloth == Some(index)
     }
 
-    /// The same for a textile of the library, wherever it is placed.
+    /// The same for a textile of the library, wherever it is placed; and whether it is selected.
     pub(crate) fn is_marked_id(&self, id: &str) -> bool {
+        self.picked.contains(id) || self.is_placed_and_marked(id)
+    }
+
+    /// Whether a textile of the library is chosen or under the pointer where it is placed.
+    pub(crate) fn is_placed_and_marked(&self, id: &str) -> bool {
         let marked = [self.marks.cloth, self.marks.hovered.cloth];
         let mut cloths = marked
             .into_iter()
@@ -139,6 +149,12 @@ pub(crate) struct ShelfItem {
     pub(crate) name: String,
     /// How it is made and of what, in a few words.
     pub(crate) kind: String,
+    /// How it is made, as files spell it; empty when its manifest cannot be read.
+    pub(crate) construction: &'static str,
+    /// Its weave or knit in words; `None` for what is no cloth of yarns.
+    pub(crate) structure: Option<&'static str>,
+    /// The figures that its manifest states, in the testers' order.
+    pub(crate) measured: Vec<MeasuredFigure>,
     /// The gain that its manifest states, dB.
     pub(crate) gain_db: f64,
     /// Its level by the library's index, dB re 1 µm.

@@ -194,6 +194,7 @@ impl Workbench {
         self.transient.trail = Trail::default();
         self.transient.history.clear();
         self.transient.comparison.leave_scene();
+        self.transient.collection.leave_library();
         self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.eye.n_scenes += 1;
@@ -253,6 +254,7 @@ impl Workbench {
             &self.transient.audition,
             self.transient.reference_db,
         );
+        view.picked = Arc::clone(&self.transient.collection.selected);
         view.marks = Marks {
             cloth: self.workspace.cloth,
             hovered: self.transient.hovered,

@@ -94,8 +94,17 @@ impl<'a> Bench<'a> {
 
     /// Measures `work`, which does `n_units` of what is counted and is repeated until its own time
     /// can be told from the clock's.
-    pub fn time<T>(&mut self, n_units: usize, mut work: impl FnMut() -> T) -> Timing {
-        let n_repeats = self.effort.pick(5, 15);
+    pub fn time<T>(&mut self, n_units: usize, work: impl FnMut() -> T) -> Timing {
+        self.time_repeated(self.effort.pick(5, 15), n_units, work)
+    }
+
+    /// The same with so many repeats: for work that takes long and so varies little.
+    pub fn time_repeated<T>(
+        &mut self,
+        n_repeats: usize,
+        n_units: usize,
+        mut work: impl FnMut() -> T,
+    ) -> Timing {
         let least_s = self.effort.pick(0.5e-3, 2e-3);
         black_box(work());
         let n_inner = inner_repeats(least_s, &mut work);

@@ -21,9 +21,14 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// The levels of a surface heard through `filters`.
+    /// The levels of a surface heard through `filters`, at [`LEVEL_SPEED_MM_PER_S`].
     pub fn of(surface: &Surface, filters: &Filters) -> Self {
-        let response = SpeedResponse::at(LEVEL_SPEED_MM_PER_S, filters);
+        Self::at(LEVEL_SPEED_MM_PER_S, surface, filters)
+    }
+
+    /// The same figures at another speed along one axis, mm/s; all zero at one that is not felt.
+    pub fn at(speed_mm_per_s: f64, surface: &Surface, filters: &Filters) -> Self {
+        let response = SpeedResponse::at(speed_mm_per_s, filters);
         let by_direction = Direction::ALL.map(|direction| {
             let spectra = surface.spectra(direction);
             let at = |point| response.squared_amplitudes_um2(spectra.powers_um2(point));
@@ -98,6 +103,21 @@ mod tests {
             levels.cv[1] < 0.01 && levels.anisotropy_db[1] == 0.0,
             "{levels:?}"
         );
+    }
+
+    #[test]
+    fn at_half_the_speed_a_finer_sine_sounds_at_the_same_frequency() {
+        let sine =
+            |per_mm: f64| surface(move |x_mm| 3.0 * (std::f64::consts::TAU * per_mm * x_mm).sin());
+        let filters = Filters::default();
+        let coarse = Levels::at(100.0, &sine(3.22), &filters);
+        let fine = Levels::at(50.0, &sine(6.44), &filters);
+        assert_eq!(coarse, Levels::of(&sine(3.22), &filters));
+        assert!(
+            (fine.mean_um[1] / coarse.mean_um[1] - 1.0).abs() < 0.01,
+            "{fine:?} {coarse:?}"
+        );
+        assert_eq!(Levels::at(0.0, &sine(3.22), &filters).mean_um, [0.0; 2]);
     }
 
     #[test]

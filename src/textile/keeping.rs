@@ -16,6 +16,8 @@ use crate::progress::Progress;
 
 /// Letters that an id may have at most.
 const MOST_LETTERS: usize = 64;
+/// Textiles that may share a name but for a number.
+const MOST_ALIKE: u32 = 9999;
 
 impl Library {
     /// Keeps textiles, each a wished id and its files, in the folder `to`.
@@ -47,7 +49,7 @@ impl Library {
         let mut index = there.as_ref().and_then(|there| there.index().cloned());
         index = index.or_else(|| self.index().cloned());
         for ((_, files), entry) in textiles.iter().zip(&mut entries) {
-            entry.id = free_id(&entry.id, to, index.as_ref());
+            entry.id = free_id(&entry.id, to, index.as_ref())?;
             write(files, &to.join(&entry.id))?;
             if let Some(index) = &mut index {
                 index.textiles.push(entry.clone());
@@ -129,13 +131,16 @@ fn entry_of(wished: &str, files: &[BuiltFile]) -> Result<IndexEntry, TextileErro
 }
 
 /// The id itself or the first of `ID-2`, `ID-3`, … that is not taken.
-fn free_id(id: &str, folder: &Path, index: Option<&Index>) -> String {
+fn free_id(id: &str, folder: &Path, index: Option<&Index>) -> Result<String, TextileError> {
     let is_free = |id: &String| {
         !folder.join(id).exists() && index.is_none_or(|index| index.entry(id).is_none())
     };
     let with_number = |n: u32| format!("{id}-{n}");
     std::iter::once(id.to_owned())
-        .chain((2..=9999).map(with_number))
+        .chain((2..=MOST_ALIKE).map(with_number))
         .find(is_free)
-        .unwrap_or_else(|| id.to_owned())
+        .ok_or_else(|| {
+            let words = format!("there are {MOST_ALIKE} textiles called {id}; give another name");
+            TextileError::Model(words)
+        })
 }

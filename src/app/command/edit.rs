@@ -24,6 +24,8 @@ pub(crate) enum Edit {
     ResizeCloth(usize, [f64; 2]),
     /// Places a textile of the library with its middle here.
     AddCloth(String, Point),
+    /// Places textiles of the library side by side where there is room.
+    AddCloths(Vec<String>),
     /// Takes the textile at this place away.
     RemoveCloth(usize),
     /// Lays the textile at this place on top of the others.
@@ -53,6 +55,8 @@ pub(crate) enum Target {
     Size(usize),
     /// Which textiles there are; such edits are never joined.
     Add,
+    /// The same, several at once.
+    AddSeveral,
     /// The same.
     Remove,
     /// Which textile is on top.
@@ -74,6 +78,7 @@ impl Edit {
             Self::TurnCloth(index, _) => Target::Turn(index),
             Self::ResizeCloth(index, _) => Target::Size(index),
             Self::AddCloth(..) => Target::Add,
+            Self::AddCloths(_) => Target::AddSeveral,
             Self::RemoveCloth(_) => Target::Remove,
             Self::RaiseCloth(_) => Target::Order,
             Self::Label(index, _) => Target::Label(index),
@@ -95,6 +100,7 @@ impl Target {
             Self::Turn(_) => "turned textile",
             Self::Size(_) => "resized textile",
             Self::Add => "added textile",
+            Self::AddSeveral => "added textiles",
             Self::Remove => "removed textile",
             Self::Order => "raised textile",
             Self::Label(_) => "label",
@@ -103,6 +109,9 @@ impl Target {
 
     /// Whether further edits of the same target may join the step.
     pub(crate) fn joins(self) -> bool {
-        !matches!(self, Self::Add | Self::Remove | Self::Order)
+        !matches!(
+            self,
+            Self::Add | Self::AddSeveral | Self::Remove | Self::Order
+        )
     }
 }

@@ -13,6 +13,7 @@ use eframe::egui;
 
 use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
+use super::collection::CollectionCommand;
 use super::compare::Choice;
 use super::export::Exportable;
 use super::keep::Keep;
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
     Accuracy(AccuracyCommand),
+    /// Change what is shown or selected of the library as a whole.
+    Collection(CollectionCommand),
     /// Keep new textiles in the library.
     Keep(Keep),
     /// Do something in the textile lab.

@@ -6,11 +6,12 @@ mod tiles;
 
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
-use super::arrangement::Pane;
+use super::arrangement::{self, Pane};
+use super::collection::Asked;
 use super::export::{Exportable, is_exportable};
 use super::panes::{
-    self, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle,
-    SpatialSource, Wishes,
+    self, CollectionTyped, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView,
+    HeatmapStyle, SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::TabRow;
@@ -71,6 +72,7 @@ impl Desk<'_> {
             }),
             Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
             Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
+            Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
         }
     }
@@ -87,6 +89,26 @@ impl Desk<'_> {
             search,
             self.wishes,
         );
+    }
+
+    fn show_collection(&mut self, ui: &mut Ui) {
+        let bench = &mut *self.bench;
+        bench.measure_collection(ui.ctx());
+        let items = bench.shelf.shared_items();
+        let collection = &mut bench.transient.collection;
+        let mut search = std::mem::take(&mut collection.search);
+        let mut pointed = None;
+        let view = collection.view(&items, self.scene, &search);
+        let mut typed = CollectionTyped {
+            search: &mut search,
+            pointed: &mut pointed,
+        };
+        panes::show_collection(ui, &mut bench.shelf, &view, &mut typed, self.wishes);
+        collection.search = search;
+        if collection.pointed != pointed {
+            collection.pointed = pointed;
+            ui.ctx().request_repaint();
+        }
     }
 
     fn show_heatmaps(&mut self, ui: &mut Ui) {
@@ -195,6 +217,30 @@ impl Desk<'_> {
 
 /// Views that are drawn and exported.
 impl Workbench {
+    /// Has the library measured as the pane shows it.
+    fn measure_collection(&mut self, ctx: &egui::Context) {
+        let collection = &mut self.transient.collection;
+        let asked = Asked {
+            speed_mm_per_s: collection.choice.speed_mm_per_s,
+            filters: self.document.scene().filters,
+        };
+        let items = self.shelf.items().iter();
+        let usable = items.filter(|item| item.flaw.is_none());
+        let ids = usable.map(|item| item.id.clone());
+        let library = self.shelf.library();
+        collection.measurements.catch_up(ctx, library, asked, ids);
+        for flaw in self.transient.collection.measurements.take_flaws() {
+            self.transient.notices.give(flaw);
+        }
+    }
+
+    /// Lets the measurements of the library rest while nobody looks at them.
+    pub(crate) fn rest_collection(&mut self) {
+        if !arrangement::is_shown(&self.tree, Pane::Collection) {
+            self.transient.collection.measurements.rest();
+        }
+    }
+
     /// How the heatmaps are drawn.
     pub(crate) fn heatmap_style(&self) -> HeatmapStyle {
         HeatmapStyle {
@@ -269,7 +315,7 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.wishes);
                 }
             }
-            Pane::Lab | Pane::Library | Pane::Tuning | Pane::Bridge => {}
+            Pane::Collection | Pane::Lab | Pane::Library | Pane::Tuning | Pane::Bridge => {}
         }
     }
 }

@@ -18,7 +18,9 @@ impl Workbench {
         if let Err(error) = self.document.edit(edit, self.transient.moment) {
             self.transient.notices.give(error.to_string());
         }
-        if matches!(edit, Edit::AddCloth(..)) && self.document.scene() != &before {
+        if matches!(edit, Edit::AddCloth(..) | Edit::AddCloths(_))
+            && self.document.scene() != &before
+        {
             let n_cloths = self.document.scene().textiles.len();
             self.workspace.cloth = n_cloths.checked_sub(1);
         }

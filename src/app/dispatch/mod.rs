@@ -1,6 +1,7 @@
 //! The one place where something changes: commands in, document, engine and transient state out.
 
 mod accuracy;
+mod collection;
 mod compare;
 mod device;
 mod edit;
@@ -33,6 +34,7 @@ impl Workbench {
             Command::Play(command) => self.dispatch_play(command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
+            Command::Collection(command) => self.dispatch_collection(ctx, command),
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),

@@ -1,11 +1,11 @@
 //! By how much two runs on the same path differ: by contactor and over time.
 
 use super::spectrograms::ink;
-use super::{Exported, N_COLOURS, Origin, Sheet, axis};
+use super::{Exported, N_COLOURS, Origin, Sheet, axis, cells};
 use crate::app::compare::Side;
 use crate::app::panes::scale_of_differences_db;
 use crate::app::theme::Diverging;
-use crate::figure::{ColourBar, Panel, Raster, Row, Scale, Series, Style, Upright, Weight};
+use crate::figure::{ColourBar, Panel, Row, Scale, Series, Style, Weight};
 use crate::quantity;
 use crate::render::LevelDifference;
 use crate::scene::TICKS_PER_S;
@@ -149,30 +149,18 @@ fn bar(map: Diverging, most_db: f64) -> ColourBar {
 fn map_panel(
     found: &[Found],
     band: Band,
-    (n_rows, n_columns): (usize, usize),
+    grid: (usize, usize),
     (map, most_db): (Diverging, f64),
 ) -> Panel {
-    let own = found
+    let own: Vec<&Found> = found
         .iter()
-        .filter(|one| one.of == "contactor" && one.band == band);
-    let mut cells: Vec<Option<[u8; 3]>> = own
-        .map(|one| {
-            one.mean_db
-                .is_finite()
-                .then(|| colour(map, one.mean_db / most_db))
-        })
+        .filter(|one| one.of == "contactor" && one.band == band)
         .collect();
-    cells.resize(n_rows * n_columns, None);
-    let ends = |n: usize| [-0.5, n.max(1) as f64 - 0.5];
-    Panel {
-        title: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
-        ink: ink(band),
-        x: axis("column", Scale::Whole, ends(n_columns)),
-        y: axis("row", Scale::Whole, ends(n_rows)),
-        upright: Upright::Downward,
-        raster: Some(Raster { n_columns, cells }),
-        ..Panel::default()
-    }
+    let cell = |index: usize| {
+        let mean_db = own.get(index)?.mean_db;
+        mean_db.is_finite().then(|| colour(map, mean_db / most_db))
+    };
+    cells::panel(band, grid, cell, Vec::new())
 }
 
 fn time_panel(found: &[Found], difference: &LevelDifference) -> Panel {

@@ -1,12 +1,10 @@
 //! Both bands of every contactor as two tables of cells.
 
-use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis, bar, rgb};
+use super::{Exported, Origin, Sheet, axis, bar, cells, rgb};
 use crate::app::panes::{HeatmapStyle, cell_digits};
 use crate::app::theme::ColourMap;
 use crate::app::view::{Dot, Live, SceneView};
-use crate::figure::{Panel, Raster, Row, Scale, Tone, Upright, Words};
-use crate::quantity;
+use crate::figure::{Panel, Row, Scale, Tone, Words};
 use crate::tactile::Band;
 
 /// Height of a row of cells, px.
@@ -66,7 +64,7 @@ fn sheet(scene: &SceneView, dots: &[Dot], n_columns: usize) -> Sheet {
 }
 
 fn panel(dots: &[Dot], band: Band, style: HeatmapStyle, grid: (usize, usize)) -> Panel {
-    let (n_rows, n_columns) = grid;
+    let (_, n_columns) = grid;
     let share = |dot: &Dot| style.scale.share(dot.amplitude_um[band.index()]);
     let is_shown = |dot: &Dot| dot.cloth.is_some() && !dot.is_muted;
     let cell = |index: usize| {
@@ -90,20 +88,8 @@ fn panel(dots: &[Dot], band: Band, style: HeatmapStyle, grid: (usize, usize)) ->
             tone,
         })
     };
-    let ends = |n: usize| [-0.5, n.max(1) as f64 - 0.5];
-    Panel {
-        title: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
-        ink: ink(band),
-        x: axis("column", Scale::Whole, ends(n_columns)),
-        y: axis("row", Scale::Whole, ends(n_rows)),
-        upright: Upright::Downward,
-        raster: Some(Raster {
-            n_columns,
-            cells: (0..n_rows * n_columns).map(cell).collect(),
-        }),
-        words: dots.iter().enumerate().filter_map(words).collect(),
-        ..Panel::default()
-    }
+    let words = dots.iter().enumerate().filter_map(words).collect();
+    cells::panel(band, grid, cell, words)
 }
 
 /// What reads on the colour of a share.

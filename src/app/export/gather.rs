@@ -6,8 +6,8 @@ use eframe::egui::Theme;
 
 use super::write::ExportError;
 use super::{
-    Exportable, Exported, Kind, Origin, accuracy, comparison, compression, contactors, drive, lab,
-    response, spatial, spectrograms, timeline, why,
+    Exportable, Exported, Kind, Origin, accuracy, collection, comparison, compression, contactors,
+    drive, lab, map, response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
@@ -43,7 +43,9 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Accuracy => Some(Workbench::gather_accuracy),
         Pane::Compare => Some(Workbench::gather_comparison),
         Pane::Lab => Some(Workbench::gather_lab),
-        Pane::Workspace | Pane::Library | Pane::Bridge => None,
+        Pane::Workspace => Some(Workbench::gather_maps),
+        Pane::Collection => Some(Workbench::gather_collection),
+        Pane::Library | Pane::Bridge => None,
     }
 }
 
@@ -270,6 +272,37 @@ impl Workbench {
             (grid, map),
             origin,
         ))
+    }
+
+    fn gather_maps(&mut self) -> Result<Exported, &'static str> {
+        if self.workspace.overlays.map().is_none() {
+            return Err(
+                "There is nothing to export: show a map over the cloth first, by “Overlay” in \
+                 the row of tools or by the keys K and Shift+K",
+            );
+        }
+        let ctx = self.ctx.clone();
+        self.prepare_overlays(&ctx);
+        let (scene, origin) = (self.plain_scene_view(), self.origin());
+        let maps = &self.transient.maps;
+        let cloths = scene.cloths.iter().enumerate();
+        let shown = cloths.filter_map(|(index, cloth)| Some((index, cloth, maps.shown(index)?)));
+        map::maps(shown.collect(), self.workspace.probe, origin).ok_or(
+            "There is nothing to export yet: the maps are being computed, or no textile is felt",
+        )
+    }
+
+    fn gather_collection(&mut self) -> Result<Exported, &'static str> {
+        let (scene, origin) = (self.plain_scene_view(), self.origin());
+        let (items, shown) = (self.shelf.shared_items(), &self.transient.collection);
+        let view = shown.view(&items, &scene, &shown.search);
+        if view.entries.iter().all(|one| one.figures.is_none()) {
+            return Err(
+                "There is nothing to export yet: the library is measured while the Collection \
+                 pane is in sight",
+            );
+        }
+        Ok(collection::scatter(&view, origin))
     }
 
     /// The scene as panes draw it, without a look at pictures.

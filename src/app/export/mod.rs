@@ -22,12 +22,15 @@
 //! - what is exported is what was seen when it was asked for, however long the path takes
 
 mod accuracy;
+mod cells;
+mod collection;
 mod comparison;
 mod compression;
 mod contactors;
 mod drive;
 mod gather;
 mod lab;
+mod map;
 mod origin;
 mod response;
 mod sheet;
@@ -63,6 +66,7 @@ impl Exportable {
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Pane(Pane::Tuning) => "Compression curve",
+            Self::Pane(Pane::Workspace) => "Map over the cloth",
             Self::Pane(pane) => pane.title(),
             Self::Timeline => "Timeline",
         }

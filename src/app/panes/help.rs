@@ -93,6 +93,7 @@ fn kind(command: &Command) -> &'static str {
         | Command::Lab(_)
         | Command::Accuracy(_)
         | Command::Compare(_)
+        | Command::Collection(_)
         | Command::Dismiss
         | Command::DismissNotice(_) => "View",
     }

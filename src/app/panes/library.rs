@@ -1,13 +1,13 @@
 //! The library, to take textiles from, and the textiles of the scene, to mute, choose and remove.
 
 use eframe::egui::{
-    self, Align, Color32, CornerRadius, DragAndDrop, Layout, Mesh, Rect, Response, RichText,
-    ScrollArea, Sense, Shape, Stroke, TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    self, Align, DragAndDrop, Layout, Rect, Response, RichText, ScrollArea, Sense, Stroke,
+    TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
-use eframe::epaint::Vertex;
 
-use super::Wishes;
+use super::{Wishes, swatch};
 use crate::app::audition::Audition;
+use crate::app::collection::{CollectionCommand, Joining};
 use crate::app::command::{Edit, Part, ShowCommand};
 use crate::app::shelf::Shelf;
 use crate::app::theme::{self, Palette, STEP};
@@ -68,12 +68,8 @@ fn show_shelf(
     wishes: &mut Wishes,
 ) {
     show_search(ui, search);
-    let sought = search.trim().to_lowercase();
-    let items = shelf.items().iter();
-    let matching: Vec<ShelfItem> = items
-        .filter(|item| matches(item, &sought))
-        .cloned()
-        .collect();
+    let items = shelf.shared_items();
+    let matching: Vec<&ShelfItem> = items.iter().filter(|item| item.matches(search)).collect();
     if matching.is_empty() {
         let words = if shelf.items().is_empty() {
             "This library holds no textiles: put some into its folder, then open the scene again"
@@ -107,13 +103,6 @@ fn show_search(ui: &mut Ui, search: &mut String) {
         .accesskit_node_builder(response.id, |node| node.set_label("Search the library"));
 }
 
-fn matches(item: &ShelfItem, sought: &str) -> bool {
-    let texts = [&item.name, &item.id, &item.kind];
-    sought
-        .split_whitespace()
-        .all(|word| texts.iter().any(|text| text.to_lowercase().contains(word)))
-}
-
 /// One textile of the library: dragged into the workspace, or added by a double click.
 fn show_item(
     ui: &mut Ui,
@@ -142,13 +131,13 @@ fn show_item(
     }
     paint_focus(ui, &response);
     let side = SWATCH.min(rect.height());
-    let swatch = Rect::from_min_size(
+    let square = Rect::from_min_size(
         pos2(rect.left() + 2.0, rect.center().y - 0.5 * side),
         vec2(side, side),
     );
-    paint_swatch(ui, swatch, picture);
+    swatch::paint(ui.painter(), square, SWATCH_MM, picture);
     let ink = if is_usable { palette.text } else { palette.dim };
-    let left = swatch.right() + 8.0;
+    let left = square.right() + 8.0;
     let room = rect.right() - left;
     let name = RichText::new(&item.name).font(theme::body()).color(ink);
     paint_line(ui, pos2(left, rect.center().y - 7.0), room, name);
@@ -180,6 +169,13 @@ fn answer_item(
         let [width_mm, height_mm] = scene.size_mm;
         let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
         wishes.push(Edit::AddCloth(item.id.clone(), middle).into());
+    } else if response.clicked() {
+        let joining = if ui.input(|input| input.modifiers.command) {
+            Joining::Toggled
+        } else {
+            Joining::Alone
+        };
+        wishes.push(CollectionCommand::Select(vec![item.id.clone()], joining).into());
     }
     if response.drag_started() {
         let id = item.id.clone();
@@ -206,40 +202,6 @@ fn paint_focus(ui: &Ui, response: &Response) {
         let inside = egui::StrokeKind::Inside;
         ui.painter().rect_stroke(response.rect, 4, edge, inside);
     }
-}
-
-/// A piece of the cloth itself.
-fn paint_swatch(ui: &Ui, rect: Rect, picture: Option<ClothPicture>) {
-    let palette = Palette::in_ui(ui);
-    let Some(picture) = picture else {
-        ui.painter().rect_filled(rect, 3, palette.raised);
-        return;
-    };
-    let share = vec2(
-        SWATCH_MM / picture.tile_mm.x.max(1e-3),
-        SWATCH_MM / picture.tile_mm.y.max(1e-3),
-    );
-    let corners = [
-        (rect.left_top(), pos2(0.0, 1.0 - share.y)),
-        (rect.right_top(), pos2(share.x, 1.0 - share.y)),
-        (rect.right_bottom(), pos2(share.x, 1.0)),
-        (rect.left_bottom(), pos2(0.0, 1.0)),
-    ];
-    let vertex = |(pos, uv)| Vertex {
-        pos,
-        uv,
-        color: Color32::WHITE,
-    };
-    let mesh = Mesh {
-        indices: vec![0, 1, 2, 0, 2, 3],
-        vertices: corners.map(vertex).to_vec(),
-        texture_id: picture.texture,
-    };
-    ui.painter().add(Shape::mesh(mesh));
-    let edge = Stroke::new(1.0, palette.hairline);
-    let inside = egui::StrokeKind::Inside;
-    ui.painter()
-        .rect_stroke(rect, CornerRadius::ZERO, edge, inside);
 }
 
 /// The textiles of the scene, topmost first as they lie.
@@ -370,26 +332,4 @@ fn show_label_field(
         wishes.push(Edit::Label(index, label).into());
     }
     response.on_hover_text("What the scene calls it");
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_search_finds_words_in_any_order_in_name_kind_or_id() {
-        let item = ShelfItem {
-            id: "silk-crepe".to_owned(),
-            name: "Silk crêpe de chine".to_owned(),
-            kind: "woven · silk".to_owned(),
-            gain_db: 0.0,
-            level_db: None,
-            mean_um: [0.0; 2],
-            flaw: None,
-        };
-        for sought in ["", "silk", "woven crêpe", "chine wov", "silk-cr"] {
-            assert!(matches(&item, sought), "{sought}");
-        }
-        assert!(!matches(&item, "silk knitted"));
-    }
 }

@@ -6,6 +6,7 @@
 mod accuracy;
 mod ask;
 mod bridge;
+mod collection;
 mod compare;
 mod contact_spectrum;
 mod curve;
@@ -23,6 +24,7 @@ mod question;
 mod response;
 mod spatial;
 mod spectrogram;
+mod swatch;
 mod transport;
 mod tuning;
 mod why;
@@ -30,6 +32,7 @@ mod why;
 pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::show as show_bridge;
+pub(crate) use collection::{Typed as CollectionTyped, show as show_collection};
 pub(crate) use compare::{
     CompareView, scale_db as scale_of_differences_db, show as show_compare,
     show_corner as show_compare_corner,

@@ -6,6 +6,7 @@
 mod axis;
 mod bar;
 mod card;
+mod list;
 mod polyline;
 mod scale;
 mod slider;
@@ -16,6 +17,7 @@ pub(crate) use axis::{
 };
 pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
+pub(crate) use list::list;
 pub(crate) use polyline::corners;
 pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{

@@ -44,6 +44,7 @@ impl Window {
             undo: None,
             redo: None,
             marks: crate::app::view::Marks::default(),
+            picked: std::sync::Arc::default(),
         };
         let ctx = Context::default();
         theme::install(&ctx);

@@ -146,6 +146,7 @@ mod tests {
             undo: None,
             redo: None,
             marks: crate::app::view::Marks::default(),
+            picked: std::sync::Arc::default(),
         }
     }
 }

@@ -9,8 +9,10 @@ use std::hint::black_box;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::reference::{bin_frequency_hz, evaluate_each};
-use crate::render::plan::{Contacts, Counters, Feel, Rule, Rules, ScenePlan};
+use super::reference::{amplitudes_of, bin_frequency_hz, evaluate_each};
+use crate::render::plan::{
+    Axis, Component, Contacts, Counters, Feel, Motion, Rule, Rules, ScenePlan,
+};
 use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
@@ -107,6 +109,9 @@ impl BandedEvaluator {
         amplitudes_um: &mut [[f64; 2]],
         counters: &mut Counters,
     ) {
+        if let (Motion::Together(_), true) = (contacts.motion, contacts.rules == Rules::default()) {
+            return self.evaluate_together(plan, contacts, factors, amplitudes_um, counters);
+        }
         let sums_of = |axis, feel: Feel, counters: &mut Counters| {
             let row = &mut self.rows[axis as usize];
             row.move_to(
@@ -121,6 +126,66 @@ impl BandedEvaluator {
     }
 }
 
+impl BandedEvaluator {
+    /// The same for contactors that move alike, with all savings: what they share is found once,
+    /// before the loop over them.
+    fn evaluate_together(
+        &mut self,
+        plan: &ScenePlan,
+        contacts: &Contacts<'_>,
+        factors: [f64; 2],
+        amplitudes_um: &mut [[f64; 2]],
+        counters: &mut Counters,
+    ) {
+        let textile = &plan.textiles[contacts.textile];
+        let n_contactors = contacts.n_contactors as u64;
+        let rules = contacts.rules;
+        contacts.for_each_owned(amplitudes_um, |_, sums| *sums = [0.0; 2]);
+        for axis in Axis::BOTH {
+            let component = contacts.component(axis, 0);
+            let Component::Felt {
+                speed_mm_per_s,
+                is_reverse,
+            } = component
+            else {
+                contacts.count_left_out(component, n_contactors, counters);
+                continue;
+            };
+            let row = &mut self.rows[axis as usize];
+            row.move_to(speed_mm_per_s, &self.filters, (rules, counters));
+            counters.speeds_repeated += n_contactors - 1;
+            let d = axis.direction(is_reverse).index();
+            let (grid, memo) = (textile.points[d], &mut self.pool[textile.spectra[d]]);
+            let (tick, row) = (self.tick, &*row);
+            let mut n_anew = 0;
+            contacts.for_each_placed(amplitudes_um, |[u_mm, w_mm], sums| {
+                let point = match axis {
+                    Axis::Warp => grid.nearest(u_mm, w_mm),
+                    Axis::Weft => grid.nearest(w_mm, u_mm),
+                };
+                if !memo.points[point].is_of(tick, row) {
+                    memo.remember(point, (tick, row), (rules, counters));
+                    n_anew += 1;
+                }
+                let own = memo.points[point].sums;
+                (0..2).for_each(|b| sums[b] += own[b]);
+            });
+            counters.directions_repeated += n_contactors - n_anew;
+        }
+        contacts.for_each_owned(amplitudes_um, |_, sums| {
+            *sums = amplitudes_of(*sums, factors)
+        });
+    }
+}
+
+impl Memo {
+    /// Whether it was made in this tick, at this speed.
+    #[inline]
+    fn is_of(&self, tick: u64, row: &GainRow) -> bool {
+        self.tick == tick && self.speed_mm_per_s.to_bits() == row.speed_mm_per_s.to_bits()
+    }
+}
+
 impl SpectraMemo {
     #[inline]
     fn sums(
@@ -129,20 +194,27 @@ impl SpectraMemo {
         (tick, row): (u64, &GainRow),
         (rules, counters): (Rules, &mut Counters),
     ) -> [f64; 2] {
-        let memo = &self.points[point];
-        let is_known =
-            memo.tick == tick && memo.speed_mm_per_s.to_bits() == row.speed_mm_per_s.to_bits();
-        if is_known && rules.has(Rule::SamePoint) {
+        if self.points[point].is_of(tick, row) && rules.has(Rule::SamePoint) {
             counters.directions_repeated += 1;
-            return memo.sums;
+        } else {
+            self.remember(point, (tick, row), (rules, counters));
         }
+        self.points[point].sums
+    }
+
+    /// Evaluates a point for the rest of the tick.
+    fn remember(
+        &mut self,
+        point: usize,
+        (tick, row): (u64, &GainRow),
+        (rules, counters): (Rules, &mut Counters),
+    ) {
         let sums = self.sums_anew(point, row, (rules, counters));
         self.points[point] = Memo {
             tick,
             speed_mm_per_s: row.speed_mm_per_s,
             sums,
         };
-        sums
     }
 
     /// The sums of a point that was not yet evaluated in this tick.

@@ -53,6 +53,36 @@ fn a_pane_is_saved_from_its_button_as_the_kind_that_was_typed() {
 }
 
 #[test]
+fn a_map_over_the_cloth_is_exported_and_without_one_it_is_said_how_to_show_it() {
+    let folder = Folder::with_size("map", [40.0, 30.0]);
+    let mut harness = window(&folder.scene());
+    harness.run();
+    let button = "Export Map over the cloth";
+    choose(&mut harness, button, "Save as PNG, SVG or CSV…");
+    let notices = harness.state().notices().join("\n");
+    assert!(
+        notices.contains("show a map over the cloth first"),
+        "{notices}"
+    );
+    press(&mut harness, Modifiers::NONE, Key::K);
+    choose(&mut harness, button, "Save as PNG, SVG or CSV…");
+    let path = folder.0.join("map.csv");
+    type_path(&mut harness, &path.display().to_string());
+    let table = fs::read_to_string(&path).unwrap();
+    let rows: Vec<&str> = table
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .collect();
+    assert!(
+        rows[0].starts_with("textile,u_mm,w_mm,amplitude_um,"),
+        "{}",
+        rows[0]
+    );
+    assert_eq!(rows.len() - 1, 41 * 31, "a point every millimetre");
+    assert!(rows.iter().skip(1).all(|row| row.starts_with("ripple,")));
+}
+
+#[test]
 fn a_table_is_copied_from_its_button() {
     let folder = Folder::new("copy");
     let mut harness = window(&folder.scene());

@@ -3,6 +3,7 @@
 mod accuracy;
 mod around;
 mod basics;
+mod collection;
 mod compare;
 mod export;
 mod lab;

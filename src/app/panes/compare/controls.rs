@@ -1,13 +1,13 @@
 //! What is compared: which kind, and which two.
 
-use eframe::egui::{Align, ComboBox, Label, Layout, RichText, Ui, vec2};
+use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
 
 use super::CompareView;
 use crate::app::command::CompareCommand;
 use crate::app::compare::{Choice, Comparison, Route, Standing, TuningChoice, What};
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette, STEP};
-use crate::app::widgets::toggle;
+use crate::app::widgets::{list, toggle};
 use crate::quantity::{fixed, with_unit};
 use crate::render::array::Method;
 
@@ -208,22 +208,11 @@ fn combo(ui: &mut Ui, name: &str, width: f32, text: &str, content: impl FnOnce(&
     let at = cell.left_center();
     ui.painter()
         .text(at, centre, name, theme::small(), palette.dim);
-    let text = RichText::new(text).font(theme::small());
-    let line = Layout::left_to_right(Align::Center);
-    // The list is as wide as its room, however long the name in it.
-    let room = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
-        ui.set_max_width(width);
-        let list = ComboBox::from_id_salt(("compare", name));
-        let list = list.width(width).truncate();
-        list.selected_text(text).show_ui(ui, content).response
-    });
-    let response = room.inner;
     let label = match name {
         "at" => "Which textile is exchanged".to_owned(),
         side => format!("{side} of the comparison"),
     };
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(label));
+    list(ui, (("compare", name), &label), width, text, content);
 }
 
 /// A difference as people read it: with its sign.

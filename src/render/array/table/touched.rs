@@ -1,8 +1,10 @@
 //! Tables of areal spectra: too many points to tabulate when a scene is prepared, so that a node
 //! of a point is made when a tick first needs it.
 //!
-//! Memory is set aside when preparing: a row of nodes for every point, or for as many as fit.
-//! When all rows are taken, the row that was taken first is given to the point that needs one. A
+//! Memory is set aside when preparing: a row of nodes for every point, or for as many as fit. A
+//! row's nodes stand in lines of the processor's cache, and lines of the same nodes stand together
+//! row after row: a display reads points that lie near each other at one speed, so what it reads is
+//! near each other too. When all rows are taken, the row that was taken first is given to the point that needs one. A
 //! node made is the number that preparing would have stored, whenever it is made, so amplitudes
 //! depend on nothing but scene and pose; what a first touch costs is bounded by the two nodes that
 //! a look-up reads, and is counted.
@@ -20,6 +22,14 @@ const NONE: u32 = u32::MAX;
 /// Fewest points whose rows there must be room for.
 const LEAST_ROWS: usize = 1024;
 
+/// Nodes of a row that stand beside each other: a line of the processor's cache.
+const LINE: usize = 8;
+/// Steps from node to node in a line. The last node of a line is the first of the next as well, so
+/// that the two that a look-up reads always stand in one line.
+const STEPS: usize = LINE - 1;
+/// Where lines begin, bytes.
+const ALIGNMENT: usize = LINE * size_of::<Kept>();
+
 /// A power at a node as it is kept, `[40 Hz, 320 Hz]` in units of the textile's: with its sign
 /// turned, so that memory as the system hands it out, all zeros, says "not made", and silence is
 /// −0.
@@ -31,10 +41,12 @@ fn is_made(kept: Kept) -> bool {
     kept[0].to_bits() != 0
 }
 
-/// A node and the next, if both are made.
+/// A node of a line and the next, if there is such a line and both are made.
 #[inline]
-fn made_at(kept: &[Kept], at: usize) -> Option<[Kept; 2]> {
-    let nodes = *kept.get(at..)?.first_chunk::<2>()?;
+fn made_at(lines: &[[Kept; LINE]], line: usize, step: usize) -> Option<[Kept; 2]> {
+    let line = lines.get(line)?;
+    // Never beyond the line: the remainder spares the question.
+    let nodes = [line[step % LINE], line[(step + 1) % LINE]];
     (is_made(nodes[0]) & is_made(nodes[1])).then_some(nodes)
 }
 
@@ -61,10 +73,11 @@ pub(super) struct TouchedTables {
     areas: Vec<Option<Area>>,
     /// By place in the pool, the first of an area's points among those of all areas.
     firsts: Vec<usize>,
-    n_nodes: usize,
+    n_rows: usize,
+    n_lines: usize,
     /// There is a row for every point: its own, for ever.
     is_whole: bool,
-    /// Row by row the nodes of a point.
+    /// The lines of the first nodes, row by row, then those of the next.
     kept: Vec<Kept>,
     /// The row of every point of every area, unless it is whole.
     row_of: Vec<u32>,
@@ -91,9 +104,25 @@ fn n_areal_points(plan: &ScenePlan) -> usize {
 /// Bytes that the rows of a plan's areal points take, within `room`; `None` if too few fit.
 pub(super) fn touched_bytes(plan: &ScenePlan, grid: &Grid, room: usize) -> Option<usize> {
     let n_points = n_areal_points(plan);
-    let row = grid.segments.nodes().len() * size_of::<Kept>();
-    let n_rows = n_points.min(room / row.max(1));
+    let row = row_bytes(grid.segments.nodes().len());
+    let n_rows = n_points.min(room / row);
     (n_rows >= n_points.min(LEAST_ROWS)).then(|| n_rows * row)
+}
+
+/// Lines of a row that has so many nodes.
+fn n_lines(n_nodes: usize) -> usize {
+    n_nodes.saturating_sub(1).div_ceil(STEPS).max(1)
+}
+
+/// Bytes of a row that has so many nodes.
+fn row_bytes(n_nodes: usize) -> usize {
+    n_lines(n_nodes) * ALIGNMENT
+}
+
+/// The lines of a memory: one that lies in two of the processor's costs twice.
+fn lines_of(memory: &mut [Kept]) -> &mut [[Kept; LINE]] {
+    let first = memory.as_ptr().align_offset(ALIGNMENT).min(memory.len());
+    memory[first..].as_chunks_mut().0
 }
 
 impl TouchedTables {
@@ -105,8 +134,9 @@ impl TouchedTables {
         gains: Arc<NodeGains>,
         n_bytes: usize,
     ) -> Self {
-        let n_nodes = gains.n_nodes().max(1);
-        let n_rows = n_bytes / (n_nodes * size_of::<Kept>());
+        let n_nodes = gains.n_nodes();
+        let n_rows = n_bytes / row_bytes(n_nodes);
+        let n_lines = n_lines(n_nodes);
         let area = |(spectra, unit_um2): (&Arc<LocalSpectra>, &f64)| {
             spectra.is_areal().then(|| Area {
                 spectra: Arc::clone(spectra),
@@ -127,9 +157,10 @@ impl TouchedTables {
             gains,
             areas,
             firsts,
-            n_nodes,
+            n_rows,
+            n_lines,
             is_whole,
-            kept: vec![[0.0; 2]; n_rows * n_nodes],
+            kept: vec![[0.0; 2]; (n_rows * n_lines + 1) * LINE],
             row_of: vec![NONE; n_places],
             point_of: vec![NONE; n_owners],
             next: 0,
@@ -158,23 +189,28 @@ impl TouchedTables {
         counters: &mut Counters,
     ) {
         // A local of its own, so that the loops need not ask anew where it lies.
-        let mut kept = std::mem::take(&mut self.kept);
+        let mut memory = std::mem::take(&mut self.kept);
+        let kept = lines_of(&mut memory);
         match heard {
             [Some(warp), Some(weft)] => {
-                let starts = [warp, weft].map(|heard| self.start_of(&heard));
-                let row = if self.is_whole { self.n_nodes } else { 0 };
+                let starts = [warp, weft].map(|heard| {
+                    let row = self.firsts[heard.spectra];
+                    (self.line(row, heard.spot.node), heard.spot.node % STEPS)
+                });
+                let is_whole = self.is_whole;
                 contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                     // One surface: its grid is looked up once for both.
                     let [i, j] = warp.points.indices(u_mm, w_mm);
                     let points = [warp.points.number([i, j]), weft.points.number([j, i])];
-                    let at = |axis: usize| made_at(&kept, starts[axis] + points[axis] * row);
+                    let at =
+                        |axis: usize| made_at(kept, starts[axis].0 + points[axis], starts[axis].1);
                     let [a, b] = match (at(0), at(1)) {
-                        (Some(a), Some(b)) if row > 0 => {
+                        (Some(a), Some(b)) if is_whole => {
                             [between(a, warp.spot.share), between(b, weft.spot.share)]
                         }
                         _ => [
-                            self.at_in(&mut kept, (warp.spectra, points[0]), warp.spot, counters),
-                            self.at_in(&mut kept, (weft.spectra, points[1]), weft.spot, counters),
+                            self.at_in(kept, (warp.spectra, points[0]), warp.spot, counters),
+                            self.at_in(kept, (weft.spectra, points[1]), weft.spot, counters),
                         ],
                     };
                     (0..2).for_each(|band| power[band] += a[band] + b[band]);
@@ -182,22 +218,23 @@ impl TouchedTables {
             }
             [Some(warp), None] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                 let point = (warp.spectra, warp.points.nearest(u_mm, w_mm));
-                let own = self.at_in(&mut kept, point, warp.spot, counters);
+                let own = self.at_in(kept, point, warp.spot, counters);
                 (0..2).for_each(|band| power[band] += own[band]);
             }),
             [None, Some(weft)] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                 let point = (weft.spectra, weft.points.nearest(w_mm, u_mm));
-                let own = self.at_in(&mut kept, point, weft.spot, counters);
+                let own = self.at_in(kept, point, weft.spot, counters);
                 (0..2).for_each(|band| power[band] += own[band]);
             }),
             [None, None] => {}
         }
-        self.kept = kept;
+        self.kept = memory;
     }
 
-    /// Where the nodes of an area that are heard begin, when there is a row for every point.
-    fn start_of(&self, heard: &Heard) -> usize {
-        self.firsts[heard.spectra] * self.n_nodes + heard.spot.node
+    /// The line in which a node of a row and the next stand. Those of other rows stand around it.
+    #[inline]
+    fn line(&self, row: usize, node: usize) -> usize {
+        node / STEPS * self.n_rows + row
     }
 
     /// The powers of a point of some spectra at a speed; nodes that are missing are made, and
@@ -209,16 +246,16 @@ impl TouchedTables {
         spot: Spot,
         counters: &mut Counters,
     ) -> [f32; 2] {
-        let mut kept = std::mem::take(&mut self.kept);
-        let powers = self.at_in(&mut kept, point, spot, counters);
-        self.kept = kept;
+        let mut memory = std::mem::take(&mut self.kept);
+        let powers = self.at_in(lines_of(&mut memory), point, spot, counters);
+        self.kept = memory;
         powers
     }
 
     #[inline]
     fn at_in(
         &mut self,
-        kept: &mut [Kept],
+        kept: &mut [[Kept; LINE]],
         point: (usize, usize),
         spot: Spot,
         counters: &mut Counters,
@@ -229,7 +266,7 @@ impl TouchedTables {
         } else {
             self.row_of[place] as usize
         };
-        let nodes = match made_at(kept, row * self.n_nodes + spot.node) {
+        let nodes = match made_at(kept, self.line(row, spot.node), spot.node % STEPS) {
             Some(nodes) => nodes,
             None => self.made(kept, point, spot.node, counters),
         };
@@ -241,7 +278,7 @@ impl TouchedTables {
     #[inline(never)]
     fn made(
         &mut self,
-        all: &mut [Kept],
+        all: &mut [[Kept; LINE]],
         (spectra, point): (usize, usize),
         node: usize,
         counters: &mut Counters,
@@ -256,8 +293,9 @@ impl TouchedTables {
             self.row(all, place)
         };
         let powers_um2 = area.spectra.powers_um2(point);
-        [node, node + 1].map(|node| {
-            let kept = &mut all[row * self.n_nodes + node];
+        let line = &mut all[self.line(row, node)];
+        [0, 1].map(|step| {
+            let (node, kept) = (node + step, &mut line[node % STEPS + step]);
             if !is_made(*kept) {
                 let (sums, n_bins) = self.gains.sums(node, powers_um2);
                 *kept = sums.map(|sum| -normal(2.0 * sum * area.per_unit));
@@ -269,14 +307,16 @@ impl TouchedTables {
     }
 
     /// The row of a point, taken from another if it has none.
-    fn row(&mut self, all: &mut [Kept], point: usize) -> usize {
+    fn row(&mut self, all: &mut [[Kept; LINE]], point: usize) -> usize {
         if self.row_of[point] == NONE {
             let row = self.next;
             self.next = (row + 1) % self.point_of.len();
             let before = self.point_of[row];
             if before != NONE {
                 self.row_of[before as usize] = NONE;
-                all[row * self.n_nodes..][..self.n_nodes].fill([0.0; 2]);
+                for line in 0..self.n_lines {
+                    all[line * self.n_rows + row] = [[0.0; 2]; LINE];
+                }
             }
             self.row_of[point] = number(row);
             self.point_of[row] = number(point);
@@ -328,7 +368,7 @@ mod tests {
     fn powers_are_the_same_bits_whether_made_now_before_or_again() {
         let (plan, units_um2, gains, grid) = prepared();
         let all = touched_bytes(&plan, &grid, usize::MAX).unwrap();
-        let row = grid.segments.nodes().len() * size_of::<Kept>();
+        let row = row_bytes(grid.segments.nodes().len());
         assert_eq!(all, 2 * 4 * 3 * row, "8 × 7 mm less a window, both axes");
         let new = |n_bytes| TouchedTables::new(&plan, &units_um2, Arc::clone(&gains), n_bytes);
         let (mut whole, mut small) = (new(all), new(3 * row));
@@ -378,7 +418,7 @@ mod tests {
     #[test]
     fn tables_of_any_area_fit_into_their_room_or_are_refused() {
         let (plan, _, _, grid) = prepared();
-        let row = grid.segments.nodes().len() * size_of::<Kept>();
+        let row = row_bytes(grid.segments.nodes().len());
         assert_eq!(touched_bytes(&plan, &grid, 23 * row), None);
         assert_eq!(touched_bytes(&plan, &grid, 24 * row), Some(24 * row));
         assert_eq!(touched_bytes(&plan, &grid, 1000 * row), Some(24 * row));

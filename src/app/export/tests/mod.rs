@@ -1,25 +1,27 @@
 //! Every exportable pane of a window that explores the shipped scene: its numbers, its kinds of
 //! files, and what is said when there is nothing.
 
+mod over_cloth;
+mod spectra;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use eframe::App as _;
-use eframe::egui::{Context, Pos2, RawInput, Rect, vec2};
+use eframe::egui::vec2;
 
 use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
+use crate::app::headless::Headless;
 use crate::app::lab::{Beginning, LabCommand};
-use crate::app::panes::density_db;
-use crate::app::signals::N_ROWS;
-use crate::app::{Drive, Workbench};
+use crate::app::workspace::Overlay;
 use crate::files::{self, Table};
+use crate::tactile::Band;
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 12] = [
+const ALL: [Exportable; 14] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -31,47 +33,45 @@ const ALL: [Exportable; 12] = [
     Exportable::Pane(Pane::Accuracy),
     Exportable::Pane(Pane::Compare),
     Exportable::Pane(Pane::Lab),
+    Exportable::Pane(Pane::Workspace),
+    Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
 ];
 
-/// Ticks between two frames: 10 frames a second of simulated time.
-const TICKS_A_FRAME: u32 = 4;
-
-/// A window without a screen.
-struct Desk {
-    ctx: Context,
-    bench: Workbench,
-    frame: eframe::Frame,
-    n_ticks: u32,
-}
-
-impl Desk {
-    fn new() -> Self {
-        let ctx = Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(&ctx, ShowCommand::ToggleNumbers.into());
-        Self {
-            ctx,
-            bench,
-            frame: eframe::Frame::_new_kittest(),
-            n_ticks: 0,
-        }
+/// The exploration that is exported from.
+impl Headless {
+    fn fresh() -> Self {
+        let mut desk = Self::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        desk.dispatch(ShowCommand::ToggleNumbers);
+        desk
     }
 
     /// A window whose display has explored by itself for as many ticks.
     fn explored(n_ticks: u32) -> Self {
-        let mut desk = Self::new();
-        let stroke = PlayCommand::Source(PlaySource::Stroke);
-        desk.bench.dispatch(&desk.ctx, stroke.into());
+        let mut desk = Self::fresh();
+        desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
+        desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
-        let brownian = LabCommand::Begin(Beginning::Example("brownian"));
-        desk.bench.dispatch(&desk.ctx, brownian.into());
+        desk.dispatch(LabCommand::Begin(Beginning::Example("brownian")));
         desk.bench.follow_lab(&desk.ctx);
-        for pane in [Pane::Response, Pane::Accuracy, Pane::Compare] {
-            desk.bench
-                .dispatch(&desk.ctx, ShowCommand::Pane(pane).into());
-            desk.go_on(n_ticks / 3);
+        let panes = [Pane::Response, Pane::Accuracy, Pane::Compare];
+        for pane in panes {
+            desk.dispatch(ShowCommand::Pane(pane));
+            desk.pass_ticks(n_ticks / 3);
             desk.settle();
+        }
+        desk
+    }
+
+    /// The same with the library measured.
+    fn collected(n_ticks: u32) -> Self {
+        let mut desk = Self::explored(n_ticks);
+        desk.dispatch(ShowCommand::Pane(Pane::Collection));
+        desk.pass_ticks(2);
+        let n_textiles = desk.bench.shelf.items().len() as u64;
+        while desk.bench.n_textiles_measured() < n_textiles {
+            thread::sleep(Duration::from_millis(5));
+            desk.pass_ticks(1);
         }
         desk
     }
@@ -91,31 +91,13 @@ impl Desk {
         panic!("a thread never came to its end");
     }
 
-    fn go_on(&mut self, n_ticks: u32) {
-        let ctx = self.ctx.clone();
-        let end = self.n_ticks + n_ticks;
-        while self.n_ticks < end {
-            self.n_ticks = end.min(self.n_ticks + TICKS_A_FRAME);
-            let input = RawInput {
-                screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(1400.0, 900.0))),
-                time: Some(f64::from(self.n_ticks) / 40.0),
-                ..RawInput::default()
-            };
-            let output = ctx.run_ui(input, |ui| {
-                self.bench.logic(&ctx, &mut self.frame);
-                self.bench.ui(ui, &mut self.frame);
-            });
-            output.drop_without_applying_deltas();
-        }
-    }
-
     fn exported(&mut self, what: Exportable) -> Exported {
         let exported = self.bench.exported(what);
         exported.unwrap_or_else(|words| panic!("{what:?}: {words}"))
     }
 
     fn file(&mut self, command: FileCommand) {
-        self.bench.dispatch(&self.ctx.clone(), command.into());
+        self.dispatch(command);
     }
 
     fn notices(&self) -> String {
@@ -158,7 +140,7 @@ fn column(exported: &Exported, name: &str) -> Vec<f64> {
 
 #[test]
 fn every_pane_is_exported_as_every_kind_the_same_twice() {
-    let mut desk = Desk::explored(90);
+    let mut desk = Headless::collected(90);
     for what in ALL {
         let exported = desk.exported(what);
         assert!(exported.sheet.n_rows() > 0, "{what:?}");
@@ -198,7 +180,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
 
 #[test]
 fn heatmaps_hold_the_amplitudes_of_every_contactor() {
-    let mut desk = Desk::explored(60);
+    let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::Heatmaps));
     let dots = &desk.bench.transient.live.dots;
     for (band, name) in ["a40_um", "a320_um"].into_iter().enumerate() {
@@ -220,102 +202,11 @@ fn heatmaps_hold_the_amplitudes_of_every_contactor() {
 }
 
 #[test]
-fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
-    let mut desk = Desk::explored(400);
-    for (what, name) in [
-        (Pane::ContactSpectrum, "level_db"),
-        (Pane::DriveSpectrum, "amplitude_um"),
-    ] {
-        let exported = desk.exported(Exportable::Pane(what));
-        let (values, ticks) = (column(&exported, name), column(&exported, "tick"));
-        assert_eq!(values.len(), 320 * N_ROWS, "8 s, whether drawn or not");
-        let newest = desk.bench.transient.history.newest().unwrap().glimpse;
-        assert_eq!(ticks.last().copied(), Some(newest.tick as f64));
-        let times = column(&exported, "t_s");
-        assert_eq!(
-            (times[0], times.last().copied()),
-            (-319.0 / 40.0, Some(0.0))
-        );
-        let last = &values[values.len() - N_ROWS..];
-        if what == Pane::DriveSpectrum {
-            let largest = last.iter().copied().fold(0.0, f64::max);
-            let louder = newest.watched_um.map(f64::from);
-            let most = louder[0].max(louder[1]);
-            assert!(
-                largest > 0.3 * most && largest < 3.0 * most,
-                "{largest} of {most}"
-            );
-        } else {
-            let contactor = desk.bench.workspace.contactor.unwrap();
-            let mut expected = [0.0; N_ROWS];
-            crate::app::signals::ContactColumns::default().levels_db(
-                &mut desk.bench.eye.inspector,
-                contactor,
-                &newest.pose,
-                &mut expected,
-            );
-            for (read, shown) in last.iter().zip(expected) {
-                let is_same = if shown.is_finite() {
-                    (*read - f64::from(shown)).abs() < 1e-5
-                } else {
-                    read.is_nan()
-                };
-                assert!(is_same, "{read} for {shown}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_waveform_is_the_sum_of_both_bands_with_their_amplitudes() {
-    let mut desk = Desk::explored(60);
-    let exported = desk.exported(Exportable::Pane(Pane::DriveWave));
-    let shown = desk.bench.drive_wave_view();
-    let times = column(&exported, "t_s");
-    for (band, name) in ["wave_40_um", "wave_320_um"].into_iter().enumerate() {
-        let wave = column(&exported, name);
-        let second = times.iter().position(|t_s| *t_s >= 0.025).unwrap();
-        let most = wave[second..].iter().copied().fold(0.0, f64::max);
-        let amplitude = shown.now_um[band];
-        assert!(
-            (most - amplitude).abs() < 0.02 * amplitude,
-            "{most} of {amplitude}"
-        );
-    }
-    let waves = ["wave_40_um", "wave_320_um", "sum_um"].map(|name| column(&exported, name));
-    for ((low, high), sum) in waves[0].iter().zip(&waves[1]).zip(&waves[2]) {
-        assert!((low + high - sum).abs() < 1e-9, "{low} + {high} = {sum}");
-    }
-}
-
-#[test]
-fn spatial_spectra_hold_every_bin_of_every_direction() {
-    let mut desk = Desk::explored(60);
-    let exported = desk.exported(Exportable::Pane(Pane::SpatialSpectra));
-    let (density, level) = (
-        column(&exported, "density_um2_mm"),
-        column(&exported, "level_db"),
-    );
-    assert_eq!(density.len(), 4 * 500);
-    for (density, level) in density
-        .iter()
-        .zip(&level)
-        .filter(|(density, _)| **density > 0.0)
-    {
-        assert!((density_db(*density) - level).abs() < 1e-9, "{level}");
-    }
-    let sounds = column(&exported, "sounds_at_hz");
-    assert!(sounds.iter().any(|hz| *hz > 0.0), "something sounds");
-    let rules = &exported.figure.rows[0].panels[0].rules;
-    assert_eq!(rules.len(), 2, "40 and 320 Hz are marked");
-}
-
-#[test]
 fn the_compression_curve_holds_the_library_at_its_levels() {
-    let mut desk = Desk::explored(4);
+    let mut desk = Headless::explored(4);
     let edit = crate::app::command::Edit::Compression(0.5);
-    desk.bench.dispatch(&desk.ctx.clone(), edit.into());
-    desk.go_on(4);
+    desk.dispatch(edit);
+    desk.pass_ticks(4);
     let exported = desk.exported(Exportable::Pane(Pane::Tuning));
     let (before, after) = (
         column(&exported, "level_in_db"),
@@ -333,7 +224,7 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
 
 #[test]
 fn the_timeline_holds_speed_and_means_of_every_tick() {
-    let mut desk = Desk::explored(80);
+    let mut desk = Headless::explored(80);
     let exported = desk.exported(Exportable::Timeline);
     let glimpses: Vec<_> = desk.bench.transient.history.glimpses().copied().collect();
     let ticks: Vec<f64> = glimpses.iter().map(|glimpse| glimpse.tick as f64).collect();
@@ -350,12 +241,12 @@ fn the_timeline_holds_speed_and_means_of_every_tick() {
 #[test]
 fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
     let folder = Folder::new("seen");
-    let mut desk = Desk::explored(60);
+    let mut desk = Headless::collected(60);
     for what in ALL {
         let path = folder.0.join(what.file_name(Kind::Csv));
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
-        desk.go_on(7);
+        desk.pass_ticks(7);
         let ask = desk.bench.transient.ask.as_ref();
         let suggested = ask.map(|ask| ask.path.clone()).unwrap_or_default();
         let last = desk.bench.transient.exports.last.clone();
@@ -372,10 +263,10 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
 #[test]
 fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
     let folder = Folder::new("kind");
-    let mut desk = Desk::explored(30);
+    let mut desk = Headless::explored(30);
     let purpose = Purpose::Export(Exportable::Pane(Pane::DriveWave));
     desk.file(FileCommand::Ask(purpose));
-    desk.go_on(2);
+    desk.pass_ticks(2);
     for name in ["wave.pdf", "wave", "wave.png.txt"] {
         let path = folder.0.join(name);
         desk.file(FileCommand::Use(purpose, path));
@@ -405,8 +296,8 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
 
 #[test]
 fn with_nothing_to_show_it_is_said_what_to_do() {
-    let mut desk = Desk::new();
-    desk.go_on(2);
+    let mut desk = Headless::fresh();
+    desk.pass_ticks(2);
     let has_levels = |what: &Exportable| *what == Exportable::Pane(Pane::Tuning);
     for what in ALL.into_iter().filter(|what| !has_levels(what)) {
         let is_chosen = what == Exportable::Timeline || what == ALL[0] || what == ALL[1];
@@ -420,8 +311,8 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         assert!(desk.notices().contains(words), "{what:?}");
         assert!(desk.bench.transient.exports.seen.is_none(), "{what:?}");
     }
-    let workspace = Exportable::Pane(Pane::Workspace);
-    assert!(!is_exportable(Pane::Workspace) && desk.bench.exported(workspace).is_err());
+    let library = Exportable::Pane(Pane::Library);
+    assert!(!is_exportable(Pane::Library) && desk.bench.exported(library).is_err());
 }
 
 #[test]
@@ -439,7 +330,7 @@ fn every_export_has_a_name_of_its_own() {
 
 #[test]
 fn curves_errors_and_differences_are_those_of_their_panes() {
-    let mut desk = Desk::explored(90);
+    let mut desk = Headless::explored(90);
     let response = desk.exported(Exportable::Pane(Pane::Response));
     let rms_um = column(&response, "a320_rms_um");
     let curves = &desk.bench.transient.curves;

@@ -1,0 +1,31 @@
+//! Numbers of all contactors as cells of one band: rows and columns as they stand.
+
+use super::axis;
+use super::spectrograms::ink;
+use crate::figure::{Panel, Raster, Scale, Upright, Words};
+use crate::quantity;
+use crate::tactile::Band;
+
+/// A band's panel of rows and columns, row 0 at the top. `colour` is that of a contactor's cell,
+/// `None` for paper.
+pub(super) fn panel(
+    band: Band,
+    (n_rows, n_columns): (usize, usize),
+    colour: impl Fn(usize) -> Option<[u8; 3]>,
+    words: Vec<Words>,
+) -> Panel {
+    let ends = |n: usize| [-0.5, n.max(1) as f64 - 0.5];
+    Panel {
+        title: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
+        ink: ink(band),
+        x: axis("column", Scale::Whole, ends(n_columns)),
+        y: axis("row", Scale::Whole, ends(n_rows)),
+        upright: Upright::Downward,
+        raster: Some(Raster {
+            n_columns,
+            cells: (0..n_rows * n_columns).map(colour).collect(),
+        }),
+        words,
+        ..Panel::default()
+    }
+}
