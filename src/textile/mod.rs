@@ -10,6 +10,7 @@
 //! - a model is a function of its recipe: same recipe, same bytes
 //! - every error is one line: what, where, how to mend it
 
+mod brought;
 mod brownian;
 mod build;
 mod cache;
@@ -33,8 +34,10 @@ mod restoration;
 mod selection;
 mod shipped;
 mod weave;
+mod words;
 mod workers;
 
+pub use brought::Measurement;
 pub use brownian::{Brownian, Generator, Hurst, Tip};
 pub use build::{BuiltFile, build, build_library, make, write};
 pub use cache::BuildCache;
@@ -46,20 +49,23 @@ pub use fourier::{
 };
 pub use index::{Index, IndexEntry};
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesFigures, KesFile,
-    KesFriction, KesImport, KesOptions, KesOrigin, KesPlace, KesReading, KesSection, KesStroke,
-    KesWords, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesColumn, KesFigures,
+    KesFile, KesFriction, KesImport, KesKnown, KesLine, KesLook, KesOptions, KesOrigin, KesPlace,
+    KesReading, KesSection, KesStroke, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
 };
 pub use knit::{Knit, Structure};
 pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
 pub use manifest::{AppearanceKeys, Construction, Manifest, ProfileFiles, Profiles, Source};
-pub use measured::{Figure as MeasuredFigure, figures as measured_figures};
+pub use measured::{
+    Figure as MeasuredFigure, KnownFigure, all_known as known_figures, figures as measured_figures,
+};
 pub use profile_file::read as read_profile;
 pub use recipes::SEVENTY_FOUR;
 pub use restoration::{Reduced, Restoration, Rule};
 pub use selection::{kind_of, most_typical};
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
+pub use words::{Words, id_of, nth_id};
 pub use workers::n_threads;
 
 use std::path::PathBuf;

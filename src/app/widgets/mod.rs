@@ -7,6 +7,7 @@ mod axis;
 mod bar;
 mod card;
 mod polyline;
+mod relief;
 mod scale;
 mod slider;
 mod text;
@@ -17,6 +18,7 @@ pub(crate) use axis::{
 pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use polyline::corners;
+pub(crate) use relief::{BAR_ROOM, Relief, ReliefPicture, paint_height_bar};
 pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{asked_value, declare, key_steps, slider_row, tip_beside};
 pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};
