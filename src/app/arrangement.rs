@@ -48,11 +48,13 @@ pub(crate) enum Pane {
     Accuracy,
     /// A textile's amplitudes over direction and speed of movement.
     Response,
+    /// Measurements that become textiles.
+    Import,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 13] = [
+    pub(crate) const ALL: [Self; 14] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -66,6 +68,7 @@ impl Pane {
         Self::Response,
         Self::Accuracy,
         Self::Compare,
+        Self::Import,
     ];
 
     /// Its title.
@@ -84,6 +87,7 @@ impl Pane {
             Self::Compare => "Compare",
             Self::Accuracy => "Accuracy",
             Self::Response => "Response",
+            Self::Import => "Import",
         }
     }
 
@@ -102,7 +106,8 @@ impl Pane {
             | Self::Why
             | Self::Response
             | Self::Accuracy
-            | Self::Compare => self.title(),
+            | Self::Compare
+            | Self::Import => self.title(),
         }
     }
 
@@ -135,7 +140,7 @@ pub(crate) fn is_roomy(size: Vec2) -> bool {
 fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let left = (size.x - CONTROLS).max(CONTROLS);
     let library = tabs(tiles, &[Pane::Library]);
-    let workspace = tabs(tiles, &[Pane::Workspace]);
+    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Import]);
     let upper = [(library, LIBRARY), (workspace, left - LIBRARY)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
@@ -164,7 +169,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
-    let workspace = tabs(tiles, &[Pane::Workspace]);
+    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Import]);
     let controls = tabs(tiles, &[Pane::Tuning, Pane::Bridge, Pane::Library]);
     let pictures = tabs(
         tiles,

@@ -9,6 +9,7 @@ use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::export::Exports;
 use super::history::Moment;
+use super::importing::Importing;
 use super::job::Job;
 use super::maps::Maps;
 use super::opening::{Opening, Origin};
@@ -74,6 +75,8 @@ pub(crate) struct Transient {
     pub(crate) why: (Option<Why>, bool),
     /// What is compared, and what came of it.
     pub(crate) comparison: Comparison,
+    /// Measurements that are imported.
+    pub(crate) importing: Importing,
     /// How accurate rendering was found to be.
     pub(crate) accuracy: AccuracyWatch,
     /// Maps of the textiles at the chosen velocity.

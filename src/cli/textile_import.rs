@@ -7,7 +7,6 @@ use clap::Args;
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use crate::files;
 use crate::surface::Representation;
 use crate::textile::metrology::{
     self, Asked, HeightImport, HeightPlace, ImportOptions, LengthUnit,
@@ -109,7 +108,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 
 /// Makes the textiles.
 pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
-    let bytes = files::read(&args.file)?;
+    let bytes = textile::read_measurement(&args.file)?;
     let options = ImportOptions {
         asked: args.asked.asked(),
         is_periodic: args.periodic,
@@ -164,7 +163,7 @@ fn nth_folder(out: &Path, nth: usize, n: usize) -> PathBuf {
 
 /// Writes the file.
 pub(super) fn convert(args: &ConvertArgs) -> Result<(), CliError> {
-    let bytes = files::read(&args.file)?;
+    let bytes = textile::read_measurement(&args.file)?;
     let mut measured = metrology::open(&bytes, &args.file, &args.asked.asked())?;
     for warning in &measured.warnings {
         terminal::notice(&format!("{}: {warning}", args.file.display()));

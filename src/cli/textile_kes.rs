@@ -7,7 +7,6 @@ use clap::{Args, ValueEnum};
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use crate::files;
 use crate::quantity::fixed;
 use crate::textile::{
     self, ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesFile, KesImport, KesOptions, KesPlace,
@@ -189,9 +188,13 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     let bytes: Vec<Vec<u8>> = args
         .files
         .iter()
-        .map(|path| files::read(path))
+        .map(|path| textile::read_measurement(path))
         .collect::<Result<_, _>>()?;
-    let friction_bytes = args.friction.as_deref().map(files::read).transpose()?;
+    let friction_bytes = args
+        .friction
+        .as_deref()
+        .map(textile::read_measurement)
+        .transpose()?;
     let given: Vec<KesFile<'_>> = args
         .files
         .iter()

@@ -1,6 +1,30 @@
 //! What kind of measurement a file holds, told by its content.
 
+use std::fs;
+use std::path::Path;
+
 use super::{kes, metrology};
+use crate::files::{self, FileError};
+
+/// Larger files are refused before they are read: more than the heights of any map that is read.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// The content of a file of measurements.
+///
+/// # Errors
+/// A file that cannot be read, or is larger than 1 GiB.
+pub fn read_measurement(path: &Path) -> Result<Vec<u8>, FileError> {
+    let size = fs::metadata(path).map_or(0, |about| about.len());
+    if size > MOST_BYTES {
+        let what = format!("this file has {} MB", size >> 20);
+        return Err(FileError::whole(
+            path,
+            what,
+            "cut out what you need, at most 1024 MB",
+        ));
+    }
+    files::read(path)
+}
 
 /// A kind of measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -37,7 +37,7 @@ mod weave;
 mod words;
 mod workers;
 
-pub use brought::Measurement;
+pub use brought::{Measurement, read_measurement};
 pub use brownian::{Brownian, Generator, Hurst, Tip};
 pub use build::{BuiltFile, build, build_library, make, write};
 pub use cache::BuildCache;

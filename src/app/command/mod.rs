@@ -15,6 +15,8 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::importing::ImportCommand;
+use super::keep::Keep;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
@@ -42,6 +44,10 @@ pub(crate) enum Command {
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
     Accuracy(AccuracyCommand),
+    /// Bring measurements.
+    Import(ImportCommand),
+    /// Keep a textile that was made here.
+    Keep(Keep),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -67,6 +73,12 @@ impl From<FileCommand> for Command {
 impl From<CompareCommand> for Command {
     fn from(command: CompareCommand) -> Self {
         Self::Compare(command)
+    }
+}
+
+impl From<ImportCommand> for Command {
+    fn from(command: ImportCommand) -> Self {
+        Self::Import(command)
     }
 }
 
@@ -154,6 +166,8 @@ pub(crate) enum Purpose {
     SaveRecording,
     /// Save what a pane shows as a picture or a table.
     Export(Exportable),
+    /// Take files of measurements to those that are imported.
+    ImportFiles,
 }
 
 /// What moves the display, and how that is recorded.

@@ -10,7 +10,7 @@ use super::arrangement::Pane;
 use super::export::{Exportable, is_exportable};
 use super::panes::{
     self, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView, HeatmapStyle,
-    SpatialSource, Wishes,
+    ImportView, SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::TabRow;
@@ -71,6 +71,7 @@ impl Desk<'_> {
             }),
             Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
             Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
+            Pane::Import => framed(ui, 10, |ui| self.show_import(ui)),
         }
     }
 
@@ -168,6 +169,19 @@ impl Desk<'_> {
     }
 }
 
+/// Measurements.
+impl Desk<'_> {
+    fn show_import(&mut self, ui: &mut Ui) {
+        self.bench.follow_import(ui.ctx());
+        let bench = &mut *self.bench;
+        let view = ImportView {
+            shelf: bench.shelf.items(),
+            map: bench.settings.kept.colour_map,
+        };
+        panes::show_import(ui, &mut bench.transient.importing, &view, self.wishes);
+    }
+}
+
 /// Views that are drawn and exported.
 impl Workbench {
     /// How the heatmaps are drawn.
@@ -244,7 +258,7 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.wishes);
                 }
             }
-            Pane::Library | Pane::Tuning | Pane::Bridge => {}
+            Pane::Library | Pane::Tuning | Pane::Bridge | Pane::Import => {}
         }
     }
 }

@@ -6,6 +6,8 @@ mod device;
 mod edit;
 mod export;
 mod file;
+mod import;
+mod keep;
 mod play;
 mod show;
 
@@ -31,6 +33,8 @@ impl Workbench {
             Command::Play(command) => self.dispatch_play(command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
+            Command::Import(command) => self.dispatch_import(ctx, command),
+            Command::Keep(keep) => self.keep_textile(&keep),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

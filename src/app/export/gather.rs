@@ -7,7 +7,7 @@ use eframe::egui::Theme;
 use super::write::ExportError;
 use super::{
     Exportable, Exported, Kind, Origin, accuracy, comparison, compression, contactors, drive,
-    response, spatial, spectrograms, timeline, why,
+    import, response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
@@ -42,6 +42,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Response => Some(Workbench::gather_response),
         Pane::Accuracy => Some(Workbench::gather_accuracy),
         Pane::Compare => Some(Workbench::gather_comparison),
+        Pane::Import => Some(Workbench::gather_import),
         Pane::Workspace | Pane::Library | Pane::Bridge => None,
     }
 }
@@ -259,6 +260,13 @@ impl Workbench {
             (grid, map),
             origin,
         ))
+    }
+
+    fn gather_import(&mut self) -> Result<Exported, &'static str> {
+        let map = self.settings.kept.colour_map;
+        let found = self.transient.importing.found();
+        let exported = found.and_then(|found| import::measurement(found, map));
+        exported.ok_or("There is nothing to export yet: choose files in the Import pane")
     }
 
     /// The scene as panes draw it, without a look at pictures.

@@ -27,6 +27,7 @@ mod compression;
 mod contactors;
 mod drive;
 mod gather;
+mod import;
 mod origin;
 mod response;
 mod sheet;

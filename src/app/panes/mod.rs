@@ -15,6 +15,7 @@ mod export;
 mod header;
 mod heatmap;
 mod help;
+mod import;
 mod library;
 mod menu;
 mod notices;
@@ -46,6 +47,7 @@ pub(crate) use heatmap::{
     HeatmapStyle, digits as cell_digits, show as show_heatmaps, show_corner as show_heatmap_corner,
 };
 pub(crate) use help::show as show_help;
+pub(crate) use import::{ImportView, show as show_import};
 pub(crate) use library::show as show_library;
 pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
