@@ -102,6 +102,14 @@ impl Document {
         self.history.redo_name()
     }
 
+    /// Takes textiles from the library in `folder`, which has all that there were before: in every
+    /// state that undo and redo can bring back as well.
+    pub(crate) fn use_library(&mut self, folder: &Path) {
+        self.scene.library = Some(folder.to_owned());
+        self.history
+            .change_all(|scene| scene.library = Some(folder.to_owned()));
+    }
+
     /// Writes the scene to `path`, which is its place from now on.
     pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
@@ -212,6 +220,21 @@ mod tests {
         document.undo();
         assert!(document.is_edited(), "undone after saving");
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_library_that_takes_over_is_there_in_every_state_of_undo() {
+        let mut document = document();
+        document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
+        document.edit(&Edit::MasterGain(1.0), at(2)).unwrap();
+        document.undo();
+        let own = Path::new("/own/textiles");
+        document.use_library(own);
+        assert!(document.is_edited(), "the file names another");
+        for step in [Document::undo, Document::redo, Document::redo] {
+            assert!(step(&mut document).is_some());
+            assert_eq!(document.scene().library.as_deref(), Some(own));
+        }
     }
 
     #[test]

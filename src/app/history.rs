@@ -112,6 +112,12 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
         Some(name)
     }
 
+    /// Changes every state that undo and redo could bring back.
+    pub(crate) fn change_all(&mut self, change: impl Fn(&mut S)) {
+        let steps = self.past.iter_mut().chain(&mut self.future);
+        steps.for_each(|step| change(&mut step.state));
+    }
+
     /// What undo would take back from `state`.
     pub(crate) fn undo_name(&self, state: &S) -> Option<&'static str> {
         self.past

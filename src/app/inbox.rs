@@ -66,6 +66,7 @@ impl Workbench {
             Some(Polled::BrokeOff) => self.transient.saving = None,
             Some(Polled::Working) | None => {}
         }
+        self.poll_kept(ctx);
         self.poll_exports(ctx);
         self.transient.ports.poll();
         self.poll_measuring();

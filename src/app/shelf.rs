@@ -44,6 +44,16 @@ impl Shelf {
         }
     }
 
+    /// The same with the textiles of another library, which has all that this one had: pictures
+    /// stay.
+    pub(crate) fn with_library(self, library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
+        Self {
+            library,
+            items,
+            ..self
+        }
+    }
+
     /// The textiles, in the library's order.
     pub(crate) fn items(&self) -> &[ShelfItem] {
         &self.items

@@ -11,6 +11,7 @@ use super::export::Exports;
 use super::history::Moment;
 use super::importing::Importing;
 use super::job::Job;
+use super::keep::Keeping;
 use super::maps::Maps;
 use super::opening::{Opening, Origin};
 use super::panes::{
@@ -55,6 +56,8 @@ pub(crate) struct Transient {
     pub(crate) reading: Option<Job<Result<Take, SceneError>>>,
     /// A recorded exploration on its way into a file.
     pub(crate) saving: Option<Job<Result<Take, SceneError>>>,
+    /// New textiles on their way into the library.
+    pub(crate) keeping: Keeping,
     /// What is being exported.
     pub(crate) exports: Exports,
     /// The engine as it was seen last.

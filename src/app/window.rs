@@ -18,7 +18,7 @@ use super::opening::{Opened, Origin, open};
 use super::pointer::PointerTap;
 use super::preparing::Preparing;
 use super::rendering::Rendering;
-use super::settings::Settings;
+use super::settings::{Settings, own_libraries};
 use super::shelf::Shelf;
 use super::state::Transient;
 use super::take::Take;
@@ -156,6 +156,7 @@ impl Workbench {
     fn begin(&mut self, complaint: Option<String>) {
         if !self.is_stepped {
             self.transient.dialogs = Dialogs::of_desktop();
+            self.transient.keeping.own_folder = own_libraries();
         }
         if let Some(complaint) = complaint {
             self.transient.notices.give(complaint);

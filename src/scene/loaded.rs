@@ -108,6 +108,12 @@ impl LoadedScene {
         })
     }
 
+    /// Takes textiles that are placed from now on from another library, which must have those that
+    /// are placed already.
+    pub fn use_library(&mut self, library: &Arc<Library>) {
+        self.library = Arc::clone(library);
+    }
+
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene

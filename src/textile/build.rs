@@ -7,14 +7,14 @@ use std::fs;
 use std::path::Path;
 
 use super::index::{Index, IndexEntry};
-use super::library::{INDEX, Library};
-use super::loaded::MANIFEST;
+use super::library::{INDEX, Library, Store};
+use super::loaded::{MANIFEST, Textile, read_manifest};
 use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, workers};
 use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
 use crate::progress::{Progress, unheard};
-use crate::surface::Direction;
+use crate::surface::{Direction, Representation, Surface};
 use crate::tactile::{Filters, Levels, Tuning};
 
 /// The name of the picture.
@@ -126,7 +126,7 @@ pub fn build_library(
         let recipe = from.manifest(id)?;
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
-            Source::Profiles(_) | Source::Heightmap(_) => copied(from, id, &recipe)?,
+            Source::Profiles(_) | Source::Heightmap(_) => files_of(from, id)?,
             _ => build(&recipe, &path)?,
         };
         Ok(write(&files, &to.join(id))?)
@@ -139,20 +139,49 @@ pub fn build_library(
     Ok(index)
 }
 
-/// The files of a textile that was not made from a recipe.
-fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile>, TextileError> {
-    let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
-    if let (Source::Heightmap(keys), true) = (&manifest.source, names.is_empty()) {
-        names.push(keys.file.clone());
-    }
+/// The files of a textile of a library, as they are; recipes of a file are built.
+pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+    let store = from.files_of(id)?;
+    let manifest = read_manifest(&store, id)?;
+    let mut names = content_names(&manifest);
     names.extend(manifest.source.friction().map(ToOwned::to_owned));
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
+    if let Source::Heightmap(keys) = &manifest.source
+        && !names.contains(&keys.file)
+        && store.read(id, &keys.file).is_ok()
+    {
+        names.push(keys.file.clone());
+    }
     let copy = |name: String| {
-        let bytes = from.file(id, &name)?.into_owned();
+        let bytes = store.read(id, &name)?.into_owned();
         Ok(BuiltFile { name, bytes })
     };
     names.into_iter().map(copy).collect()
+}
+
+/// The files that a textile's surface is made from, besides its manifest.
+fn content_names(manifest: &Manifest) -> Vec<String> {
+    let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
+    if let Source::Heightmap(keys) = &manifest.source
+        && (names.is_empty() || keys.representation == Representation::Areal)
+    {
+        names.push(keys.file.clone());
+    }
+    names
+}
+
+/// What the figures of an index are made from: id, manifest and surface.
+fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, TextileError> {
+    let manifest = read_manifest(store, id)?;
+    let mut content = vec![
+        id.as_bytes().to_vec(),
+        store.read(id, MANIFEST)?.into_owned(),
+    ];
+    for name in content_names(&manifest) {
+        content.push(store.read(id, &name)?.into_owned());
+    }
+    Ok(content)
 }
 
 /// The index of a library, from its profiles: levels with the default filters (to six digits), the
@@ -163,14 +192,11 @@ pub(crate) fn index_of(
     n_threads: usize,
 ) -> Result<Index, TextileError> {
     let measure = |id: &str| {
-        let textile = library.load(id)?;
-        let levels = Levels::of(textile.surface(), &Filters::default());
-        let [a40_um, a320_um] = levels.mean_um.map(six_digits);
-        let mut content = vec![id.as_bytes().to_vec(), textile.file(MANIFEST)?];
-        for name in textile.manifest().source.files().0.into_iter().flatten() {
-            content.push(textile.file(&name)?);
-        }
+        let store = library.files_of(id)?;
+        let textile = Textile::load(&store, id)?;
+        let [a40_um, a320_um] = means_um(textile.surface());
         let id = id.to_owned();
+        let content = content_of(&store, &id)?;
         let entry = IndexEntry {
             id,
             a40_um,
@@ -189,6 +215,22 @@ pub(crate) fn index_of(
         tuning,
         textiles,
     })
+}
+
+/// The hash that the index of a library states: of what its figures are made from, in order.
+pub(crate) fn hash_of(library: &Library) -> Result<String, TextileError> {
+    let contents = library
+        .ids()
+        .iter()
+        .map(|id| content_of(&library.files_of(id)?, id));
+    let contents = contents.collect::<Result<Vec<_>, _>>()?;
+    Ok(sha256_hex(contents.iter().flatten().map(Vec::as_slice)))
+}
+
+/// Mean amplitude of both bands as an index states it, to six digits, µm.
+pub(crate) fn means_um(surface: &Surface) -> [f64; 2] {
+    let levels = Levels::of(surface, &Filters::default());
+    levels.mean_um.map(six_digits)
 }
 
 /// A number to six significant digits: what rounding hides cannot differ between machines.

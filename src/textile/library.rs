@@ -109,6 +109,15 @@ impl Library {
         })
     }
 
+    /// One textile whose files are at hand and lie in no folder yet.
+    pub(crate) fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
+        Self {
+            store: Store::Built(Arc::new(files), PathBuf::from("the new textile")),
+            ids: vec![id.to_owned()],
+            index: None,
+        }
+    }
+
     /// The textiles with these ids of a folder, whatever index it has.
     pub(crate) fn of_folder(folder: &Path, ids: &[String]) -> Self {
         Self {
@@ -193,13 +202,8 @@ impl Library {
         workers::for_each(ids, workers::n_threads(), progress, |id| self.load(id))
     }
 
-    /// The bytes of a file of a textile.
-    pub(crate) fn file(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, TextileError> {
-        Ok(self.store.read(id, name)?)
-    }
-
     /// Where the files of a textile are: built, if they were not there.
-    fn files_of(&self, id: &str) -> Result<Store, TextileError> {
+    pub(crate) fn files_of(&self, id: &str) -> Result<Store, TextileError> {
         self.check_id(id)?;
         match &self.store {
             Store::Recipes(recipes) => {

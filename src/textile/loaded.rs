@@ -108,11 +108,6 @@ impl Textile {
         Ok(Some(Arc::clone(self.friction.get_or_init(|| trace))))
     }
 
-    /// The bytes of a file of its own.
-    pub(crate) fn file(&self, name: &str) -> Result<Vec<u8>, TextileError> {
-        Ok(self.store.read(&self.id, name)?.into_owned())
-    }
-
     /// Its picture, decoded now; `None` if the manifest names none.
     pub fn appearance(&self) -> Result<Option<Appearance>, TextileError> {
         read_appearance(&self.store, &self.id, &self.manifest)

@@ -20,6 +20,7 @@ mod curve;
 mod drawn;
 mod fourier;
 mod index;
+mod keeping;
 mod kes;
 mod knit;
 mod library;
@@ -48,6 +49,7 @@ pub use fourier::{
     example_templates, import, templates_from_toml, templates_to_toml,
 };
 pub use index::{Index, IndexEntry};
+pub use keeping::id_of_name;
 pub use kes::{
     ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesColumn, KesFigures,
     KesFile, KesFriction, KesImport, KesKnown, KesLine, KesLook, KesOptions, KesOrigin, KesPlace,

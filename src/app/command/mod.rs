@@ -46,7 +46,7 @@ pub(crate) enum Command {
     Accuracy(AccuracyCommand),
     /// Bring measurements.
     Import(ImportCommand),
-    /// Keep a textile that was made here.
+    /// Keep new textiles in the library.
     Keep(Keep),
     /// Change what is shown how.
     Show(ShowCommand),
@@ -79,6 +79,12 @@ impl From<CompareCommand> for Command {
 impl From<ImportCommand> for Command {
     fn from(command: ImportCommand) -> Self {
         Self::Import(command)
+    }
+}
+
+impl From<Keep> for Command {
+    fn from(command: Keep) -> Self {
+        Self::Keep(command)
     }
 }
 

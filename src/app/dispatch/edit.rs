@@ -83,7 +83,9 @@ impl Workbench {
 
     fn take_prepared(&mut self, ctx: &egui::Context, outcome: Result<Ready, AppError>) {
         match outcome {
-            Ok(ready) => {
+            Ok(mut ready) => {
+                // The library may have changed meanwhile.
+                ready.loaded.use_library(self.loaded.library());
                 self.scene_serial = ready.prepared.serial();
                 self.send(engine::Command::UpdateScene(ready.prepared));
                 self.loaded = ready.loaded;

@@ -34,7 +34,7 @@ impl Workbench {
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
             Command::Import(command) => self.dispatch_import(ctx, command),
-            Command::Keep(keep) => self.keep_textile(&keep),
+            Command::Keep(keep) => self.keep(ctx, keep),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

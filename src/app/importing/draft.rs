@@ -39,6 +39,11 @@ impl SourceFile {
         name.to_string_lossy().into_owned()
     }
 
+    /// The same as a path: where it lies is nobody's business in errors.
+    pub(crate) fn file_name(&self) -> &Path {
+        self.path.file_name().map_or(&*self.path, Path::new)
+    }
+
     /// Its content, read on the first call; why it cannot be read, in one line.
     pub(crate) fn bytes(&self) -> Result<&[u8], &str> {
         let read = || read_measurement(&self.path).map_err(|error| error.to_string());

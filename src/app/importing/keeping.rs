@@ -61,7 +61,7 @@ pub(super) fn textiles(found: &Found, said: &WordsDraft) -> Result<Vec<NewTextil
 
 impl Importing {
     /// Why nothing can be kept now; `None` if it can.
-    pub(crate) fn refusal(&self, is_known: impl Fn(&str) -> bool) -> Option<String> {
+    pub(crate) fn refusal(&self) -> Option<String> {
         match self.standing() {
             Standing::Empty => return Some("Choose files first".to_owned()),
             Standing::Reading(_) => return Some("The files are being read".to_owned()),
@@ -70,32 +70,33 @@ impl Importing {
         }
         let found = self.found()?;
         if let Some(failure) = &found.failure {
-            return Some(failure.line.clone());
+            return Some(format!(
+                "Step {} has something to mend",
+                failure.step.number()
+            ));
         }
         if self.is_keeping() {
             return Some("It is being kept".to_owned());
         }
+        None
+    }
+
+    /// An id that the library has already; what is kept gets the next free one.
+    pub(crate) fn taken(&self, is_known: impl Fn(&str) -> bool) -> Option<String> {
+        let found = self.found()?;
         let id = self.draft.words.id(&found.own_name());
         let n = found.heights().map_or(1, |heights| heights.places.len());
-        let taken = (0..n)
+        (0..n)
             .map(|nth| nth_id(&id, nth, n))
-            .find(|id| is_known(id));
-        taken.map(|id| format!("The library has a textile “{id}”; choose another name or id"))
+            .find(|id| is_known(id))
     }
 }
 
 impl Workbench {
     /// Begins to make the textiles and keeps them.
     pub(crate) fn keep_import(&mut self, ctx: &egui::Context, is_felt: bool) {
-        let ids: Vec<String> = self
-            .shelf
-            .items()
-            .iter()
-            .map(|item| item.id.clone())
-            .collect();
         let importing = &mut self.transient.importing;
-        let is_known = |id: &str| ids.iter().any(|known| known == id);
-        if let Some(line) = importing.refusal(is_known) {
+        if let Some(line) = importing.refusal() {
             importing.kept = Some(Err(Failure::at(Step::Keep, line)));
             return;
         }
@@ -147,16 +148,13 @@ impl Workbench {
             }
         };
         let names: Vec<String> = made.iter().map(|textile| textile.id.clone()).collect();
-        for (nth, textile) in made.into_iter().enumerate() {
-            let textile = Arc::new(textile);
-            // Several places of an import: the first is felt, the others lie in the library.
-            let keep = if is_felt && nth == 0 {
-                Keep::Feel(textile)
-            } else {
-                Keep::Save(textile)
-            };
-            self.dispatch(ctx, keep.into());
-        }
+        let made = Arc::new(made);
+        let keep = if is_felt {
+            Keep::Feel(made)
+        } else {
+            Keep::Save(made)
+        };
+        self.dispatch(ctx, keep.into());
         self.transient.importing.kept = Some(Ok(names.join(", ")));
     }
 }

@@ -73,6 +73,18 @@ pub(crate) enum Step {
     Keep,
 }
 
+impl Step {
+    /// Its number in the pane.
+    pub(crate) fn number(self) -> u8 {
+        match self {
+            Self::Files => 1,
+            Self::Meaning => 2,
+            Self::Look => 3,
+            Self::Keep => 4,
+        }
+    }
+}
+
 /// What is wrong, in one line, and where it is mended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Failure {
@@ -108,9 +120,19 @@ impl Failure {
             Some(_) => Step::Meaning,
             None => step,
         };
+        let line = match error {
+            // In the window a field is named, not an option.
+            TextileError::Kes {
+                path,
+                line,
+                what,
+                ask,
+            } => format!("{}:{line}: {what}; {}", path.display(), field_words(*ask)),
+            _ => error.to_string(),
+        };
         Self {
             ask,
-            ..Self::at(step, error.to_string())
+            ..Self::at(step, line)
         }
     }
 
@@ -124,6 +146,22 @@ impl Failure {
             Step::Files
         };
         Self::at(step, line)
+    }
+}
+
+/// What to do in the pane about what a reader asks.
+fn field_words(ask: KesAsk) -> &'static str {
+    match ask {
+        KesAsk::UmPerVolt => "type the sensitivity below",
+        KesAsk::Step => "type the step below, or the speed and the rate",
+        KesAsk::Speed => "type the speed below",
+        KesAsk::Direction => "choose above what each file holds",
+        KesAsk::ReturnOrder => "choose below how the return rows are ordered",
+        KesAsk::Decimal => "choose the decimal sign below",
+        KesAsk::XUnit => "choose the unit of places below",
+        KesAsk::HeightUnit => "choose the unit of heights below, or type the sensitivity for volts",
+        KesAsk::Columns => "choose below what each column holds",
+        KesAsk::Section => "drag or type the section on the strokes",
     }
 }
 
@@ -391,5 +429,3 @@ impl std::fmt::Debug for Importing {
 
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod picture_tmp;

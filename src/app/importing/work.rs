@@ -105,14 +105,16 @@ impl Found {
     /// Its roughness, a line for every stroke or every place.
     pub(crate) fn figures(&self) -> Vec<String> {
         let of_strokes = self.strokes().and_then(|strokes| strokes.import.as_ref());
-        let of_strokes = of_strokes.into_iter().flat_map(|import| &import.figures().smd_um);
+        let of_strokes = of_strokes
+            .into_iter()
+            .flat_map(|import| &import.figures().smd_um);
         let of_strokes = of_strokes.map(|(direction, smd_um)| {
             format!("{} SMD {}", direction.label(), with_unit(*smd_um, 2, "µm"))
         });
         let places = self.heights().map_or(&[][..], |heights| &heights.places);
-        let of_places = (1..).zip(places.iter().flatten()).map(|(nth, place)| {
-            format!("place {nth} SMD {}", with_unit(place.smd_um(), 2, "µm"))
-        });
+        let of_places = (1..)
+            .zip(places.iter().flatten())
+            .map(|(nth, place)| format!("place {nth} SMD {}", with_unit(place.smd_um(), 2, "µm")));
         of_strokes.chain(of_places).collect()
     }
 
@@ -157,7 +159,7 @@ pub(super) fn read(
 
 fn kes_file(file: &DraftFile) -> KesFile<'_> {
     KesFile {
-        path: file.source.path(),
+        path: file.source.file_name(),
         bytes: file.source.bytes().unwrap_or_default(),
     }
 }
@@ -260,7 +262,9 @@ fn file_of(files: &[DraftFile], error: &TextileError) -> Option<usize> {
     let TextileError::Kes { path, .. } = error else {
         return None;
     };
-    files.iter().position(|file| file.source.path() == path)
+    files
+        .iter()
+        .position(|file| file.source.file_name() == path)
 }
 
 impl Strokes {
@@ -337,7 +341,7 @@ fn read_heights(
         return Ok(Err(Failure::at(Step::Files, "no file; add one")));
     };
     let bytes = file.source.bytes().unwrap_or_default();
-    let import = match HeightImport::of(bytes, file.source.path(), &options) {
+    let import = match HeightImport::of(bytes, file.source.file_name(), &options) {
         Ok(import) => import,
         Err(error) => return Ok(Err(Failure::of_heights(&error))),
     };

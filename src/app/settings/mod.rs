@@ -49,6 +49,12 @@ pub fn build_cache() -> Option<BuildCache> {
     Some(BuildCache::in_folder(&folders.cache_dir().join("textiles")))
 }
 
+/// Where the user's own libraries lie. `None` on a system without such a place.
+pub(crate) fn own_libraries() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().to_owned())
+}
+
 impl Settings {
     /// Settings that are neither read nor written: for tests and pictures.
     pub(crate) fn in_memory() -> Self {

@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn a_catalogue_has_a_sheet_for_every_textile_and_stops_when_asked() {
-        let shipped = Library::shipped().unwrap();
+        let store = Library::shipped().unwrap().files_of("silk-crepe").unwrap();
         let root = std::env::temp_dir().join(format!("selvedge-sheets-{}", std::process::id()));
         let folder = root.join("cloths").join("silk");
         for name in [
@@ -94,7 +94,7 @@ mod tests {
             "warp_reverse.csv",
         ] {
             fs::create_dir_all(&folder).unwrap();
-            fs::write(folder.join(name), shipped.file("silk-crepe", name).unwrap()).unwrap();
+            fs::write(folder.join(name), store.read("silk-crepe", name).unwrap()).unwrap();
         }
         let manifest = fs::read_to_string(folder.join("textile.toml")).unwrap();
         let manifest = manifest

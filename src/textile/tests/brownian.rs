@@ -55,7 +55,7 @@ fn a_brownian_surface_is_rebuilt_byte_for_byte() {
     let (library, id) = (library(), "brownian-h5");
     let recipe = library.manifest(id).unwrap();
     for file in build(&recipe, Path::new(id)).unwrap() {
-        let shipped = library.file(id, &file.name).unwrap();
+        let shipped = library.files_of(id).unwrap().read(id, &file.name).unwrap();
         assert!(shipped == file.bytes, "{id}/{} differs", file.name);
     }
 }

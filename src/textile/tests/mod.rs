@@ -2,6 +2,7 @@
 
 mod areal;
 mod brownian;
+mod keeping;
 mod models;
 mod seventy_four;
 mod shipped;

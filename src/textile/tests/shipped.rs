@@ -186,7 +186,7 @@ fn two_shipped_textiles_are_rebuilt_byte_for_byte() {
     for id in ["denim", "polyamide-rib"] {
         let recipe = library.manifest(id).unwrap();
         for file in build(&recipe, Path::new(id)).unwrap() {
-            let shipped = library.file(id, &file.name).unwrap();
+            let shipped = library.files_of(id).unwrap().read(id, &file.name).unwrap();
             assert!(shipped == file.bytes, "{id}/{} differs", file.name);
         }
     }

@@ -17,7 +17,7 @@ use crate::textile::{ClothAxis, KesImport, KesReading, KesStroke, MarkKind};
 const LINE: f32 = 22.0;
 /// Room left of the plots for numbers, right of them for figures, points.
 const LEFT: f32 = 44.0;
-const RIGHT: f32 = 104.0;
+const RIGHT: f32 = 112.0;
 /// Room above a plot for its name, and below the last for places, points.
 const TOP: f32 = 15.0;
 const BOTTOM: f32 = 26.0;
@@ -89,7 +89,7 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
         Some(Ends { at_mm, covered_mm })
     });
     show_sections(ui, draft, axes, import);
-    let room = ui.available_rect_before_wrap();
+    let room = room_of(ui);
     let n = reading.strokes.len() + usize::from(reading.friction.is_some());
     let height = ((room.height() - BOTTOM) / n.max(1) as f32).max(44.0);
     let x = places_of(reading);
@@ -164,7 +164,7 @@ fn show_sections(
             let Some(ends) = axes[index] else {
                 continue;
             };
-            ui.label(quiet(&format!("{name} section, mm")));
+            ui.label(quiet(&format!("{name}, mm")));
             let section = import.and_then(|import| import.section(axis));
             if let Some(wanted) = section::numbers(ui, name, ends, section) {
                 draft.looked.sections[index] = wanted;
@@ -176,6 +176,11 @@ fn show_sections(
             draft.looked.is_official = !draft.looked.is_official;
         }
     });
+}
+
+/// What is left of the pane below what was shown, however wide that was.
+fn room_of(ui: &Ui) -> Rect {
+    ui.available_rect_before_wrap().intersect(ui.clip_rect())
 }
 
 /// The places that all strokes are drawn over.
@@ -340,8 +345,7 @@ fn friction_words(import: &KesImport) -> Vec<(&'static str, String)> {
 
 /// A profile of an instrument.
 pub(super) fn show_profile(ui: &mut Ui, heights: &Heights) {
-    let (Some(envelope), room) = (heights.profile.as_deref(), ui.available_rect_before_wrap())
-    else {
+    let (Some(envelope), room) = (heights.profile.as_deref(), room_of(ui)) else {
         return;
     };
     let map = heights.import.map();

@@ -10,7 +10,7 @@ use crate::app::theme::{self, Palette, STEP};
 /// Height of a row, points.
 pub(super) const LINE: f32 = 22.0;
 /// Width of a row's name, points.
-pub(super) const NAME: f32 = 96.0;
+const NAME: f32 = 96.0;
 
 /// Whether a field is what the reader asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,13 +95,23 @@ pub(super) fn row(
     known: &str,
     content: impl FnOnce(&mut Ui, &egui::Response),
 ) {
+    row_of(ui, NAME, (name, known), content);
+}
+
+/// The same with this much room for the name, points.
+pub(super) fn row_of(
+    ui: &mut Ui,
+    room: f32,
+    (name, known): (&str, &str),
+    content: impl FnOnce(&mut Ui, &egui::Response),
+) {
     let palette = Palette::in_ui(ui);
     let line = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = LINE - 2.0;
         let text = RichText::new(name).font(theme::small()).color(palette.dim);
-        let width = NAME.min(0.4 * ui.available_width());
+        let width = room.min(0.4 * ui.available_width());
         let label = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
             ui.set_min_width(width);
             ui.add(Label::new(text).truncate())

@@ -1,17 +1,19 @@
 //! The fourth step: what the textile is called, what was measured on it, and keeping it.
 
-use eframe::egui::{Align, Layout, RichText, Ui, vec2};
+use eframe::egui::{Align, Layout, Response, RichText, Ui, vec2};
 
 use super::ImportView;
-use super::fields::{LINE, Need, Tone, choose, note, row, step_title, text};
+use super::fields::{LINE, Need, Tone, choose, note, row_of, step_title, text};
 use crate::app::importing::{Found, ImportCommand, Importing, WordsDraft};
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{button, toggle};
 use crate::textile::{Construction, Measurement, known_figures, nth_id};
 
-/// Width of a column of fields, points.
-const COLUMN: f32 = 264.0;
+/// Width that a column of fields needs, points.
+const LEAST: f32 = 180.0;
+/// Width of both buttons, points.
+const BUTTONS: f32 = 240.0;
 /// Ways to make a cloth.
 const MADE: [(Construction, &str); 4] = [
     (Construction::Woven, "woven"),
@@ -28,13 +30,13 @@ pub(super) fn show(
     wishes: &mut Wishes,
 ) {
     let found = importing.found().cloned();
-    let is_known = |id: &str| view.shelf.iter().any(|item| item.id == id);
-    let refusal = importing.refusal(is_known);
+    let refusal = importing.refusal();
     let line = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE + 2.0), line, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        let width = (ui.available_width() - 250.0).max(80.0);
+        let width = (ui.available_width() - BUTTONS).max(80.0);
         ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+            ui.set_min_width(width);
             step_title(
                 ui,
                 4,
@@ -51,32 +53,36 @@ pub(super) fn show(
             wishes.push(ImportCommand::Keep { is_felt: true }.into());
         }
     });
-    show_outcome(ui, importing, refusal.as_deref());
+    show_outcome(ui, importing, view, refusal.as_deref());
     let suggested = found.as_deref().map(Found::own_name).unwrap_or_default();
     let usual = match found.as_deref().map(|found| found.kind) {
         Some(Measurement::Strokes) => Construction::Woven,
         _ => Construction::Other,
     };
     let words = &mut importing.draft.words;
-    let has_two = ui.available_width() >= 2.0 * COLUMN + 2.0 * STEP;
-    if has_two {
-        ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = 4.0 * STEP;
-            for nth in 0..2 {
-                ui.vertical(|ui| {
-                    ui.set_width(COLUMN);
-                    if nth == 0 {
-                        show_words(ui, words, &suggested, usual);
-                    } else {
-                        show_figures(ui, words);
-                    }
-                });
-            }
-        });
-    } else {
-        show_words(ui, words, &suggested, usual);
-        show_figures(ui, words);
+    columns(ui, |ui, nth| match nth {
+        0 => show_name(ui, words, &suggested, usual),
+        _ => show_about(ui, words),
+    });
+    show_figures(ui, words);
+}
+
+/// Two columns where there is room, else one after the other.
+fn columns(ui: &mut Ui, mut content: impl FnMut(&mut Ui, usize)) {
+    let width = 0.5 * (ui.available_width() - 4.0 * STEP);
+    if width < LEAST {
+        (0..2).for_each(|nth| content(ui, nth));
+        return;
     }
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0 * STEP;
+        for nth in 0..2 {
+            ui.vertical(|ui| {
+                ui.set_width(width);
+                content(ui, nth);
+            });
+        }
+    });
 }
 
 /// The ids that the textiles will have.
@@ -98,33 +104,32 @@ fn ids_words(importing: &Importing, found: Option<&Found>) -> String {
 }
 
 /// What was kept, or why nothing can be.
-fn show_outcome(ui: &mut Ui, importing: &Importing, refusal: Option<&str>) {
-    match importing.kept() {
-        Some(Ok(names)) => note(ui, &format!("given to the library: {names}"), Tone::Quiet),
-        Some(Err(failure)) => note(ui, &failure.line, Tone::Wrong),
-        None => {
-            if let Some(words) = refusal.filter(|_| importing.found().is_some()) {
-                note(ui, words, Tone::Quiet);
+fn show_outcome(ui: &mut Ui, importing: &Importing, view: &ImportView<'_>, refusal: Option<&str>) {
+    let is_known = |id: &str| view.shelf.iter().any(|item| item.id == id);
+    let taken = || importing.taken(is_known);
+    match (importing.kept(), refusal) {
+        (Some(Err(failure)), _) => note(ui, &failure.line, Tone::Wrong),
+        (Some(Ok(names)), _) => note(ui, &format!("handed to the library: {names}"), Tone::Quiet),
+        (None, Some(words)) => note(ui, words, Tone::Quiet),
+        (None, None) => {
+            if let Some(id) = taken() {
+                let words = format!("the library has “{id}”; this gets the next free id");
+                note(ui, &words, Tone::Quiet);
             }
         }
     }
 }
 
-fn show_words(ui: &mut Ui, words: &mut WordsDraft, suggested: &str, usual: Construction) {
-    let wide = f32::INFINITY;
-    row(ui, "name", "", |ui, label| {
-        text(
-            ui,
-            label,
-            &mut words.name,
-            (suggested, wide, Need::Optional),
-        );
+fn show_name(ui: &mut Ui, words: &mut WordsDraft, suggested: &str, usual: Construction) {
+    let field = |hint| (hint, f32::INFINITY, Need::Optional);
+    named_row(ui, "name", |ui, label| {
+        text(ui, label, &mut words.name, field(suggested));
     });
     let id = words.id(suggested);
-    row(ui, "id", "", |ui, label| {
-        text(ui, label, &mut words.id, (&id, wide, Need::Optional));
+    named_row(ui, "id", |ui, label| {
+        text(ui, label, &mut words.id, field(&id))
     });
-    row(ui, "made", "", |ui, _| {
+    named_row(ui, "made", |ui, _| {
         let now = words.construction.unwrap_or(usual);
         choose(
             ui,
@@ -137,60 +142,34 @@ fn show_words(ui: &mut Ui, words: &mut WordsDraft, suggested: &str, usual: Const
             },
         );
     });
-    row(ui, "fibre", "", |ui, label| {
-        text(
-            ui,
-            label,
-            &mut words.fibre,
-            ("cotton, wool …", wide, Need::Optional),
-        );
-    });
-    row(ui, "licence", "", |ui, label| {
-        text(
-            ui,
-            label,
-            &mut words.licence,
-            ("of the files", wide, Need::Optional),
-        );
-    });
-    row(ui, "notes", "", |ui, label| {
-        text(
-            ui,
-            label,
-            &mut words.notes,
-            ("one line", wide, Need::Optional),
-        );
-    });
+}
+
+fn show_about(ui: &mut Ui, words: &mut WordsDraft) {
+    let field = |hint| (hint, f32::INFINITY, Need::Optional);
+    for (name, typed, hint) in [
+        ("fibre", &mut words.fibre, "cotton, wool …"),
+        ("licence", &mut words.licence, "of the files"),
+        ("notes", &mut words.notes, "one line"),
+    ] {
+        named_row(ui, name, |ui, label| text(ui, label, typed, field(hint)));
+    }
+}
+
+/// A row with a short name.
+fn named_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui, &Response)) {
+    row_of(ui, 44.0, (name, ""), content);
 }
 
 /// Figures that were measured elsewhere.
 fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
     let palette = Palette::in_ui(ui);
-    let title = RichText::new("figures measured elsewhere")
-        .font(theme::small())
-        .color(palette.dim);
-    ui.label(title);
+    let quiet = |words: &str| RichText::new(words).font(theme::small()).color(palette.dim);
     let mut gone = None;
-    for (nth, (key, typed)) in words.figures.iter_mut().enumerate() {
-        let known = known_figures().find(|figure| figure.key == *key);
-        let (name, unit) = known.map_or((key.clone(), ""), |known| (known.name, known.unit));
-        row(ui, &name, "", |ui, label| {
-            text(ui, label, typed, ("", 72.0, Need::Optional));
-            let unit = RichText::new(unit).font(theme::small()).color(palette.dim);
-            ui.label(unit);
-            if toggle(ui, "×", false, &format!("Leave out {name}")) {
-                gone = Some(nth);
-            }
-        });
-    }
-    if let Some(nth) = gone {
-        words.figures.remove(nth);
-    }
-    choose(
-        ui,
-        "Add a figure",
-        ("add …", 120.0, Need::Optional),
-        |ui| {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(STEP, STEP);
+        ui.spacing_mut().interact_size.y = LINE - 2.0;
+        ui.label(quiet("figures measured elsewhere"));
+        choose(ui, "Add a figure", ("add …", 84.0, Need::Optional), |ui| {
             for figure in known_figures() {
                 let is_there = words.figures.iter().any(|(key, _)| *key == figure.key);
                 let name = format!("{}  {}", figure.name, figure.what);
@@ -198,6 +177,20 @@ fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
                     words.figures.push((figure.key, String::new()));
                 }
             }
-        },
-    );
+        });
+        for (nth, (key, typed)) in words.figures.iter_mut().enumerate() {
+            let known = known_figures().find(|figure| figure.key == *key);
+            let (name, unit) = known.map_or((key.clone(), ""), |known| (known.name, known.unit));
+            ui.add_space(2.0 * STEP);
+            let label = ui.label(quiet(&name));
+            text(ui, &label, typed, ("", 64.0, Need::Optional));
+            ui.label(quiet(unit));
+            if toggle(ui, "×", false, &format!("Leave out {name}")) {
+                gone = Some(nth);
+            }
+        }
+    });
+    if let Some(nth) = gone {
+        words.figures.remove(nth);
+    }
 }

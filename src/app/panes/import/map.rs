@@ -18,7 +18,9 @@ const LEFT: f32 = 36.0;
 const BELOW: f32 = 30.0;
 /// Height of a place in the list, points.
 const LINE: f32 = 22.0;
-/// Places that are in sight at once.
+/// Width of the list beside the map, points.
+const LIST: f32 = 236.0;
+/// Places that are in sight at once below the map.
 const MOST_LINES: usize = 4;
 /// More places than these are no import.
 const MOST_PLACES: usize = 16;
@@ -36,11 +38,8 @@ pub(super) fn show(ui: &mut Ui, importing: &mut Importing, heights: &Heights, ma
     let Some(relief) = heights.relief.as_deref() else {
         return;
     };
-    let n_lines = importing.draft.looked.places.len().clamp(1, MOST_LINES) as f32;
-    let whole = ui.available_rect_before_wrap();
-    let list = n_lines * (LINE + STEP) + LINE + 2.0 * STEP;
-    let edge = (whole.bottom() - list).max(whole.top() + 80.0);
-    let (upper, lower) = whole.split_top_bottom_at_y(edge);
+    let whole = ui.available_rect_before_wrap().intersect(ui.clip_rect());
+    let (upper, lower) = split(whole, relief, importing.draft.looked.places.len());
     let room = Rect::from_min_max(
         upper.min + vec2(LEFT, 6.0),
         upper.max - vec2(BAR_ROOM + 16.0, BELOW),
@@ -69,6 +68,18 @@ pub(super) fn show(ui: &mut Ui, importing: &mut Importing, heights: &Heights, ma
         &mut importing.draft.looked,
     );
     ui.advance_cursor_after_rect(whole);
+}
+
+/// The places of the map and of the list: side by side where the map leaves room.
+fn split(whole: Rect, relief: &Relief, n_places: usize) -> (Rect, Rect) {
+    let [u_mm, w_mm] = relief.size_mm();
+    let width = share(u_mm / w_mm) * (whole.height() - BELOW) + LEFT + BAR_ROOM + 24.0;
+    if width + LIST <= whole.width() {
+        return whole.split_left_right_at_x(whole.left() + width);
+    }
+    let n_lines = n_places.clamp(1, MOST_LINES) as f32;
+    let list = n_lines * (LINE + STEP) + LINE + 3.0 * STEP;
+    whole.split_top_bottom_at_y((whole.bottom() - list).max(whole.top() + 80.0))
 }
 
 fn paint_axes(ui: &Ui, rect: Rect, relief: &Relief) {
@@ -188,7 +199,7 @@ fn paint_place(
     let half_mm = 0.5 * Probe::default().width_mm;
     let half_y = share(half_mm / size_mm[1]) * rect.height();
     let half_x = share(half_mm / size_mm[0]) * rect.width();
-    let wire = palette.selection.gamma_multiply(0.10);
+    let wire = palette.selection.gamma_multiply(0.16);
     for band in [
         Rect::from_x_y_ranges(rect.x_range(), at.y - half_y..=at.y + half_y),
         Rect::from_x_y_ranges(at.x - half_x..=at.x + half_x, rect.y_range()),
@@ -234,8 +245,8 @@ fn show_list(
     let before = places.clone();
     let mut gone = None;
     let area = ScrollArea::vertical().id_salt("import-places");
-    let height = MOST_LINES as f32 * (LINE + STEP);
-    area.max_height(height)
+    let height = ui.available_height() - LINE - 2.0 * STEP;
+    area.max_height(height.max(LINE))
         .auto_shrink([false, true])
         .show(ui, |ui| {
             for (nth, place) in places.iter_mut().enumerate() {

@@ -27,7 +27,7 @@ const WIDE: f32 = 640.0;
 /// Width of the left column, points.
 const LEFT: f32 = 316.0;
 /// Height of the last step, points.
-const KEEP: f32 = 190.0;
+const KEEP: f32 = 164.0;
 
 /// What the pane is drawn from, besides the import.
 #[derive(Debug, Clone, Copy)]
@@ -124,12 +124,12 @@ fn show_left(ui: &mut Ui, importing: &mut Importing, wishes: &mut Wishes) {
         None => "",
     };
     step_title(ui, 2, "What they mean", state);
+    show_failure(ui, failure.as_ref(), Step::Meaning);
     match kind {
         Some(Measurement::Strokes) => meaning::show(ui, importing, found, failure.as_ref()),
         Some(Measurement::Heights) => heights::show(ui, importing, found, failure.as_ref()),
         None => {}
     }
-    show_failure(ui, failure.as_ref(), Step::Meaning);
 }
 
 /// The failure of what is chosen now; what was wrong before something else was typed is past.

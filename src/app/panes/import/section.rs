@@ -118,7 +118,7 @@ pub(super) fn numbers(
     }
     let is_suggested = section.is_some_and(|section| section.is_suggested);
     let tip = format!("Take the most stationary 20 mm along the {name}");
-    if toggle(ui, "suggested", is_suggested, &tip) {
+    if toggle(ui, "auto", is_suggested, &tip) {
         wanted = Some(None);
     }
     wanted

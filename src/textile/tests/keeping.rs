@@ -1,0 +1,122 @@
+//! New textiles in libraries.
+
+use std::fs;
+use std::path::PathBuf;
+
+use super::super::*;
+use crate::files::sha256_hex;
+use crate::progress::unheard;
+use crate::surface::Direction;
+
+/// A folder of this test's own, empty.
+fn folder(name: &str) -> PathBuf {
+    let path = std::env::temp_dir().join(format!("selvedge-keep-{name}-{}", std::process::id()));
+    drop(fs::remove_dir_all(&path));
+    path
+}
+
+fn brownian(hurst: f64) -> Vec<BuiltFile> {
+    let text = format!(
+        "name = \"Own\"\nconstruction = \"other\"\nfibre = \"\"\n\
+         [source]\nkind = \"brownian\"\nhurst = {hurst}\nsmd_um = 3.0\nseed = 7\n"
+    );
+    let path = std::path::Path::new("own.toml");
+    build(&Manifest::from_toml(&text, path).unwrap(), path).unwrap()
+}
+
+fn keep(library: &Library, name: &str, to: &std::path::Path) -> (Library, Vec<String>) {
+    let new = [(name.to_owned(), brownian(0.5))];
+    unheard(|progress| library.keep(&new, to, 2, progress)).unwrap()
+}
+
+#[test]
+fn a_library_of_the_program_is_copied_and_gains_a_textile_while_its_reference_stays() {
+    let to = folder("copy");
+    let shipped = Library::shipped().unwrap();
+    let (own, ids) = keep(&shipped, "My own", &to);
+    assert_eq!(ids, ["my-own"]);
+    assert_eq!(own.ids().len(), 17);
+    assert_eq!(own.ids()[..16], *shipped.ids());
+    let [before, after] = [&shipped, &own].map(|library| library.index().unwrap().clone());
+    assert_eq!(
+        after.compression_reference_db.to_bits(),
+        before.compression_reference_db.to_bits()
+    );
+    assert_eq!(after.textiles[..16], before.textiles);
+    for id in shipped.ids() {
+        let [here, there] = [&shipped, &own].map(|library| library.load(id).unwrap());
+        for direction in Direction::ALL {
+            let [here, there] = [&here, &there].map(|textile| textile.surface().spectra(direction));
+            assert_eq!(here.powers_um2(3), there.powers_um2(3), "{id}");
+        }
+        assert_eq!(here.manifest(), there.manifest(), "{id}");
+    }
+    fs::remove_dir_all(&to).unwrap();
+}
+
+#[test]
+fn the_index_that_keeping_writes_is_the_one_that_building_would_write() {
+    let to = folder("index");
+    let (own, _) = keep(&Library::shipped().unwrap(), "x", &to);
+    let whole = build::index_of(&own, own.default_tuning(), 2).unwrap();
+    let kept = own.index().unwrap();
+    assert_eq!(kept.content_hash, whole.content_hash);
+    assert_eq!(kept.textiles, whole.textiles);
+    fs::remove_dir_all(&to).unwrap();
+}
+
+#[test]
+fn an_id_that_is_taken_gets_a_number_and_nothing_is_written_over() {
+    let to = folder("twice");
+    let shipped = Library::shipped().unwrap();
+    let taken = shipped.ids()[2].clone();
+    let (own, first) = keep(&shipped, &taken, &to);
+    let file = to.join(&taken).join("textile.toml");
+    let before = sha256_hex([fs::read(&file).unwrap().as_slice()]);
+    let (own, second) = keep(&own, &taken, &to);
+    assert_eq!(first, [format!("{taken}-2")]);
+    assert_eq!(second, [format!("{taken}-3")]);
+    assert_eq!(own.ids().len(), 18);
+    assert_eq!(before, sha256_hex([fs::read(&file).unwrap().as_slice()]));
+    fs::remove_dir_all(&to).unwrap();
+}
+
+#[test]
+fn a_folder_without_an_index_stays_without_one() {
+    let to = folder("plain");
+    fs::create_dir_all(&to).unwrap();
+    write(&brownian(0.2), &to.join("first")).unwrap();
+    let (own, _) = keep(&Library::open(&to).unwrap(), "second", &to);
+    assert_eq!(own.ids(), ["first", "second"]);
+    assert!(own.index().is_none());
+    fs::remove_dir_all(&to).unwrap();
+}
+
+#[test]
+fn what_is_no_textile_is_refused_before_anything_is_written() {
+    let to = folder("nothing");
+    let mut files = brownian(0.5);
+    files.remove(0);
+    let shipped = Library::shipped().unwrap();
+    let broken = [("x".to_owned(), files)];
+    let unnamed = [("– ,".to_owned(), brownian(0.5))];
+    for new in [&broken, &unnamed] {
+        let refused = unheard(|progress| shipped.keep(new, &to, 1, progress));
+        let words = refused.unwrap_err().to_string();
+        assert!(!words.is_empty() && !words.contains('\n'), "{words}");
+    }
+    assert!(!to.exists());
+}
+
+#[test]
+fn names_make_ids() {
+    for (name, id) in [
+        ("Silk crêpe 2", Some("silk-crepe-2")),
+        ("Öl & Straße", Some("ol-strasse")),
+        ("  Mine!  ", Some("mine")),
+        ("../etc", Some("etc")),
+        ("…", None),
+    ] {
+        assert_eq!(id_of_name(name).as_deref(), id, "{name}");
+    }
+}
