@@ -38,6 +38,8 @@ mod why;
 mod write;
 
 pub(crate) use gather::{Exports, is_exportable};
+#[cfg(test)]
+pub(crate) use import::measurement;
 pub(crate) use origin::Origin;
 pub(crate) use sheet::Sheet;
 pub(crate) use write::{ExportError, Kind};

@@ -12,13 +12,15 @@ use eframe::egui::{Context, Pos2, RawInput, Rect, vec2};
 use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
+use crate::app::importing::ImportCommand;
+use crate::app::importing::tests::export;
 use crate::app::panes::density_db;
 use crate::app::signals::N_ROWS;
 use crate::app::{Drive, Workbench};
 use crate::files::{self, Table};
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 11] = [
+const ALL: [Exportable; 12] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -29,6 +31,7 @@ const ALL: [Exportable; 11] = [
     Exportable::Pane(Pane::Response),
     Exportable::Pane(Pane::Accuracy),
     Exportable::Pane(Pane::Compare),
+    Exportable::Pane(Pane::Import),
     Exportable::Timeline,
 ];
 
@@ -68,7 +71,18 @@ impl Desk {
             desk.go_on(n_ticks / 3);
             desk.settle();
         }
+        desk.import();
         desk
+    }
+
+    /// Reads strokes of the tester.
+    fn import(&mut self) {
+        let folder = Folder::new(&format!("strokes-{:?}", thread::current().id()));
+        let path = folder.0.join("twill.txt");
+        fs::write(&path, export()).unwrap();
+        let add = ImportCommand::Add(vec![path]);
+        self.bench.dispatch(&self.ctx, add.into());
+        self.go_on(TICKS_A_FRAME);
     }
 
     /// Waits for the threads that compare and check.

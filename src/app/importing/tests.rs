@@ -5,8 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::*;
+use crate::app::theme::ColourMap;
 use crate::progress::unheard;
 use crate::surface::Representation;
+use crate::textile::KesAsk;
 use crate::textile::metrology::{HeightImport, ImportOptions};
 use crate::textile::{ColumnRole, KesFile, KesImport, KesOptions, KesReading, Measurement, Words};
 
@@ -35,7 +37,7 @@ impl Drop for Folder {
 }
 
 /// Both ways over 30 mm, by place, with a decimal comma.
-fn export() -> String {
+pub(crate) fn export() -> String {
     let mut text = String::from("KES-FB4\r\n\r\nWeg mm;forward um;return um;mu\r\n");
     for i in 0..1500_u16 {
         let x_mm = f64::from(i) * 0.02;
@@ -345,4 +347,50 @@ fn real_height_maps_are_read_when_they_are_there() {
         assert_eq!(importing.found().unwrap().failure, None, "{name}");
         assert!(!kept(&importing)[0].files.is_empty());
     }
+}
+
+#[test]
+fn what_the_pane_shows_is_exported_with_where_it_comes_from() {
+    let folder = Folder::new("export");
+    let path = folder.write("twill.txt", export());
+    let importing = importing(std::slice::from_ref(&path));
+    let found = importing.found().unwrap();
+    let strokes = found.strokes().unwrap().import.as_ref().unwrap();
+    let exported = crate::app::export::measurement(found, ColourMap::default()).unwrap();
+    assert_eq!(exported.sheet.n_rows(), 3 * 1500);
+    let [file, sha256] = &strokes.reading().files[0];
+    let pairs = exported.origin.pairs();
+    assert!(
+        pairs.contains(&("file".to_owned(), format!("{file}: {sha256}"))),
+        "{pairs:?}"
+    );
+    assert_eq!(
+        exported.figure.rows.len(),
+        3,
+        "two strokes and the friction"
+    );
+    let map = folder.write("map.gsf", gsf());
+    let importing = self::importing(&[map]);
+    let exported =
+        crate::app::export::measurement(importing.found().unwrap(), ColourMap::default());
+    let exported = exported.unwrap();
+    assert_eq!(exported.sheet.n_rows(), 120 * 100);
+    let raster = exported.figure.rows[0].panels[0].raster.as_ref().unwrap();
+    assert_eq!(
+        (raster.n_columns, raster.cells.iter().flatten().count()),
+        (120, 120 * 100)
+    );
+}
+
+/// A map of 120 × 100 points, 12 × 10 mm.
+fn gsf() -> Vec<u8> {
+    let mut bytes = b"Gwyddion Simple Field 1.0\nXRes = 120\nYRes = 100\nXReal = 0.012\nYReal = \
+                      0.01\nXYUnits = m\nZUnits = m\n"
+        .to_vec();
+    bytes.resize(bytes.len() + 4 - bytes.len() % 4, 0);
+    for i in 0..120 * 100_u16 {
+        let height_m = 5e-6 * (f32::from(i % 120) * 0.3).sin();
+        bytes.extend(height_m.to_le_bytes());
+    }
+    bytes
 }

@@ -5,6 +5,7 @@ mod around;
 mod basics;
 mod compare;
 mod export;
+mod import;
 mod overlays;
 #[cfg(unix)]
 mod ports;

@@ -20,7 +20,7 @@ const LEFT: f32 = 44.0;
 const RIGHT: f32 = 112.0;
 /// Room above a plot for its name, and below the last for places, points.
 const TOP: f32 = 15.0;
-const BOTTOM: f32 = 26.0;
+const BOTTOM: f32 = 32.0;
 
 /// A curve in its plot.
 struct Plot<'a> {

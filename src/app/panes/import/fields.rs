@@ -184,7 +184,7 @@ pub(super) fn choose_of<T: Copy + PartialEq>(
 ) {
     let now = values.iter().find(|(value, _)| Some(*value) == *chosen);
     let text = now.map_or(by_file, |(_, word)| *word);
-    choose(ui, name, (text, 132.0, need), |ui| {
+    choose(ui, name, (text, 172.0, need), |ui| {
         ui.selectable_value(chosen, None, by_file);
         for (value, word) in values {
             ui.selectable_value(chosen, Some(*value), *word);

@@ -12,6 +12,8 @@ use crate::textile::{Construction, Measurement, known_figures, nth_id};
 
 /// Width that a column of fields needs, points.
 const LEAST: f32 = 180.0;
+/// Width of a figure with its unit, points.
+const FIGURE: f32 = 210.0;
 /// Width of both buttons, points.
 const BUTTONS: f32 = 240.0;
 /// Ways to make a cloth.
@@ -181,6 +183,9 @@ fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
         for (nth, (key, typed)) in words.figures.iter_mut().enumerate() {
             let known = known_figures().find(|figure| figure.key == *key);
             let (name, unit) = known.map_or((key.clone(), ""), |known| (known.name, known.unit));
+            if ui.available_size_before_wrap().x < FIGURE {
+                ui.end_row();
+            }
             ui.add_space(2.0 * STEP);
             let label = ui.label(quiet(&name));
             text(ui, &label, typed, ("", 64.0, Need::Optional));
