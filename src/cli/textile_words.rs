@@ -28,7 +28,7 @@ pub(super) struct WordsArgs {
     /// One line of description
     #[arg(long, default_value = "")]
     notes: String,
-    /// A figure that was measured, in place of what is found: miu=0.21, b_warp_gf_cm2_per_cm=0.08 …
+    /// A figure that was measured, in place of what is found, such as miu=0.21
     #[arg(long, value_name = "KEY=VALUE", value_parser = figure)]
     figure: Vec<(String, f64)>,
 }
@@ -36,7 +36,7 @@ pub(super) struct WordsArgs {
 fn figure(text: &str) -> Result<(String, f64), String> {
     let wrong = || "say KEY=VALUE, such as miu=0.21".to_owned();
     let (key, value) = text.split_once('=').ok_or_else(wrong)?;
-    let value: f64 = value.trim().parse().map_err(|_| wrong())?;
+    let value: f64 = value.trim().parse().ok().ok_or_else(wrong)?;
     Ok((key.trim().to_owned(), value))
 }
 

@@ -139,9 +139,9 @@ fn one_import_makes_a_textile_for_every_place() {
     let places = ["--place", "5,4", "--place", "6,5", "--name", "Ripple"];
     let words = ["--fibre", "silk", "--figure", "weight_mg_per_cm2=7.5"];
     let all = [&import[..], &SCALE, &places, &words].concat();
-    let printed = lab.print(&all);
+    let outcome = lab.run(&all);
     assert_eq!(
-        printed,
+        outcome.out,
         "library/mine-1: Ripple 1\nlibrary/mine-2: Ripple 2\n"
     );
     for (id, place) in [("mine-1", "[5.0, 4.0]"), ("mine-2", "[6.0, 5.0]")] {

@@ -104,7 +104,7 @@ fn heights(found: &Heights, name: &str, map: ColourMap) -> Exported {
     for (nth, place) in found.places.iter().flatten().enumerate() {
         let [u, w] = place
             .place_mm
-            .unwrap_or(found.import.map().size_mm().map(|mm| 0.5 * mm));
+            .unwrap_or_else(|| found.import.map().size_mm().map(|mm| 0.5 * mm));
         let smd_um = place.smd_um();
         let smd = quantity::with_unit(smd_um, 2, "µm");
         let line = format!("{} at {u},{w} mm: smd_um {smd_um}", nth + 1);

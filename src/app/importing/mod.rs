@@ -324,6 +324,6 @@ impl std::fmt::Debug for Importing {
 }
 
 #[cfg(test)]
-mod picture_tmp;
+
 #[cfg(test)]
 pub(crate) mod tests;

@@ -33,8 +33,8 @@ impl KesKnown {
     pub fn label(self) -> &'static str {
         match self {
             Self::Said => "as said",
-            Self::Named => "by its name",
-            Self::Numbered => "by the number of columns",
+            Self::Named => "by name",
+            Self::Numbered => "by their number",
             Self::Unknown => "not known",
         }
     }
@@ -98,10 +98,10 @@ impl KesLook {
             Err(NoTable::Ambiguous { .. }) => table_of(&text, Some(DecimalSign::Point)),
             found => found,
         };
-        let table = table.map_err(|_| {
+        let Ok(table) = table else {
             let mend = "give rows of numbers with tabs, commas, semicolons or blanks between";
-            FileError::content(file.path, 1, "no whole table of numbers", mend)
-        })?;
+            return Err(FileError::content(file.path, 1, "no whole table of numbers", mend).into());
+        };
         let said = options.columns.as_deref().filter(|_| !is_friction);
         let mut lines: Vec<KesLine> = lines_above(&text, &table);
         lines.extend(first_rows(&text, &table));

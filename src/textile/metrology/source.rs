@@ -226,7 +226,7 @@ impl Heightmap {
         if laid.is_profile {
             return profile(&laid.map).map_err(failed);
         }
-        let place_mm = place_mm.unwrap_or(size_mm.map(|mm| 0.5 * mm));
+        let place_mm = place_mm.unwrap_or_else(|| size_mm.map(|mm| 0.5 * mm));
         check_place(place_mm, size_mm, path)?;
         let probe = Probe {
             noise_um: self.noise_um,

@@ -5,7 +5,7 @@ use eframe::egui::{
     Align, Align2, Layout, Painter, Pos2, Rect, RichText, Shape, Stroke, Ui, pos2, vec2,
 };
 
-use super::section::{self, Ends};
+use super::section::{self, Ends, Wish};
 use crate::app::importing::{Draft, Envelope, Heights, Strokes};
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{Axis, Side, corners, paint_ticks, paint_unit, toggle};
@@ -123,11 +123,22 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
             draft.looked.sections[axis] = Some(moved);
         }
     }
-    if let (Some(friction), Some(envelope)) = (&reading.friction, &strokes.friction) {
+    show_friction(ui, strokes, (rect_of(room, height, n.max(1) - 1), x));
+    ui.advance_cursor_after_rect(room);
+}
+
+/// The friction with its section and its figures.
+fn show_friction(ui: &Ui, strokes: &Strokes, (rect, x): (Rect, Axis)) {
+    let import = strokes.import.as_ref();
+    let friction = strokes
+        .reading
+        .as_ref()
+        .and_then(|reading| reading.friction.as_ref());
+    if let (Some(friction), Some(envelope)) = (friction, &strokes.friction) {
         let [low, high] = envelope.range();
         let plot = Plot {
             name: "friction",
-            rect: rect_of(room, height, n - 1),
+            rect,
             x,
             y: Axis::linear(low, high),
             envelope,
@@ -141,7 +152,6 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
             paint_figures(ui, &plot, &friction_words(import));
         }
     }
-    ui.advance_cursor_after_rect(room);
 }
 
 /// The sections in numbers, and whether the official band is asked for.
@@ -167,7 +177,10 @@ fn show_sections(
             ui.label(quiet(&format!("{name}, mm")));
             let section = import.and_then(|import| import.section(axis));
             if let Some(wanted) = section::numbers(ui, name, ends, section) {
-                draft.looked.sections[index] = wanted;
+                draft.looked.sections[index] = match wanted {
+                    Wish::Suggested => None,
+                    Wish::Section(section) => Some(section),
+                };
             }
             ui.add_space(2.0 * STEP);
         }

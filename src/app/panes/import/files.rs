@@ -14,8 +14,8 @@ use crate::textile::{ClothAxis, KesPlace, Measurement, StrokeSide};
 const EMPTY: [&str; 3] = [
     "Strokes of a Kawabata surface tester (KES-FB4): one to four files of text in columns, out and \
      back, along warp and weft, roughness and friction.",
-    "A height map or a profile of an instrument: X3P, SUR or PRO, GWY, GSF, NPY, TMD, FRT, grey PNG \
-     or TIFF of 16 bits, or text.",
+    "A height map or a profile of an instrument: X3P, SUR or PRO, GWY, GSF, NPY, TMD, FRT, grey \
+     PNG or TIFF of 16 bits, or text.",
     "What a file is, its content says; what it does not say is asked for. Nothing is saved before \
      you have looked at it.",
 ];
@@ -24,17 +24,17 @@ const HOLDS: [(Option<KesPlace>, &str); 7] = {
     use ClothAxis::{Warp, Weft};
     use StrokeSide::{Forward, Return};
 
-    const fn place(axis: ClothAxis, side: Option<StrokeSide>) -> Option<KesPlace> {
-        Some(KesPlace { axis, side })
+    const fn place(axis: ClothAxis, side: Option<StrokeSide>) -> KesPlace {
+        KesPlace { axis, side }
     }
     [
         (None, "by its name"),
-        (place(Warp, None), "warp"),
-        (place(Warp, Some(Forward)), "warp forward"),
-        (place(Warp, Some(Return)), "warp return"),
-        (place(Weft, None), "weft"),
-        (place(Weft, Some(Forward)), "weft forward"),
-        (place(Weft, Some(Return)), "weft return"),
+        (Some(place(Warp, None)), "warp"),
+        (Some(place(Warp, Some(Forward))), "warp forward"),
+        (Some(place(Warp, Some(Return))), "warp return"),
+        (Some(place(Weft, None)), "weft"),
+        (Some(place(Weft, Some(Forward))), "weft forward"),
+        (Some(place(Weft, Some(Return))), "weft return"),
     ]
 };
 

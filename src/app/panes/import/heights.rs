@@ -56,6 +56,18 @@ pub(super) fn show(
             (&UNITS, "as the file states", need),
         );
     });
+    show_numbers(ui, typed, heights, asks);
+    show_layer(ui, typed, heights);
+    show_ways(ui, typed);
+}
+
+/// Step, range and column.
+fn show_numbers(
+    ui: &mut Ui,
+    typed: &mut HeightsDraft,
+    heights: Option<&Heights>,
+    asks: impl Fn(&str) -> Need,
+) {
     let step = heights.map_or_else(
         || "mm".to_owned(),
         |heights| {
@@ -91,8 +103,6 @@ pub(super) fn show(
             ("the only one", NUMBER, asks("--column")),
         );
     });
-    show_layer(ui, typed, heights);
-    show_ways(ui, typed);
 }
 
 /// What is in the file.

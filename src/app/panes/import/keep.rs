@@ -129,7 +129,7 @@ fn show_name(ui: &mut Ui, words: &mut WordsDraft, suggested: &str, usual: Constr
     });
     let id = words.id(suggested);
     named_row(ui, "id", |ui, label| {
-        text(ui, label, &mut words.id, field(&id))
+        text(ui, label, &mut words.id, field(&id));
     });
     named_row(ui, "made", |ui, _| {
         let now = words.construction.unwrap_or(usual);
@@ -182,7 +182,8 @@ fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
         });
         for (nth, (key, typed)) in words.figures.iter_mut().enumerate() {
             let known = known_figures().find(|figure| figure.key == *key);
-            let (name, unit) = known.map_or((key.clone(), ""), |known| (known.name, known.unit));
+            let (name, unit) =
+                known.map_or_else(|| (key.clone(), ""), |known| (known.name, known.unit));
             if ui.available_size_before_wrap().x < FIGURE {
                 ui.end_row();
             }

@@ -92,6 +92,16 @@ fn show_fields(
         let name = "Unit of heights";
         choose_of(ui, name, &mut typed.height_unit, (&units, &by_file, need));
     });
+    show_numbers(ui, typed, strokes, need);
+}
+
+/// Sensitivity, step, speed and rate, and how return rows are ordered.
+fn show_numbers(
+    ui: &mut Ui,
+    typed: &mut StrokesDraft,
+    strokes: &Strokes,
+    need: impl Fn(&[KesAsk]) -> Need,
+) {
     row(ui, "sensitivity", "µm of height for 1 V", |ui, label| {
         let hint = "for volts";
         let need = need(&[KesAsk::UmPerVolt]);

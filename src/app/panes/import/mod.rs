@@ -69,7 +69,7 @@ pub(crate) fn show(
             .hline(right.x_range(), edge - 4.0, (1.0, hairline));
         inside(ui, keep, |ui| {
             scrolled(ui, "import-keep", |ui| {
-                keep::show(ui, importing, view, wishes)
+                keep::show(ui, importing, view, wishes);
             });
         });
     } else {

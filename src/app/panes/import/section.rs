@@ -1,5 +1,5 @@
-//! The evaluated section on a curve: its ends and its middle are dragged, moved with the arrow keys,
-//! or typed.
+//! The evaluated section on a curve: its ends and its middle are dragged, moved with the arrow
+//! keys, or typed.
 
 use eframe::egui::{CursorIcon, DragValue, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2};
 
@@ -44,6 +44,15 @@ impl Ends {
     }
 }
 
+/// Which section is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Wish {
+    /// The one that the rule suggests.
+    Suggested,
+    /// This one, mm.
+    Section([f64; 2]),
+}
+
 /// Thousandths of a mm: no tester places finer.
 fn rounded(mm: f64) -> f64 {
     (mm * 1e3).round() / 1e3 + 0.0
@@ -61,7 +70,7 @@ pub(super) fn drag(
     let body = Rect::from_x_y_ranges(x[0] + GRIP..=(x[1] - GRIP).max(x[0] + GRIP), plot.y_range());
     let body = ui.interact(body, ui.scope_id().with((name, "body")), Sense::drag());
     let mut moved = None;
-    if let Some(by_mm) = wanted_mm(ui, &body, mm_a_point, format!("{name} section")) {
+    if let Some(by_mm) = wanted_mm(ui, &body, mm_a_point, &format!("{name} section")) {
         moved = Some(ends.moved(by_mm));
     }
     let palette = Palette::in_ui(ui);
@@ -69,7 +78,7 @@ pub(super) fn drag(
         let grip = Rect::from_x_y_ranges(x[end] - GRIP..=x[end] + GRIP, plot.y_range());
         let grip = ui.interact(grip, ui.scope_id().with((name, end)), Sense::drag());
         let label = format!("{name} section {word}");
-        if let Some(by_mm) = wanted_mm(ui, &grip, mm_a_point, label) {
+        if let Some(by_mm) = wanted_mm(ui, &grip, mm_a_point, &label) {
             moved = Some(ends.with_end(end, ends.at_mm[end] + by_mm));
         }
         let is_held = grip.hovered() || grip.dragged() || grip.has_focus();
@@ -83,8 +92,8 @@ pub(super) fn drag(
 }
 
 /// How far a handle is to go.
-fn wanted_mm(ui: &Ui, handle: &Response, mm_a_point: f64, label: String) -> Option<f64> {
-    handle.widget_info(|| WidgetInfo::labeled(eframe::egui::Role::Slider, true, label.clone()));
+fn wanted_mm(ui: &Ui, handle: &Response, mm_a_point: f64, label: &str) -> Option<f64> {
+    handle.widget_info(|| WidgetInfo::labeled(eframe::egui::Role::Slider, true, label));
     let handle = handle.clone().on_hover_cursor(CursorIcon::ResizeHorizontal);
     if handle.dragged() {
         let by_mm = f64::from(handle.drag_delta().x) * mm_a_point;
@@ -100,7 +109,7 @@ pub(super) fn numbers(
     name: &str,
     ends: Ends,
     section: Option<&KesSection>,
-) -> Option<Option<[f64; 2]>> {
+) -> Option<Wish> {
     let mut wanted = None;
     for (end, word) in ["start", "end"].into_iter().enumerate() {
         let mut mm = ends.at_mm[end];
@@ -110,7 +119,7 @@ pub(super) fn numbers(
         ui.ctx()
             .accesskit_node_builder(response.id, |node| node.set_label(label));
         if response.changed() {
-            wanted = Some(Some(ends.with_end(end, mm)));
+            wanted = Some(Wish::Section(ends.with_end(end, mm)));
         }
         if end == 0 {
             ui.label("–");
@@ -119,7 +128,7 @@ pub(super) fn numbers(
     let is_suggested = section.is_some_and(|section| section.is_suggested);
     let tip = format!("Take the most stationary 20 mm along the {name}");
     if toggle(ui, "auto", is_suggested, &tip) {
-        wanted = Some(None);
+        wanted = Some(Wish::Suggested);
     }
     wanted
 }
