@@ -324,6 +324,4 @@ impl std::fmt::Debug for Importing {
 }
 
 #[cfg(test)]
-
-#[cfg(test)]
 pub(crate) mod tests;
