@@ -133,7 +133,7 @@ pub(super) fn text(
 ) {
     let palette = Palette::in_ui(ui);
     let width = width.min(ui.available_width());
-    let hint = RichText::new(hint).color(palette.dim);
+    let hint = RichText::new(hint).font(theme::number()).color(palette.dim);
     let field = TextEdit::singleline(typed)
         .desired_width(width - 12.0)
         .font(theme::number())

@@ -100,7 +100,7 @@ fn show_numbers(
             ui,
             label,
             &mut typed.column,
-            ("the only one", NUMBER, asks("--column")),
+            ("only one", NUMBER, asks("--column")),
         );
     });
 }

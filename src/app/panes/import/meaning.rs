@@ -142,8 +142,7 @@ fn show_spelling(ui: &mut Ui, typed: &mut StrokesDraft, look: &KesLook, need: Ne
         DecimalSign::Comma => "comma",
     };
     let by_file = format!("{sign}, as the numbers show");
-    let between = format!("{} between cells", look.separator);
-    row(ui, "decimal sign", &between, |ui, _| {
+    row(ui, "decimal sign", "", |ui, _| {
         let signs = [(DecimalSign::Point, "point"), (DecimalSign::Comma, "comma")];
         choose_of(
             ui,
@@ -173,7 +172,12 @@ fn how_columns(look: &KesLook) -> String {
         .collect();
     how.dedup();
     let columns = if n == 1 { "column" } else { "columns" };
-    format!("{n} {columns}, {}; {} rows", how.join(", "), look.n_rows)
+    format!(
+        "{n} {columns} between {}, {}; {} rows",
+        look.separator,
+        how.join(", "),
+        look.n_rows
+    )
 }
 
 /// The step that was found.
