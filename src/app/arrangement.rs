@@ -20,6 +20,9 @@ const PICTURES: f32 = 236.0;
 /// Less room than this, without header and timeline, stacks panes behind each other, points.
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
+/// The workspace and what stands behind it.
+const FRONT: [Pane; 4] = [Pane::Workspace, Pane::Lab, Pane::Import, Pane::Collection];
+
 /// A part of the window that can be moved, stacked and hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub(crate) enum Pane {
@@ -53,11 +56,13 @@ pub(crate) enum Pane {
     Collection,
     /// A recipe of a textile, and what becomes of it.
     Lab,
+    /// Measurements that become textiles.
+    Import,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 15] = [
+    pub(crate) const ALL: [Self; 16] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -73,6 +78,7 @@ impl Pane {
         Self::Compare,
         Self::Collection,
         Self::Lab,
+        Self::Import,
     ];
 
     /// Its title.
@@ -93,6 +99,7 @@ impl Pane {
             Self::Response => "Response",
             Self::Collection => "Collection",
             Self::Lab => "Textile lab",
+            Self::Import => "Import",
         }
     }
 
@@ -113,7 +120,8 @@ impl Pane {
             | Self::Response
             | Self::Accuracy
             | Self::Compare
-            | Self::Collection => self.title(),
+            | Self::Collection
+            | Self::Import => self.title(),
         }
     }
 
@@ -146,7 +154,7 @@ pub(crate) fn is_roomy(size: Vec2) -> bool {
 fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let left = (size.x - CONTROLS).max(CONTROLS);
     let library = tabs(tiles, &[Pane::Library]);
-    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab, Pane::Collection]);
+    let workspace = tabs(tiles, &FRONT);
     let upper = [(library, LIBRARY), (workspace, left - LIBRARY)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
@@ -175,7 +183,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
-    let workspace = tabs(tiles, &[Pane::Workspace, Pane::Lab, Pane::Collection]);
+    let workspace = tabs(tiles, &FRONT);
     let controls = tabs(tiles, &[Pane::Tuning, Pane::Bridge, Pane::Library]);
     let pictures = tabs(
         tiles,

@@ -19,6 +19,11 @@ use super::panes::AskWords;
 
 /// Set to `field`, this variable of the environment turns the desktop's dialogs off.
 const SWITCH: &str = "SELVEDGE_DIALOGS";
+/// How the names of measurements end.
+const MEASUREMENTS: [&str; 17] = [
+    "txt", "csv", "dat", "asc", "prn", "x3p", "sur", "pro", "gwy", "gsf", "npy", "png", "tif",
+    "tiff", "tmd", "frt", "hfm",
+];
 /// Nobody sees a dialog and puts it away in less time.
 const GLANCE: Duration = Duration::from_millis(400);
 /// Whoever asks again after this time does not see the dialog that was asked for first.
@@ -50,6 +55,8 @@ pub(crate) struct Dialogs {
 struct Open {
     purpose: Purpose,
     since: Instant,
+    /// Whether a file of several was chosen already.
+    is_begun: bool,
     /// Whether another window has had the focus since: somebody saw it.
     was_seen: bool,
     choice: Receiver<Option<PathBuf>>,
@@ -93,7 +100,17 @@ impl Dialogs {
         open.was_seen |= !open.ctx.input(|input| input.focused);
         let choice = match open.choice.try_recv() {
             Err(TryRecvError::Empty) => return None,
+            Ok(Some(path)) if open.purpose == Purpose::ImportFiles => {
+                // More may follow: they are asked for in the next frame.
+                open.is_begun = true;
+                open.ctx.request_repaint();
+                return Some(Answer::Path(open.purpose, path));
+            }
             Ok(choice) => choice,
+            Err(TryRecvError::Disconnected) if open.is_begun => {
+                self.open = None;
+                return None;
+            }
             Err(TryRecvError::Disconnected) => None,
         };
         let answer = open.answer(choice);
@@ -109,13 +126,22 @@ impl Open {
         let (sender, choice) = sync_channel(1);
         let waker = ctx.clone();
         let ask = move || {
-            let chosen = if is_save(purpose) {
-                dialog.save_file().map(|path| with_ending(purpose, path))
+            let chosen: Vec<Option<PathBuf>> = if is_save(purpose) {
+                vec![dialog.save_file().map(|path| with_ending(purpose, path))]
+            } else if purpose == Purpose::ImportFiles {
+                let files = dialog.pick_files();
+                files.map_or_else(|| vec![None], |files| files.into_iter().map(Some).collect())
             } else {
-                dialog.pick_file()
+                vec![dialog.pick_file()]
             };
-            // Nobody waits any more when the field was shown instead.
-            drop(sender.send(chosen));
+            for path in chosen {
+                waker.request_repaint();
+                // Nobody waits any more when the field was shown instead.
+                if sender.send(path).is_err() {
+                    return;
+                }
+            }
+            drop(sender);
             waker.request_repaint();
         };
         let job = thread::Builder::new().name("selvedge-dialog".to_owned());
@@ -123,6 +149,7 @@ impl Open {
         Some(Self {
             purpose,
             since: Instant::now(),
+            is_begun: false,
             was_seen: false,
             choice,
             ctx: ctx.clone(),
@@ -177,6 +204,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
             .add_filter("Pictures", &["png"])
             .add_filter("Drawings", &["svg"])
             .add_filter("Tables", &["csv"]),
+        Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());
@@ -205,6 +233,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
         Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
         Purpose::Export(_) => ".png",
+        Purpose::ImportFiles => return path,
     });
     let longer = path.with_file_name(name);
     if longer.exists() { path } else { longer }
@@ -220,6 +249,7 @@ mod tests {
         Open {
             purpose: Purpose::OpenScene,
             since: Instant::now(),
+            is_begun: false,
             was_seen: false,
             choice: receiver,
             ctx: egui::Context::default(),
@@ -300,6 +330,30 @@ mod tests {
         let answer = Answer::Path(Purpose::OpenScene, path);
         assert_eq!(dialogs.poll(), Some(answer));
         assert_eq!(dialogs.poll(), None);
+    }
+
+    #[test]
+    fn several_files_are_answered_one_after_the_other() {
+        let (sender, choice) = sync_channel(2);
+        let paths = ["/a.txt", "/b.txt"].map(PathBuf::from);
+        for path in &paths {
+            sender.send(Some(path.clone())).unwrap();
+        }
+        drop(sender);
+        let mut dialogs = Dialogs {
+            open: Some(Open {
+                purpose: Purpose::ImportFiles,
+                choice,
+                ..open(None)
+            }),
+            ..Dialogs::default()
+        };
+        for path in paths {
+            let answer = Answer::Path(Purpose::ImportFiles, path);
+            assert_eq!(dialogs.poll(), Some(answer));
+        }
+        assert_eq!(dialogs.poll(), None);
+        assert!(dialogs.open.is_none(), "it is closed");
     }
 
     #[test]

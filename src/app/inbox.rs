@@ -25,6 +25,7 @@ impl Workbench {
         self.take_files(ctx);
         self.poll_prepared(ctx);
         self.transient.comparison.poll();
+        self.poll_import(ctx);
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();

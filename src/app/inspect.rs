@@ -163,6 +163,23 @@ impl Workbench {
         self.transient.live.is_stopped
     }
 
+    /// Readings of measurements that were begun.
+    pub fn n_measurements_read(&self) -> u64 {
+        self.transient.importing.n_read()
+    }
+
+    /// The figures of what is imported, one line each: SMD of every stroke, or of every place.
+    pub fn imported_figures(&self) -> Vec<String> {
+        let found = self.transient.importing.found();
+        found.map_or_else(Vec::new, |found| found.figures())
+    }
+
+    /// Takes a file of measurements, as when it is dropped or chosen.
+    pub fn import_file(&mut self, path: PathBuf) {
+        let ctx = self.ctx.clone();
+        self.dispatch(&ctx, FileCommand::Use(Purpose::ImportFiles, path).into());
+    }
+
     /// The sentences that are shown.
     pub fn notices(&self) -> Vec<String> {
         self.transient

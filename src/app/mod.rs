@@ -42,6 +42,7 @@ mod frame;
 mod free_places;
 mod headless;
 mod history;
+mod importing;
 mod inbox;
 mod inspect;
 mod job;

@@ -10,6 +10,7 @@ use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::export::Exports;
 use super::history::Moment;
+use super::importing::Importing;
 use super::job::Job;
 use super::keep::Keeping;
 use super::lab::Lab;
@@ -82,6 +83,8 @@ pub(crate) struct Transient {
     pub(crate) collection: Collection,
     /// What is compared, and what came of it.
     pub(crate) comparison: Comparison,
+    /// Measurements that are imported.
+    pub(crate) importing: Importing,
     /// How accurate rendering was found to be.
     pub(crate) accuracy: AccuracyWatch,
     /// Maps of the textiles at the chosen velocity.

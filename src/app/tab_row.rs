@@ -71,7 +71,12 @@ pub(crate) fn corner_width(pane: Pane) -> f32 {
         Pane::Compare => 124.0,
         Pane::Accuracy => 108.0,
         Pane::Workspace => 376.0,
-        Pane::Collection | Pane::Lab | Pane::Library | Pane::Tuning | Pane::Bridge => 0.0,
+        Pane::Collection
+        | Pane::Lab
+        | Pane::Library
+        | Pane::Tuning
+        | Pane::Bridge
+        | Pane::Import => 0.0,
     };
     own + export
 }

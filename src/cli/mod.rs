@@ -29,6 +29,7 @@ mod textile_kes;
 mod textile_levels;
 mod textile_make;
 mod textile_models;
+mod textile_words;
 mod usage;
 mod workbench;
 

@@ -5,10 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use crate::files;
-use crate::textile::TextileError;
-use crate::textile::metrology::{self, Asked, ImportOptions, LengthUnit};
+use crate::surface::Representation;
+use crate::textile::metrology::{
+    self, Asked, HeightImport, HeightPlace, ImportOptions, LengthUnit,
+};
+use crate::textile::{self, TextileError, Words};
 
 /// What a file may leave open.
 #[derive(Debug, Args)]
@@ -28,6 +31,9 @@ struct AskedArgs {
     /// The column of a table that holds the heights: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
     column: Option<String>,
+    /// Which of several fields of heights, from 1
+    #[arg(long, value_name = "N")]
+    layer: Option<usize>,
 }
 
 impl AskedArgs {
@@ -38,29 +44,40 @@ impl AskedArgs {
             step_mm: self.step_mm,
             range_um: self.range_um,
             column: self.column.clone(),
+            layer: self.layer,
         }
     }
 }
 
-/// A file of heights, and the textile to make of it.
+/// A file of heights, and the textiles to make of it.
 #[derive(Debug, Args)]
 pub(super) struct ImportArgs {
     /// The file
     file: PathBuf,
-    /// The textile's folder
+    /// The textile's folder; several places make DIR-1, DIR-2 …
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
     asked: AskedArgs,
-    /// Where the strokes cross, mm from the lower left corner (the middle if not said)
-    #[arg(long, value_name = "U,W", value_parser = place)]
-    at: Option<[f64; 2]>,
+    /// Where the strokes cross, mm from the lower left corner (the middle if not said); once for
+    /// every textile
+    #[arg(long, alias = "at", value_name = "U,W", value_parser = place)]
+    place: Vec<[f64; 2]>,
     /// The map is one repeat of the cloth: strokes go on at its other side
     #[arg(long)]
     periodic: bool,
-    /// What people call it
+    /// Feel it at every point of the map, not along the strokes: the map becomes a part of the
+    /// textile
     #[arg(long)]
-    name: Option<String>,
+    areal: bool,
+    /// What people call it (the title of the data or the file's name if not said)
+    #[arg(long, default_value = "")]
+    name: String,
+    /// How it is made
+    #[arg(long, value_enum, default_value = "other")]
+    construction: Made,
+    #[command(flatten)]
+    words: WordsArgs,
 }
 
 /// A file of heights, and the file to write.
@@ -89,26 +106,64 @@ fn place(text: &str) -> Result<[f64; 2], String> {
         .ok_or_else(|| "give two numbers in mm, such as 10,5".to_owned())
 }
 
-/// Makes the textile.
+/// Makes the textiles.
 pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
-    let bytes = files::read(&args.file)?;
+    let bytes = textile::read_measurement(&args.file)?;
     let options = ImportOptions {
         asked: args.asked.asked(),
-        place_mm: args.at,
         is_periodic: args.periodic,
-        name: args.name.clone(),
+        representation: if args.areal {
+            Representation::Areal
+        } else {
+            Representation::Economical
+        },
     };
-    let imported = metrology::import(&bytes, &args.file, &options, &args.out)?;
-    for note in &imported.notes {
+    let n = args.place.len().max(1);
+    if args.areal && n > 1 {
+        let what = format!("--place is said {n} times, and --areal feels the whole map");
+        return Err(CliError::Input(format!("{what}; leave one of them out")));
+    }
+    let import = HeightImport::of(&bytes, &args.file, &options)?;
+    let said: Vec<Option<[f64; 2]>> = if args.place.is_empty() {
+        vec![None]
+    } else {
+        args.place.iter().copied().map(Some).collect()
+    };
+    // Nothing is written before every place is known to lie on the map.
+    let places: Vec<HeightPlace> = said
+        .into_iter()
+        .map(|place_mm| import.place(place_mm))
+        .collect::<Result<_, _>>()?;
+    for note in import.notes() {
         terminal::notice(&format!("{}: {note}", args.file.display()));
     }
-    let name = &imported.manifest.name;
-    output::print(&format!("{}: {name}\n", args.out.display()))
+    let words = args.words.words(&args.name, args.construction)?;
+    for (nth, place) in places.iter().enumerate() {
+        let mut words = words.nth(nth, n);
+        if words.name.trim().is_empty() {
+            words.name = Words::of(&import.own_name()).nth(nth, n).name;
+        }
+        let files = import.files(place, &words, &bytes)?;
+        let folder = nth_folder(&args.out, nth, n);
+        textile::write(&files, &folder)?;
+        output::print(&format!("{}: {}\n", folder.display(), words.name))?;
+    }
+    Ok(())
+}
+
+/// The folder of one of several textiles.
+fn nth_folder(out: &Path, nth: usize, n: usize) -> PathBuf {
+    let name = out.file_name().unwrap_or_default().to_string_lossy();
+    if n > 1 {
+        out.with_file_name(textile::nth_id(&name, nth, n))
+    } else {
+        out.to_owned()
+    }
 }
 
 /// Writes the file.
 pub(super) fn convert(args: &ConvertArgs) -> Result<(), CliError> {
-    let bytes = files::read(&args.file)?;
+    let bytes = textile::read_measurement(&args.file)?;
     let mut measured = metrology::open(&bytes, &args.file, &args.asked.asked())?;
     for warning in &measured.warnings {
         terminal::notice(&format!("{}: {warning}", args.file.display()));

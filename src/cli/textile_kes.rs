@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use crate::files;
 use crate::quantity::fixed;
 use crate::textile::{
-    self, ClothAxis, ColumnRole, Construction, DecimalSign, HeightUnit, KesFile, KesImport,
-    KesOptions, KesPlace, KesReading, KesWords, PlaceUnit, ReturnOrder, measured_figures,
+    self, ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesFile, KesImport, KesOptions, KesPlace,
+    KesReading, PlaceUnit, ReturnOrder, measured_figures,
 };
 
 /// Files of the tester, what they do not say, and where the textile goes.
@@ -28,15 +28,8 @@ pub(super) struct ImportKesArgs {
     /// How it is made
     #[arg(long, value_enum, default_value = "woven")]
     construction: Made,
-    /// What it is made of
-    #[arg(long, default_value = "")]
-    fibre: String,
-    /// The licence of its files
-    #[arg(long, default_value = "")]
-    licence: String,
-    /// One line of description
-    #[arg(long, default_value = "")]
-    notes: String,
+    #[command(flatten)]
+    words: WordsArgs,
     /// What a file holds, once a file in their order: warp, weft, warp-forward, warp-return …
     #[arg(long, value_name = "DIRECTION", value_parser = place)]
     direction: Vec<KesPlace>,
@@ -76,14 +69,6 @@ pub(super) struct ImportKesArgs {
     /// A trace of friction along the warp
     #[arg(long, value_name = "FILE")]
     friction: Option<PathBuf>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Made {
-    Woven,
-    Knitted,
-    Nonwoven,
-    Other,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -195,21 +180,6 @@ impl ImportKesArgs {
                 .map(|section| section.mm)
         })
     }
-
-    fn words(&self) -> KesWords {
-        KesWords {
-            name: self.name.clone(),
-            construction: match self.construction {
-                Made::Woven => Construction::Woven,
-                Made::Knitted => Construction::Knitted,
-                Made::Nonwoven => Construction::Nonwoven,
-                Made::Other => Construction::Other,
-            },
-            fibre: self.fibre.clone(),
-            licence: self.licence.clone(),
-            notes: self.notes.clone(),
-        }
-    }
 }
 
 /// Imports.
@@ -218,9 +188,13 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     let bytes: Vec<Vec<u8>> = args
         .files
         .iter()
-        .map(|path| files::read(path))
+        .map(|path| textile::read_measurement(path))
         .collect::<Result<_, _>>()?;
-    let friction_bytes = args.friction.as_deref().map(files::read).transpose()?;
+    let friction_bytes = args
+        .friction
+        .as_deref()
+        .map(textile::read_measurement)
+        .transpose()?;
     let given: Vec<KesFile<'_>> = args
         .files
         .iter()
@@ -237,7 +211,8 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     for note in &import.reading().notes {
         terminal::notice(note);
     }
-    let built = import.files(&args.words())?;
+    let words = args.words.words(&args.name, args.construction)?;
+    let built = import.files(&words)?;
     textile::write(&built, &args.out)?;
     textile::write_figure(&import.figure(&args.name), &args.out, "import")?;
     output::print(&report(&import, &args.out)?)

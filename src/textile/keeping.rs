@@ -10,12 +10,11 @@ use super::build::{BuiltFile, files_of, hash_of, means_um, write};
 use super::index::{Index, IndexEntry};
 use super::library::{INDEX, Library};
 use super::loaded::MANIFEST;
+use super::words::id_of;
 use super::{TextileError, workers};
 use crate::files::write_atomic;
 use crate::progress::Progress;
 
-/// Letters that an id may have at most.
-const MOST_LETTERS: usize = 64;
 /// Textiles that may share a name but for a number.
 const MOST_ALIKE: u32 = 9999;
 
@@ -85,42 +84,13 @@ impl Library {
     }
 }
 
-/// Letters of western European languages and what stands for them in an id.
-const PLAIN: [(&str, &str); 12] = [
-    ("àáâãäå", "a"),
-    ("èéêë", "e"),
-    ("ìíîï", "i"),
-    ("òóôõöø", "o"),
-    ("ùúûü", "u"),
-    ("ýÿ", "y"),
-    ("ç", "c"),
-    ("ñ", "n"),
-    ("ß", "ss"),
-    ("æ", "ae"),
-    ("œ", "oe"),
-    ("ð", "d"),
-];
-
-/// The id that a name makes: lower-case letters without accents and digits, joined by hyphens.
-/// `None` when nothing of the name is left.
-pub fn id_of_name(name: &str) -> Option<String> {
-    let mut plain = name.to_lowercase();
-    for (letters, letter) in PLAIN {
-        plain = plain.replace(|found| letters.contains(found), letter);
-    }
-    let words = plain.split(|letter: char| !letter.is_ascii_alphanumeric());
-    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-    let id: String = words.join("-").chars().take(MOST_LETTERS).collect();
-    let id = id.trim_end_matches('-');
-    (!id.is_empty()).then(|| id.to_owned())
-}
-
 /// The place in a library of files that are one of its textiles.
 fn entry_of(wished: &str, files: &[BuiltFile]) -> Result<IndexEntry, TextileError> {
-    let Some(id) = id_of_name(wished) else {
+    let id = id_of(wished);
+    if id.is_empty() {
         let words = format!("\"{wished}\" makes no id; give a name with letters a to z or digits");
         return Err(TextileError::Model(words));
-    };
+    }
     let textile = Library::of_files(&id, files.to_vec()).load(&id)?;
     let [a40_um, a320_um] = means_um(textile.surface());
     Ok(IndexEntry {

@@ -209,6 +209,39 @@ pub struct Figure {
     pub unit: &'static str,
 }
 
+/// A figure that may be entered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct KnownFigure {
+    /// Its key in a manifest, such as `smd_warp_um`.
+    pub key: String,
+    /// Its symbol, such as `SMD warp`.
+    pub name: String,
+    /// What it is.
+    pub what: &'static str,
+    /// Its unit for people; may be empty.
+    pub unit: &'static str,
+}
+
+/// Every known figure in the testers' order, with those of one direction after it.
+pub fn all_known() -> impl Iterator<Item = KnownFigure> {
+    KNOWN.iter().flat_map(|known| {
+        let sides: &[&str] = if known.has_directions {
+            &["", "warp", "weft"]
+        } else {
+            &[""]
+        };
+        sides.iter().map(|side| {
+            let between = if side.is_empty() { "" } else { "_" };
+            KnownFigure {
+                key: [known.symbol, between, side, known.suffix].concat(),
+                name: [known.name, side].join(" ").trim_end().to_owned(),
+                what: known.what,
+                unit: known.unit,
+            }
+        })
+    })
+}
+
 /// The figures of a manifest for people: the known ones in the testers' order, then the others by
 /// their keys.
 pub fn figures(measured: &BTreeMap<String, f64>) -> Vec<Figure> {
@@ -298,6 +331,15 @@ mod tests {
                     "{error}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn every_figure_that_may_be_entered_is_known_by_its_key() {
+        let known: Vec<KnownFigure> = all_known().collect();
+        assert!(known.len() > KNOWN.len());
+        for figure in known {
+            assert!(find(&figure.key).is_some(), "{}", figure.key);
         }
     }
 

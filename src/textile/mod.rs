@@ -10,6 +10,7 @@
 //! - a model is a function of its recipe: same recipe, same bytes
 //! - every error is one line: what, where, how to mend it
 
+mod brought;
 mod brownian;
 mod build;
 mod cache;
@@ -36,8 +37,10 @@ mod selection;
 mod shipped;
 mod trial;
 mod weave;
+mod words;
 mod workers;
 
+pub use brought::{Measurement, read_measurement};
 pub use brownian::{Brownian, Generator, Hurst, Tip};
 pub use build::{BuiltFile, build, build_library, make, write};
 pub use cache::BuildCache;
@@ -49,11 +52,10 @@ pub use fourier::{
     example_templates, import, templates_from_toml, templates_to_toml,
 };
 pub use index::{Index, IndexEntry};
-pub use keeping::id_of_name;
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesFigures, KesFile,
-    KesFriction, KesImport, KesOptions, KesOrigin, KesPlace, KesReading, KesSection, KesStroke,
-    KesWords, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesColumn, KesFigures,
+    KesFile, KesFriction, KesImport, KesKnown, KesLine, KesLook, KesOptions, KesOrigin, KesPlace,
+    KesReading, KesSection, KesStroke, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
 };
 pub use knit::{Knit, Structure};
 pub use library::{Library, is_of_the_program};
@@ -61,7 +63,9 @@ pub use loaded::{Appearance, Textile};
 pub use manifest::{
     AppearanceKeys, Construction, Manifest, Parent, ProfileFiles, Profiles, Provenance, Source,
 };
-pub use measured::{Figure as MeasuredFigure, figures as measured_figures};
+pub use measured::{
+    Figure as MeasuredFigure, KnownFigure, all_known as known_figures, figures as measured_figures,
+};
 pub use parameter::{
     Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
 };
@@ -71,6 +75,7 @@ pub use restoration::{Reduced, Restoration, Rule};
 pub use selection::{kind_of, most_typical};
 pub use trial::Trial;
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
+pub use words::{Words, id_of, nth_id};
 pub use workers::n_threads;
 
 use std::path::PathBuf;

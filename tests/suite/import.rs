@@ -130,3 +130,49 @@ fn heights_are_converted_between_formats_and_holes_are_not_painted_over() {
     let line = lab.refuse(&["textile", "convert", "a.x3p", "--out", "a.bmp"]);
     assert!(line.contains(".x3p, .gsf, .npy, .png or .tif"), "{line}");
 }
+
+#[test]
+fn one_import_makes_a_textile_for_every_place() {
+    let lab = Lab::new();
+    lab.write("map.txt", matrix());
+    let import = ["textile", "import", "map.txt", "--out", "library/mine"];
+    let places = ["--place", "5,4", "--place", "6,5", "--name", "Ripple"];
+    let words = ["--fibre", "silk", "--figure", "weight_mg_per_cm2=7.5"];
+    let all = [&import[..], &SCALE, &places, &words].concat();
+    let outcome = lab.run(&all);
+    assert_eq!(
+        outcome.out,
+        "library/mine-1: Ripple 1\nlibrary/mine-2: Ripple 2\n"
+    );
+    for (id, place) in [("mine-1", "[5.0, 4.0]"), ("mine-2", "[6.0, 5.0]")] {
+        let manifest = lab.read(&format!("library/{id}/textile.toml"));
+        for part in [
+            &format!("place_mm = {place}"),
+            "fibre = \"silk\"",
+            "weight_mg_per_cm2 = 7.5",
+        ] {
+            assert!(manifest.contains(part), "{part} in {manifest}");
+        }
+    }
+    let line = lab.refuse(&[&all[..], &["--place", "90,1"]].concat());
+    assert!(
+        line.contains("the place 90.00, 1.00 mm is not on the map"),
+        "{line}"
+    );
+    assert!(
+        !lab.path("library/mine-3").exists(),
+        "nothing is left behind"
+    );
+    let line = lab.refuse(&[&all[..], &["--areal"]].concat());
+    assert!(line.contains("--areal feels the whole map; "), "{line}");
+    let areal = [&import[..4], &["library/whole", "--areal"], &SCALE].concat();
+    assert_eq!(lab.run(&areal).code, 0);
+    assert!(
+        lab.read("library/whole/textile.toml")
+            .contains("representation = \"areal\"")
+    );
+    assert!(
+        lab.path("library/whole/map.txt").exists(),
+        "it lies beside the manifest"
+    );
+}

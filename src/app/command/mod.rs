@@ -16,6 +16,7 @@ use super::arrangement::Pane;
 use super::collection::CollectionCommand;
 use super::compare::Choice;
 use super::export::Exportable;
+use super::importing::ImportCommand;
 use super::keep::Keep;
 use super::lab::LabCommand;
 use super::perspective::Perspective;
@@ -48,6 +49,8 @@ pub(crate) enum Command {
     Accuracy(AccuracyCommand),
     /// Change what is shown or selected of the library as a whole.
     Collection(CollectionCommand),
+    /// Bring measurements.
+    Import(ImportCommand),
     /// Keep new textiles in the library.
     Keep(Keep),
     /// Do something in the textile lab.
@@ -77,6 +80,12 @@ impl From<FileCommand> for Command {
 impl From<CompareCommand> for Command {
     fn from(command: CompareCommand) -> Self {
         Self::Compare(command)
+    }
+}
+
+impl From<ImportCommand> for Command {
+    fn from(command: ImportCommand) -> Self {
+        Self::Import(command)
     }
 }
 
@@ -176,6 +185,8 @@ pub(crate) enum Purpose {
     SaveRecording,
     /// Save what a pane shows as a picture or a table.
     Export(Exportable),
+    /// Take files of measurements to those that are imported.
+    ImportFiles,
 }
 
 /// What moves the display, and how that is recorded.

@@ -11,7 +11,7 @@ use super::collection::Asked;
 use super::export::{Exportable, is_exportable};
 use super::panes::{
     self, CollectionTyped, CompareView, ContactSpectrumView, DriveSpectrumView, DriveWaveView,
-    HeatmapStyle, SpatialSource, Wishes,
+    HeatmapStyle, ImportView, SpatialSource, Wishes,
 };
 use super::signals::drive_um;
 use super::tab_row::TabRow;
@@ -74,6 +74,7 @@ impl Desk<'_> {
             Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
             Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
+            Pane::Import => framed(ui, 10, |ui| self.show_import(ui)),
         }
     }
 
@@ -215,6 +216,19 @@ impl Desk<'_> {
     }
 }
 
+/// Measurements.
+impl Desk<'_> {
+    fn show_import(&mut self, ui: &mut Ui) {
+        self.bench.follow_import(ui.ctx());
+        let bench = &mut *self.bench;
+        let view = ImportView {
+            shelf: bench.shelf.items(),
+            map: bench.settings.kept.colour_map,
+        };
+        panes::show_import(ui, &mut bench.transient.importing, &view, self.wishes);
+    }
+}
+
 /// Views that are drawn and exported.
 impl Workbench {
     /// Has the library measured as the pane shows it.
@@ -315,7 +329,12 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.wishes);
                 }
             }
-            Pane::Collection | Pane::Lab | Pane::Library | Pane::Tuning | Pane::Bridge => {}
+            Pane::Collection
+            | Pane::Lab
+            | Pane::Library
+            | Pane::Tuning
+            | Pane::Bridge
+            | Pane::Import => {}
         }
     }
 }

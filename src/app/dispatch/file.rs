@@ -7,6 +7,7 @@ use eframe::egui;
 
 use crate::app::command::{FileCommand, Purpose};
 use crate::app::error::AppError;
+use crate::app::importing::ImportCommand;
 use crate::app::job::Job;
 use crate::app::opening::{Opened, Opening, Origin, open};
 use crate::app::panes::Ask;
@@ -30,6 +31,10 @@ impl Workbench {
             FileCommand::Use(Purpose::OpenRecording, path) => self.open_recording(ctx, path),
             FileCommand::Use(Purpose::SaveRecording, path) => self.save_recording(ctx, path),
             FileCommand::Use(Purpose::Export(what), path) => self.export_to(ctx, what, path),
+            FileCommand::Use(Purpose::ImportFiles, path) => {
+                self.transient.ask = None;
+                self.dispatch(ctx, ImportCommand::Add(vec![path]).into());
+            }
             FileCommand::CopyTable(what) => self.copy_table(ctx, what),
             FileCommand::Save => match self.document.path().cloned() {
                 Some(path) => self.save_scene(ctx, &path),
@@ -60,6 +65,10 @@ impl Workbench {
         match purpose {
             Purpose::OpenScene | Purpose::SaveScene => self.document.path().cloned(),
             Purpose::Export(what) => Some(self.export_path(what)),
+            Purpose::ImportFiles => {
+                let files = &self.transient.importing.draft.told.files;
+                files.last().map(|file| file.source.path().to_owned())
+            }
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = self.take.as_ref()?;
                 take.file().map(Path::to_owned)

@@ -7,6 +7,7 @@ mod device;
 mod edit;
 mod export;
 mod file;
+mod import;
 mod keep;
 mod lab;
 mod play;
@@ -35,6 +36,7 @@ impl Workbench {
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
             Command::Collection(command) => self.dispatch_collection(ctx, command),
+            Command::Import(command) => self.dispatch_import(ctx, command),
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),

@@ -7,7 +7,7 @@ use eframe::egui::Theme;
 use super::write::ExportError;
 use super::{
     Exportable, Exported, Kind, Origin, accuracy, collection, comparison, compression, contactors,
-    drive, lab, map, response, spatial, spectrograms, timeline, why,
+    drive, import, lab, map, response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
@@ -43,6 +43,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Accuracy => Some(Workbench::gather_accuracy),
         Pane::Compare => Some(Workbench::gather_comparison),
         Pane::Lab => Some(Workbench::gather_lab),
+        Pane::Import => Some(Workbench::gather_import),
         Pane::Workspace => Some(Workbench::gather_maps),
         Pane::Collection => Some(Workbench::gather_collection),
         Pane::Library | Pane::Bridge => None,
@@ -303,6 +304,13 @@ impl Workbench {
             );
         }
         Ok(collection::scatter(&view, origin))
+    }
+
+    fn gather_import(&mut self) -> Result<Exported, &'static str> {
+        let map = self.settings.kept.colour_map;
+        let found = self.transient.importing.found();
+        let exported = found.and_then(|found| import::measurement(found, map));
+        exported.ok_or("There is nothing to export yet: choose files in the Import pane")
     }
 
     /// The scene as panes draw it, without a look at pictures.

@@ -29,6 +29,7 @@ mod compression;
 mod contactors;
 mod drive;
 mod gather;
+mod import;
 mod lab;
 mod map;
 mod origin;
@@ -41,6 +42,8 @@ mod why;
 mod write;
 
 pub(crate) use gather::{Exports, is_exportable};
+#[cfg(test)]
+pub(crate) use import::measurement;
 pub(crate) use origin::Origin;
 pub(crate) use sheet::Sheet;
 pub(crate) use write::{ExportError, Kind};

@@ -1,6 +1,6 @@
 //! How a textile is called that is kept: what is typed, and what is wrong with it.
 
-use crate::textile::id_of_name;
+use crate::textile::id_of;
 
 /// What is typed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -34,7 +34,7 @@ impl KeepFields {
     /// The id follows the name until it is typed.
     pub(crate) fn follow_name(&mut self) {
         if !self.has_own_id {
-            self.id = id_of_name(&self.name).unwrap_or_default();
+            self.id = id_of(&self.name);
         }
     }
 
@@ -44,7 +44,7 @@ impl KeepFields {
         if self.name.trim().is_empty() {
             return Some("The name is empty; give the textile a name".to_owned());
         }
-        if id_of_name(id).as_deref() != Some(id) {
+        if id.is_empty() || id_of(id) != id {
             let words = "write it with letters a to z, digits and single hyphens";
             return Some(format!("The id \"{id}\" can be no folder's name; {words}"));
         }

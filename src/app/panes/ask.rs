@@ -66,6 +66,14 @@ impl AskWords {
                 verb: "Save",
                 ..recording
             },
+            Purpose::ImportFiles => Self {
+                title: "Add a file of measurements",
+                verb: "Add",
+                hint: "/path/to/NAME.txt",
+                missing: "Type the path of a file first",
+                name: "strokes.txt",
+                ending: "",
+            },
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",
                 verb: "Export",

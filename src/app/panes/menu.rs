@@ -60,6 +60,8 @@ pub(crate) fn show_scene_menu(
         let save_as = FileCommand::Ask(Purpose::SaveScene);
         entry(ui, "Save as…", save_as.into(), None, wishes);
         ui.separator();
+        let import = FileCommand::Ask(Purpose::ImportFiles);
+        entry(ui, "Import measurements…", import.into(), None, wishes);
         let open = FileCommand::Ask(Purpose::OpenRecording);
         entry(ui, "Open a recording…", open.into(), None, wishes);
         ui.separator();

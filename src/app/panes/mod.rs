@@ -16,6 +16,7 @@ mod export;
 mod header;
 mod heatmap;
 mod help;
+mod import;
 mod lab;
 mod library;
 mod menu;
@@ -50,6 +51,7 @@ pub(crate) use heatmap::{
     HeatmapStyle, digits as cell_digits, show as show_heatmaps, show_corner as show_heatmap_corner,
 };
 pub(crate) use help::show as show_help;
+pub(crate) use import::{ImportView, show as show_import};
 pub(crate) use lab::{LabHands, LabPictures, LabView, show as show_lab};
 pub(crate) use library::show as show_library;
 pub(crate) use menu::{Appearance, choice as menu_choice};

@@ -8,6 +8,7 @@ mod bar;
 mod card;
 mod list;
 mod polyline;
+mod relief;
 mod scale;
 mod slider;
 mod text;
@@ -19,6 +20,7 @@ pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use list::list;
 pub(crate) use polyline::corners;
+pub(crate) use relief::{BAR_ROOM, Relief, ReliefPicture, paint_height_bar};
 pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{
     RowShape, asked_value, declare, key_steps, slider_row, slider_row_as, tip_beside,

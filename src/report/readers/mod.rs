@@ -152,6 +152,7 @@ fn map(side: usize, seed: u64) -> Result<Measured, ReportError> {
         step_mm: [0.01; 2],
         about: About::default(),
         warnings: Vec::new(),
+        layers: Vec::new(),
     })
 }
 

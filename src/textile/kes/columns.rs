@@ -56,7 +56,46 @@ pub(super) struct Column {
     pub(super) unit: Option<Unit>,
 }
 
+impl Unit {
+    /// How people write it; empty for a unit of something else.
+    pub(super) fn label(self) -> &'static str {
+        match self {
+            Self::Metre => "m",
+            Self::Centimetre => "cm",
+            Self::Millimetre => "mm",
+            Self::Micrometre => "µm",
+            Self::Volt => "V",
+            Self::Millivolt => "mV",
+            Self::Second => "s",
+            Self::Other => "",
+        }
+    }
+}
+
 impl ColumnRole {
+    /// What people call it.
+    pub fn label(self) -> &'static str {
+        use ClothAxis::{Warp, Weft};
+        use StrokeSide::{Forward, Return};
+
+        match self {
+            Self::Distance => "distance",
+            Self::Time => "time",
+            Self::Height(None, None) => "height",
+            Self::Height(None, Some(Forward)) => "forward",
+            Self::Height(None, Some(Return)) => "return",
+            Self::Height(Some(Warp), None) => "warp",
+            Self::Height(Some(Warp), Some(Forward)) => "warp forward",
+            Self::Height(Some(Warp), Some(Return)) => "warp return",
+            Self::Height(Some(Weft), None) => "weft",
+            Self::Height(Some(Weft), Some(Forward)) => "weft forward",
+            Self::Height(Some(Weft), Some(Return)) => "weft return",
+            Self::Friction(None | Some(Forward)) => "friction",
+            Self::Friction(Some(Return)) => "friction return",
+            Self::Skip => "left out",
+        }
+    }
+
     /// The role of a word: `x`, `t`, `height`, `forward`, `return`, `warp-forward`, `mu`, `skip` …
     pub fn from_word(word: &str) -> Option<Self> {
         let role = role_of(&tokens(word))?;
@@ -207,7 +246,7 @@ pub(super) fn columns_of(
 }
 
 /// The names of the columns: the cells of the header's lines that have as many, from the top.
-fn names(table: &RawTable) -> Option<Vec<Vec<String>>> {
+pub(super) fn headings(table: &RawTable) -> Option<Vec<String>> {
     let n = table.columns.len();
     let mut names: Vec<String> = vec![String::new(); n];
     let mut is_named = false;
@@ -223,7 +262,12 @@ fn names(table: &RawTable) -> Option<Vec<Vec<String>>> {
             }
         }
     }
-    is_named.then(|| names.iter().map(|name| tokens(name)).collect())
+    is_named.then_some(names)
+}
+
+/// The words of the columns' names.
+fn names(table: &RawTable) -> Option<Vec<Vec<String>>> {
+    Some(headings(table)?.iter().map(|name| tokens(name)).collect())
 }
 
 /// What unnamed columns are: places first, if the first rises or falls throughout, or goes out and

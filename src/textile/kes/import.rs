@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::marks::n_samples;
 use super::origin::{IMPORTER, KesOrigin};
@@ -12,9 +13,8 @@ use crate::surface::{
     without_long_waves,
 };
 use crate::textile::loaded::MANIFEST;
-use crate::textile::{
-    BuiltFile, Construction, Manifest, Profiles, Source, TextileError, profile_file,
-};
+use crate::textile::words::{Words, manifest_file};
+use crate::textile::{BuiltFile, Manifest, Profiles, Source, TextileError, profile_file};
 
 /// The file of a trace of friction.
 const FRICTION: &str = "friction.csv";
@@ -22,7 +22,7 @@ const FRICTION: &str = "friction.csv";
 /// A reading with its sections: what a window shows before a textile is made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KesImport {
-    reading: KesReading,
+    reading: Arc<KesReading>,
     sections: [Option<KesSection>; 2],
     friction_section: Option<KesSection>,
     figures: KesFigures,
@@ -43,21 +43,6 @@ pub struct KesFigures {
     pub mmd_official: Option<f64>,
 }
 
-/// What people say of a textile.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct KesWords {
-    /// What it is called.
-    pub name: String,
-    /// How it is made.
-    pub construction: Construction,
-    /// What it is made of.
-    pub fibre: String,
-    /// The licence of its files.
-    pub licence: String,
-    /// One line of description.
-    pub notes: String,
-}
-
 impl KesImport {
     /// An import of a reading. `said` are sections by axis, in mm along the forward axis; where
     /// none is said, the most stationary 20 mm are taken. `is_official` asks for figures against
@@ -66,10 +51,11 @@ impl KesImport {
     /// # Errors
     /// A section that a stroke does not cover, or shorter than 4.35 mm.
     pub fn new(
-        reading: KesReading,
+        reading: impl Into<Arc<KesReading>>,
         said: [Option<[f64; 2]>; 2],
         is_official: bool,
     ) -> Result<Self, TextileError> {
+        let reading = reading.into();
         let [warp, weft] = said;
         let sections = [
             section_of(&reading, ClothAxis::Warp, warp)?,
@@ -161,7 +147,7 @@ impl KesImport {
     }
 
     /// The files of the textile: profiles of the sections, friction, the manifest last.
-    pub fn files(&self, words: &KesWords) -> Result<Vec<BuiltFile>, TextileError> {
+    pub fn files(&self, words: &Words) -> Result<Vec<BuiltFile>, TextileError> {
         let mut files = Vec::new();
         let mut add = |name: &str, text: String| {
             let (name, bytes) = (name.to_owned(), text.into_bytes());
@@ -195,14 +181,10 @@ impl KesImport {
             notes: words.notes.clone(),
             source: Source::Profiles(profiles),
             appearance: None,
-            measured: self.figures.measured(),
+            measured: words.over(self.figures.measured()),
             provenance: None,
         };
-        let path = Path::new(MANIFEST);
-        let text = manifest.to_toml(path)?;
-        // What would be refused when it is read is refused before it is written.
-        Manifest::from_toml(&text, path)?;
-        add(MANIFEST, text);
+        files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
         Ok(files)
     }
 

@@ -19,6 +19,7 @@ mod chart;
 mod columns;
 mod dialect;
 mod import;
+mod look;
 mod marks;
 #[cfg(test)]
 mod mutations;
@@ -35,7 +36,8 @@ mod units;
 
 pub use columns::{ClothAxis, ColumnRole, StrokeSide};
 pub use dialect::DecimalSign;
-pub use import::{KesFigures, KesImport, KesWords};
+pub use import::{KesFigures, KesImport};
+pub use look::{KesColumn, KesKnown, KesLine, KesLook};
 pub use marks::{Mark, MarkKind};
 pub use origin::KesOrigin;
 pub use reading::{KesFile, KesFriction, KesReading, KesStroke};
@@ -156,4 +158,24 @@ fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> Texti
         what: what.into(),
         ask,
     }
+}
+
+/// Whether a text may be an export of the tester: columns that are strokes by their names or by
+/// their number, none of which marks valid points, under no header of a matrix.
+pub(super) fn is_export(bytes: &[u8]) -> bool {
+    let path = Path::new("-");
+    let Ok(text) = text::text_of(bytes, path) else {
+        return false;
+    };
+    let table = match dialect::table_of(&text, None) {
+        Ok(table) => table,
+        Err(dialect::NoTable::Ambiguous { .. }) => return true,
+        Err(_) => return false,
+    };
+    let is_foreign = |line: &String| {
+        let words = columns::tokens(line);
+        let is_word = |word: &String| matches!(word.as_str(), "valid" | "width" | "channel");
+        words.iter().any(is_word)
+    };
+    !table.header.iter().any(is_foreign) && columns::columns_of(&table, None).is_ok()
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::marks::{Mark, marks_of};
+use super::section::covered_mm;
 use super::strokes::{RawStroke, Reader, name_of};
 use super::{ClothAxis, KesAsk, KesOptions, ReturnOrder, StrokeSide, asks, returns};
 use crate::files::{FileError, sha256_hex};
@@ -134,6 +135,12 @@ impl KesReading {
             files,
             um_per_volt: options.um_per_volt,
         })
+    }
+
+    /// What all strokes of an axis cover, mm; `None` where none runs along it.
+    pub fn covered_mm(&self, axis: ClothAxis) -> Option<[f64; 2]> {
+        let along = self.strokes.iter().filter(|stroke| stroke.axis() == axis);
+        covered_mm(&along.collect::<Vec<_>>())
     }
 
     /// The stroke of a direction.

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::reading::Stated;
-use super::{Reading, n_points};
+use super::{Asked, Reading, n_points};
 use crate::files::{ByteReader, FileError, Number};
 
 /// Deepest nesting that is read.
@@ -142,8 +142,8 @@ impl<'a> Value<'a> {
     }
 }
 
-/// Reads the first field: the channel with the lowest number.
-pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
+/// Reads a field: the channel with the lowest number, or the one asked for.
+pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
     let mut reader = ByteReader::new(bytes, path);
     reader.seek(4)?;
     let top = Object::of(&mut reader, path, 0)?;
@@ -156,14 +156,21 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
     });
     let mut channels: Vec<(u32, &Object<'_>)> = channels.collect();
     channels.sort_by_key(|(number, _)| *number);
-    let Some(&(number, field)) = channels.first() else {
+    if channels.is_empty() {
         let mend = "save a channel of heights from Gwyddion";
         return Err(FileError::whole(path, "no field of heights in it", mend));
+    }
+    let n = channels.len();
+    let nth = asked.layer.unwrap_or(1);
+    let Some(&(number, field)) = nth.checked_sub(1).and_then(|index| channels.get(index)) else {
+        let what = format!("no layer {nth}: the file has {n}");
+        let mend = format!("give layer (--layer) from 1 to {n}");
+        return Err(FileError::whole(path, what, mend));
     };
+    let title_of = |number: u32| top.text(&format!("/{number}/data/title")).to_owned();
     let (size, mut values) = field.field(path)?;
     let mut warnings = Vec::new();
-    if channels.len() > 1 {
-        let n = channels.len();
+    if n > 1 && asked.layer.is_none() {
         warnings.push(format!("channel {number}, the first of {n}, was read"));
     }
     if let Some(mask) = top.object(&format!("/{number}/mask")) {
@@ -177,8 +184,11 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
     reading.steps = Some([extents[0] / size[0] as f64, extents[1] / size[1] as f64]);
     reading.length_unit = Stated::of(field.unit("si_unit_xy"));
     reading.height_unit = Stated::of(field.unit("si_unit_z"));
-    let title = top.text(&format!("/{number}/data/title"));
-    title.clone_into(&mut reading.about.title);
+    reading.about.title = title_of(number);
+    reading.layers = channels
+        .iter()
+        .map(|(number, _)| title_of(*number))
+        .collect();
     reading.warnings = warnings;
     Ok(reading)
 }

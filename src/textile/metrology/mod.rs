@@ -15,6 +15,7 @@ mod image16;
 mod import;
 mod npy;
 mod reading;
+mod shaded;
 mod source;
 mod sur;
 mod text;
@@ -30,7 +31,7 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
-pub use import::{ImportOptions, Imported, import};
+pub use import::{HeightImport, HeightPlace, ImportOptions};
 pub use reading::{About, Measured};
 pub use source::Heightmap;
 pub use unit::LengthUnit;
@@ -56,6 +57,8 @@ pub struct Asked {
     pub range_um: Option<f64>,
     /// The column of heights in a table: its name, or its number from 1.
     pub column: Option<String>,
+    /// Which of several fields of heights, from 1.
+    pub layer: Option<usize>,
 }
 
 /// The formats that are read.
@@ -97,7 +100,7 @@ impl Format {
 }
 
 /// Whether the beginning holds no bytes that texts do not hold.
-fn is_text(bytes: &[u8]) -> bool {
+pub(super) fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 32 && !b"\t\n\r\x0c".contains(byte);
     !head.is_empty() && !head.iter().any(is_control)
@@ -112,7 +115,7 @@ pub fn open(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Measured, Textil
     let reading = match Format::of(bytes) {
         Some(Format::X3p) => x3p::read(bytes, path)?,
         Some(Format::Sur) => sur::read(bytes, path)?,
-        Some(Format::Gwy) => gwy::read(bytes, path)?,
+        Some(Format::Gwy) => gwy::read(bytes, path, asked)?,
         Some(Format::Gsf) => gsf::read(bytes, path)?,
         Some(Format::Npy) => npy::read(bytes, path)?,
         Some(Format::Png) => image16::read_png(bytes, path, asked)?,

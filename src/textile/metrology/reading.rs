@@ -34,6 +34,8 @@ pub struct Measured {
     pub about: About,
     /// What is odd about the file, one line each.
     pub warnings: Vec<String>,
+    /// The titles of the fields to choose from; none where there is but one.
+    pub layers: Vec<String>,
 }
 
 impl Measured {
@@ -137,6 +139,7 @@ pub(super) struct Reading {
     pub(super) length_unit: Stated,
     pub(super) about: About,
     pub(super) warnings: Vec<String>,
+    pub(super) layers: Vec<String>,
 }
 
 impl Reading {
@@ -162,6 +165,7 @@ impl Reading {
                 ..About::default()
             },
             warnings: Vec::new(),
+            layers: Vec::new(),
         })
     }
 
@@ -199,6 +203,11 @@ impl Reading {
             step_mm,
             about: self.about,
             warnings: self.warnings,
+            layers: if self.layers.len() > 1 {
+                self.layers
+            } else {
+                Vec::new()
+            },
         };
         let [low, high] = measured.range_um();
         if high - low > MOST_RELIEF_UM {

@@ -25,6 +25,7 @@ pub(super) fn map(n_missing: usize) -> Measured {
             comment: "a < b".to_owned(),
         },
         warnings: Vec::new(),
+        layers: Vec::new(),
     }
 }
 

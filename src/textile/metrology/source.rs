@@ -59,6 +59,9 @@ pub struct Heightmap {
     /// The column of a table that holds the heights.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
+    /// Which of several fields of the file, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer: Option<usize>,
     /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place_mm: Option<[f64; 2]>,
@@ -101,6 +104,7 @@ impl Heightmap {
             step_mm: asked.step_mm,
             range_um: asked.range_um,
             column: asked.column.clone(),
+            layer: asked.layer,
             place_mm: None,
             periodic: false,
             noise_um: default_noise(),
@@ -133,6 +137,7 @@ impl Heightmap {
             step_mm: self.step_mm,
             range_um: self.range_um,
             column: self.column.clone(),
+            layer: self.layer,
         }
     }
 
@@ -154,17 +159,20 @@ impl Heightmap {
     /// The strokes over the file, by [`Direction::index`].
     pub(crate) fn profiles(&self, bytes: &[u8], path: &Path) -> Result<ProfileSet, TextileError> {
         let measured = self.open(bytes, path)?;
-        Ok(self.strokes(&measured, path)?.0)
+        self.strokes_at(&self.laid(&measured, path)?, self.place_mm, path)
     }
 
     /// The heights of the file as a map, level unless it repeats; missing points stay missing.
     pub(crate) fn height_map(&self, bytes: &[u8], path: &Path) -> Result<HeightMap, TextileError> {
-        let measured = self.open(bytes, path)?;
-        let map = HeightMap::new(measured.heights_um, measured.step_mm);
-        let map = map.map_err(|source| TextileError::Surface {
-            path: path.to_owned(),
-            source,
-        })?;
+        self.level(&self.open(bytes, path)?, path)
+    }
+
+    fn level(&self, measured: &Measured, path: &Path) -> Result<HeightMap, TextileError> {
+        let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm);
+        let map = map.map_err(|source| surface_error(source, path))?;
+        if measured.is_profile() {
+            return levelled_profile(&map).map_err(|source| surface_error(source, path));
+        }
         Ok(if self.periodic {
             map.periodic()
         } else {
@@ -172,55 +180,86 @@ impl Heightmap {
         })
     }
 
-    /// The strokes over measured heights, and what was done to get them, one line each.
-    pub(super) fn strokes(
-        &self,
-        measured: &Measured,
-        path: &Path,
-    ) -> Result<(ProfileSet, Vec<String>), TextileError> {
-        let failed = |source: SurfaceError| TextileError::Surface {
-            path: path.to_owned(),
-            source,
-        };
+    /// Measured heights ready for strokes, and what was done to get there, one line each.
+    pub(super) fn laid(&self, measured: &Measured, path: &Path) -> Result<Laid, TextileError> {
         let mut notes = measured.warnings.clone();
         let n_missing = measured.n_missing();
         if n_missing > 0 {
             let n = measured.heights_um.values().len();
             notes.push(format!("{n_missing} of {n} points are missing: {FILLED}"));
         }
-        let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm).map_err(failed)?;
+        let map = self.level(measured, path)?;
         let is_long = [0, 1].map(|axis| self.periodic || n_of(&map)[axis] >= n_window(&map, axis));
         if !is_long[0] {
             return Err(too_short(&map, path).into());
         }
-        if measured.is_profile() {
-            notes.push("a single profile, its tilt removed; no tester was drawn".to_owned());
-            return Ok((profile(&map).map_err(failed)?, notes));
+        let is_profile = measured.is_profile();
+        if is_profile && self.representation == Representation::Areal {
+            let mend = "feel it along its stroke (economical), or give a map";
+            return Err(FileError::whole(path, "a profile has no other points", mend).into());
         }
-        let map = if self.periodic {
-            map.periodic()
-        } else {
-            map.levelled()
-        };
-        let [width_mm, height_mm] = map.size_mm();
-        let place_mm = self.place_mm.unwrap_or([0.5 * width_mm, 0.5 * height_mm]);
-        check_place(place_mm, [width_mm, height_mm], path)?;
+        if is_profile {
+            notes.push("a single profile, its tilt removed; no tester was drawn".to_owned());
+        } else if !is_long[1] {
+            let height_mm = map.size_mm()[1];
+            notes.push(format!(
+                "{height_mm:.2} mm across are less than a window: the weft is felt as the warp"
+            ));
+        }
+        Ok(Laid {
+            map,
+            is_profile,
+            has_weft: is_long[1],
+            notes,
+        })
+    }
+
+    /// The strokes that cross at a place, mm; in the middle if none is said.
+    pub(super) fn strokes_at(
+        &self,
+        laid: &Laid,
+        place_mm: Option<[f64; 2]>,
+        path: &Path,
+    ) -> Result<ProfileSet, TextileError> {
+        let failed = |source: SurfaceError| surface_error(source, path);
+        let size_mm = laid.map.size_mm();
+        if laid.is_profile {
+            return profile(&laid.map).map_err(failed);
+        }
+        let place_mm = place_mm.unwrap_or_else(|| size_mm.map(|mm| 0.5 * mm));
+        check_place(place_mm, size_mm, path)?;
         let probe = Probe {
             noise_um: self.noise_um,
             ..Probe::default()
         };
         let random = Random::new(u64::from(self.seed)).branch("probe");
-        let strokes = map.strokes(&probe, place_mm, &random);
+        let strokes = laid.map.strokes(&probe, place_mm, &random);
         let mut profiles = strokes.map_err(|(_, error)| failed(error))?;
-        if !is_long[1] {
-            notes.push(format!(
-                "{height_mm:.2} mm across are less than a window: the weft is felt as the warp"
-            ));
+        if !laid.has_weft {
             for direction in [Direction::WeftForward, Direction::WeftReverse] {
                 profiles[direction.index()] = None;
             }
         }
-        Ok((profiles, notes))
+        Ok(profiles)
+    }
+}
+
+/// Measured heights as the tester goes over them.
+#[derive(Debug, Clone)]
+pub(super) struct Laid {
+    /// The heights, level unless they repeat; what is missing is still missing.
+    pub(super) map: HeightMap,
+    is_profile: bool,
+    /// Whether the weft is as long as a window.
+    has_weft: bool,
+    /// What is odd about them and what was done, one line each.
+    pub(super) notes: Vec<String>,
+}
+
+fn surface_error(source: SurfaceError, path: &Path) -> TextileError {
+    TextileError::Surface {
+        path: path.to_owned(),
+        source,
     }
 }
 
@@ -268,15 +307,24 @@ fn check_place(place_mm: [f64; 2], size_mm: [f64; 2], path: &Path) -> Result<(),
     Err(FileError::whole(path, what, mend))
 }
 
-/// A profile that was measured as one: filled, its line taken off, forward along the warp.
-fn profile(map: &HeightMap) -> Result<ProfileSet, SurfaceError> {
+/// A profile without its tilt.
+fn levelled_profile(map: &HeightMap) -> Result<HeightMap, SurfaceError> {
     // Two equal rows, so that the best plane is the best line.
     let row = map.filled().heights_um().values().to_vec();
-    let twice = Grid::from_rows(row.len(), [row.clone(), row].concat());
-    let twice = twice.ok_or(SurfaceError::AllMissing)?;
+    let n = row.len();
+    let twice = Grid::from_rows(n, [row.clone(), row].concat()).ok_or(SurfaceError::AllMissing)?;
     let level = HeightMap::new(twice, map.step_mm())?.levelled();
+    let level = level.heights_um().row(0).to_vec();
+    HeightMap::new(
+        Grid::from_rows(n, level).ok_or(SurfaceError::AllMissing)?,
+        map.step_mm(),
+    )
+}
+
+/// A profile that was measured as one, level: forward along the warp.
+fn profile(map: &HeightMap) -> Result<ProfileSet, SurfaceError> {
     let mut profiles = ProfileSet::default();
-    let heights_um = level.heights_um().row(0).to_vec();
+    let heights_um = map.heights_um().row(0).to_vec();
     let forward = Direction::WarpForward.index();
     profiles[forward] = Some(Profile::new(map.step_mm()[0], heights_um)?);
     Ok(profiles)

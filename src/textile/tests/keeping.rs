@@ -107,16 +107,3 @@ fn what_is_no_textile_is_refused_before_anything_is_written() {
     }
     assert!(!to.exists());
 }
-
-#[test]
-fn names_make_ids() {
-    for (name, id) in [
-        ("Silk crêpe 2", Some("silk-crepe-2")),
-        ("Öl & Straße", Some("ol-strasse")),
-        ("  Mine!  ", Some("mine")),
-        ("../etc", Some("etc")),
-        ("…", None),
-    ] {
-        assert_eq!(id_of_name(name).as_deref(), id, "{name}");
-    }
-}

@@ -6,6 +6,7 @@ mod basics;
 mod collection;
 mod compare;
 mod export;
+mod import;
 mod lab;
 mod overlays;
 #[cfg(unix)]

@@ -15,13 +15,15 @@ use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
 use crate::app::headless::Headless;
+use crate::app::importing::ImportCommand;
+use crate::app::importing::tests::export;
 use crate::app::lab::{Beginning, LabCommand};
 use crate::app::workspace::Overlay;
 use crate::files::{self, Table};
 use crate::tactile::Band;
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 14] = [
+const ALL: [Exportable; 15] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -33,6 +35,7 @@ const ALL: [Exportable; 14] = [
     Exportable::Pane(Pane::Accuracy),
     Exportable::Pane(Pane::Compare),
     Exportable::Pane(Pane::Lab),
+    Exportable::Pane(Pane::Import),
     Exportable::Pane(Pane::Workspace),
     Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
@@ -60,6 +63,7 @@ impl Headless {
             desk.pass_ticks(n_ticks / 3);
             desk.settle();
         }
+        desk.import();
         desk
     }
 
@@ -74,6 +78,15 @@ impl Headless {
             desk.pass_ticks(1);
         }
         desk
+    }
+
+    /// Reads strokes of the tester.
+    fn import(&mut self) {
+        let folder = Folder::new(&format!("strokes-{:?}", thread::current().id()));
+        let path = folder.0.join("twill.txt");
+        fs::write(&path, export()).unwrap();
+        self.dispatch(ImportCommand::Add(vec![path]));
+        self.pass_ticks(2);
     }
 
     /// Waits for the threads that compare and check.
@@ -165,7 +178,13 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
                 Kind::Svg => {
                     let svg = String::from_utf8(bytes).unwrap();
                     assert!(figure::is_well_formed(&svg), "{name}: {svg}");
-                    assert!(svg.contains("scene_sha256 = "), "{name}");
+                    let is_imported = what == Exportable::Pane(Pane::Import);
+                    let of = if is_imported {
+                        "file = "
+                    } else {
+                        "scene_sha256 = "
+                    };
+                    assert!(svg.contains(of), "{name}");
                     assert!(svg.len() < 400_000, "{name} has {} bytes", svg.len());
                 }
                 Kind::Csv => {

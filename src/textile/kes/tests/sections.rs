@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use super::*;
-use crate::textile::{Construction, Library};
+use crate::textile::{Construction, Library, Words};
 
 #[test]
 fn run_in_turn_round_and_outliers_are_marked_and_stay() {
@@ -132,12 +132,10 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
     let friction = Some(file("mu.txt", friction));
     let reading = KesReading::of(&[file("a.txt", text)], friction, &KesOptions::default()).unwrap();
     let import = KesImport::new(reading, [None, None], false).unwrap();
-    let words = KesWords {
-        name: "Twill".to_owned(),
+    let words = Words {
         construction: Construction::Woven,
         fibre: "cotton".to_owned(),
-        licence: String::new(),
-        notes: String::new(),
+        ..Words::of("Twill")
     };
     let folder = std::env::temp_dir().join(format!("selvedge-kes-{}", std::process::id()));
     crate::textile::write(&import.files(&words).unwrap(), &folder.join("twill")).unwrap();
