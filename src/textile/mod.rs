@@ -27,6 +27,7 @@ mod manifest;
 mod measured;
 pub mod metrology;
 mod model;
+pub mod picture;
 mod profile_file;
 mod recipes;
 mod restoration;
@@ -120,6 +121,9 @@ pub enum TextileError {
         /// What must be said.
         ask: KesAsk,
     },
+    /// A picture that shows no shape.
+    #[error(transparent)]
+    Shading(#[from] picture::ShadingError),
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
