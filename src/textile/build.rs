@@ -14,7 +14,7 @@ use super::model::{Model, profiles_of_files};
 use super::{TextileError, workers};
 use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
 use crate::progress::{Progress, unheard};
-use crate::surface::Direction;
+use crate::surface::{Direction, Representation};
 use crate::tactile::{Filters, Levels, Tuning};
 
 /// The name of the picture.
@@ -126,7 +126,9 @@ pub fn build_library(
         let recipe = from.manifest(id)?;
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
-            Source::Profiles(_) | Source::Heightmap(_) => copied(from, id, &recipe)?,
+            Source::Profiles(_) | Source::Heightmap(_) | Source::Picture(_) => {
+                copied(from, id, &recipe)?
+            }
             _ => build(&recipe, &path)?,
         };
         Ok(write(&files, &to.join(id))?)
@@ -142,7 +144,10 @@ pub fn build_library(
 /// The files of a textile that was not made from a recipe.
 fn copied(from: &Library, id: &str, manifest: &Manifest) -> Result<Vec<BuiltFile>, TextileError> {
     let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
-    if let (Source::Heightmap(keys), true) = (&manifest.source, names.is_empty()) {
+    let is_areal = manifest.source.representation() == Representation::Areal;
+    if let Some(keys) = manifest.source.kept_map()
+        && (is_areal || names.is_empty())
+    {
         names.push(keys.file.clone());
     }
     names.extend(manifest.source.friction().map(ToOwned::to_owned));

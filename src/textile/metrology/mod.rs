@@ -13,6 +13,7 @@ mod gsf;
 mod gwy;
 mod image16;
 mod import;
+pub(crate) mod made;
 mod npy;
 mod reading;
 mod source;

@@ -85,7 +85,7 @@ profile_file_keys!(Heightmap);
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
-    pub(super) fn new(file: String, asked: &Asked) -> Self {
+    pub(crate) fn new(file: String, asked: &Asked) -> Self {
         Self {
             kind: "heightmap".to_owned(),
             recipe_hash: None,
@@ -173,7 +173,7 @@ impl Heightmap {
     }
 
     /// The strokes over measured heights, and what was done to get them, one line each.
-    pub(super) fn strokes(
+    pub(crate) fn strokes(
         &self,
         measured: &Measured,
         path: &Path,

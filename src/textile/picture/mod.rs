@@ -2,4 +2,4 @@
 
 pub mod shading;
 
-pub use shading::ShadingError;
+pub use shading::{PictureSource, PictureTextile, ShadingError, to_textile};

@@ -18,13 +18,19 @@ mod light;
 mod linear;
 mod reflectance;
 mod reliability;
+mod scale;
+mod source;
 #[cfg(test)]
 mod tests;
+mod textile;
 mod tsai_shah;
 mod variational;
 
 pub use light::{Light, LightEstimate, estimate_light};
 pub use linear::Blind;
+pub use scale::HeightScale;
+pub use source::PictureSource;
+pub use textile::{PictureTextile, to_textile};
 pub use tsai_shah::Edges;
 
 use serde::{Deserialize, Serialize};
@@ -204,6 +210,34 @@ pub enum ShadingError {
         value: f64,
         /// What is possible.
         range: &'static str,
+    },
+    /// No relief was found.
+    #[error("the shape is flat, so there is nothing to feel; give a picture that shows shading")]
+    Flat,
+    /// Heights without a scale.
+    #[error(
+        "the heights are in pixels, unscaled; say the scale: the relief from the lowest to the \
+         highest point in µm, or the roughness SMD that a surface tester reads, in µm"
+    )]
+    Unscaled,
+    /// Too small a tile for a textile.
+    #[error("{width} × {height} px are no relief; give a repeat of at least 2 × 2 px")]
+    TooSmall {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// A roughness that the relief never has.
+    #[error(
+        "no height of this relief reads an SMD of {smd_um} µm on the tester (the last try read \
+         {found_um:.3} µm); its own noise reads about 0.16 µm: give another SMD, or the relief"
+    )]
+    Smd {
+        /// What was asked for.
+        smd_um: f64,
+        /// What was read last.
+        found_um: f64,
     },
     /// The work was stopped.
     #[error(transparent)]

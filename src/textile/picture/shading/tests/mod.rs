@@ -2,6 +2,7 @@
 
 mod extremes;
 mod published;
+mod textile;
 mod truths;
 
 use std::f64::consts::{PI, TAU};
