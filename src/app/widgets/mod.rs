@@ -7,6 +7,8 @@ mod axis;
 mod bar;
 mod card;
 mod polyline;
+#[cfg_attr(not(test), expect(dead_code, reason = "panes of reliefs show it"))]
+mod relief3d;
 mod scale;
 mod slider;
 mod text;
@@ -17,6 +19,8 @@ pub(crate) use axis::{
 pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use polyline::corners;
+#[expect(unused_imports, reason = "panes of reliefs show it")]
+pub(crate) use relief3d::{Relief3d, View3d, relief3d};
 pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{asked_value, declare, key_steps, slider_row, tip_beside};
 pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};
