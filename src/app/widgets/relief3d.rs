@@ -13,7 +13,8 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
 use eframe::egui::{
-    EventFilter, Id, Key, Mesh, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, vec2,
+    EventFilter, Id, InputState, Key, Mesh, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo,
+    vec2,
 };
 
 use super::{Curve, Scale, slider_row};
@@ -198,7 +199,7 @@ fn moved(ui: &Ui, response: &Response, relief: &Relief3d, view: View3d) -> View3
     }
     if response.hovered() {
         let scrolled = ui.input(|input| input.smooth_scroll_delta().y);
-        let pinched = ui.input(|input| input.zoom_delta());
+        let pinched = ui.input(InputState::zoom_delta);
         new = new.nearer((scrolled / SCROLL).exp() * pinched);
     }
     if response.has_focus() {

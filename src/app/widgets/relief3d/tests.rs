@@ -2,7 +2,7 @@
 
 use eframe::egui::accesskit::Role as AccessRole;
 use eframe::egui::{
-    Context, Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput,
+    Context, Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
     TouchPhase,
 };
 use egui_kittest::Harness;
@@ -162,7 +162,7 @@ fn large_maps_are_averaged_and_odd_ones_are_drawn() {
             let relief = Relief3d::of(&map);
             let view = View3d::for_relief(&relief);
             assert!(view.exaggeration.is_finite());
-            let rect = Rect::from_min_size(Default::default(), vec2(300.0, 200.0));
+            let rect = Rect::from_min_size(Pos2::ZERO, vec2(300.0, 200.0));
             for (yaw, pitch) in [(0.0, 0.0), (90.0, 50.0), (211.0, -80.0)] {
                 let projection = Projection::of(&relief, view.turned(yaw, pitch), rect);
                 let mesh = mesh::of(&relief, &projection, Palette::of(eframe::egui::Theme::Dark));
@@ -180,7 +180,7 @@ fn large_maps_are_averaged_and_odd_ones_are_drawn() {
 #[test]
 fn what_is_in_front_is_painted_last() {
     let relief = waves(32);
-    let rect = Rect::from_min_size(Default::default(), vec2(300.0, 200.0));
+    let rect = Rect::from_min_size(Pos2::ZERO, vec2(300.0, 200.0));
     for yaw in [0.0, 30.0, 100.0, 200.0, 300.0] {
         let view = View3d {
             yaw_deg: yaw,
@@ -244,7 +244,7 @@ fn picture(
     let mut shapes = Vec::new();
     for _ in 0..3 {
         let input = RawInput {
-            screen_rect: Some(Rect::from_min_size(Default::default(), vec2(520.0, 420.0))),
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(520.0, 420.0))),
             ..RawInput::default()
         };
         let mut output = ctx.run_ui(input, |ui| {

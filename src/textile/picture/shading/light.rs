@@ -79,10 +79,11 @@ pub struct LightEstimate {
 /// Gradients that agree less than this tell no side.
 const AGREE: f64 = 0.1;
 
-/// Estimates light and albedo of a picture (Zheng & Chellappa 1991, as ports of the surveys have
-/// it). It takes normals to lie as on a ball and the albedo to be even: no cloth does. Slant and
-/// albedo follow from mean and mean square of the brightness; the tilt from the mean direction of
-/// its gradient, or where that says nothing, from the axis along which it changes most.
+/// Estimates light and albedo of a picture (after Zheng & Chellappa 1991).
+///
+/// It takes normals to lie as on a ball and the albedo to be even: no cloth does. Slant and albedo
+/// follow from mean and mean square of the brightness; the tilt from the mean direction of its
+/// gradient, or where that says nothing, from the axis along which it changes most.
 ///
 /// # Errors
 /// An empty or black tile.

@@ -28,6 +28,7 @@ mod variational;
 
 pub use light::{Light, LightEstimate, estimate_light};
 pub use linear::Blind;
+pub use reflectance::picture_of;
 pub use scale::HeightScale;
 pub use source::PictureSource;
 pub use textile::{PictureTextile, to_textile};

@@ -40,14 +40,28 @@ impl Lambert {
     }
 }
 
+/// How bright a tile of heights (px) is under a light, 0…1, albedo 1: the forward problem, which a
+/// residual or a study is set beside. Slopes are central differences; nothing casts a shadow.
+pub fn picture_of(height_px: &Grid<f64>, light: Light) -> Grid<f64> {
+    let matt = Lambert::under(light);
+    let (mut bright, q) = (along(height_px), across(height_px));
+    for (value, q) in bright.values_mut().iter_mut().zip(q.values()) {
+        *value = matt.of(*value, *q).max(0.0);
+    }
+    bright
+}
+
 /// Central differences along rows, a px.
 pub(super) fn along(z: &Grid<f64>) -> Grid<f64> {
     let n = z.width();
     let mut slopes = Grid::filled(n, z.height(), 0.0);
     for row in 0..z.height() {
-        let from = z.row(row);
-        for (column, slope) in slopes.row_mut(row).iter_mut().enumerate() {
-            *slope = 0.5 * (from[after(column, n)] - from[before(column, n)]);
+        let (from, to) = (z.row(row), slopes.row_mut(row));
+        for (slope, three) in to.iter_mut().skip(1).zip(from.windows(3)) {
+            *slope = 0.5 * (three[2] - three[0]);
+        }
+        for end in [0, n - 1] {
+            to[end] = 0.5 * (from[after(end, n)] - from[before(end, n)]);
         }
     }
     slopes
@@ -71,11 +85,19 @@ pub(super) fn laplacian(z: &Grid<f64>) -> Grid<f64> {
     let (width, height) = (z.width(), z.height());
     let mut bent = Grid::filled(width, height, 0.0);
     for row in 0..height {
-        let (here, above) = (z.row(row), z.row(after(row, height)));
-        let below = z.row(before(row, height));
-        for (column, value) in bent.row_mut(row).iter_mut().enumerate() {
-            let beside = here[after(column, width)] + here[before(column, width)];
-            *value = beside + above[column] + below[column] - 4.0 * here[column];
+        let (here, to) = (z.row(row), bent.row_mut(row));
+        for (value, three) in to.iter_mut().skip(1).zip(here.windows(3)) {
+            *value = three[0] + three[2] - 4.0 * three[1];
+        }
+        for end in [0, width - 1] {
+            to[end] = here[before(end, width)] + here[after(end, width)] - 4.0 * here[end];
+        }
+        let pairs = z
+            .row(after(row, height))
+            .iter()
+            .zip(z.row(before(row, height)));
+        for (value, (above, below)) in to.iter_mut().zip(pairs) {
+            *value += above + below;
         }
     }
     bent

@@ -240,7 +240,7 @@ impl Tangent {
         change
     }
 
-    /// The transform of JᵀJ + λ∇⁴ + μ with J's weights in the mean.
+    /// The transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
     fn mean_problem(&self, smoothness: f64, shift: f64) -> Grid<f64> {
         let n = self.by_p.values().len().max(1) as f64;
         let [pp, qq] = [&self.by_p, &self.by_q].map(|by| squares(by) / n);
