@@ -21,8 +21,8 @@ pub(super) fn words(method: Method, light: Light, blind: Blind) -> String {
     let vectors = 100.0 * blind.share_of_vectors;
     let energy = 100.0 * blind.share_of_energy;
     let mut words = format!(
-        "{first} Waves across the light cannot be seen: {vectors:.1} % of all; {energy:.1} % of the \
-         picture's contrast lies there and is left out"
+        "{first} Waves across the light cannot be seen: {vectors:.1} % of all; {energy:.1} % of \
+         the picture's contrast lies there and is left out"
     );
     words.push_str(if energy > 5.0 {
         ", so colour, noise or shadow is in it: average more repeats, or turn the light."
