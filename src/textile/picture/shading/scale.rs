@@ -34,7 +34,7 @@ pub(super) struct Scaled {
 /// Gives a shape its heights; `strokes` draws the tester over a map.
 pub(super) fn scaled(
     shape: &Shape,
-    px_per_mm: f64,
+    step_mm: [f64; 2],
     scale: HeightScale,
     strokes: &impl Fn(&HeightMap) -> Result<ProfileSet, TextileError>,
 ) -> Result<Scaled, TextileError> {
@@ -47,7 +47,7 @@ pub(super) fn scaled(
         for height in heights_um.values_mut() {
             *height *= relief_um / (high - low);
         }
-        let map = HeightMap::new(heights_um, [1.0 / px_per_mm; 2]);
+        let map = HeightMap::new(heights_um, step_mm);
         Ok(map.map_err(no_surface)?.periodic())
     };
     let (relief_um, smd_um) = match scale {

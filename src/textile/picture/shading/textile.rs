@@ -31,6 +31,8 @@ pub struct PictureTextile {
     pub notes: String,
     /// The picture's scale, 2 to 2000.
     pub px_per_mm: f64,
+    /// Extent of the tile, px of the picture, where a sample of the shape is not quite a pixel.
+    pub size_px: Option<[f64; 2]>,
     /// What is known of its height.
     pub scale: HeightScale,
     /// File name and SHA-256 of the picture.
@@ -41,7 +43,7 @@ pub struct PictureTextile {
     pub light_is_estimated: bool,
     /// Whether it is felt along four strokes or at every point.
     pub representation: Representation,
-    /// One repeat in colour, rows from the top, as many pixels a mm; the relief in grey if there
+    /// One repeat in colour, rows from the top, as many pixels a mm as the shape; the relief in grey if there
     /// is none.
     pub appearance: Option<Rgb8Image>,
     /// Noise of the virtual tester, µm rms.
@@ -59,6 +61,7 @@ impl Default for PictureTextile {
             fibre: String::new(),
             notes: String::new(),
             px_per_mm: 0.0,
+            size_px: None,
             scale: HeightScale::Unscaled,
             picture: None,
             lattice_px: None,
@@ -68,6 +71,15 @@ impl Default for PictureTextile {
             noise_um: Probe::default().noise_um,
             seed: 1,
         }
+    }
+}
+
+impl PictureTextile {
+    /// The distance of a shape's samples, mm.
+    fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
+        let n = n.map(|n| n as f64);
+        let size_px = self.size_px.unwrap_or(n);
+        [0, 1].map(|axis| size_px[axis] / n[axis] / self.px_per_mm)
     }
 }
 
@@ -96,7 +108,8 @@ pub fn to_textile(shape: &Shape, about: &PictureTextile) -> Result<Vec<BuiltFile
         let measured = measured(map, &about.name);
         Ok(keys.map().strokes(&measured, path)?.0)
     };
-    let scaled = scaled(shape, about.px_per_mm, about.scale, &drawn)?;
+    let step_mm = about.step_mm([width, height]);
+    let scaled = scaled(shape, step_mm, about.scale, &drawn)?;
     (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
     keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
@@ -106,7 +119,7 @@ pub fn to_textile(shape: &Shape, about: &PictureTextile) -> Result<Vec<BuiltFile
     let mut files = vec![file(MAP, bytes)];
     files.extend(made::profile_files(&profiles)?);
     let (image, px_per_mm) = match &about.appearance {
-        Some(image) => (image.clone(), about.px_per_mm),
+        Some(image) => (image.clone(), 1.0 / step_mm[0]),
         None => (made::shaded(&kept).map_err(no_surface)?, PX_PER_MM),
     };
     files.push(file(PICTURE, encode_png_small(&image, Path::new(PICTURE))?));

@@ -137,6 +137,29 @@ fn the_map_alone_gives_the_same_strokes_and_an_areal_surface() {
 }
 
 #[test]
+fn samples_that_are_not_quite_pixels_keep_the_size_of_the_cloth() {
+    let about = PictureTextile {
+        size_px: Some([48.6, 47.1]),
+        ..about(HeightScale::ReliefUm(100.0))
+    };
+    let files = to_textile(&found(), &about).unwrap();
+    let keys = source(&manifest_of(&files));
+    let map = keys
+        .map()
+        .height_map(&files[0].bytes, Path::new("heights.png"))
+        .unwrap();
+    let [width_mm, height_mm] = map.size_mm();
+    assert!((width_mm - 48.6 / 24.0).abs() < 1e-9 && (height_mm - 47.1 / 24.0).abs() < 1e-9);
+    for size_px in [[f64::NAN, 1.0], [0.0, 40.0], [-3.0, 5.0], [1e9, 40.0]] {
+        let about = PictureTextile {
+            size_px: Some(size_px),
+            ..about.clone()
+        };
+        assert!(to_textile(&found(), &about).is_err(), "{size_px:?}");
+    }
+}
+
+#[test]
 fn another_map_than_the_one_hashed_is_refused() {
     let files = made(HeightScale::ReliefUm(250.0)).unwrap();
     let other = to_textile(&found(), &about(HeightScale::ReliefUm(80.0))).unwrap();
