@@ -134,7 +134,8 @@ fn round_half(x: f64) -> f64 {
 }
 
 /// Shows a relief in all the room there is, with a slider for its exaggeration below; says the
-/// view that the user turned it to. `name` is what it is called; no two in a window are called alike.
+/// view that the user turned it to. `name` is what it is called; no two in a window are called
+/// alike.
 pub(crate) fn relief3d(ui: &mut Ui, name: &str, relief: &Relief3d, view: View3d) -> Option<View3d> {
     let size = vec2(
         ui.available_width(),

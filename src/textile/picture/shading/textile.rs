@@ -43,8 +43,8 @@ pub struct PictureTextile {
     pub light_is_estimated: bool,
     /// Whether it is felt along four strokes or at every point.
     pub representation: Representation,
-    /// One repeat in colour, rows from the top, as many pixels a mm as the shape; the relief in grey if there
-    /// is none.
+    /// One repeat in colour, rows from the top, as many pixels a mm as the shape; the relief in
+    /// grey if there is none.
     pub appearance: Option<Rgb8Image>,
     /// Noise of the virtual tester, µm rms.
     pub noise_um: f64,
