@@ -31,6 +31,7 @@ mod readable;
 mod readers;
 mod rendering;
 mod runner;
+mod shading;
 mod spectral_model;
 mod stability;
 mod study;
@@ -52,6 +53,7 @@ pub use pareto::pareto;
 pub use readers::ReadersStudy;
 pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
+pub use shading::ShadingStudy;
 pub use spectral_model::SpectralModelStudy;
 pub use study::Study;
 pub use velocity::VelocityStudy;
@@ -70,6 +72,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(RestorationStudy),
         Box::new(ResamplingStudy),
         Box::new(ProbeStudy),
+        Box::new(ShadingStudy),
         Box::new(ReadersStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),

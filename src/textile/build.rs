@@ -126,7 +126,7 @@ pub fn build_library(
         let recipe = from.manifest(id)?;
         let path = from.root().join(id).join(MANIFEST);
         let files = match recipe.source {
-            Source::Profiles(_) | Source::Heightmap(_) => files_of(from, id)?,
+            Source::Profiles(_) | Source::Heightmap(_) | Source::Picture(_) => files_of(from, id)?,
             _ => build(&recipe, &path)?,
         };
         Ok(write(&files, &to.join(id))?)
@@ -147,7 +147,7 @@ pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, Texti
     names.extend(manifest.source.friction().map(ToOwned::to_owned));
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
-    if let Source::Heightmap(keys) = &manifest.source
+    if let Some(keys) = manifest.source.kept_map()
         && !names.contains(&keys.file)
         && store.read(id, &keys.file).is_ok()
     {
@@ -163,8 +163,9 @@ pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, Texti
 /// The files that a textile's surface is made from, besides its manifest.
 fn content_names(manifest: &Manifest) -> Vec<String> {
     let mut names: Vec<String> = manifest.source.files().0.into_iter().flatten().collect();
-    if let Source::Heightmap(keys) = &manifest.source
-        && (names.is_empty() || keys.representation == Representation::Areal)
+    let is_areal = manifest.source.representation() == Representation::Areal;
+    if let Some(keys) = manifest.source.kept_map()
+        && (names.is_empty() || is_areal)
     {
         names.push(keys.file.clone());
     }

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::build::content_of;
 use super::library::Store;
-use super::manifest::{Manifest, Source};
+use super::manifest::Manifest;
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
 use crate::files::{Rgb8Image, decode_png, sha256_hex};
@@ -158,7 +158,7 @@ fn relief_of(
     id: &str,
     manifest: &Manifest,
 ) -> Result<Option<HeightMap>, TextileError> {
-    if let Source::Heightmap(keys) = &manifest.source {
+    if let Some(keys) = manifest.source.kept_map() {
         let (bytes, path) = (store.read(id, &keys.file)?, store.path(id, &keys.file));
         return keys.height_map(&bytes, &path).map(Some);
     }
@@ -177,9 +177,9 @@ fn profiles_of(store: &Store, id: &str, manifest: &Manifest) -> Result<ProfileSe
     } else {
         None
     };
-    match (model, &manifest.source) {
+    match (model, manifest.source.kept_map()) {
         (Some(model), _) => profiles_of_files(&model.profile_files()?),
-        (None, Source::Heightmap(keys)) if names_none => {
+        (None, Some(keys)) if names_none => {
             keys.profiles(&store.read(id, &keys.file)?, &store.path(id, &keys.file))
         }
         (None, _) => read_profiles(store, id, manifest),

@@ -30,6 +30,7 @@ mod measured;
 pub mod metrology;
 mod model;
 mod parameter;
+pub mod picture;
 mod profile_file;
 mod recipes;
 mod restoration;
@@ -136,6 +137,9 @@ pub enum TextileError {
         /// What must be said.
         ask: KesAsk,
     },
+    /// A picture that shows no shape.
+    #[error(transparent)]
+    Shading(#[from] picture::ShadingError),
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),

@@ -45,7 +45,7 @@ impl Model {
     /// The model of a source; `None` if it was measured.
     pub(crate) fn of(source: &Source) -> Result<Option<Self>, TextileError> {
         let (cloth, seed, noise_um, side) = match source {
-            Source::Profiles(_) | Source::Heightmap(_) => return Ok(None),
+            Source::Profiles(_) | Source::Heightmap(_) | Source::Picture(_) => return Ok(None),
             Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um, weave.side),
             Source::Knit(knit) => (knit.cloth(), knit.seed, knit.noise_um, knit.side),
             Source::Fourier(keys) => return Ok(Some(Self::drawn(keys.drawn()?))),

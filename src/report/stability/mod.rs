@@ -16,6 +16,7 @@ mod device;
 mod input;
 mod motion;
 mod pointer;
+mod shading;
 mod tuning;
 
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -92,6 +93,7 @@ impl Study for Stability {
             tuning::cases(),
             input::cases(),
             pointer::cases(),
+            shading::cases(),
             device::cases(),
         ];
         try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)

@@ -12,6 +12,7 @@ use crate::surface::{
     Direction, FrictionTrace, OFFICIAL_CUT_OFF_MM, WINDOW_LENGTH_MM, mean_deviation,
     without_long_waves,
 };
+use crate::textile::Provenance;
 use crate::textile::loaded::MANIFEST;
 use crate::textile::words::{Words, manifest_file};
 use crate::textile::{BuiltFile, Manifest, Profiles, Source, TextileError, profile_file};
@@ -182,7 +183,7 @@ impl KesImport {
             source: Source::Profiles(profiles),
             appearance: None,
             measured: words.over(self.figures.measured()),
-            provenance: None,
+            provenance: Some(Provenance::of(Vec::new())),
         };
         files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
         Ok(files)

@@ -12,6 +12,7 @@ pub(crate) use profiles::profile_file_keys;
 pub use profiles::{ProfileFiles, Profiles};
 pub use provenance::{Parent, Provenance};
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -24,6 +25,7 @@ use super::fourier::Fourier;
 use super::knit::Knit;
 use super::measured;
 use super::metrology::Heightmap;
+use super::picture::PictureSource;
 use super::restoration::Restoration;
 use super::weave::Weave;
 use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
@@ -119,10 +121,12 @@ pub enum Source {
     Restoration(Box<Restoration>),
     /// A file of measured heights.
     Heightmap(Box<Heightmap>),
+    /// Heights found on a picture.
+    Picture(Box<PictureSource>),
 }
 
 /// The kinds of source, as files spell them.
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 9] = [
     "profiles",
     "weave",
     "knit",
@@ -131,6 +135,7 @@ const KINDS: [&str; 8] = [
     "restoration",
     "heightmap",
     "x3p",
+    "picture",
 ];
 
 impl Source {
@@ -144,6 +149,7 @@ impl Source {
             Self::Brownian(_) => KINDS[4],
             Self::Restoration(_) => KINDS[5],
             Self::Heightmap(keys) => KINDS[if keys.kind == "x3p" { 7 } else { 6 }],
+            Self::Picture(_) => KINDS[8],
         }
     }
 
@@ -162,6 +168,7 @@ impl Source {
             Self::Brownian(keys) => keys.files(),
             Self::Restoration(keys) => keys.files(),
             Self::Heightmap(keys) => keys.files(),
+            Self::Picture(keys) => keys.files(),
         }
     }
 
@@ -174,6 +181,16 @@ impl Source {
             Self::Weave(keys) => keys.representation,
             Self::Knit(keys) => keys.representation,
             Self::Heightmap(keys) => keys.representation,
+            Self::Picture(keys) => keys.representation,
+        }
+    }
+
+    /// The file of heights that it is kept as, if it is, and how that is read.
+    pub(crate) fn kept_map(&self) -> Option<Cow<'_, Heightmap>> {
+        match self {
+            Self::Heightmap(keys) => Some(Cow::Borrowed(keys)),
+            Self::Picture(keys) => Some(Cow::Owned(keys.map())),
+            _ => None,
         }
     }
 
@@ -203,6 +220,7 @@ impl Source {
             Self::Brownian(keys) => keys.set_files(files, recipe_hash),
             Self::Restoration(keys) => keys.set_files(files, recipe_hash),
             Self::Heightmap(keys) => keys.set_files(files, recipe_hash),
+            Self::Picture(keys) => keys.set_files(files, recipe_hash),
         }
     }
 
@@ -233,6 +251,10 @@ impl Source {
                 keys.check(checker)?;
                 check_name(checker, "source", "file", Some(&keys.file))?;
             }
+            Self::Picture(keys) => {
+                keys.check(checker)?;
+                check_name(checker, "source", "file", Some(&keys.file))?;
+            }
         }
         let files = self.files();
         for direction in Direction::ALL {
@@ -258,6 +280,7 @@ impl Manifest {
             "brownian" => read::<Box<Brownian>>(text, path)?.map(Source::Brownian),
             "restoration" => read::<Box<Restoration>>(text, path)?.map(Source::Restoration),
             "heightmap" | "x3p" => read::<Box<Heightmap>>(text, path)?.map(Source::Heightmap),
+            "picture" => read::<Box<PictureSource>>(text, path)?.map(Source::Picture),
             other => {
                 let mend = format!("the kinds are {}", KINDS.join(", "));
                 let what = format!("unknown kind of source \"{other}\"");

@@ -8,17 +8,17 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::shaded::shaded;
+use super::made::{profile_files, shaded, smd_um};
 use super::source::{Heightmap, Laid};
 use super::{Asked, Measured};
 use crate::files::{encode_png_small, sha256_hex};
-use crate::surface::{Direction, HeightMap, Profile, ProfileSet, Representation};
+use crate::surface::{Direction, HeightMap, ProfileSet, Representation};
+use crate::textile::TextileError;
 use crate::textile::build::{BuiltFile, PICTURE};
 use crate::textile::cloth::PX_PER_MM;
 use crate::textile::loaded::MANIFEST;
-use crate::textile::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
+use crate::textile::manifest::{AppearanceKeys, Manifest, ProfileFiles, Provenance, Source};
 use crate::textile::words::{Words, manifest_file};
-use crate::textile::{TextileError, profile_file};
 
 /// How measured heights are read.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -201,7 +201,7 @@ impl HeightImport {
             source: Source::Heightmap(Box::new(keys)),
             appearance: (!self.measured.is_profile()).then_some(picture),
             measured: words.over(figures),
-            provenance: None,
+            provenance: Some(Provenance::of(Vec::new())),
         }
     }
 }
@@ -209,26 +209,6 @@ impl HeightImport {
 impl HeightPlace {
     /// SMD of the strokes, mean, µm.
     pub fn smd_um(&self) -> f64 {
-        let smd_um: Vec<f64> = self
-            .profiles
-            .iter()
-            .flatten()
-            .map(Profile::smd_um)
-            .collect();
-        smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
+        smd_um(&self.profiles)
     }
-}
-
-fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
-    let mut files = Vec::new();
-    for direction in Direction::ALL {
-        if let Some(profile) = &profiles[direction.index()] {
-            let name = format!("{}.csv", direction.key());
-            let (heights_um, step_mm) = (profile.heights_um(), profile.step_mm());
-            let text = profile_file::write(heights_um, step_mm, Path::new(&name))?;
-            let bytes = text.into_bytes();
-            files.push(BuiltFile { name, bytes });
-        }
-    }
-    Ok(files)
 }

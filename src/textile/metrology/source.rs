@@ -88,7 +88,7 @@ profile_file_keys!(Heightmap);
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
-    pub(super) fn new(file: String, asked: &Asked) -> Self {
+    pub(crate) fn new(file: String, asked: &Asked) -> Self {
         Self {
             kind: "heightmap".to_owned(),
             recipe_hash: None,
@@ -158,8 +158,16 @@ impl Heightmap {
 
     /// The strokes over the file, by [`Direction::index`].
     pub(crate) fn profiles(&self, bytes: &[u8], path: &Path) -> Result<ProfileSet, TextileError> {
-        let measured = self.open(bytes, path)?;
-        self.strokes_at(&self.laid(&measured, path)?, self.place_mm, path)
+        self.strokes(&self.open(bytes, path)?, path)
+    }
+
+    /// The strokes over measured heights, by [`Direction::index`].
+    pub(crate) fn strokes(
+        &self,
+        measured: &Measured,
+        path: &Path,
+    ) -> Result<ProfileSet, TextileError> {
+        self.strokes_at(&self.laid(measured, path)?, self.place_mm, path)
     }
 
     /// The heights of the file as a map, level unless it repeats; missing points stay missing.

@@ -1,10 +1,36 @@
-//! The picture of measured heights: grey, lit from the upper left.
+//! What a textile made of measured heights consists of: profile files, their roughness, and a
+//! picture of the relief.
+
+use std::path::Path;
 
 use super::Measured;
 use crate::files::Rgb8Image;
 use crate::numerics::Grid;
-use crate::surface::{HeightMap, SurfaceError};
+use crate::surface::{Direction, HeightMap, Profile, ProfileSet, SurfaceError};
+use crate::textile::build::BuiltFile;
 use crate::textile::cloth::PX_PER_MM;
+use crate::textile::{TextileError, profile_file};
+
+/// The strokes as profile files, those that are there.
+pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
+    let mut files = Vec::new();
+    for direction in Direction::ALL {
+        if let Some(profile) = &profiles[direction.index()] {
+            let name = format!("{}.csv", direction.key());
+            let (heights_um, step_mm) = (profile.heights_um(), profile.step_mm());
+            let text = profile_file::write(heights_um, step_mm, Path::new(&name))?;
+            let bytes = text.into_bytes();
+            files.push(BuiltFile { name, bytes });
+        }
+    }
+    Ok(files)
+}
+
+/// The mean roughness SMD of strokes, µm.
+pub(crate) fn smd_um(profiles: &ProfileSet) -> f64 {
+    let smd_um: Vec<f64> = profiles.iter().flatten().map(Profile::smd_um).collect();
+    smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
+}
 
 /// Grey of what lies level, and how much a slope of one rms is lighter or darker.
 const LEVEL_GREY: f64 = 150.0;
@@ -15,7 +41,7 @@ const MISSING_GREY: u8 = 40;
 const MOST_PIXELS: f64 = 2000.0;
 
 /// The map lit from the upper left, from the top row on; what is mostly missing is plain and dark.
-pub(super) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
+pub(crate) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
     let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm)?;
     let holes = map.heights_um().values().iter();
     let holes = holes.map(|height| f64::from(u8::from(height.is_nan())));
