@@ -22,6 +22,7 @@ mod json;
 mod keys;
 mod npy;
 mod picture;
+mod rgb16;
 mod table;
 mod xml;
 
@@ -38,6 +39,7 @@ pub use json::{from_json_str, to_json_string};
 pub use keys::{Keys, keys_from_str, keys_to_string, lay_over, line_of_key, take_text};
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
+pub use rgb16::{Rgb16Image, decode_picture};
 pub use table::{Table, TableWriter};
 pub use xml::{visit_elements, xml_text};
 
