@@ -80,6 +80,11 @@ impl Basis {
         }
     }
 
+    /// The angle between the vectors, radians, 0…π.
+    pub fn angle_rad(&self) -> f64 {
+        self.area().atan2(dot(self.p1, self.p2))
+    }
+
     /// `u·p1 + v·p2`.
     pub fn place(&self, [u, v]: Place) -> Place {
         mix(self.p1, u, self.p2, v)
@@ -195,7 +200,7 @@ pub(super) fn generated(vectors: &[[isize; 2]]) -> Option<[[isize; 2]; 2]> {
     (first[0] > 0 && second > 0).then(|| [[first[0], first[1].rem_euclid(second)], [0, second]])
 }
 
-fn greatest_divisor(a: isize, b: isize) -> isize {
+pub(super) fn greatest_divisor(a: isize, b: isize) -> isize {
     let (mut a, mut b) = (a.abs(), b.abs());
     while b != 0 {
         (a, b) = (b, a % b);

@@ -14,6 +14,8 @@ use crate::numerics::median;
 
 /// Directions tried over half a turn.
 const N_DIRECTIONS: usize = 720;
+/// Of the maxima that count, the nearest are looked along.
+const N_NEAREST: usize = 150;
 /// Two directions of a basis differ by at least this, radians.
 const LEAST_APART: f64 = 0.2;
 
@@ -49,7 +51,7 @@ pub struct Directions {
 impl Directions {
     /// Measures directions.
     pub fn of(significant: &SignificantMaxima, options: DirectionOptions) -> Self {
-        let half = significant.all().iter().map(|m| m.place);
+        let half = significant.all().iter().take(N_NEAREST).map(|m| m.place);
         let places: Vec<Place> = half.flat_map(|p| [p, p.map(|x| -x)]).collect();
         let automatic = || 1.0 / automatic_width_px(&places);
         let lambda_per_px = options.lambda_per_px.unwrap_or_else(automatic);

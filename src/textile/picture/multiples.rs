@@ -19,8 +19,10 @@ use super::significant::SignificantMaxima;
 const FINER_SHARE: f64 = 0.93;
 /// The largest factor that alternating heights are looked for.
 const MOST_FACTOR: isize = 6;
-/// What alternation must add to the mean height, as a share of it.
-const LEAST_GAIN: f64 = 0.12;
+/// What alternation must add to the mean height, as a share of it: from every second point to every
+/// second, and for each point skipped where it is more.
+const LEAST_GAIN_OF_TWO: f64 = 0.12;
+const LEAST_GAIN: f64 = 0.08;
 /// How much higher the lowest of the high maxima must be than the highest of the others.
 const CLEAR_GAP: f64 = 1.1;
 /// Heights alternate within a Gaussian window that fades over this many periods.
@@ -156,7 +158,8 @@ fn by_alternation(evidence: &Evidence<'_>, basis: &Basis) -> Option<[[isize; 2];
             let gains: Vec<f64> = fractions(rows).iter().map(|&q| heights.peak(q) / mean).collect();
             let gain: f64 = gains.iter().sum();
             let lowest = gains.iter().copied().fold(f64::INFINITY, f64::min);
-            if gain > LEAST_GAIN && lowest > -0.02 {
+            let least = if factor == 2 { LEAST_GAIN_OF_TWO } else { LEAST_GAIN * factor as f64 };
+            if gain > least && lowest > -0.02 {
                 found.push((gain, factor, rows));
             }
         }
