@@ -27,6 +27,7 @@ mod manifest;
 mod measured;
 pub mod metrology;
 mod model;
+pub mod picture;
 mod profile_file;
 mod recipes;
 mod restoration;

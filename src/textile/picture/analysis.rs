@@ -98,11 +98,19 @@ impl Measurements {
     }
 }
 
+/// Near repeats that agree this much better than the mean cell explains are bent or uneven.
+const DRIFT: f64 = 0.6;
+
 impl Found {
+    /// Whether repeats drift over the picture, so that the mean of all cells is blurred.
+    pub fn drifts(&self) -> bool {
+        self.explained_variance < DRIFT * self.lattice.level
+    }
+
     /// Refines a lattice on a picture and averages its cells.
     pub fn of(luminance: &Grid<f64>, picture: &Picture, lattice: Lattice, n_threads: usize) -> Self {
-        let (basis, tile) = refine(luminance, lattice.basis(), n_threads);
-        let explained_variance = tile.explained_variance(luminance, n_threads);
+        let (tile, explained_variance) = refine(luminance, lattice.basis(), n_threads);
+        let basis = tile.basis();
         let colour = PeriodicColour::of(&tile, picture.colour.as_ref(), basis, n_threads);
         Self {
             lattice: lattice.with_basis(basis),

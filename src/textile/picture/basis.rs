@@ -39,11 +39,6 @@ pub(super) fn whole(x: f64) -> isize {
     x.round() as isize
 }
 
-/// `⌊x⌋` as an index of a sequence of `n`, wrapped.
-pub(super) fn wrapped(x: f64, n: usize) -> usize {
-    whole(x.floor()).rem_euclid(n.max(1).cast_signed()).cast_unsigned()
-}
-
 impl Basis {
     /// A basis of two vectors.
     pub const fn new(p1: Place, p2: Place) -> Self {

@@ -6,14 +6,15 @@ use super::tile::Tile;
 use crate::numerics::Grid;
 
 /// Colour varies with the period if it does at least this much of what brightness does.
-const LEAST_SHARE: f64 = 0.25;
+const LEAST_SHARE: f64 = 0.5;
 /// And at least this much of white: less is the camera's.
 const LEAST_SPREAD: f64 = 0.01;
 
-/// How much colour varies with a lattice, as shares of its mean, beside brightness.
+/// How much colour varies with a lattice, beside brightness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeriodicColour {
-    /// Standard deviation over a cell of the shares of red and green, over their means.
+    /// Standard deviation over a cell of the share of red or of green in all light, the larger one,
+    /// over a third: the share in grey.
     pub colour_spread: f64,
     /// Standard deviation over a cell of the luminance, over its mean.
     pub brightness_spread: f64,
@@ -29,7 +30,8 @@ impl PeriodicColour {
         let channel = |colours: &Grid<[f32; 2]>, i: usize| {
             let values = colours.values().iter().map(|c| f64::from(c[i])).collect();
             let grid = Grid::from_rows(colours.width(), values)?;
-            Some(spread(&Tile::fold(&grid, basis, n_threads).values))
+            let variance = mean_and_variance(&Tile::fold(&grid, basis, n_threads).values).1;
+            Some(3.0 * variance.sqrt())
         };
         let of_channels = colour.map_or(0.0, |colours| {
             let both = (0..2).filter_map(|i| channel(colours, i));

@@ -4,33 +4,36 @@ use super::basis::{Basis, Place, length, whole};
 use crate::files::Rgb8Image;
 use crate::numerics::Grid;
 
-/// Small pictures are enlarged until a cell measures this, if the whole stays below the next.
-const CELL_PX: f64 = 24.0;
-const MOST_SIDE: f64 = 1600.0;
+/// Pictures are enlarged by a whole factor until a cell measures this.
+const CELL_PX: f64 = 30.0;
+/// Of what is larger than this then, the middle is shown.
+const MOST_SIDE: usize = 2000;
 /// Lines of either family, and how much of the picture they cover.
 const FIRST: [f64; 3] = [255.0, 176.0, 0.0];
 const SECOND: [f64; 3] = [0.0, 190.0, 230.0];
 const COVER: f64 = 0.75;
 
 /// The picture with the lines of a lattice, one corner of a cell in its middle: amber along p1,
-/// cyan along p2. Without a lattice the picture alone. Small ones are enlarged by a whole factor.
+/// cyan along p2. Without a lattice the picture alone. Fine cells are enlarged by a whole factor, and
+/// of what becomes too large the middle is shown.
 pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
-    let (w, h) = (luminance.width(), luminance.height());
-    let side = w.max(h) as f64;
     let cell = lattice.map_or(CELL_PX, |basis| basis.shorter());
-    let wanted = (CELL_PX / cell).min(MOST_SIDE / side).floor();
-    let factor = whole(wanted).clamp(1, 16).cast_unsigned();
+    let factor = whole((CELL_PX / cell).ceil()).clamp(1, 12).cast_unsigned();
+    let size = [luminance.width(), luminance.height()];
+    let most = if factor > 1 { MOST_SIDE / factor } else { usize::MAX };
+    let shown = size.map(|n| n.min(most));
+    let first = [0, 1].map(|i| (size[i] - shown[i]) / 2);
     let (low, high) = range(luminance);
-    let mut pixels = Vec::with_capacity(w * h * factor * factor);
-    for y in 0..h * factor {
-        let row = luminance.row(y / factor);
-        for x in 0..w * factor {
-            let grey = 255.0 * (row[x / factor] - low) / (high - low);
+    let mut pixels = Vec::with_capacity(shown[0] * shown[1] * factor * factor);
+    for y in 0..shown[1] * factor {
+        let row = luminance.row(first[1] + y / factor);
+        for x in 0..shown[0] * factor {
+            let grey = 255.0 * (row[first[0] + x / factor] - low) / (high - low);
             let mut colour = [grey; 3];
             if let Some(basis) = lattice {
-                // From the middle of the picture, in its own pixels.
-                let at = |n: usize, side: usize| (n as f64 + 0.5) / factor as f64 - 0.5 * side as f64;
-                for (line, share) in on_lines(&basis, [at(x, w), at(y, h)], factor) {
+                // From the middle of what is shown, in the picture's own pixels.
+                let at = |n: usize, i: usize| (n as f64 + 0.5) / factor as f64 - 0.5 * shown[i] as f64;
+                for (line, share) in on_lines(&basis, [at(x, 0), at(y, 1)], factor) {
                     for (c, l) in colour.iter_mut().zip(line) {
                         *c += COVER * share * (l - *c);
                     }
@@ -40,8 +43,8 @@ pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
         }
     }
     Rgb8Image {
-        width: w * factor,
-        height: h * factor,
+        width: shown[0] * factor,
+        height: shown[1] * factor,
         pixels,
     }
 }
@@ -94,6 +97,6 @@ mod tests {
         let alone = overlay(&grey, None);
         assert!(alone.pixels.iter().all(|p| *p == [128; 3]), "no lattice, no lines");
         let small = overlay(&grey, Some(Basis::new([6.0, 0.0], [0.0, 6.0])));
-        assert_eq!(small.width, 4 * 41, "enlarged until cells can be seen");
+        assert_eq!(small.width, 5 * 41, "enlarged until cells can be seen");
     }
 }

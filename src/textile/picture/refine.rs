@@ -17,26 +17,31 @@ const N_HARMONICS: usize = 12;
 const N_BLOCKS: usize = 16;
 /// Rounds: folding, and searching near the last vectors.
 const N_ROUNDS: usize = 2;
+/// Another round must promise more of the variance than this.
+const LEAST_GAIN: f64 = 1e-3;
 /// A round ends when the vectors are known to this share of a pixel at the picture's edge.
 const FINEST_PX: f64 = 1e-3;
 
-/// The vectors near `basis` for which the folded variance of a picture is largest, and the tile.
-/// Never a basis whose tile explains less.
-pub fn refine(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> (Basis, Tile) {
-    let mut best = (basis, Tile::fold(luminance, basis, n_threads));
-    let mut explained = best.1.explained_variance(luminance, n_threads);
+/// The tile whose vectors near `basis` make the folded variance of a picture largest, and the share
+/// of the picture's variance that it explains: never less than the tile of `basis`.
+pub fn refine(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> (Tile, f64) {
+    let mut best = Tile::fold(luminance, basis, n_threads);
+    let mut explained = best.explained_variance(luminance, n_threads);
     for _ in 0..N_ROUNDS {
-        let harmonics = strongest(&best.1);
-        let blocks = Blocks::of(luminance, &best.0, &harmonics, n_threads);
-        let next = blocks.search();
-        let tile = Tile::fold(luminance, next, n_threads);
+        let harmonics = strongest(&best);
+        let blocks = Blocks::of(luminance, &best.basis(), &harmonics, n_threads);
+        let tile = Tile::fold(luminance, blocks.search(), n_threads);
         let now = tile.explained_variance(luminance, n_threads);
         if now <= explained {
             break;
         }
-        (best, explained) = ((next, tile), now);
+        let gain = now - explained;
+        (best, explained) = (tile, now);
+        if gain < LEAST_GAIN {
+            break;
+        }
     }
-    best
+    (best, explained)
 }
 
 /// Orders (m, n) of the strongest harmonics of a tile, one of ± each, without the mean.
@@ -55,6 +60,42 @@ fn strongest(tile: &Tile) -> Vec<[f64; 2]> {
     }
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     all.into_iter().take(N_HARMONICS).map(|(_, order)| order).collect()
+}
+
+/// A complex number for every harmonic, side by side so that all turn at once.
+#[derive(Clone, Copy)]
+struct Phasors {
+    re: [f64; N_HARMONICS],
+    im: [f64; N_HARMONICS],
+}
+
+impl Phasors {
+    fn of(numbers: impl Iterator<Item = Complex>) -> Self {
+        let mut all = Self {
+            re: [0.0; N_HARMONICS],
+            im: [0.0; N_HARMONICS],
+        };
+        for ((re, im), number) in all.re.iter_mut().zip(&mut all.im).zip(numbers) {
+            (*re, *im) = (number.re, number.im);
+        }
+        all
+    }
+
+    /// `Σ (value − mean)·phasor`, the phasors turned by a step after every value.
+    fn sum(mut self, steps: &Self, values: &[f64], mean: f64) -> Self {
+        let mut sums = Self::of(std::iter::empty());
+        for value in values {
+            let value = value - mean;
+            for h in 0..N_HARMONICS {
+                sums.re[h] += value * self.re[h];
+                sums.im[h] += value * self.im[h];
+                let re = self.re[h] * steps.re[h] - self.im[h] * steps.im[h];
+                self.im[h] = self.re[h] * steps.im[h] + self.im[h] * steps.re[h];
+                self.re[h] = re;
+            }
+        }
+        sums
+    }
 }
 
 /// The sums of the strongest harmonics over blocks.
@@ -79,19 +120,17 @@ impl<'a> Blocks<'a> {
             let [u, v] = basis.coordinates(at);
             Complex::from_polar(1.0, -TAU * (order[0] * u + order[1] * v).fract())
         };
-        let steps: Vec<Complex> = harmonics.iter().map(|order| turn(order, [1.0, 0.0])).collect();
+        let steps = Phasors::of(harmonics.iter().map(|order| turn(order, [1.0, 0.0])));
         let piece = (n[0] * harmonics.len()).max(1);
         let work = |(): &mut (), band: usize, sums: &mut [Complex]| {
             for row in band * side[1]..((band + 1) * side[1]).min(height) {
                 for (block, values) in luminance.row(row).chunks(side[0]).enumerate() {
                     let first = [(block * side[0]) as f64, row as f64];
+                    let phasors = Phasors::of(harmonics.iter().map(|order| turn(order, first)));
+                    let part = phasors.sum(&steps, values, mean);
                     let sums = &mut sums[block * harmonics.len()..];
-                    for ((sum, order), step) in sums.iter_mut().zip(harmonics).zip(&steps) {
-                        let mut phasor = turn(order, first);
-                        for value in values {
-                            *sum += phasor * (value - mean);
-                            phasor *= step;
-                        }
+                    for (h, sum) in sums.iter_mut().take(harmonics.len()).enumerate() {
+                        *sum += Complex::new(part.re[h], part.im[h]);
                     }
                 }
             }

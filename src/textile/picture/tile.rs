@@ -3,7 +3,7 @@
 //! Averaging modulo the lattice leaves what repeats; the noise of single threads falls with the
 //! square root of the number of cells.
 
-use super::basis::{Basis, Place, dot, greatest_divisor, length, whole, wrapped};
+use super::basis::{Basis, Place, dot, greatest_divisor, length, whole};
 use super::light::mean_and_variance;
 use crate::numerics::{Grid, in_pieces};
 
@@ -43,7 +43,7 @@ pub struct Rectangle {
 /// Combinations of the vectors that are tried as sides of a rectangle, each way.
 const MOST_STEPS: isize = 8;
 /// Sides this far from a right angle still make a rectangle, radians.
-const MOST_SHEAR: f64 = 0.02;
+const MOST_SHEAR: f64 = 0.035;
 
 impl Tile {
     /// The mean of all cells of a picture.
@@ -67,11 +67,8 @@ impl Tile {
 
     /// The value at lattice coordinates (u, v), bilinear and periodic.
     pub fn at(&self, [u, v]: Place) -> f64 {
-        let (nu, nv) = (self.values.width(), self.values.height());
-        let (x, y) = (u * nu as f64, v * nv as f64);
-        let (i, j) = (wrapped(x, nu), wrapped(y, nv));
-        let (s, t) = (x - x.floor(), y - y.floor());
-        let (next_i, next_j) = ((i + 1) % nu, (j + 1) % nv);
+        let ([i, next_i], s) = around(u, self.values.width());
+        let ([j, next_j], t) = around(v, self.values.height());
         let along = |row: &[f64]| row[i] + s * (row[next_i] - row[i]);
         let (top, bottom) = (along(self.values.row(j)), along(self.values.row(next_j)));
         top + t * (bottom - top)
@@ -128,9 +125,20 @@ impl Tile {
     /// samples it was made with: `1 − (SSE/(N − K))/(SST/(N − 1))`. About 0 for what does not
     /// repeat; 0 where nothing varies.
     pub fn explained_variance(&self, luminance: &Grid<f64>, n_threads: usize) -> f64 {
-        let again = self.patch(luminance.width(), luminance.height(), 1.0, 0.0, n_threads);
-        let pairs = again.values().iter().zip(luminance.values());
-        let left: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+        let basis = self.basis();
+        let step = basis.coordinates([1.0, 0.0]);
+        let mut rows = vec![0.0; luminance.height()];
+        let work = |(): &mut (), row: usize, sum: &mut [f64]| {
+            let start = basis.coordinates([0.0, row as f64]);
+            let mut left = 0.0;
+            for (x, value) in luminance.row(row).iter().enumerate() {
+                let x = x as f64;
+                left += (self.at([start[0] + x * step[0], start[1] + x * step[1]]) - value).powi(2);
+            }
+            sum.fill(left);
+        };
+        in_pieces(&mut rows, 1, n_threads, || (), work);
+        let left: f64 = rows.iter().sum();
         let n = luminance.values().len() as f64;
         let total = mean_and_variance(luminance).1 * n;
         // Two samples a pixel are no more freedom than the pixels of a cell.
@@ -141,6 +149,16 @@ impl Tile {
             0.0
         }
     }
+}
+
+/// The two samples of `n` a period that a coordinate lies between, and how far behind the first.
+#[inline]
+fn around(at: f64, n: usize) -> ([usize; 2], f64) {
+    let place = (at - at.floor()) * n as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ place ≤ n")]
+    let first = (place as usize).min(n - 1);
+    let next = if first + 1 == n { 0 } else { first + 1 };
+    ([first, next], place - first as f64)
 }
 
 fn cosine(a: Place, b: Place) -> f64 {
@@ -193,18 +211,15 @@ fn folded(luminance: &Grid<f64>, basis: &Basis, [nu, nv]: [usize; 2], n_threads:
     let n_rows = luminance.height().div_ceil(N_BANDS).max(1);
     let mut bands = vec![vec![[0.0; 2]; nu * nv]; luminance.height().div_ceil(n_rows)];
     let step = basis.coordinates([1.0, 0.0]);
-    let step = [step[0] * nu as f64, step[1] * nv as f64];
     let work = |(): &mut (), band: usize, sums: &mut [Vec<[f64; 2]>]| {
         let rows = band * n_rows..((band + 1) * n_rows).min(luminance.height());
         let Some(sums) = sums.first_mut() else { return };
         for row in rows {
             let start = basis.coordinates([0.0, row as f64]);
-            let start = [start[0] * nu as f64, start[1] * nv as f64];
             for (x, &value) in luminance.row(row).iter().enumerate() {
-                let (u, v) = (start[0] + x as f64 * step[0], start[1] + x as f64 * step[1]);
-                let (i, j) = (wrapped(u, nu), wrapped(v, nv));
-                let (s, t) = (u - u.floor(), v - v.floor());
-                let (ni, nj) = ((i + 1) % nu, (j + 1) % nv);
+                let x = x as f64;
+                let ([i, ni], s) = around(start[0] + x * step[0], nu);
+                let ([j, nj], t) = around(start[1] + x * step[1], nv);
                 for (index, weight) in [
                     (j * nu + i, (1.0 - s) * (1.0 - t)),
                     (j * nu + ni, s * (1.0 - t)),
