@@ -55,12 +55,18 @@ pub(super) struct PictureArgs {
 struct Corners([Place; 4]);
 
 fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0);
+    let number = text
+        .parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x > 0.0);
     number.ok_or_else(|| "give a number above 0".to_owned())
 }
 
 fn numbers<T: std::str::FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
-    let all: Option<Vec<T>> = text.split(',').map(|cell| cell.trim().parse().ok()).collect();
+    let all: Option<Vec<T>> = text
+        .split(',')
+        .map(|cell| cell.trim().parse().ok())
+        .collect();
     all?.try_into().ok()
 }
 
@@ -106,14 +112,18 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     drop(meter);
     let name = args.image.file_name().unwrap_or_default();
     let about = About {
-        px_per_mm: args.px_per_mm.or_else(|| args.dpi.map(|dpi| dpi / MM_PER_INCH)),
+        px_per_mm: args
+            .px_per_mm
+            .or_else(|| args.dpi.map(|dpi| dpi / MM_PER_INCH)),
         image: name.to_string_lossy().into_owned(),
         region: args.region,
         corners: args.corners.map(|corners| corners.0),
     };
     fs::create_dir_all(&args.out).map_err(|error| {
         let out = args.out.display();
-        CliError::Input(format!("cannot make the folder {out}: {error}; name another with --out"))
+        CliError::Input(format!(
+            "cannot make the folder {out}: {error}; name another with --out"
+        ))
     })?;
     for (name, bytes) in picture::files(&analysis, &about, n_threads)? {
         output::write_bytes(&args.out.join(name), &bytes)?;
@@ -191,6 +201,9 @@ mod tests {
         assert_eq!(corners("0,0,9,0,9,8,0,8").unwrap().0[2], [9.0, 8.0]);
         assert!(corners("0,0,9,0,9,8,0,NaN").is_err(), "not a number");
         assert_eq!(light("12.5"), Ok(EvenLight::Radius(12.5)));
-        assert!(light("bright").is_err() && positive("-1").is_err() && positive("inf").is_err(), "");
+        assert!(
+            light("bright").is_err() && positive("-1").is_err() && positive("inf").is_err(),
+            ""
+        );
     }
 }

@@ -78,11 +78,17 @@ pub fn decode_picture(bytes: &[u8], path: &Path) -> Result<Rgb16Image, FileError
 fn pixels(picture: DynamicImage) -> Vec<[u16; 3]> {
     let wide = |value: u8| u16::from(value) * 257;
     match picture {
-        DynamicImage::ImageLuma8(grey) => grey.into_raw().into_iter().map(|v| [wide(v); 3]).collect(),
+        DynamicImage::ImageLuma8(grey) => {
+            grey.into_raw().into_iter().map(|v| [wide(v); 3]).collect()
+        }
         DynamicImage::ImageLuma16(grey) => grey.into_raw().into_iter().map(|v| [v; 3]).collect(),
         DynamicImage::ImageRgb8(colours) => colours.pixels().map(|p| p.0.map(wide)).collect(),
         DynamicImage::ImageRgb16(colours) => colours.pixels().map(|p| p.0).collect(),
-        other => other.into_rgba16().pixels().map(|p| on_white(p.0)).collect(),
+        other => other
+            .into_rgba16()
+            .pixels()
+            .map(|p| on_white(p.0))
+            .collect(),
     }
 }
 
@@ -140,7 +146,22 @@ mod tests {
     /// A bitmap file that says it is `width` × `height` and holds one pixel.
     fn bitmap(width: u32, height: u32) -> Vec<u8> {
         let mut bytes = b"BM".to_vec();
-        for number in [58_u32, 0, 54, 40, width, height, 0x0018_0001, 0, 4, 0, 0, 0, 0, 0] {
+        for number in [
+            58_u32,
+            0,
+            54,
+            40,
+            width,
+            height,
+            0x0018_0001,
+            0,
+            4,
+            0,
+            0,
+            0,
+            0,
+            0,
+        ] {
             bytes.extend(number.to_le_bytes());
         }
         bytes
@@ -148,8 +169,11 @@ mod tests {
 
     #[test]
     fn a_size_beyond_the_limit_is_refused_before_it_is_decoded() {
-        let error = decode_picture(&bitmap(20_000, 20_000), at()).unwrap_err().to_string();
-        let expected = "a.png: 20000 × 20000 pixels where 1 to 64 million are read; scale it down or cut it";
+        let error = decode_picture(&bitmap(20_000, 20_000), at())
+            .unwrap_err()
+            .to_string();
+        let expected =
+            "a.png: 20000 × 20000 pixels where 1 to 64 million are read; scale it down or cut it";
         assert_eq!(error, expected);
         let read = decode_picture(&bitmap(1, 1), at()).unwrap();
         assert_eq!(read.pixels.len(), 1);
@@ -160,12 +184,23 @@ mod tests {
         let picture = Rgb8Image {
             width: 60,
             height: 60,
-            pixels: (0..3600_u16).map(|i| [i.to_le_bytes()[0], 7, i.to_le_bytes()[1]]).collect(),
+            pixels: (0..3600_u16)
+                .map(|i| [i.to_le_bytes()[0], 7, i.to_le_bytes()[1]])
+                .collect(),
         };
         let png = encode_png(&picture, at()).unwrap();
-        for bytes in [&png[..png.len() / 2], b"GIF89a....", b"no picture", b"", &png[..20]] {
+        for bytes in [
+            &png[..png.len() / 2],
+            b"GIF89a....",
+            b"no picture",
+            b"",
+            &png[..20],
+        ] {
             let error = decode_picture(bytes, at()).unwrap_err().to_string();
-            assert!(error.starts_with("a.png: this ") && error.ends_with(MEND), "{error}");
+            assert!(
+                error.starts_with("a.png: this ") && error.ends_with(MEND),
+                "{error}"
+            );
         }
     }
 }

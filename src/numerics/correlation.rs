@@ -31,23 +31,32 @@ pub fn overlap_autocorrelation(picture: &Grid<f64>, n_threads: usize) -> Grid<f6
     let n_columns = 2 * reach_x + 1;
     let mut rho = Grid::filled(n_columns, reach_y + 1, 0.0);
     let prepare = || products.scratch();
-    in_pieces(rho.values_mut(), n_columns, n_threads, prepare, |s, dy, row| {
-        products.row(s, dy);
-        for (column, value) in row.iter_mut().enumerate() {
-            // Shift dx = column − reach_x; the first overlap begins where the second is shifted to.
-            let (left, right) = (reach_x.saturating_sub(column), column.saturating_sub(reach_x));
-            let size = [width - left - right, height - dy];
-            let n = (size[0] * size[1]) as f64;
-            let (first, second) = ([left, 0], [right, dy]);
-            let (s1, s2) = (sums.over(first, size), sums.over(second, size));
-            let (q1, q2) = (squares.over(first, size), squares.over(second, size));
-            let (v1, v2) = (q1 - s1 * s1 / n, q2 - s2 * s2 / n);
-            if v1.min(v2) > least * n {
-                let product = products.at(s, left, right);
-                *value = ((product - s1 * s2 / n) / (v1 * v2).sqrt()).clamp(-1.0, 1.0);
+    in_pieces(
+        rho.values_mut(),
+        n_columns,
+        n_threads,
+        prepare,
+        |s, dy, row| {
+            products.row(s, dy);
+            for (column, value) in row.iter_mut().enumerate() {
+                // Shift dx = column − reach_x; the first overlap begins where the second is shifted to.
+                let (left, right) = (
+                    reach_x.saturating_sub(column),
+                    column.saturating_sub(reach_x),
+                );
+                let size = [width - left - right, height - dy];
+                let n = (size[0] * size[1]) as f64;
+                let (first, second) = ([left, 0], [right, dy]);
+                let (s1, s2) = (sums.over(first, size), sums.over(second, size));
+                let (q1, q2) = (squares.over(first, size), squares.over(second, size));
+                let (v1, v2) = (q1 - s1 * s1 / n, q2 - s2 * s2 / n);
+                if v1.min(v2) > least * n {
+                    let product = products.at(s, left, right);
+                    *value = ((product - s1 * s2 / n) / (v1 * v2).sqrt()).clamp(-1.0, 1.0);
+                }
             }
-        }
-    });
+        },
+    );
     rho
 }
 
@@ -91,24 +100,36 @@ impl Products {
         let n_bins = along.len() / 2 + 1;
         let mut spectra = vec![Complex::default(); n_bins * height];
         let prepare = || (vec![0.0; along.len()], along.room());
-        in_pieces(&mut spectra, n_bins, n_threads, prepare, |(input, room), row, out| {
-            input[..width].copy_from_slice(centred.row(row));
-            input[width..].fill(0.0);
-            along.forward_into(input, out, room);
-        });
+        in_pieces(
+            &mut spectra,
+            n_bins,
+            n_threads,
+            prepare,
+            |(input, room), row, out| {
+                input[..width].copy_from_slice(centred.row(row));
+                input[width..].fill(0.0);
+                along.forward_into(input, out, room);
+            },
+        );
         let n_rows = height / 2 + 1;
         let mut columns = vec![Complex::default(); n_bins * n_rows];
         let prepare = || ColumnScratch::new(&across, height);
         let piece = N_TOGETHER * n_rows;
-        in_pieces(&mut columns, piece, n_threads, prepare, |scratch, number, out| {
-            let n = out.len() / n_rows;
-            let first = number * N_TOGETHER;
-            scratch.gather(&spectra, n_bins, first..first + n);
-            for (i, column) in out.chunks_exact_mut(n_rows).enumerate() {
-                scratch.correlate(&across, i);
-                column.copy_from_slice(&scratch.a[..n_rows]);
-            }
-        });
+        in_pieces(
+            &mut columns,
+            piece,
+            n_threads,
+            prepare,
+            |scratch, number, out| {
+                let n = out.len() / n_rows;
+                let first = number * N_TOGETHER;
+                scratch.gather(&spectra, n_bins, first..first + n);
+                for (i, column) in out.chunks_exact_mut(n_rows).enumerate() {
+                    scratch.correlate(&across, i);
+                    column.copy_from_slice(&scratch.a[..n_rows]);
+                }
+            },
+        );
         Self {
             along,
             n_rows,
@@ -126,7 +147,11 @@ impl Products {
 
     /// The products at the shifts down by `dy`.
     fn row(&self, scratch: &mut RowScratch, dy: usize) {
-        for (bin, column) in scratch.bins.iter_mut().zip(self.columns.chunks_exact(self.n_rows)) {
+        for (bin, column) in scratch
+            .bins
+            .iter_mut()
+            .zip(self.columns.chunks_exact(self.n_rows))
+        {
             *bin = column[dy];
         }
         self.along
@@ -238,7 +263,10 @@ mod tests {
 
     /// The definition, pixel by pixel.
     fn by_brute_force(picture: &Grid<f64>, dx: isize, dy: isize) -> f64 {
-        let (w, h) = (picture.width().cast_signed(), picture.height().cast_signed());
+        let (w, h) = (
+            picture.width().cast_signed(),
+            picture.height().cast_signed(),
+        );
         let value = |x: isize, y: isize| picture.row(y.cast_unsigned())[x.cast_unsigned()];
         let pairs: Vec<[f64; 2]> = (0..h)
             .flat_map(|y| (0..w).map(move |x| (x, y)))
@@ -262,17 +290,31 @@ mod tests {
     fn noisy(width: usize, height: usize, seed: u64) -> Grid<f64> {
         let mut random = Random::new(seed);
         let value = |i: usize| (i % 7) as f64 + 0.1 * (i / width) as f64;
-        let values = (0..width * height).map(|i| value(i) + random.normal()).collect();
+        let values = (0..width * height)
+            .map(|i| value(i) + random.normal())
+            .collect();
         Grid::from_rows(width, values).unwrap()
     }
 
     #[test]
     fn every_coefficient_is_that_of_the_definition() {
-        for (width, height) in [(9, 7), (8, 8), (16, 5), (5, 16), (2, 2), (1, 6), (6, 1), (1, 1)] {
+        for (width, height) in [
+            (9, 7),
+            (8, 8),
+            (16, 5),
+            (5, 16),
+            (2, 2),
+            (1, 6),
+            (6, 1),
+            (1, 1),
+        ] {
             let picture = noisy(width, height, 3);
             let rho = overlap_autocorrelation(&picture, 2);
             let reach = (width / 2).cast_signed();
-            assert_eq!((rho.width(), rho.height()), (2 * (width / 2) + 1, height / 2 + 1));
+            assert_eq!(
+                (rho.width(), rho.height()),
+                (2 * (width / 2) + 1, height / 2 + 1)
+            );
             for dy in 0..rho.height() {
                 for (column, &found) in rho.row(dy).iter().enumerate() {
                     let dx = column.cast_signed() - reach;
@@ -294,7 +336,11 @@ mod tests {
         let one = overlap_autocorrelation(&picture, 1);
         for n in [2, 3, 8] {
             let many = overlap_autocorrelation(&picture, n);
-            let is_same = one.values().iter().zip(many.values()).all(|(a, b)| a.to_bits() == b.to_bits());
+            let is_same = one
+                .values()
+                .iter()
+                .zip(many.values())
+                .all(|(a, b)| a.to_bits() == b.to_bits());
             assert!(is_same, "{n} threads");
         }
     }

@@ -46,12 +46,18 @@ mod tests {
     fn every_piece_is_worked_on_once_whatever_the_number_of_threads() {
         for n in [0, 1, 2, 5] {
             let mut values: Vec<usize> = (0..23).collect();
-            in_pieces(&mut values, 4, n, Vec::<usize>::new, |seen, number, piece| {
-                seen.push(number);
-                for x in piece {
-                    *x += 100 * number;
-                }
-            });
+            in_pieces(
+                &mut values,
+                4,
+                n,
+                Vec::<usize>::new,
+                |seen, number, piece| {
+                    seen.push(number);
+                    for x in piece {
+                        *x += 100 * number;
+                    }
+                },
+            );
             let expected: Vec<usize> = (0..23).map(|i| i + 100 * (i / 4)).collect();
             assert_eq!(values, expected, "{n} threads");
         }

@@ -73,7 +73,12 @@ impl Measurements {
     ///
     /// # Errors
     /// The work was cancelled.
-    pub fn of(luminance: &Grid<f64>, options: DirectionOptions, n_threads: usize, progress: &mut Progress<'_>) -> Result<Self, Cancelled> {
+    pub fn of(
+        luminance: &Grid<f64>,
+        options: DirectionOptions,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
         progress.step(0.1, "correlating")?;
         let rho = Autocorrelation::of(luminance, n_threads);
         progress.step(0.5, "looking for maxima")?;
@@ -108,7 +113,12 @@ impl Found {
     }
 
     /// Refines a lattice on a picture and averages its cells.
-    pub fn of(luminance: &Grid<f64>, picture: &Picture, lattice: Lattice, n_threads: usize) -> Self {
+    pub fn of(
+        luminance: &Grid<f64>,
+        picture: &Picture,
+        lattice: Lattice,
+        n_threads: usize,
+    ) -> Self {
         let (tile, explained_variance) = refine(luminance, lattice.basis(), n_threads);
         let basis = tile.basis();
         let colour = PeriodicColour::of(&tile, picture.colour.as_ref(), basis, n_threads);
@@ -126,7 +136,11 @@ impl Found {
 ///
 /// # Errors
 /// The work was cancelled. A picture without a lattice is no error.
-pub fn analyse(picture: &Picture, options: &AnalysisOptions, progress: &mut Progress<'_>) -> Result<Analysis, Cancelled> {
+pub fn analyse(
+    picture: &Picture,
+    options: &AnalysisOptions,
+    progress: &mut Progress<'_>,
+) -> Result<Analysis, Cancelled> {
     progress.step(0.0, "evening out the light")?;
     let (luminance, was_evened) = even_light(&picture.luminance, options.light);
     let (width, height) = (luminance.width(), luminance.height());

@@ -44,7 +44,8 @@ impl Autocorrelation {
         } else {
             let mut part = Grid::filled(w, h, 0.0);
             for row in 0..h {
-                part.row_mut(row).copy_from_slice(&luminance.row(y + row)[x..x + w]);
+                part.row_mut(row)
+                    .copy_from_slice(&luminance.row(y + row)[x..x + w]);
             }
             overlap_autocorrelation(&part, n_threads)
         };

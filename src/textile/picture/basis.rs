@@ -231,7 +231,11 @@ mod tests {
         let square = Basis::new([1.0, 0.0], [0.0, 1.0]);
         let found = square.indices_within(1.5);
         assert_eq!(found, [[1, 0], [-1, 1], [0, 1], [1, 1]]);
-        assert!(Basis::new([1.0, 0.0], [2.0, 0.0]).indices_within(9.0).is_empty());
+        assert!(
+            Basis::new([1.0, 0.0], [2.0, 0.0])
+                .indices_within(9.0)
+                .is_empty()
+        );
     }
 
     fn vector() -> impl Strategy<Value = Place> {

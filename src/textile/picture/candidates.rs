@@ -90,7 +90,12 @@ pub(super) fn fit(maxima: &Maxima, start: Basis, reach: f64, tolerance: f64) -> 
         let [ii, ij, jj, ix, iy, jx, jy] = sums;
         let determinant = ii * jj - ij * ij;
         if determinant > 1e-6 * (ii + jj).powi(2) {
-            let solve = |a: f64, b: f64| [(jj * a - ij * b) / determinant, (ii * b - ij * a) / determinant];
+            let solve = |a: f64, b: f64| {
+                [
+                    (jj * a - ij * b) / determinant,
+                    (ii * b - ij * a) / determinant,
+                ]
+            };
             let ([x1, x2], [y1, y2]) = (solve(ix, jx), solve(iy, jy));
             basis = Basis::new([x1, y1], [x2, y2]);
         }
@@ -102,9 +107,15 @@ pub(super) fn fit(maxima: &Maxima, start: Basis, reach: f64, tolerance: f64) -> 
 }
 
 /// Fits and judges a start; `None` if what comes out is no lattice of threads.
-pub(super) fn judge(maxima: &Maxima, significant: &SignificantMaxima, start: Basis, longest: f64) -> Option<Candidate> {
+pub(super) fn judge(
+    maxima: &Maxima,
+    significant: &SignificantMaxima,
+    start: Basis,
+    longest: f64,
+) -> Option<Candidate> {
     let start = start.reduced();
-    let is_sound = |b: &Basis| b.shorter() >= SHORTEST_PX && b.longer() <= longest && b.sine() >= LEAST_SINE;
+    let is_sound =
+        |b: &Basis| b.shorter() >= SHORTEST_PX && b.longer() <= longest && b.sine() >= LEAST_SINE;
     if !is_sound(&start) {
         return None;
     }
@@ -115,7 +126,11 @@ pub(super) fn judge(maxima: &Maxima, significant: &SignificantMaxima, start: Bas
     }
     let tolerance = tolerance_px(&basis);
     let (mut on, mut all) = (0.0, 0.0);
-    for maximum in significant.all().iter().take_while(|m| length(m.place) <= reach) {
+    for maximum in significant
+        .all()
+        .iter()
+        .take_while(|m| length(m.place) <= reach)
+    {
         let weight = maximum.share.powi(POWER);
         all += weight;
         if is_on(&basis, maximum.place, tolerance) {
@@ -123,7 +138,11 @@ pub(super) fn judge(maxima: &Maxima, significant: &SignificantMaxima, start: Bas
         }
     }
     let points = basis.indices_within(reach);
-    let is_hit = |&&[i, j]: &&[isize; 2]| maxima.nearest(basis.place([i as f64, j as f64]), tolerance).is_some();
+    let is_hit = |&&[i, j]: &&[isize; 2]| {
+        maxima
+            .nearest(basis.place([i as f64, j as f64]), tolerance)
+            .is_some()
+    };
     let n_hit = points.iter().filter(is_hit).count();
     (all > 0.0 && !points.is_empty()).then(|| Candidate {
         basis,

@@ -22,10 +22,19 @@ pub struct PeriodicColour {
 
 impl PeriodicColour {
     /// Measures it; 0 of a grey picture.
-    pub fn of(luminance: &Tile, colour: Option<&Grid<[f32; 2]>>, basis: Basis, n_threads: usize) -> Self {
+    pub fn of(
+        luminance: &Tile,
+        colour: Option<&Grid<[f32; 2]>>,
+        basis: Basis,
+        n_threads: usize,
+    ) -> Self {
         let spread = |values: &Grid<f64>| {
             let (mean, variance) = mean_and_variance(values);
-            if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
+            if mean > 0.0 {
+                variance.sqrt() / mean
+            } else {
+                0.0
+            }
         };
         let channel = |colours: &Grid<[f32; 2]>, i: usize| {
             let values = colours.values().iter().map(|c| f64::from(c[i])).collect();

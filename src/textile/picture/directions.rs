@@ -112,7 +112,11 @@ fn automatic_width_px(places: &[Place]) -> f64 {
         let first = others.filter(|&d| d > 1e-9).fold(f64::INFINITY, f64::min);
         first.min(length(*p))
     };
-    let mut distances: Vec<f64> = places.iter().map(nearest).filter(|d| d.is_finite()).collect();
+    let mut distances: Vec<f64> = places
+        .iter()
+        .map(nearest)
+        .filter(|d| d.is_finite())
+        .collect();
     let usual = median(&mut distances);
     if usual.is_finite() {
         (0.1 * usual).max(0.3)
@@ -148,7 +152,11 @@ fn two_best(curve: &[f64]) -> Option<[f64; 2]> {
     let refined = |i: usize| {
         let (a, b, c) = (value(i + n - 1), value(i), value(i + 1));
         let bend = a - 2.0 * b + c;
-        let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+        let shift = if bend < 0.0 {
+            0.5 * (a - c) / bend
+        } else {
+            0.0
+        };
         PI * (i as f64 + shift.clamp(-0.5, 0.5)) / n as f64
     };
     let first = refined(*peaks.first()?);
@@ -166,7 +174,10 @@ fn two_best(curve: &[f64]) -> Option<[f64; 2]> {
 fn with_lengths(best: [f64; 2], places: &[Place], width_px: f64) -> Option<Basis> {
     let frame = Basis::new(unit(best[0]), unit(best[1]));
     let along = |i: usize| {
-        let all: Vec<f64> = places.iter().map(|&p| frame.coordinates(p)[i].abs()).collect();
+        let all: Vec<f64> = places
+            .iter()
+            .map(|&p| frame.coordinates(p)[i].abs())
+            .collect();
         first_peak(&all, width_px)
     };
     let (s, t) = (along(0)?, along(1)?);
@@ -184,7 +195,10 @@ fn first_peak(values: &[f64], width: f64) -> Option<f64> {
     };
     let n = (longest / step).min(4000.0);
     let places = (1..).map(|i| 3.0 * width + f64::from(i) * step);
-    let curve: Vec<[f64; 2]> = places.take_while(|&x| x < step * n).map(|x| [x, density(x)]).collect();
+    let curve: Vec<[f64; 2]> = places
+        .take_while(|&x| x < step * n)
+        .map(|x| [x, density(x)])
+        .collect();
     let highest = curve.iter().map(|p| p[1]).fold(0.0, f64::max);
     let peak = curve.windows(3).find(|w| {
         let is_peak = w[1][1] > w[0][1] && w[1][1] >= w[2][1];
@@ -202,7 +216,9 @@ mod tests {
     fn mean_concentration_is_the_double_sum() {
         let mut random = Random::new(4);
         let mut offsets: Vec<f64> = (0..40).map(|_| random.uniform_in(-9.0, 9.0)).collect();
-        let pairs = offsets.iter().flat_map(|a| offsets.iter().map(move |b| (a - b).abs()));
+        let pairs = offsets
+            .iter()
+            .flat_map(|a| offsets.iter().map(move |b| (a - b).abs()));
         let slow = pairs.map(|d| (-0.7 * d).exp()).sum::<f64>() / 1600.0;
         let fast = mean_concentration(&mut offsets, 0.7);
         assert!((fast - slow).abs() < 1e-13, "{fast} and {slow}");
@@ -221,7 +237,9 @@ mod tests {
             let mut random = Random::new(9);
             let mut jitter = |p: Place| p.map(|x| x + 0.3 * random.normal());
             let inside = truth.indices_within(110.0).into_iter();
-            let half: Vec<Place> = inside.map(|[i, j]| jitter(truth.place([i as f64, j as f64]))).collect();
+            let half: Vec<Place> = inside
+                .map(|[i, j]| jitter(truth.place([i as f64, j as f64])))
+                .collect();
             let places: Vec<Place> = half.iter().flat_map(|&p| [p, p.map(|x| -x)]).collect();
             let width = automatic_width_px(&places);
             for measure in [
@@ -231,7 +249,10 @@ mod tests {
                 let best = two_best(&curve(&places, measure)).unwrap();
                 let found = with_lengths(best, &places, width).unwrap();
                 let off = truth.distance_to(&found.reduced());
-                assert!(off < 0.06 * truth.shorter(), "{truth:?}: {found:?}, off {off}");
+                assert!(
+                    off < 0.06 * truth.shorter(),
+                    "{truth:?}: {found:?}, off {off}"
+                );
             }
         }
     }

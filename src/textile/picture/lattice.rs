@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Basis, Place, length, mix};
-use super::candidates::{Candidate, Method, judge, pairs};
+use super::candidates::{Candidate, Method, judge, pairs, tolerance_px};
 use super::directions::Directions;
 use super::maxima::Maxima;
 use super::multiples::{Evidence, coarser, finer};
@@ -61,13 +61,17 @@ pub enum NoLattice {
         level: f64,
     },
     /// Stripes, not threads that cross.
-    #[error("the picture repeats along one direction only: along the other it is as even between repeats")]
+    #[error(
+        "the picture repeats along one direction only: along the other it is as even between repeats"
+    )]
     OneDirection,
     /// Every vector points the same way.
     #[error("the vectors that repeat the picture are parallel or nearly so")]
     Parallel,
     /// The period is too long for the picture.
-    #[error("too few repeats: the picture holds {cells:.1} cells of the lattice where 5 are needed")]
+    #[error(
+        "too few repeats: the picture holds {cells:.1} cells of the lattice where 5 are needed"
+    )]
     TooFewRepeats {
         /// Cells in the picture.
         cells: f64,
@@ -156,7 +160,11 @@ impl Lattice {
         }
         let tolerance = 0.15 * first.basis.shorter();
         let agrees = |other: Option<Basis>| {
-            let same = |b: Basis| [basis, first.basis].iter().any(|a| a.distance_to(&b.reduced()) < tolerance);
+            let same = |b: Basis| {
+                [basis, first.basis]
+                    .iter()
+                    .any(|a| a.distance_to(&b.reduced()) < tolerance)
+            };
             other.is_some_and(same)
         };
         let concentration_agrees = agrees(directions.by_concentration.basis);
@@ -179,7 +187,10 @@ impl Lattice {
 }
 
 /// The candidate that explains the maxima best; of equals the one from directions.
-fn best(evidence: &Evidence<'_>, directions: &Directions) -> Result<(Candidate, Method), NoLattice> {
+fn best(
+    evidence: &Evidence<'_>,
+    directions: &Directions,
+) -> Result<(Candidate, Method), NoLattice> {
     let significant = evidence.significant;
     if significant.all().is_empty() {
         return Err(NoLattice::NothingRepeats);
@@ -193,8 +204,12 @@ fn best(evidence: &Evidence<'_>, directions: &Directions) -> Result<(Candidate, 
         (Method::MeanConcentration, directions.by_concentration.basis),
         (Method::Hough, directions.by_hough.basis),
     ];
-    let from_directions = proposed.into_iter().filter_map(|(method, basis)| of(method, basis?));
-    let from_pairs = pairs(significant).into_iter().filter_map(|basis| of(Method::Pair, basis));
+    let from_directions = proposed
+        .into_iter()
+        .filter_map(|(method, basis)| of(method, basis?));
+    let from_pairs = pairs(significant)
+        .into_iter()
+        .filter_map(|basis| of(Method::Pair, basis));
     // A pair must explain clearly more than the directions to be preferred.
     let rank = |(found, method): &(Candidate, Method)| {
         let bonus = if *method == Method::Pair { 0.0 } else { 0.02 };
@@ -208,34 +223,40 @@ fn best(evidence: &Evidence<'_>, directions: &Directions) -> Result<(Candidate, 
     best.ok_or_else(|| {
         if are_on_a_line(significant) {
             NoLattice::Parallel
-        } else {
+        } else if significant.all().len() > 2 {
             NoLattice::NotResolved { score: 0.0 }
+        } else {
+            NoLattice::NothingRepeats
         }
     })
 }
 
-/// Whether all maxima lie about on one line through the origin.
+/// Whether all maxima, and there are some, lie about on one line through the origin.
 fn are_on_a_line(significant: &SignificantMaxima) -> bool {
     let all = significant.all();
-    let Some(longest) = all.last().map(|m| m.place) else {
+    let Some(longest) = all.last().map(|m| m.place).filter(|_| all.len() > 2) else {
         return false;
     };
     let off = |p: Place| (p[0] * longest[1] - p[1] * longest[0]).abs() / length(longest);
-    all.iter().all(|m| off(m.place) <= 0.2 * length(m.place).max(1.0))
+    all.iter()
+        .all(|m| off(m.place) <= 0.2 * length(m.place).max(1.0))
 }
 
 /// Mean correlation at the points of a lattice, and the largest half-way between them.
 fn levels(evidence: &Evidence<'_>, basis: &Basis) -> Result<(f64, f64), NoLattice> {
     let reach = evidence.near(basis);
     let level = evidence.level(basis, reach, [0.0; 2]);
-    let halves = [
-        basis.p1.map(|x| 0.5 * x),
-        basis.p2.map(|x| 0.5 * x),
-        mix(basis.p1, 0.5, basis.p2, 0.5),
-        mix(basis.p1, 0.5, basis.p2, -0.5),
-    ];
+    let half = |a: f64, b: f64| mix(basis.p1, 0.5 * a, basis.p2, 0.5 * b);
+    let tolerance = tolerance_px(basis);
+    // Half-way along a diagonal there may be a lower maximum, as from thread to thread in a weave.
+    let is_even = |place: Place| evidence.maxima.nearest(place, tolerance).is_none();
+    let diagonals = [half(1.0, 1.0), half(1.0, -1.0)];
+    let diagonals = diagonals.into_iter().filter(|&place| is_even(place));
+    let halves = [half(1.0, 0.0), half(0.0, 1.0)]
+        .into_iter()
+        .chain(diagonals);
     let between = halves.map(|half| evidence.level(basis, reach, half));
-    let between = between.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let between = between.fold(f64::NEG_INFINITY, f64::max);
     if level.is_nan() || level < LEAST_LEVEL {
         return Err(NoLattice::Weak { level });
     }

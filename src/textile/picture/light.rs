@@ -56,11 +56,12 @@ pub(super) fn mean_and_variance(grid: &Grid<f64>) -> (f64, f64) {
 /// what is there at the edges.
 fn smoothed(grid: &Grid<f64>, sigma: f64) -> Grid<f64> {
     // A box of 2r + 1 has the variance r(r + 1)/3; three of them add up.
-    let radius = (0.25 + sigma * sigma).sqrt() - 0.5;
+    let widest = grid.width().max(grid.height()) as f64;
+    let radius = ((0.25 + sigma * sigma).sqrt() - 0.5).min(widest);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "0 ≤ radius; beyond the picture it is clipped to the picture"
+        reason = "0 ≤ radius ≤ the longer side"
     )]
     let radius = radius.round().max(0.0) as usize;
     let mut smooth = grid.clone();
@@ -84,7 +85,10 @@ fn box_filter(row: &mut [f64], radius: usize) {
     }
     let n = row.len();
     for (i, x) in row.iter_mut().enumerate() {
-        let (from, to) = (i.saturating_sub(radius), i.saturating_add(radius + 1).min(n));
+        let (from, to) = (
+            i.saturating_sub(radius),
+            i.saturating_add(radius + 1).min(n),
+        );
         *x = (sums[to] - sums[from]) / (to - from) as f64;
     }
 }
@@ -97,15 +101,22 @@ fn box_down(grid: &Grid<f64>, radius: usize) -> Grid<f64> {
     let (mut from, mut to) = (0, 0);
     for row in 0..height {
         while to < row.saturating_add(radius + 1).min(height) {
-            sums.iter_mut().zip(grid.row(to)).for_each(|(sum, x)| *sum += x);
+            sums.iter_mut()
+                .zip(grid.row(to))
+                .for_each(|(sum, x)| *sum += x);
             to += 1;
         }
         while from < row.saturating_sub(radius) {
-            sums.iter_mut().zip(grid.row(from)).for_each(|(sum, x)| *sum -= x);
+            sums.iter_mut()
+                .zip(grid.row(from))
+                .for_each(|(sum, x)| *sum -= x);
             from += 1;
         }
         let n = (to - from) as f64;
-        out.row_mut(row).iter_mut().zip(&sums).for_each(|(x, sum)| *x = sum / n);
+        out.row_mut(row)
+            .iter_mut()
+            .zip(&sums)
+            .for_each(|(x, sum)| *x = sum / n);
     }
     out
 }
@@ -131,11 +142,19 @@ mod tests {
         assert!(is_done, "the shadow is seen");
         let ratio = |of: &Grid<f64>, i: usize| of.values()[i] / even.values()[i];
         let spread = |of: &Grid<f64>| {
-            let all: Vec<f64> = (0..160 * 120).filter(|i| (20..140).contains(&(i % 160))).map(|i| ratio(of, i)).collect();
+            let all: Vec<f64> = (0..160 * 120)
+                .filter(|i| (20..140).contains(&(i % 160)))
+                .map(|i| ratio(of, i))
+                .collect();
             let most = all.iter().copied().fold(0.0, f64::max);
             most / all.iter().copied().fold(f64::INFINITY, f64::min)
         };
-        assert!(spread(&shaded) > 1.9 && spread(&mended) < 1.35, "{} to {}", spread(&shaded), spread(&mended));
+        assert!(
+            spread(&shaded) > 1.9 && spread(&mended) < 1.35,
+            "{} to {}",
+            spread(&shaded),
+            spread(&mended)
+        );
         let (mean, _) = mean_and_variance(&mended);
         assert!((mean - mean_and_variance(&shaded).0).abs() < 0.02, "{mean}");
     }
@@ -145,9 +164,15 @@ mod tests {
         let flat = Grid::filled(9, 5, 0.4);
         for sigma in [0.0, 1.0, 50.0, 1e300] {
             let smooth = smoothed(&flat, sigma);
-            assert!(smooth.values().iter().all(|x| (x - 0.4).abs() < 1e-12), "{sigma}");
+            assert!(
+                smooth.values().iter().all(|x| (x - 0.4).abs() < 1e-12),
+                "{sigma}"
+            );
         }
         let black = Grid::filled(6, 6, 0.0);
-        assert_eq!(even_light(&black, EvenLight::Radius(2.0)), (black.clone(), false));
+        assert_eq!(
+            even_light(&black, EvenLight::Radius(2.0)),
+            (black.clone(), false)
+        );
     }
 }

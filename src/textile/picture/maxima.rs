@@ -54,13 +54,21 @@ impl Maxima {
             let is_origin = |m: &Maximum| length(m.place) > 0.0;
             let by_height = b.height.total_cmp(&a.height);
             let by_place = length(a.place).total_cmp(&length(b.place));
-            let by_half = b.place[1].total_cmp(&a.place[1]).then(b.place[0].total_cmp(&a.place[0]));
-            is_origin(a).cmp(&is_origin(b)).then(by_height).then(by_place).then(by_half)
+            let by_half = b.place[1]
+                .total_cmp(&a.place[1])
+                .then(b.place[0].total_cmp(&a.place[0]));
+            is_origin(a)
+                .cmp(&is_origin(b))
+                .then(by_height)
+                .then(by_place)
+                .then(by_half)
         };
         all.sort_by(order);
         let mut buckets = Buckets::new(rho.reach());
         for (i, maximum) in all.iter_mut().enumerate() {
-            maximum.dominance_px = buckets.nearest(maximum.place, f64::INFINITY).map_or(f64::INFINITY, |(_, d)| d);
+            maximum.dominance_px = buckets
+                .nearest(maximum.place, f64::INFINITY)
+                .map_or(f64::INFINITY, |(_, d)| d);
             buckets.insert(maximum.place, i);
         }
         Self { all, buckets }
@@ -73,7 +81,12 @@ impl Maxima {
 
     /// One of d and −d each, without the origin, ranked by dominance.
     pub fn ranked(&self) -> Vec<Maximum> {
-        let mut half: Vec<Maximum> = self.all.iter().filter(|m| is_half(m.place)).copied().collect();
+        let mut half: Vec<Maximum> = self
+            .all
+            .iter()
+            .filter(|m| is_half(m.place))
+            .copied()
+            .collect();
         half.sort_by(|a, b| b.dominance_px.total_cmp(&a.dominance_px));
         half
     }
@@ -180,7 +193,12 @@ mod tests {
     fn the_nearest_point_is_found_wherever_it_lies() {
         let mut random = Random::new(8);
         let mut buckets = Buckets::new([50, 40]);
-        let mut draw = || [random.uniform_in(-50.0, 50.0), random.uniform_in(-40.0, 40.0)];
+        let mut draw = || {
+            [
+                random.uniform_in(-50.0, 50.0),
+                random.uniform_in(-40.0, 40.0),
+            ]
+        };
         let points: Vec<Place> = (0..60).map(|_| draw()).collect();
         for (i, &point) in points.iter().enumerate() {
             buckets.insert(point, i);
@@ -190,7 +208,10 @@ mod tests {
             let distance = |p: &Place| (p[0] - at[0]).hypot(p[1] - at[1]);
             let nearest = points.iter().map(distance).fold(f64::INFINITY, f64::min);
             let (i, d) = buckets.nearest(at, f64::INFINITY).unwrap();
-            assert!((d - nearest).abs() < 1e-12 && (distance(&points[i]) - d).abs() < 1e-12, "{at:?}");
+            assert!(
+                (d - nearest).abs() < 1e-12 && (distance(&points[i]) - d).abs() < 1e-12,
+                "{at:?}"
+            );
             assert_eq!(buckets.nearest(at, nearest * 0.99), None);
         }
     }
@@ -210,6 +231,9 @@ mod tests {
         let ranked = maxima.ranked();
         let least = ranked.last().unwrap().dominance_px;
         assert!(least > 9.0, "all maxima are lattice points: {least}");
-        assert!(ranked.is_sorted_by(|a, b| a.dominance_px >= b.dominance_px), "ranked");
+        assert!(
+            ranked.is_sorted_by(|a, b| a.dominance_px >= b.dominance_px),
+            "ranked"
+        );
     }
 }

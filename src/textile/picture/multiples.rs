@@ -47,12 +47,18 @@ impl Evidence<'_> {
     /// Mean correlation at the lattice points within `reach`, each moved by `shift` (the origin
     /// too when moved); NaN of none.
     pub(super) fn level(&self, basis: &Basis, reach: f64, shift: Place) -> f64 {
-        let mut places: Vec<Place> = basis.indices_within(reach).iter().map(|&[i, j]| basis.place([i as f64, j as f64])).collect();
+        let mut places: Vec<Place> = basis
+            .indices_within(reach)
+            .iter()
+            .map(|&[i, j]| basis.place([i as f64, j as f64]))
+            .collect();
         if length(shift) > 0.0 {
             places.push([0.0; 2]);
         }
         let moved = places.into_iter().map(|p| mix(p, 1.0, shift, 1.0));
-        let (n, sum) = moved.filter_map(|p| self.rho.between(p)).fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x));
+        let (n, sum) = moved
+            .filter_map(|p| self.rho.between(p))
+            .fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x));
         sum / n
     }
 
@@ -63,7 +69,11 @@ impl Evidence<'_> {
 
     /// Fits a basis anew, after its lattice was changed.
     fn refit(&self, basis: Basis) -> Basis {
-        let reach = self.significant.reach_px().max(3.0 * basis.longer()).min(self.farthest());
+        let reach = self
+            .significant
+            .reach_px()
+            .max(3.0 * basis.longer())
+            .min(self.farthest());
         fit(self.maxima, basis, reach, tolerance_px(&basis)).reduced()
     }
 }
@@ -85,7 +95,10 @@ pub(super) fn finer(evidence: &Evidence<'_>, basis: Basis) -> Basis {
         ];
         let found = fractions.iter().find_map(|&(n, [i, j])| {
             let part = basis.place([i / n, j / n]);
-            let is_maximum = evidence.maxima.nearest(part, tolerance_px(&basis)).is_some();
+            let is_maximum = evidence
+                .maxima
+                .nearest(part, tolerance_px(&basis))
+                .is_some();
             let is_high = evidence.level(&basis, reach, part) >= FINER_SHARE * level;
             let other = if i > 0.0 { basis.p2 } else { basis.p1 };
             let next = Basis::new(part, other).reduced();
@@ -155,10 +168,17 @@ fn by_alternation(evidence: &Evidence<'_>, basis: &Basis) -> Option<[[isize; 2];
     let mut found: Vec<(f64, isize, [[isize; 2]; 2])> = Vec::new();
     for factor in 2..=MOST_FACTOR {
         for rows in sublattices(factor) {
-            let gains: Vec<f64> = fractions(rows).iter().map(|&q| heights.peak(q) / mean).collect();
+            let gains: Vec<f64> = fractions(rows)
+                .iter()
+                .map(|&q| heights.peak(q) / mean)
+                .collect();
             let gain: f64 = gains.iter().sum();
             let lowest = gains.iter().copied().fold(f64::INFINITY, f64::min);
-            let least = if factor == 2 { LEAST_GAIN_OF_TWO } else { LEAST_GAIN * factor as f64 };
+            let least = if factor == 2 {
+                LEAST_GAIN_OF_TWO
+            } else {
+                LEAST_GAIN * factor as f64
+            };
             if gain > least && lowest > -0.02 {
                 found.push((gain, factor, rows));
             }
@@ -179,7 +199,10 @@ struct Heights {
 
 impl Heights {
     fn of(evidence: &Evidence<'_>, basis: &Basis) -> Self {
-        let wanted = evidence.significant.reach_px().max(WINDOW_PERIODS * basis.longer());
+        let wanted = evidence
+            .significant
+            .reach_px()
+            .max(WINDOW_PERIODS * basis.longer());
         let holds = evidence.significant.fading_px().max(4.0 * basis.longer());
         let reach = wanted.min(holds).min(evidence.farthest());
         let mut points = Vec::new();

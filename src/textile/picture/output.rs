@@ -9,7 +9,9 @@ use super::autocorrelation::correlated_part;
 use super::basis::{Place, length};
 use super::lattice::Lattice;
 use super::overlay::{overlay, range};
-use crate::files::{FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string};
+use crate::files::{
+    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string,
+};
 use crate::numerics::Grid;
 
 /// Rows of the table of maxima at most.
@@ -80,16 +82,26 @@ struct Reading {
 ///
 /// # Errors
 /// A picture that is too large for its format.
-pub fn files(analysis: &Analysis, about: &About, n_threads: usize) -> Result<Vec<(&'static str, Vec<u8>)>, FileError> {
+pub fn files(
+    analysis: &Analysis,
+    about: &About,
+    n_threads: usize,
+) -> Result<Vec<(&'static str, Vec<u8>)>, FileError> {
     let found = analysis.found.as_ref().ok();
     let json = Path::new("periodicity.json");
-    let mut all = vec![("periodicity.json", to_json_string(&reported(analysis, about), json)?.into_bytes())];
+    let mut all = vec![(
+        "periodicity.json",
+        to_json_string(&reported(analysis, about), json)?.into_bytes(),
+    )];
     let lattice = found.map(|f| f.lattice.basis());
     let drawn = overlay(&analysis.luminance, lattice);
     all.push(("overlay.png", encode_png(&drawn, Path::new("overlay.png"))?));
     if let Some(measured) = &analysis.measured {
         let name = "autocorrelation.png";
-        all.push((name, encode_gray_png(&measured.rho.picture(), Path::new(name))?));
+        all.push((
+            name,
+            encode_gray_png(&measured.rho.picture(), Path::new(name))?,
+        ));
         all.push(("maxima.csv", maxima_table(analysis)?));
     }
     if let Some(Found { tile, .. }) = found {
@@ -100,8 +112,15 @@ pub fn files(analysis: &Analysis, about: &About, n_threads: usize) -> Result<Vec
         for (value, made) in rest.values_mut().iter_mut().zip(again.values()) {
             *value += 0.5 * (low + high) - made;
         }
-        for (name, grid) in [("tile.png", &tile.values), ("synthesized.png", &again), ("residual.png", &rest)] {
-            all.push((name, encode_gray_png(&grey(grid, low, high), Path::new(name))?));
+        for (name, grid) in [
+            ("tile.png", &tile.values),
+            ("synthesized.png", &again),
+            ("residual.png", &rest),
+        ] {
+            all.push((
+                name,
+                encode_gray_png(&grey(grid, low, high), Path::new(name))?,
+            ));
         }
     }
     Ok(all)
@@ -121,10 +140,19 @@ fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     let header = ["rank", "dx_px", "dy_px", "correlation", "dominance_px"];
     let mut table = TableWriter::new(&mut bytes, Path::new("maxima.csv"), &header)?;
-    let ranked = analysis.measured.as_ref().map(|m| m.maxima.ranked()).unwrap_or_default();
+    let ranked = analysis
+        .measured
+        .as_ref()
+        .map(|m| m.maxima.ranked())
+        .unwrap_or_default();
     for (rank, maximum) in (1_u32..).zip(ranked.iter().take(MOST_ROWS)) {
         table.number(rank);
-        for x in [maximum.place[0], maximum.place[1], maximum.height, maximum.dominance_px] {
+        for x in [
+            maximum.place[0],
+            maximum.place[1],
+            maximum.height,
+            maximum.dominance_px,
+        ] {
             table.number(x);
         }
         table.end_row()?;
@@ -173,7 +201,10 @@ fn reported<'a>(analysis: &'a Analysis, about: &'a About) -> Reported<'a> {
         n_significant_maxima: measured.map_or(0, |m| m.significant.all().len()),
         directions: measured.map(|m| {
             let d = &m.directions;
-            let pairs = [("mean concentration", &d.by_concentration), ("hough", &d.by_hough)];
+            let pairs = [
+                ("mean concentration", &d.by_concentration),
+                ("hough", &d.by_hough),
+            ];
             pairs.map(|(measure, by)| Reading {
                 measure,
                 lambda_per_px: d.lambda_per_px,

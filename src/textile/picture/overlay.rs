@@ -20,7 +20,11 @@ pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
     let cell = lattice.map_or(CELL_PX, |basis| basis.shorter());
     let factor = whole((CELL_PX / cell).ceil()).clamp(1, 12).cast_unsigned();
     let size = [luminance.width(), luminance.height()];
-    let most = if factor > 1 { MOST_SIDE / factor } else { usize::MAX };
+    let most = if factor > 1 {
+        MOST_SIDE / factor
+    } else {
+        usize::MAX
+    };
     let shown = size.map(|n| n.min(most));
     let first = [0, 1].map(|i| (size[i] - shown[i]) / 2);
     let (low, high) = range(luminance);
@@ -32,7 +36,8 @@ pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
             let mut colour = [grey; 3];
             if let Some(basis) = lattice {
                 // From the middle of what is shown, in the picture's own pixels.
-                let at = |n: usize, i: usize| (n as f64 + 0.5) / factor as f64 - 0.5 * shown[i] as f64;
+                let at =
+                    |n: usize, i: usize| (n as f64 + 0.5) / factor as f64 - 0.5 * shown[i] as f64;
                 for (line, share) in on_lines(&basis, [at(x, 0), at(y, 1)], factor) {
                     for (c, l) in colour.iter_mut().zip(line) {
                         *c += COVER * share * (l - *c);
@@ -53,7 +58,10 @@ pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
 fn on_lines(basis: &Basis, place: Place, factor: usize) -> [([f64; 3], f64); 2] {
     let [u, v] = basis.coordinates(place);
     // Distance of neighbouring lines along p1 and along p2, px.
-    let apart = [basis.area() / length(basis.p1), basis.area() / length(basis.p2)];
+    let apart = [
+        basis.area() / length(basis.p1),
+        basis.area() / length(basis.p2),
+    ];
     let share = |t: f64, apart: f64| {
         let off = (t - t.round()).abs() * apart * factor as f64;
         (1.0 - off).clamp(0.0, 1.0)
@@ -71,11 +79,19 @@ pub(super) fn range(grid: &Grid<f64>) -> (f64, f64) {
         some.get(index).copied().unwrap_or(0.0)
     };
     let (low, high) = (at(0.005), at(0.995));
-    if high > low { (low, high) } else { (low - 0.5, low + 0.5) }
+    if high > low {
+        (low, high)
+    } else {
+        (low - 0.5, low + 0.5)
+    }
 }
 
 fn byte(value: f64) -> u8 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0…255")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…255"
+    )]
     let byte = value.round().clamp(0.0, 255.0) as u8;
     byte
 }
@@ -95,7 +111,10 @@ mod tests {
         assert_ne!(at(5, 20), at(20, 5), "the two families differ");
         assert_eq!(at(10, 10), [128; 3], "between lines");
         let alone = overlay(&grey, None);
-        assert!(alone.pixels.iter().all(|p| *p == [128; 3]), "no lattice, no lines");
+        assert!(
+            alone.pixels.iter().all(|p| *p == [128; 3]),
+            "no lattice, no lines"
+        );
         let small = overlay(&grey, Some(Basis::new([6.0, 0.0], [0.0, 6.0])));
         assert_eq!(small.width, 5 * 41, "enlarged until cells can be seen");
     }

@@ -50,7 +50,11 @@ fn strongest(tile: &Tile) -> Vec<[f64; 2]> {
     let spectrum = PlaneTransform::new(nu, nv).forward(&tile.values);
     let mut all: Vec<(f64, [f64; 2])> = Vec::new();
     for l in 0..nv {
-        let n = if l <= nv / 2 { l as f64 } else { l as f64 - nv as f64 };
+        let n = if l <= nv / 2 {
+            l as f64
+        } else {
+            l as f64 - nv as f64
+        };
         for (k, x) in spectrum.row(l).iter().enumerate() {
             let is_half = k > 0 || n > 0.0;
             if is_half {
@@ -59,7 +63,10 @@ fn strongest(tile: &Tile) -> Vec<[f64; 2]> {
         }
     }
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.into_iter().take(N_HARMONICS).map(|(_, order)| order).collect()
+    all.into_iter()
+        .take(N_HARMONICS)
+        .map(|(_, order)| order)
+        .collect()
 }
 
 /// A complex number for every harmonic, side by side so that all turn at once.
@@ -110,7 +117,12 @@ struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    fn of(luminance: &Grid<f64>, basis: &Basis, harmonics: &'a [[f64; 2]], n_threads: usize) -> Self {
+    fn of(
+        luminance: &Grid<f64>,
+        basis: &Basis,
+        harmonics: &'a [[f64; 2]],
+        n_threads: usize,
+    ) -> Self {
         let (width, height) = (luminance.width(), luminance.height());
         let side = [width.div_ceil(N_BLOCKS), height.div_ceil(N_BLOCKS)];
         let n = [width.div_ceil(side[0]), height.div_ceil(side[1])];
@@ -136,7 +148,9 @@ impl<'a> Blocks<'a> {
             }
         };
         in_pieces(&mut sums, piece, n_threads, || (), work);
-        let middle = |k: usize, side: usize, whole: usize| 0.5 * (k * side + ((k + 1) * side).min(whole)) as f64;
+        let middle = |k: usize, side: usize, whole: usize| {
+            0.5 * (k * side + ((k + 1) * side).min(whole)) as f64
+        };
         let blocks = (0..n[1]).flat_map(|j| (0..n[0]).map(move |i| (i, j)));
         let centres = blocks.map(|(i, j)| [middle(i, side[0], width), middle(j, side[1], height)]);
         Self {
@@ -151,7 +165,11 @@ impl<'a> Blocks<'a> {
     /// The folded variance, up to a constant, with other vectors.
     fn variance(&self, basis: &Basis) -> f64 {
         let mut totals = [Complex::default(); N_HARMONICS];
-        for (centre, sums) in self.centres.iter().zip(self.sums.chunks(self.harmonics.len().max(1))) {
+        for (centre, sums) in self
+            .centres
+            .iter()
+            .zip(self.sums.chunks(self.harmonics.len().max(1)))
+        {
             let (then, now) = (self.basis.coordinates(*centre), basis.coordinates(*centre));
             let moved = [now[0] - then[0], now[1] - then[1]];
             for ((total, sum), order) in totals.iter_mut().zip(sums).zip(self.harmonics) {

@@ -47,7 +47,8 @@ pub fn load(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     let width = decoded.width;
     let empty = || FileError::whole(path, "the picture has no pixels", "give an intact picture");
     let grid = Grid::from_rows(width, decoded.pixels.iter().map(luminance).collect());
-    let colour = is_coloured.then(|| Grid::from_rows(width, decoded.pixels.iter().map(share).collect()));
+    let colour =
+        is_coloured.then(|| Grid::from_rows(width, decoded.pixels.iter().map(share).collect()));
     Ok(Picture {
         luminance: grid.ok_or_else(empty)?,
         colour: colour.flatten(),
@@ -69,10 +70,16 @@ impl Picture {
     /// A part that is empty or not inside.
     pub fn part(&self, [x, y, width, height]: [usize; 4]) -> Result<Self, PictureError> {
         let (w, h) = (self.luminance.width(), self.luminance.height());
-        let is_inside = |from: usize, n: usize, all: usize| n > 0 && from.checked_add(n).is_some_and(|end| end <= all);
+        let is_inside = |from: usize, n: usize, all: usize| {
+            n > 0 && from.checked_add(n).is_some_and(|end| end <= all)
+        };
         if !is_inside(x, width, w) || !is_inside(y, height, h) {
-            let what = format!("the region {x},{y},{width},{height} is not inside the picture of {w} × {h} pixels");
-            return Err(PictureError::Input(format!("{what}; give X,Y,W,H in its pixels")));
+            let what = format!(
+                "the region {x},{y},{width},{height} is not inside the picture of {w} × {h} pixels"
+            );
+            return Err(PictureError::Input(format!(
+                "{what}; give X,Y,W,H in its pixels"
+            )));
         }
         Ok(Self {
             luminance: cut(&self.luminance, [x, y, width, height]),
@@ -87,32 +94,47 @@ impl Picture {
     /// Corners outside the picture, in another order, or a figure that is not convex.
     pub fn rectified(&self, corners: [Place; 4]) -> Result<Self, PictureError> {
         let (w, h) = (self.luminance.width(), self.luminance.height());
-        let is_inside = |&[x, y]: &Place| (0.0..=w as f64).contains(&x) && (0.0..=h as f64).contains(&y);
+        let is_inside =
+            |&[x, y]: &Place| (0.0..=w as f64).contains(&x) && (0.0..=h as f64).contains(&y);
         if !corners.iter().all(is_inside) {
             let what = format!("a corner is not inside the picture of {w} × {h} pixels");
-            return Err(PictureError::Input(format!("{what}; give x,y of four corners in its pixels")));
+            return Err(PictureError::Input(format!(
+                "{what}; give x,y of four corners in its pixels"
+            )));
         }
         let side = |a: usize, b: usize| length(mix(corners[a], 1.0, corners[b], -1.0));
         let turn = |i: usize| {
             let (a, b, c) = (corners[i], corners[(i + 1) % 4], corners[(i + 2) % 4]);
             (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
         };
-        let size = [0.5 * (side(0, 1) + side(3, 2)), 0.5 * (side(0, 3) + side(1, 2))].map(f64::round);
-        let is_sound = (0..4).all(|i| turn(i) > 0.0) && size.iter().all(|n| (1.0..=MOST_SIDE).contains(n));
+        let size = [
+            0.5 * (side(0, 1) + side(3, 2)),
+            0.5 * (side(0, 3) + side(1, 2)),
+        ]
+        .map(f64::round);
+        let is_sound =
+            (0..4).all(|i| turn(i) > 0.0) && size.iter().all(|n| (1.0..=MOST_SIDE).contains(n));
         if !is_sound || size[0] * size[1] > MOST_PIXELS {
             let what = "the four corners do not span a convex figure clockwise";
             let mend = "give upper left, upper right, lower right, lower left";
             return Err(PictureError::Input(format!("{what}; {mend}")));
         }
         let map = Projection::onto(corners);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 ≤ side ≤ 16 000")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "1 ≤ side ≤ 16 000"
+        )]
         let n = size.map(|side| side as usize);
         let places = (0..n[1]).flat_map(|j| (0..n[0]).map(move |i| [i, j]));
         let places: Vec<Place> = places
             .map(|[i, j]| map.at([(i as f64 + 0.5) / size[0], (j as f64 + 0.5) / size[1]]))
             .map(|[x, y]| [x - 0.5, y - 0.5])
             .collect();
-        let luminance = places.iter().map(|&p| between(&self.luminance, p, |a, b, t| a + (b - a) * t)).collect();
+        let luminance = places
+            .iter()
+            .map(|&p| between(&self.luminance, p, |a, b, t| a + (b - a) * t))
+            .collect();
         let blend = |a: [f32; 2], b: [f32; 2], t: f64| {
             #[expect(clippy::cast_possible_truncation, reason = "0…1")]
             let t = t as f32;
@@ -121,7 +143,8 @@ impl Picture {
         let colour = self.colour.as_ref().and_then(|c| {
             Grid::from_rows(n[0], places.iter().map(|&p| between(c, p, blend)).collect())
         });
-        let nothing = || PictureError::Input("the four corners hold no pixel; move them apart".to_owned());
+        let nothing =
+            || PictureError::Input("the four corners hold no pixel; move them apart".to_owned());
         Ok(Self {
             luminance: Grid::from_rows(n[0], luminance).ok_or_else(nothing)?,
             colour,
@@ -132,7 +155,8 @@ impl Picture {
 fn cut<T: Copy>(grid: &Grid<T>, [x, y, width, height]: [usize; 4]) -> Grid<T> {
     let mut part = Grid::filled(width, height, grid.row(y)[x]);
     for row in 0..height {
-        part.row_mut(row).copy_from_slice(&grid.row(y + row)[x..x + width]);
+        part.row_mut(row)
+            .copy_from_slice(&grid.row(y + row)[x..x + width]);
     }
     part
 }
@@ -141,7 +165,11 @@ fn cut<T: Copy>(grid: &Grid<T>, [x, y, width, height]: [usize; 4]) -> Grid<T> {
 fn between<T: Copy>(grid: &Grid<T>, [x, y]: Place, blend: impl Fn(T, T, f64) -> T) -> T {
     let index = |at: f64, n: usize| {
         let at = at.clamp(0.0, n as f64 - 1.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ at ≤ n − 1")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 ≤ at ≤ n − 1"
+        )]
         let first = at as usize;
         (first, (first + 1).min(n - 1), at - first as f64)
     };
@@ -193,7 +221,10 @@ mod tests {
     fn a_projection_takes_corners_to_corners() {
         let corners = [[3.0, 4.0], [33.0, 2.0], [38.0, 27.0], [1.0, 20.0]];
         let map = Projection::onto(corners);
-        for (at, corner) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().zip(corners) {
+        for (at, corner) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+            .into_iter()
+            .zip(corners)
+        {
             let found = map.at(at);
             assert!(length(mix(found, 1.0, corner, -1.0)) < 1e-9, "{found:?}");
         }
@@ -202,8 +233,15 @@ mod tests {
     #[test]
     fn the_whole_picture_rectified_is_itself() {
         let picture = ramp();
-        let same = picture.rectified([[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]]).unwrap();
-        for (a, b) in same.luminance.values().iter().zip(picture.luminance.values()) {
+        let same = picture
+            .rectified([[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]])
+            .unwrap();
+        for (a, b) in same
+            .luminance
+            .values()
+            .iter()
+            .zip(picture.luminance.values())
+        {
             assert!((a - b).abs() < 1e-9, "{a} and {b}");
         }
     }
@@ -211,10 +249,21 @@ mod tests {
     #[test]
     fn parts_and_corners_outside_are_refused() {
         let picture = ramp();
-        assert_eq!(picture.part([1, 2, 3, 4]).unwrap().luminance.row(0), [201.0, 202.0, 203.0]);
-        for region in [[0, 0, 41, 5], [39, 0, 2, 2], [0, 0, 0, 1], [usize::MAX, 0, 2, 2]] {
+        assert_eq!(
+            picture.part([1, 2, 3, 4]).unwrap().luminance.row(0),
+            [201.0, 202.0, 203.0]
+        );
+        for region in [
+            [0, 0, 41, 5],
+            [39, 0, 2, 2],
+            [0, 0, 0, 1],
+            [usize::MAX, 0, 2, 2],
+        ] {
             let error = picture.part(region).unwrap_err().to_string();
-            assert!(error.contains("is not inside the picture of 40 × 30 pixels"), "{error}");
+            assert!(
+                error.contains("is not inside the picture of 40 × 30 pixels"),
+                "{error}"
+            );
         }
         let crossed = [[0.0, 0.0], [40.0, 30.0], [40.0, 0.0], [0.0, 30.0]];
         let error = picture.rectified(crossed).unwrap_err().to_string();

@@ -77,7 +77,14 @@ impl Tile {
     /// Cloth of any size made of it: sample (x, y) of the patch lies at
     /// `step_px·(x along, y across)` from the picture's first pixel, along turned by `angle_rad`
     /// clockwise from x to the right.
-    pub fn patch(&self, width: usize, height: usize, step_px: f64, angle_rad: f64, n_threads: usize) -> Grid<f64> {
+    pub fn patch(
+        &self,
+        width: usize,
+        height: usize,
+        step_px: f64,
+        angle_rad: f64,
+        n_threads: usize,
+    ) -> Grid<f64> {
         let basis = self.basis();
         let (s, c) = angle_rad.sin_cos();
         let along = basis.coordinates([step_px * c, step_px * s]);
@@ -102,8 +109,15 @@ impl Tile {
         let at = |index: [isize; 2]| index.map(|x| x as f64);
         let (a, b) = (basis.place(at(first)), basis.place(at(second)));
         let size_px = [length(a), length(b)];
-        let n = size_px.map(|side| whole((side / step_px).clamp(1.0, 8192.0)).max(1).cast_unsigned());
-        let (along, across) = (at(first).map(|x| x / n[0] as f64), at(second).map(|x| x / n[1] as f64));
+        let n = size_px.map(|side| {
+            whole((side / step_px).clamp(1.0, 8192.0))
+                .max(1)
+                .cast_unsigned()
+        });
+        let (along, across) = (
+            at(first).map(|x| x / n[0] as f64),
+            at(second).map(|x| x / n[1] as f64),
+        );
         let mut values = Grid::filled(n[0], n[1], 0.0);
         let work = |(): &mut (), row: usize, values: &mut [f64]| {
             let y = row as f64;
@@ -155,7 +169,11 @@ impl Tile {
 #[inline]
 fn around(at: f64, n: usize) -> ([usize; 2], f64) {
     let place = (at - at.floor()) * n as f64;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ place ≤ n")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 ≤ place ≤ n"
+    )]
     let first = (place as usize).min(n - 1);
     let next = if first + 1 == n { 0 } else { first + 1 };
     ([first, next], place - first as f64)
@@ -200,14 +218,25 @@ fn is_primitive([i, j]: [isize; 2]) -> bool {
 /// Samples along either vector.
 fn samples(basis: &Basis, luminance: &Grid<f64>) -> [usize; 2] {
     let n_pixels = luminance.values().len() as f64;
-    let fine = if n_pixels >= CELLS_FOR_TWO * basis.area() { 2.0 } else { 1.0 };
+    let fine = if n_pixels >= CELLS_FOR_TWO * basis.area() {
+        2.0
+    } else {
+        1.0
+    };
     let wanted = [basis.p1, basis.p2].map(|p| fine * length(p));
-    let scale = (MOST_SAMPLES / (wanted[0] * wanted[1]).max(1.0)).sqrt().min(1.0);
+    let scale = (MOST_SAMPLES / (wanted[0] * wanted[1]).max(1.0))
+        .sqrt()
+        .min(1.0);
     wanted.map(|n| whole((n * scale).ceil().clamp(4.0, 16384.0)).cast_unsigned())
 }
 
 /// Sums of values and of weights in every sample of a cell.
-fn folded(luminance: &Grid<f64>, basis: &Basis, [nu, nv]: [usize; 2], n_threads: usize) -> Vec<[f64; 2]> {
+fn folded(
+    luminance: &Grid<f64>,
+    basis: &Basis,
+    [nu, nv]: [usize; 2],
+    n_threads: usize,
+) -> Vec<[f64; 2]> {
     let n_rows = luminance.height().div_ceil(N_BANDS).max(1);
     let mut bands = vec![vec![[0.0; 2]; nu * nv]; luminance.height().div_ceil(n_rows)];
     let step = basis.coordinates([1.0, 0.0]);
@@ -251,15 +280,29 @@ fn folded(luminance: &Grid<f64>, basis: &Basis, [nu, nv]: [usize; 2], n_threads:
 
 /// Samples that no pixel fell on get the mean of their row's neighbours, or of everything.
 fn fill(sums: &mut [[f64; 2]]) {
-    let total = sums.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-    let mean = if total[1] > 0.0 { total[0] / total[1] } else { 0.0 };
+    let total = sums
+        .iter()
+        .fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    let mean = if total[1] > 0.0 {
+        total[0] / total[1]
+    } else {
+        0.0
+    };
     let n = sums.len();
     let known: Vec<bool> = sums.iter().map(|s| s[1] > 0.0).collect();
     for i in (0..n).filter(|&i| !known[i]) {
         let before = (1..n).map(|k| (i + n - k) % n).take(64).find(|&k| known[k]);
         let after = (1..n).map(|k| (i + k) % n).take(64).find(|&k| known[k]);
-        let near: Vec<f64> = [before, after].into_iter().flatten().map(|k| sums[k][0] / sums[k][1]).collect();
-        let value = if near.is_empty() { mean } else { near.iter().sum::<f64>() / near.len() as f64 };
+        let near: Vec<f64> = [before, after]
+            .into_iter()
+            .flatten()
+            .map(|k| sums[k][0] / sums[k][1])
+            .collect();
+        let value = if near.is_empty() {
+            mean
+        } else {
+            near.iter().sum::<f64>() / near.len() as f64
+        };
         sums[i] = [value, 1.0];
     }
 }
