@@ -13,9 +13,11 @@ const N_TOGETHER: usize = 8;
 /// A variance below this share of the whole is that of one colour, up to rounding.
 const LEAST_VARIANCE: f64 = 1e-10;
 
-/// Correlation coefficients at shifts −⌊w/2⌋…⌊w/2⌋ across (columns, the middle one is no shift) and
-/// 0…⌊h/2⌋ down (rows); `ρ(−d) = ρ(d)` gives the rest. 0 where either overlap is of one colour.
-/// The same bytes for any number of threads.
+/// Correlation coefficients of a picture with itself, shifted.
+///
+/// Columns are shifts −⌊w/2⌋…⌊w/2⌋ across (the middle one is no shift), rows 0…⌊h/2⌋ down;
+/// `ρ(−d) = ρ(d)` gives the rest. 0 where either overlap is of one colour. The same bytes for any
+/// number of threads.
 pub fn overlap_autocorrelation(picture: &Grid<f64>, n_threads: usize) -> Grid<f64> {
     let (width, height) = (picture.width(), picture.height());
     let (reach_x, reach_y) = (width / 2, height / 2);

@@ -9,9 +9,10 @@ pub fn n_threads() -> usize {
     thread::available_parallelism().map_or(1, NonZeroUsize::get)
 }
 
-/// Does `work` on every piece of `len` values (the last may be shorter), each with its number and
-/// with what `prepare` makes once a thread. No piece sees another, so that the bytes are the same
-/// for any number of threads.
+/// Does `work` on every piece of `len` values (the last may be shorter), on several threads.
+///
+/// Each gets its number and what `prepare` makes once a thread. No piece sees another, so that the
+/// bytes are the same for any number of threads.
 pub fn in_pieces<T: Send, S>(
     values: &mut [T],
     len: usize,

@@ -76,9 +76,11 @@ struct Reading {
     p2_px: Option<Place>,
 }
 
-/// The files of an analysis, by name: `periodicity.json`, `overlay.png`, and as far as there is
-/// anything to show `autocorrelation.png`, `maxima.csv`, `tile.png`, `synthesized.png` and
-/// `residual.png`. Pictures of luminance are stretched to the picture's own range.
+/// The files of an analysis, by name.
+///
+/// `periodicity.json`, `overlay.png`, and as far as there is anything to show
+/// `autocorrelation.png`, `maxima.csv`, `tile.png`, `synthesized.png` and `residual.png`. Pictures
+/// of luminance are stretched to the picture's own range.
 ///
 /// # Errors
 /// A picture that is too large for its format.

@@ -13,9 +13,10 @@ const FIRST: [f64; 3] = [255.0, 176.0, 0.0];
 const SECOND: [f64; 3] = [0.0, 190.0, 230.0];
 const COVER: f64 = 0.75;
 
-/// The picture with the lines of a lattice, one corner of a cell in its middle: amber along p1,
-/// cyan along p2. Without a lattice the picture alone. Fine cells are enlarged by a whole factor, and
-/// of what becomes too large the middle is shown.
+/// The picture with the lines of a lattice, one corner of a cell in its middle.
+///
+/// Amber along p1, cyan along p2; without a lattice the picture alone. Fine cells are enlarged by a
+/// whole factor, and of what becomes too large the middle is shown.
 pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
     let cell = lattice.map_or(CELL_PX, |basis| basis.shorter());
     let factor = whole((CELL_PX / cell).ceil()).clamp(1, 12).cast_unsigned();
