@@ -154,11 +154,18 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
         lines.push(line.to_owned());
     }
     if found.drifts() {
-        let (explained, level) = (found.explained_variance, found.lattice.level);
-        let (explained, level) = (fixed(explained, 2), fixed(level, 2));
+        let (level, explained) = (
+            fixed(found.lattice.level, 2),
+            fixed(found.explained_variance, 2),
+        );
+        let tile = found.flat_part.map_or_else(String::new, |([x, y, w, h], explained)| {
+            let explained = fixed(explained, 2);
+            format!(", so the tile is that of the part {x},{y},{w},{h}, of which it explains {explained}")
+        });
         lines.push(format!(
-            "repeats that are far apart drift: near ones agree with a correlation of {level}, but \
-             the mean cell explains {explained} of the variance; choose a flatter part with --region"
+            "repeats that are far apart drift: near ones agree with a correlation of {level}, the \
+             mean of all cells explains {explained} of the variance{tile}; choose a flatter part \
+             with --region"
         ));
     }
     lines

@@ -76,11 +76,15 @@ fn a_picture_becomes_its_lattice_its_tile_and_what_led_there() {
     );
 }
 
+/// The command with more options.
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["picture", "cloth.png", "--out", "made"], more].concat()
+}
+
 #[test]
 fn regions_corners_and_scales_are_taken_and_checked() {
     let lab = Lab::new();
     lab.write("cloth.png", cloth());
-    let with = |more: &[&str]| [&["picture", "cloth.png", "--out", "made"], more].concat();
     lab.print(&with(&[
         "--region",
         "20,10,120,100",

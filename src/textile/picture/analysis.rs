@@ -9,6 +9,7 @@ use super::directions::{DirectionOptions, Directions};
 use super::lattice::{Lattice, NoLattice};
 use super::light::{EvenLight, even_light, mean_and_variance};
 use super::maxima::Maxima;
+use super::part::flattest;
 use super::refine::refine;
 use super::significant::SignificantMaxima;
 use super::source::Picture;
@@ -60,10 +61,13 @@ pub struct Found {
     pub lattice: Lattice,
     /// The vectors before that.
     pub from_maxima: [[f64; 2]; 2],
-    /// The mean cell.
+    /// The mean cell: of the whole picture, or of the part that lies flat.
     pub tile: Tile,
-    /// Share of the variance of the picture that the tile explains.
+    /// Share of the variance of the whole picture that the mean of all its cells explains.
     pub explained_variance: f64,
+    /// Where repeats drift over the picture: the part that the tile is the mean of (left, top,
+    /// width, height, px), and the share of its variance that the tile explains.
+    pub flat_part: Option<([usize; 4], f64)>,
     /// How much colour varies with it.
     pub colour: PeriodicColour,
 }
@@ -119,13 +123,28 @@ impl Found {
         lattice: Lattice,
         n_threads: usize,
     ) -> Self {
-        let (tile, explained_variance) = refine(luminance, lattice.basis(), n_threads);
-        let basis = tile.basis();
-        let colour = PeriodicColour::of(&tile, picture.colour.as_ref(), basis, n_threads);
+        let (whole, explained_variance) = refine(luminance, lattice.basis(), n_threads);
+        let basis = whole.basis();
+        let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
+        let wanted = DRIFT * lattice.level;
+        let is_flat = explained_variance >= wanted;
+        let flat = if is_flat {
+            None
+        } else {
+            flattest(luminance, lattice.basis(), wanted, n_threads)
+                .filter(|part| part.explained_variance > explained_variance)
+        };
         Self {
-            lattice: lattice.with_basis(basis),
+            lattice: if is_flat {
+                lattice.with_basis(basis)
+            } else {
+                lattice
+            },
             from_maxima: [lattice.p1_px, lattice.p2_px],
-            tile,
+            flat_part: flat
+                .as_ref()
+                .map(|part| (part.place, part.explained_variance)),
+            tile: flat.map_or(whole, |part| part.tile),
             explained_variance,
             colour,
         }

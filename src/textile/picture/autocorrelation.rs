@@ -39,16 +39,12 @@ impl Autocorrelation {
     pub fn of(luminance: &Grid<f64>, n_threads: usize) -> Self {
         let (width, height) = (luminance.width(), luminance.height());
         let [x, y, w, h] = correlated_part(width, height);
-        let rho = if (w, h) == (width, height) {
-            overlap_autocorrelation(luminance, n_threads)
+        let part = if (w, h) == (width, height) {
+            None
         } else {
-            let mut part = Grid::filled(w, h, 0.0);
-            for row in 0..h {
-                part.row_mut(row)
-                    .copy_from_slice(&luminance.row(y + row)[x..x + w]);
-            }
-            overlap_autocorrelation(&part, n_threads)
+            luminance.part([x, y, w, h])
         };
+        let rho = overlap_autocorrelation(part.as_ref().unwrap_or(luminance), n_threads);
         Self {
             rho,
             reach: [w / 2, h / 2],

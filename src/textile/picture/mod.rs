@@ -19,6 +19,7 @@ mod maxima;
 mod multiples;
 mod output;
 mod overlay;
+mod part;
 mod refine;
 mod significant;
 mod source;

@@ -68,22 +68,18 @@ impl Picture {
     ///
     /// # Errors
     /// A part that is empty or not inside.
-    pub fn part(&self, [x, y, width, height]: [usize; 4]) -> Result<Self, PictureError> {
+    pub fn part(&self, region: [usize; 4]) -> Result<Self, PictureError> {
         let (w, h) = (self.luminance.width(), self.luminance.height());
-        let is_inside = |from: usize, n: usize, all: usize| {
-            n > 0 && from.checked_add(n).is_some_and(|end| end <= all)
-        };
-        if !is_inside(x, width, w) || !is_inside(y, height, h) {
+        let [x, y, width, height] = region;
+        let outside = || {
             let what = format!(
                 "the region {x},{y},{width},{height} is not inside the picture of {w} × {h} pixels"
             );
-            return Err(PictureError::Input(format!(
-                "{what}; give X,Y,W,H in its pixels"
-            )));
-        }
+            PictureError::Input(format!("{what}; give X,Y,W,H in its pixels"))
+        };
         Ok(Self {
-            luminance: cut(&self.luminance, [x, y, width, height]),
-            colour: self.colour.as_ref().map(|c| cut(c, [x, y, width, height])),
+            luminance: self.luminance.part(region).ok_or_else(outside)?,
+            colour: self.colour.as_ref().and_then(|c| c.part(region)),
         })
     }
 
@@ -150,15 +146,6 @@ impl Picture {
             colour,
         })
     }
-}
-
-fn cut<T: Copy>(grid: &Grid<T>, [x, y, width, height]: [usize; 4]) -> Grid<T> {
-    let mut part = Grid::filled(width, height, grid.row(y)[x]);
-    for row in 0..height {
-        part.row_mut(row)
-            .copy_from_slice(&grid.row(y + row)[x..x + width]);
-    }
-    part
 }
 
 /// A value between samples, bilinear; beyond the edges the edges' values.

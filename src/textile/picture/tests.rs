@@ -192,6 +192,25 @@ fn a_clean_cloth_is_explained_and_its_tile_is_its_cell() {
 }
 
 #[test]
+fn of_a_bent_cloth_the_part_that_lies_flat_is_averaged() {
+    let cloth = Cloth::random(&mut Random::new(5));
+    let bent = |x: f64, y: f64| {
+        let fold = ((x + y - 500.0) / 150.0).max(0.0).powi(2);
+        0.5 + 0.1 * cloth.at([x + 20.0 * fold, y - 15.0 * fold])
+    };
+    let found = analysed(drawn(600, 600, bent)).found.unwrap();
+    assert!(found.drifts(), "{} explained", found.explained_variance);
+    let (part, explained) = found.flat_part.unwrap();
+    assert!(
+        explained > 2.0 * found.explained_variance && explained > 0.5,
+        "{part:?}: {explained}"
+    );
+    assert_eq!(part[..2], [0, 0], "the flat corner");
+    let off = found.tile.basis().distance_to(&cloth.basis);
+    assert!(off < 0.1, "the vectors of the flat part: off {off}");
+}
+
+#[test]
 fn a_weave_repeats_from_every_second_thread_to_every_second() {
     // Threads every 12 and 10 px; warp on top at every second crossing, only slightly brighter.
     let value = |x: f64, y: f64| {
