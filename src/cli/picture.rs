@@ -158,10 +158,15 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
             fixed(found.lattice.level, 2),
             fixed(found.explained_variance, 2),
         );
-        let tile = found.flat_part.map_or_else(String::new, |([x, y, w, h], explained)| {
-            let explained = fixed(explained, 2);
-            format!(", so the tile is that of the part {x},{y},{w},{h}, of which it explains {explained}")
-        });
+        let tile = found
+            .flat_part
+            .map_or_else(String::new, |([x, y, w, h], explained)| {
+                let explained = fixed(explained, 2);
+                let part = format!("{x},{y},{w},{h}");
+                format!(
+                    ", so the tile is that of the part {part}, of which it explains {explained}"
+                )
+            });
         lines.push(format!(
             "repeats that are far apart drift: near ones agree with a correlation of {level}, the \
              mean of all cells explains {explained} of the variance{tile}; choose a flatter part \

@@ -41,7 +41,7 @@ pub fn overlap_autocorrelation(picture: &Grid<f64>, n_threads: usize) -> Grid<f6
         |s, dy, row| {
             products.row(s, dy);
             for (column, value) in row.iter_mut().enumerate() {
-                // Shift dx = column − reach_x; the first overlap begins where the second is shifted to.
+                // The first overlap begins where the second, shifted, has its first pixel.
                 let (left, right) = (
                     reach_x.saturating_sub(column),
                     column.saturating_sub(reach_x),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use selvedge::files::{GrayImage, Rgb8Image, encode_gray_png, encode_png};
+use selvedge::files::{GrayImage, Rgb8Image, encode_gray_png, encode_png, gray_values};
 use selvedge::textile::picture::{
     AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Place, analyse, load,
 };
@@ -17,12 +17,12 @@ fn cloth() -> Vec<u8> {
         let [u, v] = basis.coordinates([f64::from(i % 160), f64::from(i / 160)]);
         let share =
             0.5 + 0.15 * (turn * u).cos() + 0.15 * (turn * v).sin() + 0.1 * (turn * (u + v)).cos();
-        (share * 65_535.0).round() as u16
+        share
     });
     let picture = GrayImage {
         width: 160,
         height: 140,
-        values: values.collect(),
+        values: gray_values(values),
         white: u16::MAX,
         texts: Vec::new(),
     };

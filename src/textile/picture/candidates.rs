@@ -1,8 +1,9 @@
 //! Lattices that the maxima of the autocorrelation may lie on, and how well they do.
 //!
-//! A lattice explains the maxima if they lie on it (`cover`) and if its points are maxima (`hit`): a
-//! finer one than the true one misses maxima, a coarser one leaves them over. The harmonic mean of
-//! the two ranks candidates from the directions and from all pairs of near, lonely and high maxima.
+//! A lattice explains the maxima if they lie on it (`cover`) and if its points are maxima
+//! (`hit`): a finer one than the true one misses maxima, a coarser one leaves them over. The
+//! harmonic mean of the two ranks candidates from the directions and from all pairs of near,
+//! lonely and high maxima.
 
 use super::basis::{Basis, Place, length, mix};
 use super::maxima::Maxima;
@@ -158,7 +159,8 @@ fn is_on(basis: &Basis, place: Place, tolerance: f64) -> bool {
     !is_origin && length(mix(place, 1.0, basis.place(index), -1.0)) <= tolerance
 }
 
-/// Candidates from all pairs of the maxima that are nearest, dominate most or are relatively highest.
+/// Candidates from all pairs of the maxima that are nearest, dominate most or are highest at their
+/// distance.
 pub(super) fn pairs(significant: &SignificantMaxima) -> Vec<Basis> {
     let all = significant.all();
     let mut chosen: Vec<usize> = (0..all.len().min(N_NEAR)).collect();

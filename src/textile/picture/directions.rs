@@ -169,8 +169,8 @@ fn two_best(curve: &[f64]) -> Option<[f64; 2]> {
     Some([first, second])
 }
 
-/// The lattice vectors along two directions: every maximum is `s·d1 + t·d2`, and the first high peak
-/// of the histogram of s (of t) is the length along d1 (d2).
+/// The lattice vectors along two directions: every maximum is `s·d1 + t·d2`, and the first high
+/// peak of the histogram of s (of t) is the length along d1 (d2).
 fn with_lengths(best: [f64; 2], places: &[Place], width_px: f64) -> Option<Basis> {
     let frame = Basis::new(unit(best[0]), unit(best[1]));
     let along = |i: usize| {
@@ -184,8 +184,8 @@ fn with_lengths(best: [f64; 2], places: &[Place], width_px: f64) -> Option<Basis
     Some(Basis::new(frame.p1.map(|x| x * s), frame.p2.map(|x| x * t)))
 }
 
-/// The first local maximum of a histogram smoothed by a Gaussian that is at least 0.6 as high as the
-/// highest; what lies within three widths of 0 is no period.
+/// The first local maximum of a histogram smoothed by a Gaussian that is at least 0.6 as high as
+/// the highest; what lies within three widths of 0 is no period.
 fn first_peak(values: &[f64], width: f64) -> Option<f64> {
     let longest = values.iter().copied().fold(0.0, f64::max);
     let step = 0.25 * width;

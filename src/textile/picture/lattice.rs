@@ -62,7 +62,8 @@ pub enum NoLattice {
     },
     /// Stripes, not threads that cross.
     #[error(
-        "the picture repeats along one direction only: along the other it is as even between repeats"
+        "the picture repeats along one direction only: along the other it is as even between \
+         repeats"
     )]
     OneDirection,
     /// Every vector points the same way.

@@ -102,7 +102,7 @@ impl Tile {
     }
 
     /// The smallest rectangle that repeats, if the lattice has one: two of its vectors at a right
-    /// angle, up to a small shear. Samples are about `step_px` apart, a whole number on either side.
+    /// angle, up to a small shear. Samples are about `step_px` apart, a whole number a side.
     pub fn rectangle(&self, step_px: f64, n_threads: usize) -> Option<Rectangle> {
         let basis = self.basis();
         let (first, second) = right_angle(&basis)?;
