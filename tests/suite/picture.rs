@@ -15,9 +15,7 @@ fn cloth() -> Vec<u8> {
     let turn = std::f64::consts::TAU;
     let values = (0..160 * 140_u16).map(|i| {
         let [u, v] = basis.coordinates([f64::from(i % 160), f64::from(i / 160)]);
-        let share =
-            0.5 + 0.15 * (turn * u).cos() + 0.15 * (turn * v).sin() + 0.1 * (turn * (u + v)).cos();
-        share
+        0.5 + 0.15 * (turn * u).cos() + 0.15 * (turn * v).sin() + 0.1 * (turn * (u + v)).cos()
     });
     let picture = GrayImage {
         width: 160,
