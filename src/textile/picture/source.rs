@@ -200,7 +200,7 @@ mod tests {
     use super::*;
 
     fn ramp() -> Picture {
-        let values = (0..40 * 30).map(|i| (i % 40) as f64 + 100.0 * (i / 40) as f64);
+        let values = (0..40 * 30_usize).map(|i| (i % 40) as f64 + 100.0 * (i / 40) as f64);
         Picture::grey(Grid::from_rows(40, values.collect()).unwrap())
     }
 
