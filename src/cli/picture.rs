@@ -125,7 +125,15 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
             "cannot make the folder {out}: {error}; name another with --out"
         ))
     })?;
-    for (name, bytes) in picture::files(&analysis, &about, n_threads)? {
+    let made = picture::files(&analysis, &about, n_threads)?;
+    // What an earlier picture left there would pass for this one's.
+    for name in picture::FILE_NAMES {
+        let is_made = made.iter().any(|(made, _)| *made == name);
+        if !is_made {
+            drop(fs::remove_file(args.out.join(name)));
+        }
+    }
+    for (name, bytes) in made {
         output::write_bytes(&args.out.join(name), &bytes)?;
     }
     for line in warnings(&analysis) {

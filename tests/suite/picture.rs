@@ -172,6 +172,7 @@ fn no_lattice_is_an_answer_with_its_reason() {
         height: side,
         pixels: vec![[90, 80, 70]; side * side],
     };
+    lab.write("made/tile.png", "of an earlier picture");
     for (side, what) in [(1, "too small to hold repeats"), (100, "of one colour")] {
         lab.write("a.png", encode_png(&one(side), "a.png".as_ref()).unwrap());
         let line = lab.print(&["picture", "a.png", "--out", "made"]);
@@ -183,6 +184,7 @@ fn no_lattice_is_an_answer_with_its_reason() {
             serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
         assert!(json["lattice"].is_null(), "{json}");
         assert!(json["reason"].as_str().unwrap().contains(what), "{json}");
+        assert!(!lab.path("made/tile.png").exists(), "what is old is gone");
     }
 }
 

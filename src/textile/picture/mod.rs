@@ -37,7 +37,7 @@ pub use directions::{DirectionOptions, Directions, Measured, mean_concentration}
 pub use lattice::{Lattice, NoLattice};
 pub use light::{EvenLight, even_light};
 pub use maxima::{Maxima, Maximum};
-pub use output::{About, files};
+pub use output::{About, FILE_NAMES, files};
 pub use overlay::overlay;
 pub use refine::refine;
 pub use significant::{Significant, SignificantMaxima};

@@ -17,6 +17,17 @@ use crate::numerics::Grid;
 /// Rows of the table of maxima at most.
 const MOST_ROWS: usize = 5000;
 
+/// Every name that [`files`] may give.
+pub const FILE_NAMES: [&str; 7] = [
+    "periodicity.json",
+    "overlay.png",
+    "autocorrelation.png",
+    "maxima.csv",
+    "tile.png",
+    "synthesized.png",
+    "residual.png",
+];
+
 /// What the files say beside the result.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct About {
