@@ -14,6 +14,7 @@ use crate::render::RenderError;
 use crate::report::ReportError;
 use crate::scene::SceneError;
 use crate::textile::TextileError;
+use crate::textile::picture::PictureError;
 
 /// Why a command failed: one line.
 #[derive(Debug, thiserror::Error)]
@@ -33,6 +34,9 @@ pub enum CliError {
     /// A textile or a library.
     #[error(transparent)]
     Textile(#[from] TextileError),
+    /// A picture of a cloth.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
     /// A scene or a path.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -62,6 +66,7 @@ impl CliError {
             Self::Input(_) | Self::Render(_) => 2,
             Self::File(error) => code_of_file(error),
             Self::Textile(error) => code_of_textile(error),
+            Self::Picture(error) => code_of_picture(error),
             Self::Scene(error) => code_of_scene(error),
             Self::Bridge(error) => code_of_bridge(error),
             Self::Engine(error) => code_of_engine(error),
@@ -102,6 +107,14 @@ fn code_of_textile(error: &TextileError) -> u8 {
         TextileError::File(error) => code_of_file(error),
         TextileError::Cancelled(_) | TextileError::Figure(_) => 1,
         _ => 2,
+    }
+}
+
+fn code_of_picture(error: &PictureError) -> u8 {
+    match error {
+        PictureError::File(error) => code_of_file(error),
+        PictureError::Input(_) => 2,
+        PictureError::Cancelled(_) => 1,
     }
 }
 

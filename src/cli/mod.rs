@@ -13,6 +13,7 @@
 mod bridge;
 mod failure;
 mod output;
+mod picture;
 mod play;
 mod play_log;
 mod play_report;
@@ -67,6 +68,8 @@ enum Command {
     /// The library of textiles
     #[command(subcommand)]
     Textile(textile::TextileCommand),
+    /// The repeats of a cloth from a picture, and the cell that repeats
+    Picture(picture::PictureArgs),
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
@@ -100,6 +103,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
+        Some(Command::Picture(args)) => picture::run(&args),
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

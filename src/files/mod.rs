@@ -22,6 +22,7 @@ mod json;
 mod keys;
 mod npy;
 mod picture;
+mod rgb16;
 mod table;
 mod xml;
 
@@ -41,6 +42,7 @@ pub use keys::{
 };
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
+pub use rgb16::{Rgb16Image, decode_picture};
 pub use table::{Table, TableWriter};
 pub use xml::{visit_elements, xml_text};
 

@@ -11,7 +11,7 @@ use image::{ExtendedColorType, ImageDecoder as _, ImageEncoder as _};
 use super::FileError;
 
 /// Largest picture that is decoded, pixels.
-const MAX_PIXELS: u64 = 64_000_000;
+pub(super) const MAX_PIXELS: u64 = 64_000_000;
 
 /// A picture of 8-bit red, green and blue, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]

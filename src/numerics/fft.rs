@@ -70,6 +70,50 @@ impl RealTransform {
         }
         output
     }
+
+    /// Room to work in for [`Self::forward_into`] and [`Self::inverse_into`], to be used again.
+    pub fn room(&self) -> Vec<Complex> {
+        let n = self
+            .forward
+            .get_scratch_len()
+            .max(self.inverse.get_scratch_len());
+        vec![Complex::default(); n]
+    }
+
+    /// [`Self::forward`] without holding anything new. `samples` (as many as the transform has) are
+    /// destroyed; `spectrum` holds ⌊n/2⌋ + 1 bins.
+    pub fn forward_into(
+        &self,
+        samples: &mut [f64],
+        spectrum: &mut [Complex],
+        room: &mut [Complex],
+    ) {
+        let room = &mut room[..self.forward.get_scratch_len()];
+        let done = self.forward.process_with_scratch(samples, spectrum, room);
+        debug_assert!(done.is_ok(), "the caller's buffers have the plan's lengths");
+    }
+
+    /// [`Self::inverse`] without holding anything new. `spectrum` is destroyed.
+    pub fn inverse_into(
+        &self,
+        spectrum: &mut [Complex],
+        samples: &mut [f64],
+        room: &mut [Complex],
+    ) {
+        spectrum[0].im = 0.0;
+        if self.len().is_multiple_of(2)
+            && let Some(last) = spectrum.last_mut()
+        {
+            last.im = 0.0;
+        }
+        let room = &mut room[..self.inverse.get_scratch_len()];
+        let done = self.inverse.process_with_scratch(spectrum, samples, room);
+        debug_assert!(done.is_ok(), "the caller's buffers have the plan's lengths");
+        let scale = 1.0 / self.len() as f64;
+        for x in samples {
+            *x *= scale;
+        }
+    }
 }
 
 impl std::fmt::Debug for RealTransform {

@@ -24,6 +24,19 @@ impl<T: Copy> Grid<T> {
         is_whole.then_some(Self { width, values })
     }
 
+    /// The part from x, y of this width and height; `None` if it is empty or not inside.
+    pub fn part(&self, [x, y, width, height]: [usize; 4]) -> Option<Self> {
+        let holds = |from: usize, n: usize, all: usize| {
+            n > 0 && from.checked_add(n).is_some_and(|end| end <= all)
+        };
+        let is_inside = holds(x, width, self.width()) && holds(y, height, self.height());
+        let rows = || (y..y + height).flat_map(|row| &self.row(row)[x..x + width]);
+        is_inside.then(|| Self {
+            width,
+            values: rows().copied().collect(),
+        })
+    }
+
     /// Values in a row.
     pub fn width(&self) -> usize {
         self.width
@@ -65,6 +78,15 @@ mod tests {
         grid.row_mut(1)[2] = 7;
         assert_eq!(grid.values(), [0, 0, 0, 0, 0, 7]);
         assert_eq!((grid.width(), grid.height()), (3, 2));
+        assert_eq!(grid.part([1, 1, 2, 1]).unwrap().values(), [0, 7]);
+        for outside in [
+            [2, 0, 2, 1],
+            [0, 0, 3, 3],
+            [0, 0, 0, 1],
+            [usize::MAX, 0, 1, 1],
+        ] {
+            assert_eq!(grid.part(outside), None, "{outside:?}");
+        }
         assert!(
             Grid::from_rows(3, vec![1, 2]).is_none(),
             "half a row is no grid"

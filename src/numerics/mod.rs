@@ -5,14 +5,20 @@
 //! - the one home of the FFT crate (`fft.rs`) and of the random-number crates (`random.rs`)
 //! - same input, same seed, same bytes
 
+mod correlation;
 mod fft;
 mod grid;
+mod maxima;
+mod parallel;
 mod plane;
 mod random;
 mod series;
 
+pub use correlation::overlap_autocorrelation;
 pub use fft::{ChirpTransform, Complex, RealTransform};
 pub use grid::Grid;
+pub use maxima::{QuadraticPeak, quadratic_peak};
+pub use parallel::{in_pieces, n_threads};
 pub use plane::PlaneTransform;
 pub use random::Random;
 pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};

@@ -1,7 +1,6 @@
 //! The same work for many textiles, on several threads; what comes out does not depend on how
 //! many.
 
-use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
@@ -9,10 +8,7 @@ use std::thread;
 use super::TextileError;
 use crate::progress::Progress;
 
-/// Threads that work is shared among when nobody says how many.
-pub fn n_threads() -> usize {
-    thread::available_parallelism().map_or(1, NonZeroUsize::get)
-}
+pub use crate::numerics::n_threads;
 
 /// Does `work` for every id and returns the results in the order of the ids.
 ///

@@ -15,6 +15,7 @@ mod import_kes;
 mod model_surfaces;
 mod no_allocation;
 mod no_allocation_engine;
+mod picture;
 mod program;
 mod report;
 mod window;

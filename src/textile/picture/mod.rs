@@ -1,5 +1,64 @@
-//! Pictures: from the brightness of a cloth's repeat to heights that can be felt.
+//! Cloth from a picture: the lattice of its repeats and the cell that repeats (Allerkamp et al.,
+//! "Generating tactile textures using periodicity analysis").
+//!
+//! A pipeline of stages: [`load`] a picture, perhaps a [`Picture::part`] of it or
+//! [`Picture::rectified`]; [`even_light`]; the [`Autocorrelation`]; its [`Maxima`]; the
+//! [`Directions`] they lie in; the [`Lattice`]; the [`Tile`]. Each takes what the one before made.
+//! [`analyse`] runs them all. *No lattice* is an answer, with its reason. Physical scale is never
+//! guessed: everything here is in pixels.
 
+mod analysis;
+mod autocorrelation;
+mod basis;
+mod candidates;
+mod colour;
+mod directions;
+mod lattice;
+mod light;
+mod maxima;
+mod multiples;
+mod output;
+mod overlay;
+mod part;
+mod refine;
 pub mod shading;
+mod significant;
+mod source;
+mod tile;
 
+#[cfg(test)]
+mod tests;
+
+pub use analysis::{Analysis, AnalysisOptions, Found, Measurements, analyse};
+pub use autocorrelation::{Autocorrelation, correlated_part};
+pub use basis::{Basis, Place};
+pub use candidates::Method;
+pub use colour::PeriodicColour;
+pub use directions::{DirectionOptions, Directions, Measured, mean_concentration};
+pub use lattice::{Lattice, NoLattice};
+pub use light::{EvenLight, even_light};
+pub use maxima::{Maxima, Maximum};
+pub use output::{About, FILE_NAMES, files};
+pub use overlay::overlay;
+pub use refine::refine;
 pub use shading::{PictureSource, PictureTextile, ShadingError, to_textile};
+pub use significant::{Significant, SignificantMaxima};
+pub use source::{Picture, load};
+pub use tile::{Rectangle, Tile};
+
+use crate::files::FileError;
+use crate::progress::Cancelled;
+
+/// What can be wrong with a picture of a cloth, or with what is asked of it.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A region, corners or a number that cannot be: what, and how to mend it.
+    #[error("{0}")]
+    Input(String),
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

@@ -1,0 +1,229 @@
+//! `selvedge picture`: the lattice of a cloth's repeats, and the cell that repeats, from a picture.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::terminal::{self, Meter};
+use super::{CliError, output, signals};
+use crate::files;
+use crate::progress::{CancelFlag, Progress};
+use crate::quantity::fixed;
+use crate::textile::n_threads;
+use crate::textile::picture::{
+    self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Picture, Place,
+};
+
+const MM_PER_INCH: f64 = 25.4;
+
+/// A picture, and what is known about it.
+#[derive(Debug, Args)]
+pub(super) struct PictureArgs {
+    /// The picture: PNG, JPEG, TIFF or BMP, 8 or 16 bits, up to 64 million pixels
+    image: PathBuf,
+    /// Folder for periodicity.json, maxima.csv and pictures of every stage
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Pixels to a millimetre; without a scale lengths are given in pixels only
+    #[arg(long, value_name = "P", value_parser = positive, conflicts_with = "dpi")]
+    px_per_mm: Option<f64>,
+    /// Pixels to an inch, as scanners say it
+    #[arg(long, value_name = "D", value_parser = positive)]
+    dpi: Option<f64>,
+    /// The part to look at: its left, its top, its width and height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    region: Option<[usize; 4]>,
+    /// Corners of what is a rectangle of cloth, in pixels: upper left, upper right, lower right,
+    /// lower left; it is drawn as seen from the front
+    #[arg(long, value_name = "X,Y,X,Y,X,Y,X,Y", value_parser = corners, conflicts_with = "region")]
+    corners: Option<Corners>,
+    /// Divide uneven light out: auto (where it matters), off, or the radius in pixels over which it
+    /// is smooth
+    #[arg(long, value_name = "HOW", value_parser = light, default_value = "auto")]
+    even_light: EvenLight,
+    /// λ of the mean concentration in 1/px, instead of one from the distances of the maxima
+    #[arg(long, value_name = "L", value_parser = positive)]
+    lambda: Option<f64>,
+    /// Threads that share the work (as many as the machine has); the bytes are the same
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
+    threads: Option<u8>,
+}
+
+/// Four corners in pixels.
+#[derive(Debug, Clone, Copy)]
+struct Corners([Place; 4]);
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "give a number above 0".to_owned())
+}
+
+fn numbers<T: std::str::FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
+    let all: Option<Vec<T>> = text
+        .split(',')
+        .map(|cell| cell.trim().parse().ok())
+        .collect();
+    all?.try_into().ok()
+}
+
+fn region(text: &str) -> Result<[usize; 4], String> {
+    numbers(text).ok_or_else(|| "give four whole numbers, such as 100,80,600,400".to_owned())
+}
+
+fn corners(text: &str) -> Result<Corners, String> {
+    let all = numbers(text).filter(|all: &[f64; 8]| all.iter().all(|x| x.is_finite()));
+    let [a, b, c, d, e, f, g, h] =
+        all.ok_or_else(|| "give eight numbers, such as 10,12,590,20,600,400,5,390".to_owned())?;
+    Ok(Corners([[a, b], [c, d], [e, f], [g, h]]))
+}
+
+fn light(text: &str) -> Result<EvenLight, String> {
+    match text {
+        "auto" => Ok(EvenLight::Auto),
+        "off" => Ok(EvenLight::Off),
+        _ => positive(text)
+            .map(EvenLight::Radius)
+            .map_err(|_wrong| "give auto, off, or a radius in pixels".to_owned()),
+    }
+}
+
+/// Analyses the picture and writes the files.
+pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
+    let bytes = files::read(&args.image)?;
+    let loaded = picture::load(&bytes, &args.image)?;
+    drop(bytes);
+    let chosen = choose(loaded, args)?;
+    let n_threads = args.threads.map_or_else(n_threads, usize::from);
+    let options = AnalysisOptions {
+        light: args.even_light,
+        directions: DirectionOptions {
+            lambda_per_px: args.lambda,
+        },
+        n_threads,
+    };
+    let cancel = CancelFlag::shared(signals::stop_flag()?);
+    let mut meter = Meter::new("picture");
+    let mut report = |share: f64, doing: &str| meter.show(share, doing);
+    let analysis = picture::analyse(&chosen, &options, &mut Progress::new(&mut report, cancel))?;
+    drop(meter);
+    let name = args.image.file_name().unwrap_or_default();
+    let about = About {
+        px_per_mm: args
+            .px_per_mm
+            .or_else(|| args.dpi.map(|dpi| dpi / MM_PER_INCH)),
+        image: name.to_string_lossy().into_owned(),
+        region: args.region,
+        corners: args.corners.map(|corners| corners.0),
+    };
+    fs::create_dir_all(&args.out).map_err(|error| {
+        let out = args.out.display();
+        CliError::Input(format!(
+            "cannot make the folder {out}: {error}; name another with --out"
+        ))
+    })?;
+    let made = picture::files(&analysis, &about, n_threads)?;
+    // What an earlier picture left there would pass for this one's.
+    for name in picture::FILE_NAMES {
+        let is_made = made.iter().any(|(made, _)| *made == name);
+        if !is_made {
+            drop(fs::remove_file(args.out.join(name)));
+        }
+    }
+    for (name, bytes) in made {
+        output::write_bytes(&args.out.join(name), &bytes)?;
+    }
+    for line in warnings(&analysis) {
+        terminal::notice(&format!("{}: {line}", args.image.display()));
+    }
+    output::print(&summary(&analysis, about.px_per_mm, &args.out))
+}
+
+fn choose(loaded: Picture, args: &PictureArgs) -> Result<Picture, CliError> {
+    Ok(match (args.region, args.corners) {
+        (Some(region), _) => loaded.part(region)?,
+        (None, Some(corners)) => loaded.rectified(corners.0)?,
+        (None, None) => loaded,
+    })
+}
+
+/// What a user should know before using the result as a relief.
+fn warnings(analysis: &Analysis) -> Vec<String> {
+    let Ok(found) = &analysis.found else {
+        return Vec::new();
+    };
+    let mut lines = Vec::new();
+    if found.colour.is_printed() {
+        let line = "the colour changes with the period: this may be a printed or dyed pattern, and \
+                    brightness says nothing of its relief";
+        lines.push(line.to_owned());
+    }
+    if found.drifts() {
+        let (level, explained) = (
+            fixed(found.lattice.level, 2),
+            fixed(found.explained_variance, 2),
+        );
+        let tile = found
+            .flat_part
+            .map_or_else(String::new, |([x, y, w, h], explained)| {
+                let explained = fixed(explained, 2);
+                let part = format!("{x},{y},{w},{h}");
+                format!(
+                    ", so the tile is that of the part {part}, of which it explains {explained}"
+                )
+            });
+        lines.push(format!(
+            "repeats that are far apart drift: near ones agree with a correlation of {level}, the \
+             mean of all cells explains {explained} of the variance{tile}; choose a flatter part \
+             with --region"
+        ));
+    }
+    lines
+}
+
+fn summary(analysis: &Analysis, px_per_mm: Option<f64>, out: &Path) -> String {
+    let out = out.display();
+    let Found {
+        lattice,
+        explained_variance,
+        ..
+    } = match &analysis.found {
+        Ok(found) => found,
+        Err(reason) => return format!("{out}: no lattice: {reason}\n"),
+    };
+    let (scale, unit, decimals) = px_per_mm.map_or((1.0, "px", 2), |per_mm| (per_mm, "mm", 3));
+    let vector = |[x, y]: Place| {
+        let [x, y] = [x, y].map(|px| fixed(px / scale, decimals));
+        format!("({x}, {y}) {unit}")
+    };
+    format!(
+        "{out}: repeats by {} and {}, confidence {}, explains {} of the variance\n",
+        vector(lattice.p1_px),
+        vector(lattice.p2_px),
+        fixed(lattice.confidence, 2),
+        fixed(*explained_variance, 2),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_a_row_are_taken_whole_or_not_at_all() {
+        assert_eq!(region("1, 2,3,4"), Ok([1, 2, 3, 4]));
+        for text in ["1,2,3", "1,2,3,4,5", "1,2,3,-4", ""] {
+            assert!(region(text).is_err(), "{text}");
+        }
+        assert_eq!(corners("0,0,9,0,9,8,0,8").unwrap().0[2], [9.0, 8.0]);
+        assert!(corners("0,0,9,0,9,8,0,NaN").is_err(), "not a number");
+        assert_eq!(light("12.5"), Ok(EvenLight::Radius(12.5)));
+        assert!(
+            light("bright").is_err() && positive("-1").is_err() && positive("inf").is_err(),
+            ""
+        );
+    }
+}

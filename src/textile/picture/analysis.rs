@@ -1,0 +1,187 @@
+//! All stages in a row: from a picture to its lattice and its tile.
+//!
+//! Every stage takes what the one before made and its own parameters, so that whoever changes a
+//! parameter runs the later ones again only.
+
+use super::autocorrelation::Autocorrelation;
+use super::colour::PeriodicColour;
+use super::directions::{DirectionOptions, Directions};
+use super::lattice::{Lattice, NoLattice};
+use super::light::{EvenLight, even_light, mean_and_variance};
+use super::maxima::Maxima;
+use super::part::flattest;
+use super::refine::refine;
+use super::significant::SignificantMaxima;
+use super::source::Picture;
+use super::tile::Tile;
+use crate::numerics::Grid;
+use crate::progress::{Cancelled, Progress};
+
+/// What an analysis may be told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnalysisOptions {
+    /// Whether uneven light is divided out.
+    pub light: EvenLight,
+    /// How directions are measured.
+    pub directions: DirectionOptions,
+    /// Threads; the result is the same for any number.
+    pub n_threads: usize,
+}
+
+/// What was found in a picture, stage by stage.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    /// The picture in even light.
+    pub luminance: Grid<f64>,
+    /// Whether its light was evened out.
+    pub was_evened: bool,
+    /// What could be measured; none of a picture that is tiny or of one colour.
+    pub measured: Option<Measurements>,
+    /// The lattice and its tile, or why there is none.
+    pub found: Result<Found, NoLattice>,
+}
+
+/// The autocorrelation and what was read from it.
+#[derive(Debug, Clone)]
+pub struct Measurements {
+    /// The matrix.
+    pub rho: Autocorrelation,
+    /// Its maxima.
+    pub maxima: Maxima,
+    /// Those that count.
+    pub significant: SignificantMaxima,
+    /// The directions that they lie in.
+    pub directions: Directions,
+}
+
+/// A lattice, its tile, and what they explain.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The lattice, refined on the whole picture.
+    pub lattice: Lattice,
+    /// The vectors before that.
+    pub from_maxima: [[f64; 2]; 2],
+    /// The mean cell: of the whole picture, or of the part that lies flat.
+    pub tile: Tile,
+    /// Share of the variance of the whole picture that the mean of all its cells explains.
+    pub explained_variance: f64,
+    /// Where repeats drift over the picture: the part that the tile is the mean of (left, top,
+    /// width, height, px), and the share of its variance that the tile explains.
+    pub flat_part: Option<([usize; 4], f64)>,
+    /// How much colour varies with it.
+    pub colour: PeriodicColour,
+}
+
+impl Measurements {
+    /// Correlates a picture and reads the maxima.
+    ///
+    /// # Errors
+    /// The work was cancelled.
+    pub fn of(
+        luminance: &Grid<f64>,
+        options: DirectionOptions,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        progress.step(0.1, "correlating")?;
+        let rho = Autocorrelation::of(luminance, n_threads);
+        progress.step(0.5, "looking for maxima")?;
+        let maxima = Maxima::of(&rho);
+        let significant = SignificantMaxima::of(&maxima, &rho);
+        progress.step(0.6, "measuring directions")?;
+        let directions = Directions::of(&significant, options);
+        Ok(Self {
+            rho,
+            maxima,
+            significant,
+            directions,
+        })
+    }
+
+    /// The lattice.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn lattice(&self) -> Result<Lattice, NoLattice> {
+        Lattice::find(&self.rho, &self.maxima, &self.significant, &self.directions)
+    }
+}
+
+/// Near repeats that agree this much better than the mean cell explains are bent or uneven.
+const DRIFT: f64 = 0.6;
+
+impl Found {
+    /// Whether repeats drift over the picture, so that the mean of all cells is blurred.
+    pub fn drifts(&self) -> bool {
+        self.explained_variance < DRIFT * self.lattice.level
+    }
+
+    /// Refines a lattice on a picture and averages its cells.
+    pub fn of(
+        luminance: &Grid<f64>,
+        picture: &Picture,
+        lattice: Lattice,
+        n_threads: usize,
+    ) -> Self {
+        let (whole, explained_variance) = refine(luminance, lattice.basis(), n_threads);
+        let basis = whole.basis();
+        let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
+        let wanted = DRIFT * lattice.level;
+        let is_flat = explained_variance >= wanted;
+        let flat = if is_flat {
+            None
+        } else {
+            flattest(luminance, lattice.basis(), wanted, n_threads)
+                .filter(|part| part.explained_variance > explained_variance)
+        };
+        Self {
+            lattice: if is_flat {
+                lattice.with_basis(basis)
+            } else {
+                lattice
+            },
+            from_maxima: [lattice.p1_px, lattice.p2_px],
+            flat_part: flat
+                .as_ref()
+                .map(|part| (part.place, part.explained_variance)),
+            tile: flat.map_or(whole, |part| part.tile),
+            explained_variance,
+            colour,
+        }
+    }
+}
+
+/// Runs every stage.
+///
+/// # Errors
+/// The work was cancelled. A picture without a lattice is no error.
+pub fn analyse(
+    picture: &Picture,
+    options: &AnalysisOptions,
+    progress: &mut Progress<'_>,
+) -> Result<Analysis, Cancelled> {
+    progress.step(0.0, "evening out the light")?;
+    let (luminance, was_evened) = even_light(&picture.luminance, options.light);
+    let (width, height) = (luminance.width(), luminance.height());
+    let variance = mean_and_variance(&luminance).1;
+    if let Err(reason) = Lattice::worth_looking(width, height, variance) {
+        return Ok(Analysis {
+            luminance,
+            was_evened,
+            measured: None,
+            found: Err(reason),
+        });
+    }
+    let measured = Measurements::of(&luminance, options.directions, options.n_threads, progress)?;
+    progress.step(0.7, "fitting the lattice")?;
+    let lattice = measured.lattice();
+    progress.step(0.8, "averaging the cells")?;
+    let found = lattice.map(|lattice| Found::of(&luminance, picture, lattice, options.n_threads));
+    progress.step(1.0, "done")?;
+    Ok(Analysis {
+        luminance,
+        was_evened,
+        measured: Some(measured),
+        found,
+    })
+}

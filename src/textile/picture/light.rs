@@ -1,0 +1,178 @@
+//! Uneven light: what varies over the whole picture is divided out.
+
+use crate::numerics::Grid;
+
+/// The smooth part is taken over this share of the shorter side unless a radius is said.
+const SHARE_OF_SIDE: f64 = 0.125;
+/// A smooth part that holds less than this share of the variance is left alone by `Auto`.
+const LEAST_SHARE: f64 = 0.01;
+/// The smooth part is never taken as darker than this share of the mean.
+const DARKEST: f64 = 0.05;
+/// Three box filters in a row are about a Gaussian.
+const N_PASSES: usize = 3;
+
+/// Whether uneven light is divided out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum EvenLight {
+    /// Where it holds a hundredth of the variance or more.
+    #[default]
+    Auto,
+    /// Never.
+    Off,
+    /// Always, with a smooth part of this standard deviation, px.
+    Radius(f64),
+}
+
+/// The picture with its light evened out, and whether anything was done. The mean stays.
+pub fn even_light(luminance: &Grid<f64>, how: EvenLight) -> (Grid<f64>, bool) {
+    let side = luminance.width().min(luminance.height()) as f64;
+    let sigma = match how {
+        EvenLight::Off => return (luminance.clone(), false),
+        EvenLight::Auto => SHARE_OF_SIDE * side,
+        EvenLight::Radius(sigma) => sigma,
+    };
+    let smooth = smoothed(luminance, sigma);
+    let (mean, variance) = mean_and_variance(luminance);
+    let is_even = mean_and_variance(&smooth).1 < LEAST_SHARE * variance;
+    if mean <= 0.0 || (how == EvenLight::Auto && is_even) {
+        return (luminance.clone(), false);
+    }
+    let mut even = luminance.clone();
+    for (value, light) in even.values_mut().iter_mut().zip(smooth.values()) {
+        *value *= mean / light.max(DARKEST * mean);
+    }
+    (even, true)
+}
+
+/// Mean and variance of a grid; 0 of none.
+pub(super) fn mean_and_variance(grid: &Grid<f64>) -> (f64, f64) {
+    let n = (grid.values().len()).max(1) as f64;
+    let mean = grid.values().iter().sum::<f64>() / n;
+    let square = |x: &f64| (x - mean).powi(2);
+    (mean, grid.values().iter().map(square).sum::<f64>() / n)
+}
+
+/// A grid smoothed by about a Gaussian of standard deviation `sigma`, which fades to the mean of
+/// what is there at the edges.
+fn smoothed(grid: &Grid<f64>, sigma: f64) -> Grid<f64> {
+    // A box of 2r + 1 has the variance r(r + 1)/3; three of them add up.
+    let widest = grid.width().max(grid.height()) as f64;
+    let radius = ((0.25 + sigma * sigma).sqrt() - 0.5).min(widest);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 ≤ radius ≤ the longer side"
+    )]
+    let radius = radius.round().max(0.0) as usize;
+    let mut smooth = grid.clone();
+    for _ in 0..N_PASSES {
+        for row in 0..smooth.height() {
+            box_filter(smooth.row_mut(row), radius);
+        }
+        smooth = box_down(&smooth, radius);
+    }
+    smooth
+}
+
+/// Means over up to `radius` neighbours on either side, as many as there are.
+fn box_filter(row: &mut [f64], radius: usize) {
+    let mut sums = Vec::with_capacity(row.len() + 1);
+    let mut sum = 0.0;
+    sums.push(sum);
+    for x in row.iter() {
+        sum += x;
+        sums.push(sum);
+    }
+    let n = row.len();
+    for (i, x) in row.iter_mut().enumerate() {
+        let (from, to) = (
+            i.saturating_sub(radius),
+            i.saturating_add(radius + 1).min(n),
+        );
+        *x = (sums[to] - sums[from]) / (to - from) as f64;
+    }
+}
+
+/// The same along columns, row by row.
+fn box_down(grid: &Grid<f64>, radius: usize) -> Grid<f64> {
+    let (width, height) = (grid.width(), grid.height());
+    let mut out = Grid::filled(width, height, 0.0);
+    let mut sums = vec![0.0; width];
+    let (mut from, mut to) = (0, 0);
+    for row in 0..height {
+        while to < row.saturating_add(radius + 1).min(height) {
+            sums.iter_mut()
+                .zip(grid.row(to))
+                .for_each(|(sum, x)| *sum += x);
+            to += 1;
+        }
+        while from < row.saturating_sub(radius) {
+            sums.iter_mut()
+                .zip(grid.row(from))
+                .for_each(|(sum, x)| *sum -= x);
+            from += 1;
+        }
+        let n = (to - from) as f64;
+        out.row_mut(row)
+            .iter_mut()
+            .zip(&sums)
+            .for_each(|(x, sum)| *x = sum / n);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn threads(light: impl Fn(f64, f64) -> f64) -> Grid<f64> {
+        let value = |i: usize| {
+            let (x, y) = ((i % 160) as f64, (i / 160) as f64);
+            light(x, y) * (0.5 + 0.2 * (x * 0.9).sin() * (y * 0.7).sin())
+        };
+        Grid::from_rows(160, (0..160 * 120).map(value).collect()).unwrap()
+    }
+
+    #[test]
+    fn a_shadow_is_divided_out_and_even_light_left_alone() {
+        let even = threads(|_, _| 1.0);
+        assert_eq!(even_light(&even, EvenLight::Auto), (even.clone(), false));
+        let shaded = threads(|x, y| 0.5 + 0.003 * x + 0.002 * y);
+        let (mended, is_done) = even_light(&shaded, EvenLight::Auto);
+        assert!(is_done, "the shadow is seen");
+        let ratio = |of: &Grid<f64>, i: usize| of.values()[i] / even.values()[i];
+        let spread = |of: &Grid<f64>| {
+            let all: Vec<f64> = (0..160 * 120)
+                .filter(|i| (20..140).contains(&(i % 160)))
+                .map(|i| ratio(of, i))
+                .collect();
+            let most = all.iter().copied().fold(0.0, f64::max);
+            most / all.iter().copied().fold(f64::INFINITY, f64::min)
+        };
+        assert!(
+            spread(&shaded) > 1.9 && spread(&mended) < 1.35,
+            "{} to {}",
+            spread(&shaded),
+            spread(&mended)
+        );
+        let (mean, _) = mean_and_variance(&mended);
+        assert!((mean - mean_and_variance(&shaded).0).abs() < 0.02, "{mean}");
+    }
+
+    #[test]
+    fn smoothing_keeps_a_constant_and_any_radius_is_finite() {
+        let flat = Grid::filled(9, 5, 0.4);
+        for sigma in [0.0, 1.0, 50.0, 1e300] {
+            let smooth = smoothed(&flat, sigma);
+            assert!(
+                smooth.values().iter().all(|x| (x - 0.4).abs() < 1e-12),
+                "{sigma}"
+            );
+        }
+        let black = Grid::filled(6, 6, 0.0);
+        assert_eq!(
+            even_light(&black, EvenLight::Radius(2.0)),
+            (black.clone(), false)
+        );
+    }
+}

@@ -1,0 +1,238 @@
+//! The files of an analysis: `periodicity.json`, the maxima as a table, and pictures.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::analysis::{Analysis, Found};
+use super::autocorrelation::correlated_part;
+use super::basis::{Place, length};
+use super::lattice::Lattice;
+use super::overlay::{overlay, range};
+use crate::files::{
+    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string,
+};
+use crate::numerics::Grid;
+
+/// Rows of the table of maxima at most.
+const MOST_ROWS: usize = 5000;
+
+/// Every name that [`files`] may give.
+pub const FILE_NAMES: [&str; 7] = [
+    "periodicity.json",
+    "overlay.png",
+    "autocorrelation.png",
+    "maxima.csv",
+    "tile.png",
+    "synthesized.png",
+    "residual.png",
+];
+
+/// What the files say beside the result.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct About {
+    /// Pixels of the picture to a millimetre, if known.
+    pub px_per_mm: Option<f64>,
+    /// The picture's name.
+    pub image: String,
+    /// The part that was analysed: x, y, width, height.
+    pub region: Option<[usize; 4]>,
+    /// The corners that it was rectified from.
+    pub corners: Option<[Place; 4]>,
+}
+
+#[derive(Serialize)]
+struct Image<'a> {
+    file: &'a str,
+    width: usize,
+    height: usize,
+    region: Option<[usize; 4]>,
+    corners_px: Option<[Place; 4]>,
+    light_was_evened: bool,
+    correlated_part: [usize; 4],
+}
+
+#[derive(Serialize)]
+struct Reported<'a> {
+    image: Image<'a>,
+    px_per_mm: Option<f64>,
+    lattice: Option<Lattice>,
+    reason: Option<String>,
+    p1_mm: Option<Place>,
+    p2_mm: Option<Place>,
+    p1_length_mm: Option<f64>,
+    p2_length_mm: Option<f64>,
+    p1_length_px: Option<f64>,
+    p2_length_px: Option<f64>,
+    angle_deg: Option<f64>,
+    n_cells: Option<f64>,
+    explained_variance: Option<f64>,
+    flat_part: Option<[usize; 4]>,
+    explained_variance_of_flat_part: Option<f64>,
+    from_maxima_px: Option<[Place; 2]>,
+    tile: Option<[usize; 2]>,
+    tile_p1_px: Option<Place>,
+    tile_p2_px: Option<Place>,
+    colour_spread: Option<f64>,
+    brightness_spread: Option<f64>,
+    colour_carries_the_period: Option<bool>,
+    n_maxima: usize,
+    n_significant_maxima: usize,
+    directions: Option<[Reading; 2]>,
+}
+
+/// Directions and lengths by one measure.
+#[derive(Serialize)]
+struct Reading {
+    measure: &'static str,
+    lambda_per_px: f64,
+    directions_deg: Option<[f64; 2]>,
+    p1_px: Option<Place>,
+    p2_px: Option<Place>,
+}
+
+/// The files of an analysis, by name.
+///
+/// `periodicity.json`, `overlay.png`, and as far as there is anything to show
+/// `autocorrelation.png`, `maxima.csv`, `tile.png`, `synthesized.png` and `residual.png`. Pictures
+/// of luminance are stretched to the picture's own range.
+///
+/// # Errors
+/// A picture that is too large for its format.
+pub fn files(
+    analysis: &Analysis,
+    about: &About,
+    n_threads: usize,
+) -> Result<Vec<(&'static str, Vec<u8>)>, FileError> {
+    let found = analysis.found.as_ref().ok();
+    let json = Path::new("periodicity.json");
+    let mut all = vec![(
+        "periodicity.json",
+        to_json_string(&reported(analysis, about), json)?.into_bytes(),
+    )];
+    let lattice = found.map(|f| f.lattice.basis());
+    let drawn = overlay(&analysis.luminance, lattice);
+    all.push(("overlay.png", encode_png(&drawn, Path::new("overlay.png"))?));
+    if let Some(measured) = &analysis.measured {
+        let name = "autocorrelation.png";
+        all.push((
+            name,
+            encode_gray_png(&measured.rho.picture(), Path::new(name))?,
+        ));
+        all.push(("maxima.csv", maxima_table(analysis)?));
+    }
+    if let Some(Found { tile, .. }) = found {
+        let (low, high) = range(&analysis.luminance);
+        let (w, h) = (analysis.luminance.width(), analysis.luminance.height());
+        let again = tile.patch(w, h, 1.0, 0.0, n_threads);
+        let mut rest = analysis.luminance.clone();
+        for (value, made) in rest.values_mut().iter_mut().zip(again.values()) {
+            *value += 0.5 * (low + high) - made;
+        }
+        for (name, grid) in [
+            ("tile.png", &tile.values),
+            ("synthesized.png", &again),
+            ("residual.png", &rest),
+        ] {
+            all.push((
+                name,
+                encode_gray_png(&grey(grid, low, high), Path::new(name))?,
+            ));
+        }
+    }
+    Ok(all)
+}
+
+fn grey(grid: &Grid<f64>, low: f64, high: f64) -> GrayImage {
+    GrayImage {
+        width: grid.width(),
+        height: grid.height(),
+        values: gray_values(grid.values().iter().map(|x| (x - low) / (high - low))),
+        white: u16::MAX,
+        texts: Vec::new(),
+    }
+}
+
+fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {
+    let mut bytes = Vec::new();
+    let header = ["rank", "dx_px", "dy_px", "correlation", "dominance_px"];
+    let mut table = TableWriter::new(&mut bytes, Path::new("maxima.csv"), &header)?;
+    let ranked = analysis
+        .measured
+        .as_ref()
+        .map(|m| m.maxima.ranked())
+        .unwrap_or_default();
+    for (rank, maximum) in (1_u32..).zip(ranked.iter().take(MOST_ROWS)) {
+        table.number(rank);
+        for x in [
+            maximum.place[0],
+            maximum.place[1],
+            maximum.height,
+            maximum.dominance_px,
+        ] {
+            table.number(x);
+        }
+        table.end_row()?;
+    }
+    table.finish()?;
+    Ok(bytes)
+}
+
+fn reported<'a>(analysis: &'a Analysis, about: &'a About) -> Reported<'a> {
+    let (width, height) = (analysis.luminance.width(), analysis.luminance.height());
+    let found = analysis.found.as_ref().ok();
+    let lattice = found.map(|f| f.lattice);
+    let vector = |i: usize| lattice.map(|l| [l.p1_px, l.p2_px][i]);
+    let mm = |px: f64| about.px_per_mm.map(|per_mm| px / per_mm);
+    let vector_mm = |i: usize| Some([mm(vector(i)?[0])?, mm(vector(i)?[1])?]);
+    let lengths = [0, 1].map(|i| vector(i).map(length));
+    let measured = analysis.measured.as_ref();
+    Reported {
+        image: Image {
+            file: &about.image,
+            width,
+            height,
+            region: about.region,
+            corners_px: about.corners,
+            light_was_evened: analysis.was_evened,
+            correlated_part: correlated_part(width, height),
+        },
+        px_per_mm: about.px_per_mm,
+        lattice,
+        reason: analysis.found.as_ref().err().map(ToString::to_string),
+        p1_mm: vector_mm(0),
+        p2_mm: vector_mm(1),
+        p1_length_mm: lengths[0].and_then(mm),
+        p2_length_mm: lengths[1].and_then(mm),
+        p1_length_px: lengths[0],
+        p2_length_px: lengths[1],
+        angle_deg: lattice.map(|l| l.basis().angle_rad().to_degrees()),
+        n_cells: lattice.map(|l| (width * height) as f64 / l.basis().area()),
+        explained_variance: found.map(|f| f.explained_variance),
+        flat_part: found.and_then(|f| f.flat_part).map(|part| part.0),
+        explained_variance_of_flat_part: found.and_then(|f| f.flat_part).map(|part| part.1),
+        from_maxima_px: found.map(|f| f.from_maxima),
+        tile: found.map(|f| [f.tile.values.width(), f.tile.values.height()]),
+        tile_p1_px: found.map(|f| f.tile.p1_px),
+        tile_p2_px: found.map(|f| f.tile.p2_px),
+        colour_spread: found.map(|f| f.colour.colour_spread),
+        brightness_spread: found.map(|f| f.colour.brightness_spread),
+        colour_carries_the_period: found.map(|f| f.colour.is_printed()),
+        n_maxima: measured.map_or(0, |m| m.maxima.all().len() / 2),
+        n_significant_maxima: measured.map_or(0, |m| m.significant.all().len()),
+        directions: measured.map(|m| {
+            let d = &m.directions;
+            let pairs = [
+                ("mean concentration", &d.by_concentration),
+                ("hough", &d.by_hough),
+            ];
+            pairs.map(|(measure, by)| Reading {
+                measure,
+                lambda_per_px: d.lambda_per_px,
+                directions_deg: by.best.map(|both| both.map(f64::to_degrees)),
+                p1_px: by.basis.map(|b| b.p1),
+                p2_px: by.basis.map(|b| b.p2),
+            })
+        }),
+    }
+}

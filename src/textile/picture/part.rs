@@ -1,0 +1,61 @@
+//! The part of a bent cloth that lies flat enough for its cells to be averaged.
+
+use super::basis::Basis;
+use super::refine::refine;
+use super::tile::Tile;
+use crate::numerics::Grid;
+
+/// Sides of a part, as shares of the picture's, largest first.
+const SHARES: [usize; 3] = [2, 4, 8];
+/// Parts of a size that are tried at most, spread evenly.
+const MOST_PARTS: usize = 24;
+/// A part must hold this many cells.
+const LEAST_CELLS: f64 = 40.0;
+
+/// A part of a picture, the mean of its cells, and what that explains of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FlatPart {
+    /// Left, top, width and height, px.
+    pub(super) place: [usize; 4],
+    pub(super) tile: Tile,
+    pub(super) explained_variance: f64,
+}
+
+/// The largest part (a half, a quarter, an eighth of either side) whose mean cell explains at least
+/// `wanted` of its variance; if none does, the part whose explains most. `None` if no part holds
+/// enough cells.
+pub(super) fn flattest(
+    luminance: &Grid<f64>,
+    basis: Basis,
+    wanted: f64,
+    n_threads: usize,
+) -> Option<FlatPart> {
+    let mut best: Option<FlatPart> = None;
+    for share in SHARES {
+        let size = [luminance.width() / share, luminance.height() / share];
+        if ((size[0] * size[1]) as f64) < LEAST_CELLS * basis.area() {
+            break;
+        }
+        let step = (share * share).div_ceil(MOST_PARTS);
+        for n in (0..share * share).step_by(step) {
+            let place = [n % share * size[0], n / share * size[1], size[0], size[1]];
+            let part = luminance.part(place)?;
+            let (tile, explained_variance) = refine(&part, basis, n_threads);
+            let is_better = |b: &FlatPart| explained_variance > b.explained_variance;
+            if best.as_ref().is_none_or(is_better) {
+                best = Some(FlatPart {
+                    place,
+                    tile,
+                    explained_variance,
+                });
+            }
+        }
+        if best
+            .as_ref()
+            .is_some_and(|b| b.explained_variance >= wanted)
+        {
+            break;
+        }
+    }
+    best
+}

@@ -1,0 +1,65 @@
+//! What cloth from a picture costs: the autocorrelation alone, and all stages in a row.
+
+#![expect(clippy::print_stdout, reason = "a bench prints its figures")]
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+use std::time::Instant;
+
+use selvedge::numerics::{Grid, Random, median};
+use selvedge::progress::unheard;
+use selvedge::textile::picture::{
+    AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture, analyse,
+};
+
+const ROUNDS: usize = 5;
+
+fn main() {
+    for n_threads in [1, 2] {
+        for side in [1024, 2362] {
+            let picture = weave(side);
+            let seconds = timed(|| {
+                black_box(Autocorrelation::of(&picture, n_threads));
+            });
+            println!("autocorrelation of {side} × {side}, {n_threads} threads: {seconds:.3} s");
+        }
+        for side in [1024, 2362] {
+            let picture = Picture::grey(weave(side));
+            let options = AnalysisOptions {
+                light: EvenLight::Auto,
+                directions: DirectionOptions::default(),
+                n_threads,
+            };
+            let seconds = timed(|| {
+                let analysis = unheard(|progress| analyse(&picture, &options, progress));
+                let is_found = analysis.is_ok_and(|analysis| analysis.found.is_ok());
+                assert!(black_box(is_found), "the bench's weave has a lattice");
+            });
+            println!("all stages of {side} × {side}, {n_threads} threads: {seconds:.3} s");
+        }
+    }
+}
+
+/// The median time of several rounds.
+fn timed(mut work: impl FnMut()) -> f64 {
+    let mut round = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    median(&mut (0..ROUNDS).map(&mut round).collect::<Vec<f64>>())
+}
+
+/// A turned weave with as much noise as signal, in uneven light.
+fn weave(side: usize) -> Grid<f64> {
+    let mut random = Random::new(1);
+    let value = |i: usize| {
+        let (x, y) = ((i % side) as f64, (i / side) as f64);
+        let (u, v) = (0.061 * x + 0.007 * y, 0.055 * y - 0.006 * x);
+        let threads = (TAU * u).cos() + (TAU * v).cos() + (TAU * 0.5 * (u + v)).cos();
+        let light = 0.8 + 0.4 * x / side as f64;
+        light * (0.5 + 0.1 * threads + 0.12 * random.normal())
+    };
+    let values = (0..side * side).map(value).collect();
+    Grid::from_rows(side, values).unwrap_or_else(|| Grid::filled(1, 1, 0.0))
+}

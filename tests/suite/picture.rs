@@ -1,0 +1,262 @@
+//! `selvedge picture`, run as a user runs it; on real pictures where they are at hand.
+
+use std::path::PathBuf;
+
+use selvedge::files::{GrayImage, Rgb8Image, encode_gray_png, encode_png, gray_values};
+use selvedge::textile::picture::{
+    AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Place, analyse, load,
+};
+
+use crate::program::Lab;
+
+/// A cloth that repeats by (12, 3) and (−2, 9) px, as a PNG of 16 bits.
+fn cloth() -> Vec<u8> {
+    let basis = Basis::new([12.0, 3.0], [-2.0, 9.0]);
+    let turn = std::f64::consts::TAU;
+    let values = (0..160 * 140_u16).map(|i| {
+        let [u, v] = basis.coordinates([f64::from(i % 160), f64::from(i / 160)]);
+        0.5 + 0.15 * (turn * u).cos() + 0.15 * (turn * v).sin() + 0.1 * (turn * (u + v)).cos()
+    });
+    let picture = GrayImage {
+        width: 160,
+        height: 140,
+        values: gray_values(values),
+        white: u16::MAX,
+        texts: Vec::new(),
+    };
+    encode_gray_png(&picture, "cloth.png".as_ref()).unwrap()
+}
+
+fn vector(value: &serde_json::Value) -> Place {
+    let number = |i: usize| value[i].as_f64().unwrap();
+    [number(0), number(1)]
+}
+
+#[test]
+fn a_picture_becomes_its_lattice_its_tile_and_what_led_there() {
+    let lab = Lab::new();
+    lab.write("cloth.png", cloth());
+    let line = lab.print(&["picture", "cloth.png", "--out", "made", "--px-per-mm", "20"]);
+    assert!(
+        line.starts_with("made: repeats by ") && line.contains(" mm, confidence "),
+        "{line}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
+    assert_eq!(json["image"]["width"], 160);
+    assert_eq!(json["image"]["height"], 140);
+    let lattice = &json["lattice"];
+    let found = Basis::new(vector(&lattice["p1_px"]), vector(&lattice["p2_px"]));
+    let truth = Basis::new([12.0, 3.0], [-2.0, 9.0]);
+    assert!(found.distance_to(&truth) < 0.02, "{found:?}");
+    assert!(lattice["confidence"].as_f64().unwrap() > 0.9, "{lattice}");
+    assert!(lattice["method"].is_string(), "{lattice}");
+    let mm = vector(&json["p1_mm"]);
+    assert!((mm[0] * 20.0 - found.p1[0]).abs() < 1e-9, "{mm:?}");
+    assert!(
+        json["explained_variance"].as_f64().unwrap() > 0.98,
+        "{json}"
+    );
+    assert!(json["reason"].is_null(), "{json}");
+    for name in [
+        "autocorrelation.png",
+        "tile.png",
+        "synthesized.png",
+        "residual.png",
+        "overlay.png",
+    ] {
+        let bytes = std::fs::read(lab.path(&format!("made/{name}"))).unwrap();
+        assert_eq!(&bytes[1..4], b"PNG", "{name}");
+    }
+    let header = "rank,dx_px,dy_px,correlation,dominance_px\n";
+    assert!(
+        lab.read("made/maxima.csv").starts_with(header),
+        "the maxima"
+    );
+}
+
+/// The command with more options.
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["picture", "cloth.png", "--out", "made"], more].concat()
+}
+
+#[test]
+fn regions_corners_and_scales_are_taken_and_checked() {
+    let lab = Lab::new();
+    lab.write("cloth.png", cloth());
+    lab.print(&with(&[
+        "--region",
+        "20,10,120,100",
+        "--dpi",
+        "600",
+        "--even-light",
+        "off",
+    ]));
+    let json: serde_json::Value = serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
+    assert_eq!(json["image"]["width"], 120);
+    assert!(
+        (json["px_per_mm"].as_f64().unwrap() - 600.0 / 25.4).abs() < 1e-12,
+        "{json}"
+    );
+    lab.print(&with(&[
+        "--corners",
+        "0,0,160,0,160,140,0,140",
+        "--lambda",
+        "1.5",
+    ]));
+    let outside = lab.refuse(&with(&["--region", "100,100,100,100"]));
+    assert!(
+        outside.contains("is not inside the picture of 160 × 140 pixels"),
+        "{outside}"
+    );
+    for more in [
+        ["--region", "1,2,3"],
+        ["--px-per-mm", "0"],
+        ["--dpi", "NaN"],
+        ["--even-light", "bright"],
+        ["--corners", "1,2,3,4"],
+    ] {
+        assert_eq!(lab.run(&with(&more)).code, 2, "{more:?}");
+    }
+}
+
+/// A bitmap file that only says how large it is.
+fn empty_bitmap(side: u32) -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    for number in [
+        58_u32,
+        0,
+        54,
+        40,
+        side,
+        side,
+        0x0018_0001,
+        0,
+        4,
+        0,
+        0,
+        0,
+        0,
+        0,
+    ] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes
+}
+
+#[test]
+fn what_is_no_picture_is_refused_in_one_line() {
+    let lab = Lab::new();
+    let whole = cloth();
+    lab.write("cut.png", &whole[..whole.len() / 2]);
+    lab.write("text.png", "not a picture");
+    lab.write("large.bmp", empty_bitmap(20_000));
+    for (file, what) in [
+        ("cut.png", "this cannot be read"),
+        ("text.png", "no picture of a known format"),
+        (
+            "large.bmp",
+            "20000 × 20000 pixels where 1 to 64 million are read",
+        ),
+        ("none.png", "cannot read none.png"),
+    ] {
+        let line = lab.refuse(&["picture", file, "--out", "made"]);
+        assert!(line.contains(file) && line.contains(what), "{line}");
+    }
+}
+
+#[test]
+fn no_lattice_is_an_answer_with_its_reason() {
+    let lab = Lab::new();
+    let one = |side: usize| Rgb8Image {
+        width: side,
+        height: side,
+        pixels: vec![[90, 80, 70]; side * side],
+    };
+    lab.write("made/tile.png", "of an earlier picture");
+    for (side, what) in [(1, "too small to hold repeats"), (100, "of one colour")] {
+        lab.write("a.png", encode_png(&one(side), "a.png".as_ref()).unwrap());
+        let line = lab.print(&["picture", "a.png", "--out", "made"]);
+        assert!(
+            line.starts_with("made: no lattice: ") && line.contains(what),
+            "{line}"
+        );
+        let json: serde_json::Value =
+            serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
+        assert!(json["lattice"].is_null(), "{json}");
+        assert!(json["reason"].as_str().unwrap().contains(what), "{json}");
+        assert!(!lab.path("made/tile.png").exists(), "what is old is gone");
+    }
+}
+
+/// Real pictures, by name, and vectors that span their lattice; none where it must be refused.
+const REAL: [(&str, Option<[Place; 2]>); 12] = [
+    ("licensed/hsst_2024_12_10_13_13_40_804_256_128.jpg", None),
+    ("licensed/hsst_2024_9_11_14_28_3_725_1792_0.jpg", None),
+    ("licensed/hsst_2024_9_11_14_6_16_612_3072_488.jpg", None),
+    (
+        "licensed/gimp_greyweave.png",
+        Some([[60.0, 60.0], [-60.0, 60.0]]),
+    ),
+    (
+        "licensed/materialx_cloth.png",
+        Some([[80.1, 80.1], [-80.1, 80.1]]),
+    ),
+    (
+        "licensed/krita_02b_WoofTissue.png",
+        Some([[16.0, 0.0], [0.0, 16.0]]),
+    ),
+    (
+        "licensed/inkscape_cloth.png",
+        Some([[4.1, -4.5], [4.3, 4.3]]),
+    ),
+    (
+        "no-licence-stated/fk006_height.png",
+        Some([[0.0, 16.0], [16.0, 8.0]]),
+    ),
+    (
+        "no-licence-stated/glsr_A2R1.jpg",
+        Some([[7.9, 1.9], [1.1, 8.0]]),
+    ),
+    (
+        "no-licence-stated/glsr_model3.jpg",
+        Some([[0.3, -22.1], [23.2, -0.3]]),
+    ),
+    (
+        "no-licence-stated/yav_Sa10.png",
+        Some([[9.0, -7.9], [9.2, 9.2]]),
+    ),
+    (
+        "no-licence-stated/yav_Sa22.png",
+        Some([[9.3, 8.0], [-8.5, 9.2]]),
+    ),
+];
+
+#[test]
+fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
+    let Some(data) = std::env::var_os("SELVEDGE_TEST_DATA").map(PathBuf::from) else {
+        println!("skipped: SELVEDGE_TEST_DATA does not name a folder with real pictures");
+        return;
+    };
+    let options = AnalysisOptions {
+        light: EvenLight::Auto,
+        directions: DirectionOptions::default(),
+        n_threads: 2,
+    };
+    for (name, expected) in REAL {
+        let path = data.join("fabric-images").join(name);
+        let Ok(bytes) = std::fs::read(&path) else {
+            println!("skipped: no {}", path.display());
+            continue;
+        };
+        let picture = load(&bytes, &path).unwrap();
+        let analysis = selvedge::progress::unheard(|p| analyse(&picture, &options, p)).unwrap();
+        match (analysis.found, expected) {
+            (Err(NoLattice::NotResolved { .. } | NoLattice::Weak { .. }), None) => {}
+            (Ok(found), Some([p1, p2])) => {
+                let off = found.lattice.basis().distance_to(&Basis::new(p1, p2));
+                assert!(off < 0.4, "{name}: {:?}, off {off}", found.lattice);
+            }
+            (found, expected) => panic!("{name}: {:?} for {expected:?}", found.map(|f| f.lattice)),
+        }
+    }
+}
