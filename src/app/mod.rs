@@ -72,6 +72,7 @@ mod state;
 mod study;
 mod tab_row;
 mod take;
+mod task;
 mod theme;
 mod view;
 mod why;
