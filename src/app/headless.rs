@@ -57,7 +57,7 @@ impl Headless {
     }
 
     /// Runs a frame so many ticks after the last one.
-    fn run_after(&mut self, n_ticks: u32) -> FullOutput {
+    pub(super) fn run_after(&mut self, n_ticks: u32) -> FullOutput {
         self.n_ticks += n_ticks;
         let input = self.input();
         let Self {

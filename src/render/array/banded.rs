@@ -173,7 +173,7 @@ impl BandedEvaluator {
             counters.directions_repeated += n_contactors - n_anew;
         }
         contacts.for_each_owned(amplitudes_um, |_, sums| {
-            *sums = amplitudes_of(*sums, factors)
+            *sums = amplitudes_of(*sums, factors);
         });
     }
 }

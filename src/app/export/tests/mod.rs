@@ -52,6 +52,7 @@ impl Headless {
     /// A window whose display has explored by itself for as many ticks.
     fn explored(n_ticks: u32) -> Self {
         let mut desk = Self::fresh();
+        desk.import();
         desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
         desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
@@ -63,7 +64,6 @@ impl Headless {
             desk.pass_ticks(n_ticks / 3);
             desk.settle();
         }
-        desk.import();
         desk
     }
 
@@ -75,7 +75,8 @@ impl Headless {
         let n_textiles = desk.bench.shelf.items().len() as u64;
         while desk.bench.n_textiles_measured() < n_textiles {
             thread::sleep(Duration::from_millis(5));
-            desk.pass_ticks(1);
+            // However long it takes, the display stays where it is.
+            desk.run_after(0).drop_without_applying_deltas();
         }
         desk
     }
@@ -86,7 +87,7 @@ impl Headless {
         let path = folder.0.join("twill.txt");
         fs::write(&path, export()).unwrap();
         self.dispatch(ImportCommand::Add(vec![path]));
-        self.pass_ticks(4);
+        self.bench.follow_import(&self.ctx);
     }
 
     /// Waits for the threads that compare and check.
