@@ -13,6 +13,7 @@ mod basis;
 mod candidates;
 mod colour;
 mod directions;
+pub mod felt;
 mod lattice;
 mod light;
 mod maxima;
