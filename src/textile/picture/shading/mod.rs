@@ -32,7 +32,7 @@ pub use linear::Blind;
 pub use reflectance::picture_of;
 pub use scale::HeightScale;
 pub use source::PictureSource;
-pub use textile::{PictureTextile, to_textile};
+pub use textile::{PictureTextile, relief_um_of, to_textile};
 pub use tsai_shah::Edges;
 
 use serde::{Deserialize, Serialize};

@@ -19,9 +19,9 @@ use crate::progress::Progress;
 const SMOOTHNESS: f64 = 1e-3;
 const FIRST_SMOOTHNESS: f64 = 0.3;
 /// The same where a coarser tile was solved before.
-const NEXT_SMOOTHNESS: f64 = 0.01;
+const NEXT_SMOOTHNESS: f64 = 0.1;
 /// Iterations over which the weight falls, first and where a coarser tile was solved before.
-const FALLING: [usize; 2] = [11, 1];
+const FALLING: [usize; 2] = [11, 3];
 /// A step that lowers the sum by less than this share is the last one.
 const LEAST_GAIN: f64 = 0.03;
 /// Weight of squared heights: keeps what the light does not show near 0.
