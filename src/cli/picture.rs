@@ -139,7 +139,10 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     let felt = match &analysis.found {
         Ok(found) => {
             let of = (&origin, px_per_mm);
-            Some(args.relief.felt(&found.tile, of, n_threads, &mut progress)?)
+            Some(
+                args.relief
+                    .felt(&found.tile, of, n_threads, &mut progress)?,
+            )
         }
         Err(_) => None,
     };

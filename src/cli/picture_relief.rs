@@ -11,10 +11,10 @@ use crate::files::sha256_hex;
 use crate::progress::{Cancelled, Progress};
 use crate::quantity::{fixed, with_unit};
 use crate::surface::Representation;
+use crate::textile::picture::felt::textile_of;
 use crate::textile::picture::shading::{
     HeightScale, Light, Method, PictureTextile, ShadingError, ShadingOptions, relief_um_of,
 };
-use crate::textile::picture::felt::textile_of;
 use crate::textile::picture::{Relief, Tile};
 use crate::textile::{self, BuiltFile, Words};
 

@@ -67,7 +67,11 @@ mod tests {
 
     #[test]
     fn waves_that_both_can_hold_stay_where_they_are() {
-        for [from, to] in [[[40, 33], [20, 17]], [[20, 17], [40, 33]], [[9, 8], [40, 8]]] {
+        for [from, to] in [
+            [[40, 33], [20, 17]],
+            [[20, 17], [40, 33]],
+            [[9, 8], [40, 8]],
+        ] {
             let found = resampled(&wave(from[0], from[1]), to);
             let truth = wave(to[0], to[1]);
             for (a, b) in found.values().iter().zip(truth.values()) {

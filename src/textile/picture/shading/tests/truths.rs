@@ -46,7 +46,11 @@ fn a_fit_ends_when_more_would_not_help() {
     let found = found.unwrap();
     // 224 rounds and 16 iterations without coarse tiles and without an end; r of 0.9990 either way.
     assert!((3..=10).contains(&found.n_iterations()), "{found:?}");
-    assert!(found.n_rounds > 10 && found.n_rounds < 110, "{}", found.n_rounds);
+    assert!(
+        found.n_rounds > 10 && found.n_rounds < 110,
+        "{}",
+        found.n_rounds
+    );
     let r = correlation(&found.height_px, &weave.height_px());
     assert!(r > 0.995, "{r}");
 }
