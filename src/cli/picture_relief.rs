@@ -204,28 +204,22 @@ impl ReliefArgs {
     /// Writes the textile, if one is wanted, and tells in lines what was found.
     pub(super) fn finish(&self, felt: &Felt, out: &Path) -> Result<String, CliError> {
         let light = felt.relief.light;
-        let mut told = format!(
-            "{}: heights by {} under light of slant {}°, tilt {}°",
-            out.display(),
-            felt.relief.shape.method.label(),
-            fixed(light.slant_deg, 1),
-            fixed(light.tilt_deg, 1),
-        );
-        if let Some(estimate) = &felt.relief.estimate {
-            told.push_str(&format!(", estimated: {}", estimate.words));
-        }
-        told.push('\n');
+        let by = felt.relief.shape.method.label();
+        let (slant, tilt) = (fixed(light.slant_deg, 1), fixed(light.tilt_deg, 1));
+        let estimate = felt.relief.estimate.as_ref();
+        let estimated = estimate.map_or_else(String::new, |e| format!(", estimated: {}", e.words));
         let height = match felt.relief_um {
             Some(um) => with_unit(um, 1, "µm"),
             None => format!("{}, unscaled", with_unit(felt.relief.relief_px(), 2, "px")),
         };
         let (out, words) = (out.display(), &felt.relief.shape.reliability);
-        told.push_str(&format!(
-            "{out}: {height} from lowest to highest. {words}\n"
-        ));
+        let first = format!("{out}: heights by {by} under light of slant {slant}°, tilt {tilt}°");
+        let mut told =
+            format!("{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");
         if let (Some(folder), Some(files)) = (&self.textile, &felt.files) {
             textile::write(files, folder)?;
-            told.push_str(&format!("{}: the textile\n", folder.display()));
+            let line = format!("{}: the textile\n", folder.display());
+            told.push_str(&line);
         }
         Ok(told)
     }

@@ -138,7 +138,7 @@ fn cut_off() -> Verdict {
         pixels: (0..=u8::MAX)
             .cycle()
             .take(N * N)
-            .map(|i| [i, i ^ 77, i / 3])
+            .map(|i| [i, u8::MAX - i, i / 3])
             .collect(),
     };
     let bytes = encode_png(&picture, Path::new("a.png")).map_err(failed)?;

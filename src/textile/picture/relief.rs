@@ -97,7 +97,7 @@ impl Relief {
             Some(_) => None,
             None => Some(believed(brightness.estimated_light()?)),
         };
-        let light = light.or(estimate.as_ref().map(|e| e.light));
+        let light = light.or_else(|| estimate.as_ref().map(|e| e.light));
         let light = light.ok_or(ShadingError::Empty)?;
         let shape = shape_of(&brightness, light, options, progress)?;
         Ok(Self {
