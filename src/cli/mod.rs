@@ -14,6 +14,7 @@ mod bridge;
 mod failure;
 mod output;
 mod picture;
+mod picture_relief;
 mod play;
 mod play_log;
 mod play_report;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::picture_relief::{Origin, ReliefArgs, tell_none};
 use super::terminal::{self, Meter};
 use super::{CliError, output, signals};
 use crate::files;
@@ -48,13 +49,15 @@ pub(super) struct PictureArgs {
     /// Threads that share the work (as many as the machine has); the bytes are the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
     threads: Option<u8>,
+    #[command(flatten)]
+    relief: ReliefArgs,
 }
 
 /// Four corners in pixels.
 #[derive(Debug, Clone, Copy)]
 struct Corners([Place; 4]);
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text
         .parse()
         .ok()
@@ -62,7 +65,7 @@ fn positive(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "give a number above 0".to_owned())
 }
 
-fn numbers<T: std::str::FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
+pub(super) fn numbers<T: std::str::FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
     let all: Option<Vec<T>> = text
         .split(',')
         .map(|cell| cell.trim().parse().ok())
@@ -91,10 +94,31 @@ fn light(text: &str) -> Result<EvenLight, String> {
     }
 }
 
+impl PictureArgs {
+    fn px_per_mm(&self) -> Option<f64> {
+        let of_dpi = || self.dpi.map(|dpi| dpi / MM_PER_INCH);
+        self.px_per_mm.or_else(of_dpi)
+    }
+
+    fn about(&self) -> About {
+        let name = self.image.file_name().unwrap_or_default();
+        About {
+            px_per_mm: self.px_per_mm(),
+            image: name.to_string_lossy().into_owned(),
+            region: self.region,
+            corners: self.corners.map(|corners| corners.0),
+            ..About::default()
+        }
+    }
+}
+
 /// Analyses the picture and writes the files.
 pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
+    let px_per_mm = args.px_per_mm();
+    args.relief.check(px_per_mm)?;
     let bytes = files::read(&args.image)?;
     let loaded = picture::load(&bytes, &args.image)?;
+    let origin = Origin::of(&args.image, &bytes);
     drop(bytes);
     let chosen = choose(loaded, args)?;
     let n_threads = args.threads.map_or_else(n_threads, usize::from);
@@ -108,38 +132,57 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     let cancel = CancelFlag::shared(signals::stop_flag()?);
     let mut meter = Meter::new("picture");
     let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let analysis = picture::analyse(&chosen, &options, &mut Progress::new(&mut report, cancel))?;
-    drop(meter);
-    let name = args.image.file_name().unwrap_or_default();
-    let about = About {
-        px_per_mm: args
-            .px_per_mm
-            .or_else(|| args.dpi.map(|dpi| dpi / MM_PER_INCH)),
-        image: name.to_string_lossy().into_owned(),
-        region: args.region,
-        corners: args.corners.map(|corners| corners.0),
+    let mut progress = Progress::new(&mut report, cancel);
+    let analysis = picture::analyse(&chosen, &options, &mut progress)?;
+    let mut about = args.about();
+    let mut told = summary(&analysis, px_per_mm, &args.out);
+    let felt = match &analysis.found {
+        Ok(found) => {
+            let of = (&origin, px_per_mm);
+            Some(
+                args.relief
+                    .felt(&found.tile, of, n_threads, &mut progress)?,
+            )
+        }
+        Err(_) => None,
     };
-    fs::create_dir_all(&args.out).map_err(|error| {
-        let out = args.out.display();
+    drop(meter);
+    match felt {
+        Some(Ok(felt)) => {
+            told.push_str(&args.relief.finish(&felt, &args.out)?);
+            about.relief = Some((felt.relief, felt.relief_um));
+        }
+        Some(Err(reason)) => {
+            tell_none(&args.image, &reason);
+            about.no_relief = Some(reason);
+        }
+        None => {}
+    }
+    write(&picture::files(&analysis, &about, n_threads)?, &args.out)?;
+    for line in warnings(&analysis) {
+        terminal::notice(&format!("{}: {line}", args.image.display()));
+    }
+    output::print(&told)
+}
+
+fn write(made: &[(&'static str, Vec<u8>)], out: &Path) -> Result<(), CliError> {
+    fs::create_dir_all(out).map_err(|error| {
+        let out = out.display();
         CliError::Input(format!(
             "cannot make the folder {out}: {error}; name another with --out"
         ))
     })?;
-    let made = picture::files(&analysis, &about, n_threads)?;
     // What an earlier picture left there would pass for this one's.
     for name in picture::FILE_NAMES {
         let is_made = made.iter().any(|(made, _)| *made == name);
         if !is_made {
-            drop(fs::remove_file(args.out.join(name)));
+            drop(fs::remove_file(out.join(name)));
         }
     }
     for (name, bytes) in made {
-        output::write_bytes(&args.out.join(name), &bytes)?;
+        output::write_bytes(&out.join(name), bytes)?;
     }
-    for line in warnings(&analysis) {
-        terminal::notice(&format!("{}: {line}", args.image.display()));
-    }
-    output::print(&summary(&analysis, about.px_per_mm, &args.out))
+    Ok(())
 }
 
 fn choose(loaded: Picture, args: &PictureArgs) -> Result<Picture, CliError> {

@@ -16,6 +16,18 @@ pub(super) enum Made {
     Other,
 }
 
+impl Made {
+    /// The same in a manifest.
+    pub(super) fn construction(self) -> Construction {
+        match self {
+            Self::Woven => Construction::Woven,
+            Self::Knitted => Construction::Knitted,
+            Self::Nonwoven => Construction::Nonwoven,
+            Self::Other => Construction::Other,
+        }
+    }
+}
+
 /// What people say of a textile.
 #[derive(Debug, Args)]
 pub(super) struct WordsArgs {
@@ -52,12 +64,7 @@ impl WordsArgs {
         }
         Ok(Words {
             name: name.to_owned(),
-            construction: match made {
-                Made::Woven => Construction::Woven,
-                Made::Knitted => Construction::Knitted,
-                Made::Nonwoven => Construction::Nonwoven,
-                Made::Other => Construction::Other,
-            },
+            construction: made.construction(),
             fibre: self.fibre.clone(),
             licence: self.licence.clone(),
             notes: self.notes.clone(),

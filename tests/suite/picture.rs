@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use selvedge::files::{GrayImage, Rgb8Image, encode_gray_png, encode_png, gray_values};
+use selvedge::files::{
+    GrayImage, Rgb8Image, decode_gray_png, encode_gray_png, encode_png, gray_values,
+};
 use selvedge::textile::picture::{
     AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Place, analyse, load,
 };
@@ -185,6 +187,198 @@ fn no_lattice_is_an_answer_with_its_reason() {
         assert!(json["lattice"].is_null(), "{json}");
         assert!(json["reason"].as_str().unwrap().contains(what), "{json}");
         assert!(!lab.path("made/tile.png").exists(), "what is old is gone");
+    }
+}
+
+/// A weave of soft bumps, 24 px a repeat, lit from 45° and the upper right, as a PNG.
+fn lit_weave() -> Vec<u8> {
+    let n = 24.0 / std::f64::consts::TAU;
+    let values = (0..168 * 168_u16).map(|i| {
+        let (x, y) = (f64::from(i % 168) / n, -f64::from(i / 168) / n);
+        // z = 1.5 sin x sin y + 0.5 sin x, y up; the light leans by (cos 30°, sin 30°).
+        let p = (1.5 * x.cos() * y.sin() + 0.5 * x.cos()) / n;
+        let q = 1.5 * x.sin() * y.cos() / n;
+        let facing = 1.0 - p * 30_f64.to_radians().cos() - q * 30_f64.to_radians().sin();
+        0.8 * facing.max(0.0) / ((1.0 + p * p + q * q).sqrt() * 2_f64.sqrt())
+    });
+    let picture = GrayImage {
+        width: 168,
+        height: 168,
+        values: gray_values(values),
+        white: u16::MAX,
+        texts: Vec::new(),
+    };
+    encode_gray_png(&picture, "weave.png".as_ref()).unwrap()
+}
+
+const FELT: [&str; 14] = [
+    "picture",
+    "weave.png",
+    "--out",
+    "made",
+    "--px-per-mm",
+    "16",
+    "--light",
+    "45,30",
+    "--relief-um",
+    "180",
+    "--textile",
+    "textiles/lit-weave",
+    "--name",
+    "Lit weave",
+];
+
+#[test]
+fn a_lit_weave_becomes_a_textile_that_is_shown_and_rendered() {
+    let lab = Lab::with_scene();
+    lab.write("weave.png", lit_weave());
+    let told = lab.print(&FELT);
+    for part in [
+        "slant 45.0°, tilt 30.0°",
+        "180.0 µm",
+        "textiles/lit-weave: the textile",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    let json: serde_json::Value = serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
+    let shading = &json["shading"];
+    assert_eq!(shading["method"], "variational");
+    assert_eq!(shading["light_estimated"], false);
+    assert_eq!(shading["height_um"]["relief"], 180.0);
+    let number = |key: &str| shading[key].as_f64().unwrap();
+    assert!(
+        number("residual") < 0.2 * number("residual_of_level"),
+        "{shading}"
+    );
+    // The truth's rms is 0.79 px of a relief of 4 px.
+    let span = &shading["height_px"];
+    let share = span["rms"].as_f64().unwrap() / span["relief"].as_f64().unwrap();
+    assert!((share - 0.21).abs() < 0.02, "{span}");
+    let manifest = lab.read("textiles/lit-weave/textile.toml");
+    for part in [
+        "picture = \"weave.png\"",
+        "picture_sha256",
+        "lattice_px",
+        "slant_deg = 45",
+    ] {
+        assert!(manifest.contains(part), "{part}: {manifest}");
+    }
+    let map = lab.print(&["textile", "show", "lit-weave", "--library", "textiles"]);
+    assert!(map.contains("Lit weave"), "{map}");
+    let scene = lab
+        .read("a.scene.toml")
+        .replace("\"fine\"", "\"lit-weave\"");
+    lab.write("a.scene.toml", scene);
+    lab.print(&[
+        "render",
+        "a.scene.toml",
+        "--path",
+        "a.csv",
+        "--out",
+        "a.bin",
+    ]);
+    assert!(!std::fs::read(lab.path("a.bin")).unwrap().is_empty());
+}
+
+#[test]
+fn all_bytes_are_the_same_whatever_the_threads_and_old_heights_go() {
+    let lab = Lab::new();
+    lab.write("weave.png", lit_weave());
+    let all = || -> Vec<(PathBuf, Vec<u8>)> {
+        let mut files: Vec<PathBuf> = ["made", "textiles/lit-weave"]
+            .iter()
+            .flat_map(|folder| std::fs::read_dir(lab.path(folder)).unwrap())
+            .map(|entry| entry.unwrap().path())
+            .collect();
+        files.sort();
+        let read = |path: PathBuf| (path.clone(), std::fs::read(path).unwrap());
+        files.into_iter().map(read).collect()
+    };
+    lab.print(&[&FELT[..], &["--threads", "1"]].concat());
+    let first = all();
+    assert!(first.len() >= 14, "{}", first.len());
+    lab.print(&[&FELT[..], &["--threads", "2"]].concat());
+    let again = all();
+    let names = |files: &[(PathBuf, Vec<u8>)]| -> Vec<PathBuf> {
+        files.iter().map(|(path, _)| path.clone()).collect()
+    };
+    assert_eq!(names(&first), names(&again));
+    for ((path, a), (_, b)) in first.iter().zip(&again) {
+        assert!(a == b, "{}", path.display());
+    }
+    let one = Rgb8Image {
+        width: 50,
+        height: 50,
+        pixels: vec![[90, 80, 70]; 2500],
+    };
+    lab.write("a.png", encode_png(&one, "a.png".as_ref()).unwrap());
+    lab.print(&["picture", "a.png", "--out", "made"]);
+    assert!(!lab.path("made/height.png").exists(), "what is old is gone");
+}
+
+#[test]
+fn a_picture_alone_gives_heights_without_a_scale_and_says_so() {
+    let lab = Lab::new();
+    lab.write("weave.png", lit_weave());
+    let told = lab.print(&["picture", "weave.png", "--out", "made"]);
+    assert!(
+        told.contains("estimated: ") && told.contains("px, unscaled"),
+        "{told}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
+    assert_eq!(json["shading"]["light_estimated"], true);
+    assert!(json["shading"]["height_um"].is_null(), "{json}");
+    let bytes = std::fs::read(lab.path("made/height.png")).unwrap();
+    let height = decode_gray_png(&bytes, "height.png".as_ref(), 1 << 20).unwrap();
+    assert_eq!(height.text("Gwy::ZUnit"), Some("px"));
+    assert_eq!(height.text("Gwy::XYUnit"), Some("px"));
+    let scaled = ["--dpi", "600", "--relief-um", "100"];
+    lab.print(&[&["picture", "weave.png", "--out", "made"], &scaled[..]].concat());
+    let bytes = std::fs::read(lab.path("made/height.png")).unwrap();
+    let height = decode_gray_png(&bytes, "height.png".as_ref(), 1 << 20).unwrap();
+    let number = |key: &str| height.text(key).unwrap().parse::<f64>().unwrap();
+    assert!((number("Gwy::ZMax") - number("Gwy::ZMin") - 1e-4).abs() < 1e-12);
+    assert_eq!(height.text("Gwy::ZUnit"), Some("m"));
+}
+
+#[test]
+fn what_cannot_go_together_is_refused_in_one_line() {
+    let lab = Lab::new();
+    lab.write("weave.png", lit_weave());
+    for (more, what) in [
+        (&["--textile", "a"][..], "--px-per-mm or --dpi"),
+        (
+            &["--textile", "a", "--dpi", "600"],
+            "--relief-um or --smd-um",
+        ),
+        (&["--smd-um", "5"], "--smd-um needs the picture's scale"),
+        (
+            &["--shading", "linear", "--iterations", "3"],
+            "leave --iterations out",
+        ),
+        (&["--iterations", "0"], "1 to 10000"),
+        (&["--light", "1,0"], "light from the front"),
+        (
+            &["--light", "45,135", "--shading", "tsai-shah"],
+            "turn the picture",
+        ),
+    ] {
+        let line = lab.refuse(&[&["picture", "weave.png", "--out", "made"], more].concat());
+        assert!(line.contains(what), "{more:?}: {line}");
+        assert!(
+            !lab.path("made").exists() && !lab.path("a").exists(),
+            "{more:?}"
+        );
+    }
+    for more in [
+        &["--light", "95,0"][..],
+        &["--light", "45"],
+        &["--relief-um", "5", "--smd-um", "5"],
+        &["--name", "A"],
+        &["--shading", "guess"],
+    ] {
+        let args = [&["picture", "weave.png", "--out", "made"], more].concat();
+        assert_eq!(lab.run(&args).code, 2, "{more:?}");
     }
 }
 

@@ -243,7 +243,7 @@ fn of_iterations(
             findings.rows.push(Row {
                 size: Some(picture.values().len() as f64),
                 cost: Some(cost),
-                ..near.row(method, format!("{n} iterations"), WEAVE.name())
+                ..near.row(method, format!("{n} iterations at most"), WEAVE.name())
             });
         }
     }

@@ -15,6 +15,7 @@ mod tests;
 mod device;
 mod input;
 mod motion;
+mod picture;
 mod pointer;
 mod shading;
 mod tuning;
@@ -93,6 +94,7 @@ impl Study for Stability {
             tuning::cases(),
             input::cases(),
             pointer::cases(),
+            picture::cases(),
             shading::cases(),
             device::cases(),
         ];

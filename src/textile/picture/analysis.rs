@@ -116,14 +116,19 @@ impl Found {
         self.explained_variance < DRIFT * self.lattice.level
     }
 
-    /// Refines a lattice on a picture and averages its cells.
+    /// Refines a lattice on a picture and averages its cells: from 0.8 of the whole work on.
+    ///
+    /// # Errors
+    /// The work was cancelled.
     pub fn of(
         luminance: &Grid<f64>,
         picture: &Picture,
         lattice: Lattice,
         n_threads: usize,
-    ) -> Self {
-        let (whole, explained_variance) = refine(luminance, lattice.basis(), n_threads);
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let all = |share: f64| progress.step(0.8 + 0.06 * share, "averaging the cells");
+        let (whole, explained_variance) = refine(luminance, lattice.basis(), n_threads, all)?;
         let basis = whole.basis();
         let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
         let wanted = DRIFT * lattice.level;
@@ -131,10 +136,11 @@ impl Found {
         let flat = if is_flat {
             None
         } else {
-            flattest(luminance, lattice.basis(), wanted, n_threads)
+            let parts = |share: f64| progress.step(0.86 + 0.14 * share, "looking for a flat part");
+            flattest(luminance, lattice.basis(), wanted, n_threads, parts)?
                 .filter(|part| part.explained_variance > explained_variance)
         };
-        Self {
+        Ok(Self {
             lattice: if is_flat {
                 lattice.with_basis(basis)
             } else {
@@ -147,7 +153,7 @@ impl Found {
             tile: flat.map_or(whole, |part| part.tile),
             explained_variance,
             colour,
-        }
+        })
     }
 }
 
@@ -175,8 +181,16 @@ pub fn analyse(
     let measured = Measurements::of(&luminance, options.directions, options.n_threads, progress)?;
     progress.step(0.7, "fitting the lattice")?;
     let lattice = measured.lattice();
-    progress.step(0.8, "averaging the cells")?;
-    let found = lattice.map(|lattice| Found::of(&luminance, picture, lattice, options.n_threads));
+    let found = match lattice {
+        Ok(lattice) => Ok(Found::of(
+            &luminance,
+            picture,
+            lattice,
+            options.n_threads,
+            progress,
+        )?),
+        Err(reason) => Err(reason),
+    };
     progress.step(1.0, "done")?;
     Ok(Analysis {
         luminance,

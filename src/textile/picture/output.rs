@@ -4,11 +4,12 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::analysis::{Analysis, Found};
+use super::analysis::{Analysis, Found, Measurements};
 use super::autocorrelation::correlated_part;
 use super::basis::{Place, length};
 use super::lattice::Lattice;
 use super::overlay::{overlay, range};
+use super::relief::{Relief, ReliefReport};
 use crate::files::{
     FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string,
 };
@@ -18,7 +19,7 @@ use crate::numerics::Grid;
 const MOST_ROWS: usize = 5000;
 
 /// Every name that [`files`] may give.
-pub const FILE_NAMES: [&str; 7] = [
+pub const FILE_NAMES: [&str; 8] = [
     "periodicity.json",
     "overlay.png",
     "autocorrelation.png",
@@ -26,10 +27,11 @@ pub const FILE_NAMES: [&str; 7] = [
     "tile.png",
     "synthesized.png",
     "residual.png",
+    "height.png",
 ];
 
 /// What the files say beside the result.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct About {
     /// Pixels of the picture to a millimetre, if known.
     pub px_per_mm: Option<f64>,
@@ -39,6 +41,10 @@ pub struct About {
     pub region: Option<[usize; 4]>,
     /// The corners that it was rectified from.
     pub corners: Option<[Place; 4]>,
+    /// Heights that were found on it, and from the lowest to the highest of them, µm, if known.
+    pub relief: Option<(Relief, Option<f64>)>,
+    /// Why there are no heights, where they were looked for.
+    pub no_relief: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -79,6 +85,8 @@ struct Reported<'a> {
     n_maxima: usize,
     n_significant_maxima: usize,
     directions: Option<[Reading; 2]>,
+    shading: Option<ReliefReport>,
+    no_shading: Option<&'a str>,
 }
 
 /// Directions and lengths by one measure.
@@ -94,8 +102,8 @@ struct Reading {
 /// The files of an analysis, by name.
 ///
 /// `periodicity.json`, `overlay.png`, and as far as there is anything to show
-/// `autocorrelation.png`, `maxima.csv`, `tile.png`, `synthesized.png` and `residual.png`. Pictures
-/// of luminance are stretched to the picture's own range.
+/// `autocorrelation.png`, `maxima.csv`, `tile.png`, `synthesized.png` and `residual.png`;
+/// `height.png` of a relief. Pictures of luminance are stretched to the picture's own range.
 ///
 /// # Errors
 /// A picture that is too large for its format.
@@ -139,6 +147,10 @@ pub fn files(
                 encode_gray_png(&grey(grid, low, high), Path::new(name))?,
             ));
         }
+    }
+    if let Some((relief, relief_um)) = &about.relief {
+        let height = relief.picture(about.px_per_mm, *relief_um)?;
+        all.push(("height.png", height));
     }
     Ok(all)
 }
@@ -220,19 +232,23 @@ fn reported<'a>(analysis: &'a Analysis, about: &'a About) -> Reported<'a> {
         colour_carries_the_period: found.map(|f| f.colour.is_printed()),
         n_maxima: measured.map_or(0, |m| m.maxima.all().len() / 2),
         n_significant_maxima: measured.map_or(0, |m| m.significant.all().len()),
-        directions: measured.map(|m| {
-            let d = &m.directions;
-            let pairs = [
-                ("mean concentration", &d.by_concentration),
-                ("hough", &d.by_hough),
-            ];
-            pairs.map(|(measure, by)| Reading {
-                measure,
-                lambda_per_px: d.lambda_per_px,
-                directions_deg: by.best.map(|both| both.map(f64::to_degrees)),
-                p1_px: by.basis.map(|b| b.p1),
-                p2_px: by.basis.map(|b| b.p2),
-            })
-        }),
+        directions: measured.map(readings),
+        shading: about.relief.as_ref().map(|(relief, um)| relief.report(*um)),
+        no_shading: about.no_relief.as_deref(),
     }
+}
+
+fn readings(measured: &Measurements) -> [Reading; 2] {
+    let d = &measured.directions;
+    let pairs = [
+        ("mean concentration", &d.by_concentration),
+        ("hough", &d.by_hough),
+    ];
+    pairs.map(|(measure, by)| Reading {
+        measure,
+        lambda_per_px: d.lambda_per_px,
+        directions_deg: by.best.map(|both| both.map(f64::to_degrees)),
+        p1_px: by.basis.map(|b| b.p1),
+        p2_px: by.basis.map(|b| b.p2),
+    })
 }

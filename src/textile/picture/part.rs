@@ -23,24 +23,29 @@ pub(super) struct FlatPart {
 
 /// The largest part (a half, a quarter, an eighth of either side) whose mean cell explains at least
 /// `wanted` of its variance; if none does, the part whose explains most. `None` if no part holds
-/// enough cells.
-pub(super) fn flattest(
+/// enough cells. `step` hears how far it is, 0…1, and may stop it.
+pub(super) fn flattest<E>(
     luminance: &Grid<f64>,
     basis: Basis,
     wanted: f64,
     n_threads: usize,
-) -> Option<FlatPart> {
+    mut step: impl FnMut(f64) -> Result<(), E>,
+) -> Result<Option<FlatPart>, E> {
     let mut best: Option<FlatPart> = None;
-    for share in SHARES {
+    for (round, share) in SHARES.into_iter().enumerate() {
         let size = [luminance.width() / share, luminance.height() / share];
         if ((size[0] * size[1]) as f64) < LEAST_CELLS * basis.area() {
             break;
         }
-        let step = (share * share).div_ceil(MOST_PARTS);
-        for n in (0..share * share).step_by(step) {
+        let every = (share * share).div_ceil(MOST_PARTS);
+        for n in (0..share * share).step_by(every) {
+            let done = n as f64 / (share * share) as f64;
+            step((round as f64 + done) / SHARES.len() as f64)?;
             let place = [n % share * size[0], n / share * size[1], size[0], size[1]];
-            let part = luminance.part(place)?;
-            let (tile, explained_variance) = refine(&part, basis, n_threads);
+            let Some(part) = luminance.part(place) else {
+                continue;
+            };
+            let (tile, explained_variance) = refine(&part, basis, n_threads, |_| Ok(()))?;
             let is_better = |b: &FlatPart| explained_variance > b.explained_variance;
             if best.as_ref().is_none_or(is_better) {
                 best = Some(FlatPart {
@@ -57,5 +62,5 @@ pub(super) fn flattest(
             break;
         }
     }
-    best
+    Ok(best)
 }

@@ -93,6 +93,7 @@ pub(super) fn solve(brightness: &Grid<f64>, light: Light, options: &ShadingOptio
         height_px,
         albedo,
         residuals: residuals.to_vec(),
+        n_rounds: 0,
     }
 }
 

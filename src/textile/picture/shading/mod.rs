@@ -14,6 +14,7 @@
 //! - the tile repeats both ways; heights are in pixels, about their mean
 //! - same brightness, same options, same bytes; every height is finite
 
+mod coarse;
 mod light;
 mod linear;
 mod reflectance;
@@ -31,7 +32,7 @@ pub use linear::Blind;
 pub use reflectance::picture_of;
 pub use scale::HeightScale;
 pub use source::PictureSource;
-pub use textile::{PictureTextile, to_textile};
+pub use textile::{PictureTextile, relief_um_of, to_textile};
 pub use tsai_shah::Edges;
 
 use serde::{Deserialize, Serialize};
@@ -93,7 +94,7 @@ pub struct ShadingOptions {
     /// The method.
     pub method: Method,
     /// Iterations, 1 to [`MOST_ITERATIONS`]; the method's own number unless stated. The linear
-    /// inversion takes one.
+    /// inversion takes one; the variational method ends sooner where more would not help.
     pub iterations: Option<usize>,
     /// What Tsai & Shah's differences do at the first row and column; the others always repeat.
     pub edges: Edges,
@@ -123,6 +124,9 @@ pub struct Shape {
     pub albedo: f64,
     /// Mean of |E/a − R| over the tile, flat first, then after every iteration.
     pub residuals: Vec<f64>,
+    /// Rounds of conjugate gradients that the variational method took, those on coarser tiles by
+    /// their share of the points; 0 by the others.
+    pub n_rounds: usize,
     /// What the light cannot show.
     pub blind: Blind,
     /// How far the method can be trusted under this light, in a sentence or two.
@@ -281,6 +285,7 @@ pub fn shape_from_shading(
         light,
         albedo: found.albedo,
         residuals: found.residuals,
+        n_rounds: found.n_rounds,
         blind,
         reliability: reliability::words(options.method, light, blind),
     })
@@ -291,6 +296,7 @@ struct Found {
     height_px: Grid<f64>,
     albedo: f64,
     residuals: Vec<f64>,
+    n_rounds: usize,
 }
 
 impl ShadingOptions {

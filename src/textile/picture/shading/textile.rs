@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::scale::{no_surface, scaled};
+use super::scale::{Scaled, no_surface, scaled};
 use super::source::PictureSource;
 use super::{HeightScale, ShadingError, Shape};
 use crate::files::{Rgb8Image, encode_png_small, sha256_hex};
@@ -91,26 +91,10 @@ impl PictureTextile {
 /// Heights without a scale; a flat shape; less than 2 × 2 px; a scale out of range; an SMD that
 /// the tester never reads on it.
 pub fn to_textile(shape: &Shape, about: &PictureTextile) -> Result<Vec<BuiltFile>, TextileError> {
-    let (width, height) = (shape.height_px.width(), shape.height_px.height());
-    if width < 2 || height < 2 {
-        return Err(ShadingError::TooSmall { width, height }.into());
-    }
-    if !(2.0..=2000.0).contains(&about.px_per_mm) {
-        return Err(ShadingError::Option {
-            key: "the picture's scale",
-            value: about.px_per_mm,
-            range: "2 to 2000 px/mm (51 to 50800 dpi)",
-        }
-        .into());
-    }
-    let mut keys = keys(shape, about);
     let path = Path::new(MAP);
-    let drawn = |map: &HeightMap| {
-        let measured = measured(map, &about.name);
-        keys.map().strokes(&measured, path)
-    };
-    let step_mm = about.step_mm([width, height]);
-    let scaled = scaled(shape, step_mm, about.scale, &drawn)?;
+    let mut keys = keys(shape, about);
+    let step_mm = about.step_mm([shape.height_px.width(), shape.height_px.height()]);
+    let scaled = heights(shape, about, &keys)?;
     (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
     keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
@@ -134,6 +118,40 @@ pub fn to_textile(shape: &Shape, about: &PictureTextile) -> Result<Vec<BuiltFile
     let manifest = manifest(about, keys, appearance, figures);
     files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
     Ok(files)
+}
+
+/// From the lowest to the highest height of the textile that would be made, µm.
+///
+/// # Errors
+/// See [`to_textile`].
+pub fn relief_um_of(shape: &Shape, about: &PictureTextile) -> Result<f64, TextileError> {
+    Ok(heights(shape, about, &keys(shape, about))?.relief_um)
+}
+
+/// The shape in µm.
+fn heights(
+    shape: &Shape,
+    about: &PictureTextile,
+    keys: &PictureSource,
+) -> Result<Scaled, TextileError> {
+    let (width, height) = (shape.height_px.width(), shape.height_px.height());
+    if width < 2 || height < 2 {
+        return Err(ShadingError::TooSmall { width, height }.into());
+    }
+    if !(2.0..=2000.0).contains(&about.px_per_mm) {
+        return Err(ShadingError::Option {
+            key: "the picture's scale",
+            value: about.px_per_mm,
+            range: "2 to 2000 px/mm (51 to 50800 dpi)",
+        }
+        .into());
+    }
+    let drawn = |map: &HeightMap| {
+        let measured = measured(map, &about.name);
+        keys.map().strokes(&measured, Path::new(MAP))
+    };
+    let step_mm = about.step_mm([width, height]);
+    scaled(shape, step_mm, about.scale, &drawn)
 }
 
 fn file(name: &str, bytes: Vec<u8>) -> BuiltFile {

@@ -111,5 +111,6 @@ pub(super) fn solve(
         height_px,
         albedo,
         residuals,
+        n_rounds: 0,
     })
 }

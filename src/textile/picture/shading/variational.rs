@@ -3,11 +3,13 @@
 //!
 //! Slopes are central differences, so that no direction is preferred. Every step is solved by
 //! conjugate gradients, preconditioned by the transform of the mean problem; it is halved until it
-//! lowers the sum. λ begins high and falls to what was asked for: broad forms are found first,
-//! which keeps steep weaves out of wrong valleys. The albedo is fitted between steps.
+//! lowers the sum. Coarse tiles come first, and λ begins high and falls to what was asked for:
+//! broad forms are found first, which keeps steep weaves out of wrong valleys and is cheap. The
+//! albedo is fitted between steps. A tile is done when a step hardly lowers the sum any more.
 
 use std::f64::consts::TAU;
 
+use super::coarse::{resampled, sizes};
 use super::reflectance::{Lambert, across, along, laplacian, residual};
 use super::{Found, Light, ShadingError, ShadingOptions, linear};
 use crate::numerics::{Grid, PlaneTransform};
@@ -16,15 +18,19 @@ use crate::progress::Progress;
 /// Weight of squared curvature unless stated, and at first.
 const SMOOTHNESS: f64 = 1e-3;
 const FIRST_SMOOTHNESS: f64 = 0.3;
-/// Share of the iterations over which the weight falls.
-const FALLING: f64 = 0.75;
+/// The same where a coarser tile was solved before.
+const NEXT_SMOOTHNESS: f64 = 0.1;
+/// Iterations over which the weight falls, first and where a coarser tile was solved before.
+const FALLING: [usize; 2] = [11, 3];
+/// A step that lowers the sum by less than this share is the last one.
+const LEAST_GAIN: f64 = 0.03;
 /// Weight of squared heights: keeps what the light does not show near 0.
 const TIKHONOV: f64 = 1e-7;
 /// Damping of a step, at first, and its limits.
 const DAMPING: [f64; 3] = [1e-7, 1e-3, 1e3];
 /// Rounds of conjugate gradients, and the share of the first residual (squared) that ends them.
 const N_INNER: usize = 20;
-const INNER_END: f64 = 1e-4;
+const INNER_END: f64 = 0.01;
 /// A step is halved so often at most.
 const N_HALVINGS: usize = 10;
 
@@ -37,6 +43,8 @@ struct Fit<'a> {
     smoothness: f64,
     damping: f64,
     z: Grid<f64>,
+    /// Rounds of conjugate gradients so far.
+    n_rounds: usize,
 }
 
 /// The reflectance about the surface as it is.
@@ -47,56 +55,137 @@ struct Tangent {
     missing: Grid<f64>,
 }
 
+/// How the weight of curvature falls over the iterations on one tile.
+struct Falling {
+    first: f64,
+    last: f64,
+    n: usize,
+}
+
+impl Falling {
+    /// `share`: a pixel of the whole tile in pixels of this one. Curvature in pixels grows as
+    /// they do, so that its weight is less on coarse tiles.
+    fn of(options: &ShadingOptions, share: f64, is_first: bool) -> Self {
+        let last = options.regulariser.unwrap_or(SMOOTHNESS);
+        let [n_first, n_next] = FALLING;
+        let (first, n) = if is_first {
+            (FIRST_SMOOTHNESS, n_first)
+        } else {
+            (NEXT_SMOOTHNESS, n_next)
+        };
+        Self {
+            first: first.max(last) * share * share,
+            last: last * share * share,
+            n: n.min(options.n_iterations() - 1),
+        }
+    }
+
+    fn at(&self, done: usize) -> f64 {
+        if done >= self.n {
+            return self.last;
+        }
+        let share = done as f64 / self.n as f64;
+        self.first * (self.last / self.first).powf(share)
+    }
+}
+
 pub(super) fn solve(
     brightness: &Grid<f64>,
     light: Light,
     options: &ShadingOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Found, ShadingError> {
-    let matt = Lambert::under(light);
-    let mut fit = Fit {
-        brightness,
-        matt,
-        transform: PlaneTransform::new(brightness.width(), brightness.height()),
-        albedo: options.albedo_for(brightness, light),
-        smoothness: FIRST_SMOOTHNESS,
-        damping: DAMPING[1],
-        z: linear::heights(brightness, light, options),
-    };
+    let sizes = sizes(brightness.width(), brightness.height());
+    let n_points = |[width, height]: [usize; 2]| (width * height) as f64;
+    let whole: f64 = sizes.iter().copied().map(n_points).sum();
+    let albedo = options.albedo_for(brightness, light);
     let flat = Grid::filled(brightness.width(), brightness.height(), 0.0);
-    let mut residuals = vec![residual(brightness, fit.albedo, &flat, matt)];
-    let n = options.n_iterations();
-    let last = options.regulariser.unwrap_or(SMOOTHNESS);
-    for done in 0..n {
-        progress.step(done as f64 / n as f64, "fitting heights")?;
-        fit.smoothness = smoothness_at(done, n, last);
-        if options.albedo.is_none() {
-            fit.fit_albedo();
-        }
-        fit.step(progress, done as f64 / n as f64)?;
-        residuals.push(residual(brightness, fit.albedo, &fit.z, matt));
+    let matt = Lambert::under(light);
+    let first = residual(brightness, albedo, &flat, matt);
+    let mut found = Found {
+        height_px: flat,
+        albedo,
+        residuals: Vec::new(),
+        n_rounds: 0,
+    };
+    let (mut is_first, mut done, mut damping) = (true, 0.0, DAMPING[1]);
+    for size in sizes {
+        let e = resampled(brightness, size);
+        let z = if is_first {
+            linear::heights(&e, light, options)
+        } else {
+            finer(&found.height_px, size)
+        };
+        let mut fit = Fit {
+            brightness: &e,
+            matt,
+            transform: PlaneTransform::new(size[0], size[1]),
+            albedo: found.albedo,
+            smoothness: 0.0,
+            damping,
+            z,
+            n_rounds: 0,
+        };
+        let share = size[0] as f64 / brightness.width() as f64;
+        let falling = Falling::of(options, share, is_first);
+        let part = [done / whole, n_points(size) / whole];
+        let residuals = fit.run(&falling, options, part, progress)?;
+        is_first = false;
+        done += n_points(size);
+        damping = fit.damping;
+        // In rounds on the whole tile.
+        let rounds = (fit.n_rounds * size[0] * size[1]).div_ceil(brightness.values().len());
+        found = Found {
+            height_px: fit.z,
+            albedo: fit.albedo,
+            residuals,
+            n_rounds: found.n_rounds + rounds,
+        };
     }
-    Ok(Found {
-        height_px: fit.z,
-        albedo: fit.albedo,
-        residuals,
-    })
+    found.residuals.insert(0, first);
+    Ok(found)
 }
 
-/// The weight of curvature at an iteration: falling to the last by equal factors, then the last.
-fn smoothness_at(done: usize, n: usize, last: f64) -> f64 {
-    let falling = (FALLING * n as f64 - 1.0).max(1.0);
-    let share = (done as f64 / falling).min(1.0);
-    let is_alone = n == 1;
-    let first = if is_alone {
-        last
-    } else {
-        FIRST_SMOOTHNESS.max(last)
-    };
-    first * (last / first).powf(share)
+/// Heights of a coarse tile as those of a finer one, whose pixels are smaller.
+fn finer(coarse: &Grid<f64>, size: [usize; 2]) -> Grid<f64> {
+    let factor = size[0] as f64 / coarse.width() as f64;
+    let mut fine = resampled(coarse, size);
+    for z in fine.values_mut() {
+        *z *= factor;
+    }
+    fine
 }
 
 impl Fit<'_> {
+    /// Steps until they hardly help; hands back the residual after each. `part`: where in the
+    /// whole work it begins and what share it is.
+    fn run(
+        &mut self,
+        falling: &Falling,
+        options: &ShadingOptions,
+        part: [f64; 2],
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<f64>, ShadingError> {
+        let n = options.n_iterations();
+        let mut residuals = Vec::new();
+        for done in 0..n {
+            let share = part[0] + part[1] * done as f64 / n as f64;
+            progress.step(share, "fitting heights")?;
+            self.smoothness = falling.at(done);
+            if options.albedo.is_none() {
+                self.fit_albedo();
+            }
+            let before = self.cost(&self.z);
+            let after = self.step(before, progress, share)?;
+            residuals.push(residual(self.brightness, self.albedo, &self.z, self.matt));
+            let is_settled = after >= before * (1.0 - LEAST_GAIN);
+            if done > falling.n && is_settled {
+                break;
+            }
+        }
+        Ok(residuals)
+    }
+
     /// The albedo that fits the surface as it is best; as before if all of it is dark.
     fn fit_albedo(&mut self) {
         let (p, q) = (along(&self.z), across(&self.z));
@@ -138,35 +227,41 @@ impl Fit<'_> {
         misfit + self.smoothness * squares(&laplacian(z)) + TIKHONOV * squares(z)
     }
 
-    /// One Gauss–Newton step, halved until it lowers the cost; none if nothing does.
-    fn step(&mut self, progress: &mut Progress<'_>, share: f64) -> Result<(), ShadingError> {
+    /// One Gauss–Newton step, halved until it lowers the cost, which is handed back; none if
+    /// nothing does.
+    fn step(
+        &mut self,
+        before: f64,
+        progress: &mut Progress<'_>,
+        share: f64,
+    ) -> Result<f64, ShadingError> {
         let tangent = self.tangent();
         let mut down = tangent.back(&tangent.missing);
         let bent = laplacian(&laplacian(&self.z));
         add(&mut down, -self.smoothness, &bent);
         add(&mut down, -TIKHONOV, &self.z);
         let way = self.solved(&tangent, down, progress, share)?;
-        let before = self.cost(&self.z);
         let mut length = 1.0;
         for _ in 0..N_HALVINGS {
             let mut z = self.z.clone();
             add(&mut z, length, &way);
-            if self.cost(&z) < before {
+            let after = self.cost(&z);
+            if after < before {
                 self.z = z;
                 if length >= 1.0 {
                     self.damping = (self.damping / 3.0).max(DAMPING[0]);
                 }
-                return Ok(());
+                return Ok(after);
             }
             length *= 0.5;
         }
         self.damping = (10.0 * self.damping).min(DAMPING[2]);
-        Ok(())
+        Ok(before)
     }
 
     /// `(JᵀJ + λ∇⁴ + μ) x = right` by conjugate gradients.
     fn solved(
-        &self,
+        &mut self,
         tangent: &Tangent,
         mut right: Grid<f64>,
         progress: &mut Progress<'_>,
@@ -184,6 +279,7 @@ impl Fit<'_> {
                 break;
             }
             progress.step(share, "fitting heights")?;
+            self.n_rounds += 1;
             let mut image = tangent.back(&tangent.forth(&way));
             add(&mut image, self.smoothness, &laplacian(&laplacian(&way)));
             add(&mut image, shift, &way);

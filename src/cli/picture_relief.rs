@@ -1,0 +1,231 @@
+//! `selvedge picture`, from the cell that repeats on: heights, and a textile of them.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::picture::{numbers, positive};
+use super::textile_words::Made;
+use super::{CliError, terminal};
+use crate::files::sha256_hex;
+use crate::progress::{Cancelled, Progress};
+use crate::quantity::{fixed, with_unit};
+use crate::surface::Representation;
+use crate::textile::picture::felt::textile_of;
+use crate::textile::picture::shading::{
+    HeightScale, Light, Method, PictureTextile, ShadingError, ShadingOptions, relief_um_of,
+};
+use crate::textile::picture::{Relief, Tile};
+use crate::textile::{self, BuiltFile, Words};
+
+/// How heights are found on the cell, and what becomes of them.
+#[derive(Debug, Args)]
+pub(super) struct ReliefArgs {
+    /// Where the light came from: degrees from straight above, and degrees counter-clockwise from
+    /// +x (to the right) towards the light, y up; estimated if not said
+    #[arg(long, value_name = "SLANT,TILT", value_parser = light_from, allow_hyphen_values = true)]
+    light: Option<Light>,
+    /// How heights are found from brightness (variational)
+    #[arg(long, value_enum, value_name = "METHOD")]
+    shading: Option<By>,
+    /// Iterations at most, 1 to 10000 (the method's own number)
+    #[arg(long, value_name = "N")]
+    iterations: Option<usize>,
+    /// From the lowest to the highest point of the cloth, µm
+    #[arg(long, value_name = "UM", value_parser = positive, conflicts_with = "smd_um")]
+    relief_um: Option<f64>,
+    /// The roughness SMD that a Kawabata tester reads on the cloth, µm; needs the scale
+    #[arg(long, value_name = "UM", value_parser = positive)]
+    smd_um: Option<f64>,
+    /// Folder of a textile to make of it; needs the scale, and the relief or the SMD
+    #[arg(long, value_name = "DIR")]
+    textile: Option<PathBuf>,
+    /// What people call the textile (the picture's name)
+    #[arg(long, default_value = "", requires = "textile")]
+    name: String,
+    /// How the textile is made
+    #[arg(long, value_enum, default_value = "other", requires = "textile")]
+    construction: Made,
+    /// Feel the textile at every point, not along the strokes
+    #[arg(long, requires = "textile")]
+    areal: bool,
+}
+
+/// Methods as words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum By {
+    TsaiShah,
+    Linear,
+    Variational,
+}
+
+fn light_from(text: &str) -> Result<Light, String> {
+    let wrong = || "give two numbers in degrees, such as 45,30".to_owned();
+    let [slant_deg, tilt_deg] = numbers(text).ok_or_else(wrong)?;
+    let light = Light {
+        slant_deg,
+        tilt_deg,
+    };
+    light.check().map_err(|error| error.to_string())?;
+    Ok(light)
+}
+
+/// What was found, and the textile's files.
+pub(super) struct Felt {
+    pub(super) relief: Relief,
+    pub(super) relief_um: Option<f64>,
+    files: Option<Vec<BuiltFile>>,
+}
+
+/// The picture as its textile names it.
+pub(super) struct Origin<'a> {
+    pub(super) path: &'a Path,
+    pub(super) sha256: String,
+}
+
+impl<'a> Origin<'a> {
+    pub(super) fn of(path: &'a Path, bytes: &[u8]) -> Self {
+        let sha256 = sha256_hex([bytes]);
+        Self { path, sha256 }
+    }
+}
+
+impl ReliefArgs {
+    /// Refuses what cannot go together, before anything is reckoned.
+    pub(super) fn check(&self, px_per_mm: Option<f64>) -> Result<(), CliError> {
+        let refuse = |line: &str| Err(CliError::Input(line.to_owned()));
+        let has_height = self.relief_um.is_some() || self.smd_um.is_some();
+        if self.textile.is_some() && px_per_mm.is_none() {
+            return refuse("--textile needs the picture's scale; give --px-per-mm or --dpi");
+        }
+        if self.textile.is_some() && !has_height {
+            return refuse("--textile needs the height of the cloth; give --relief-um or --smd-um");
+        }
+        if self.smd_um.is_some() && px_per_mm.is_none() {
+            return refuse("--smd-um needs the picture's scale; give --px-per-mm or --dpi");
+        }
+        let options = self.options();
+        let is_linear = options.method == Method::Linear && self.iterations.is_some();
+        if is_linear {
+            return refuse("--shading linear has no iterations; leave --iterations out");
+        }
+        Ok(())
+    }
+
+    /// Whether heights were asked for in any way, so that none are an error.
+    fn is_asked(&self) -> bool {
+        let words = [
+            self.light.is_some(),
+            self.shading.is_some(),
+            self.iterations.is_some(),
+            self.relief_um.is_some(),
+            self.smd_um.is_some(),
+            self.textile.is_some(),
+        ];
+        words.contains(&true)
+    }
+
+    fn options(&self) -> ShadingOptions {
+        let method = match self.shading {
+            Some(By::TsaiShah) => Method::TsaiShah,
+            Some(By::Linear) => Method::Linear,
+            Some(By::Variational) | None => Method::Variational,
+        };
+        ShadingOptions {
+            method,
+            iterations: self.iterations,
+            ..ShadingOptions::default()
+        }
+    }
+
+    fn about(&self, origin: &Origin<'_>, px_per_mm: Option<f64>) -> PictureTextile {
+        let name = origin.path.file_name().unwrap_or_default();
+        let stem = origin.path.file_stem().unwrap_or_default();
+        let scale = match (self.relief_um, self.smd_um) {
+            (Some(um), _) => HeightScale::ReliefUm(um),
+            (None, Some(um)) => HeightScale::SmdUm(um),
+            (None, None) => HeightScale::Unscaled,
+        };
+        let called = if self.name.trim().is_empty() {
+            stem.to_string_lossy().into_owned()
+        } else {
+            self.name.clone()
+        };
+        PictureTextile {
+            name: Words::of(&called).name,
+            construction: self.construction.construction(),
+            px_per_mm: px_per_mm.unwrap_or(0.0),
+            scale,
+            picture: Some([name.to_string_lossy().into_owned(), origin.sha256.clone()]),
+            light_is_estimated: self.light.is_none(),
+            representation: if self.areal {
+                Representation::Areal
+            } else {
+                Representation::Economical
+            },
+            ..PictureTextile::default()
+        }
+    }
+
+    /// Finds the heights of a tile; why there are none where nobody asked for them.
+    pub(super) fn felt(
+        &self,
+        tile: &Tile,
+        (origin, px_per_mm): (&Origin<'_>, Option<f64>),
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Result<Felt, String>, CliError> {
+        let how = (&self.options(), n_threads);
+        let relief = match Relief::of(tile, px_per_mm, self.light, how, progress) {
+            Ok(relief) => relief,
+            Err(ShadingError::Cancelled(_)) => return Err(Cancelled.into()),
+            Err(error) if self.is_asked() => {
+                let path = origin.path.display();
+                return Err(CliError::Input(format!("{path}: {error}")));
+            }
+            Err(error) => return Ok(Err(error.to_string())),
+        };
+        let mut about = self.about(origin, px_per_mm);
+        about.size_px = Some(relief.brightness.size_px);
+        let relief_um = match (about.scale, px_per_mm) {
+            (HeightScale::Unscaled, _) => None,
+            (HeightScale::ReliefUm(um), None) => Some(um),
+            _ => Some(relief_um_of(&relief.shape, &about)?),
+        };
+        let wants = self.textile.as_ref();
+        let files = wants.map(|_| textile_of(&relief.shape, &relief.brightness, tile, &about));
+        Ok(Ok(Felt {
+            relief,
+            relief_um,
+            files: files.transpose()?,
+        }))
+    }
+
+    /// Writes the textile, if one is wanted, and tells in lines what was found.
+    pub(super) fn finish(&self, felt: &Felt, out: &Path) -> Result<String, CliError> {
+        let light = felt.relief.light;
+        let by = felt.relief.shape.method.label();
+        let (slant, tilt) = (fixed(light.slant_deg, 1), fixed(light.tilt_deg, 1));
+        let estimate = felt.relief.estimate.as_ref();
+        let estimated = estimate.map_or_else(String::new, |e| format!(", estimated: {}", e.words));
+        let height = match felt.relief_um {
+            Some(um) => with_unit(um, 1, "µm"),
+            None => format!("{}, unscaled", with_unit(felt.relief.relief_px(), 2, "px")),
+        };
+        let (out, words) = (out.display(), &felt.relief.shape.reliability);
+        let first = format!("{out}: heights by {by} under light of slant {slant}°, tilt {tilt}°");
+        let mut told =
+            format!("{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");
+        if let (Some(folder), Some(files)) = (&self.textile, &felt.files) {
+            textile::write(files, folder)?;
+            let line = format!("{}: the textile\n", folder.display());
+            told.push_str(&line);
+        }
+        Ok(told)
+    }
+}
+
+/// Tells why there are no heights.
+pub(super) fn tell_none(path: &Path, reason: &str) {
+    terminal::notice(&format!("{}: no heights: {reason}", path.display()));
+}

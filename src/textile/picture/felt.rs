@@ -1,0 +1,362 @@
+//! From the tile of a picture to a textile that is felt: what every surface shares.
+//!
+//! ```text
+//! Tile ─ brightness_of ─▶ Brightness ─ shape_of ─▶ Shape ─ textile_of ─▶ files of a textile
+//! ```
+//!
+//! Pictures count rows from the top and angles clockwise; heights count rows from the lowest y and
+//! angles counter-clockwise. A light is always said as it falls on the *picture*, y up; these
+//! functions turn it to the axes of what was cut from it.
+
+use super::basis::{Basis, dot, length, whole};
+use super::shading::{
+    Light, LightEstimate, PictureTextile, ShadingError, ShadingOptions, Shape, estimate_light,
+    rows_turned_over, shape_from_shading, to_textile,
+};
+use super::tile::Tile;
+use crate::numerics::Grid;
+use crate::progress::Progress;
+use crate::surface::WINDOW_LENGTH_MM;
+use crate::textile::TextileError;
+use crate::textile::build::BuiltFile;
+
+/// Windows that synthesized cloth holds, along and across, at least.
+const N_WINDOWS: f64 = 1.5;
+/// Samples a side of synthesized cloth at most.
+const MOST_SIDE: f64 = 1024.0;
+/// How much further across than needed a better seam is looked for.
+const LOOK_FURTHER: isize = 12;
+
+/// What was cut from a lattice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extent {
+    /// The smallest rectangle that repeats, sheared by this to close, radians.
+    Repeat {
+        /// The shear.
+        shear_rad: f64,
+    },
+    /// Synthesized cloth, for the lattice has no rectangle: it repeats along its rows, and at its
+    /// upper edge jumps sideways by this, px of the picture.
+    Patch {
+        /// The jump.
+        seam_px: f64,
+    },
+}
+
+/// Brightness of cloth that repeats, cut from a lattice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brightness {
+    /// Samples, 0…1; **row 0 is the lowest y**.
+    pub values: Grid<f64>,
+    /// Its size, px of the picture.
+    pub size_px: [f64; 2],
+    /// Direction of its rows in the picture, radians clockwise from x to the right.
+    pub angle_rad: f64,
+    /// What it is.
+    pub extent: Extent,
+}
+
+/// Cuts from a tile the rectangle that repeats, sampled at 1 px; where the lattice has none,
+/// synthesizes cloth that holds a window of the finger or more at this scale.
+pub fn brightness_of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
+    match tile.rectangle(1.0, n_threads) {
+        Some(rectangle) => Brightness {
+            values: upright(&rectangle.values),
+            size_px: rectangle.size_px,
+            angle_rad: rectangle.angle_rad,
+            extent: Extent::Repeat {
+                shear_rad: rectangle.shear_rad,
+            },
+        },
+        None => synthesized(tile, px_per_mm, n_threads),
+    }
+}
+
+/// Rows from the lowest y. Divided light may pass white by a little: 0…1 is kept.
+fn upright(values: &Grid<f64>) -> Grid<f64> {
+    let mut values = rows_turned_over(values);
+    for value in values.values_mut() {
+        *value = value.clamp(0.0, 1.0);
+    }
+    values
+}
+
+/// Cloth along p1, whole periods wide, as high as closes best.
+fn synthesized(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
+    let basis = tile.basis();
+    let least_px = N_WINDOWS * WINDOW_LENGTH_MM * px_per_mm.max(1.0);
+    let period = length(basis.p1);
+    let width_px = (least_px / period).ceil() * period;
+    let (height_px, seam_px) = best_height(&basis, least_px);
+    let angle_rad = basis.p1[1].atan2(basis.p1[0]);
+    let step_px = (width_px.max(height_px) / MOST_SIDE).max(1.0);
+    let n = [width_px, height_px].map(|side| whole(side / step_px).max(1).cast_unsigned());
+    let patch = tile.patch(n[0], n[1], step_px, angle_rad, n_threads);
+    Brightness {
+        values: upright(&patch),
+        size_px: n.map(|n| n as f64 * step_px),
+        angle_rad,
+        extent: Extent::Patch { seam_px },
+    }
+}
+
+/// Height of a patch, and how far its upper edge is from continuing its lower one, px.
+fn best_height(basis: &Basis, least_px: f64) -> (f64, f64) {
+    let period = length(basis.p1);
+    let (rise, lean) = (basis.area() / period, dot(basis.p1, basis.p2) / period);
+    let first = whole((least_px / rise).ceil()).max(1);
+    let candidates = (first..=first + LOOK_FURTHER).map(|n| {
+        let n = n as f64;
+        let turns = n * lean / period;
+        (n * rise, (turns - turns.round()).abs() * period)
+    });
+    candidates.fold((rise, f64::INFINITY), |best, next| {
+        if next.1 < best.1 { next } else { best }
+    })
+}
+
+impl Brightness {
+    /// A light on the picture as it falls on this.
+    #[must_use]
+    pub fn light(&self, on_picture: Light) -> Light {
+        turned(on_picture, self.angle_rad.to_degrees())
+    }
+
+    /// A light on this as it falls on the picture.
+    #[must_use]
+    pub fn light_on_picture(&self, here: Light) -> Light {
+        turned(here, -self.angle_rad.to_degrees())
+    }
+
+    /// Estimates the light on the picture, from this.
+    ///
+    /// # Errors
+    /// All is black.
+    pub fn estimated_light(&self) -> Result<LightEstimate, ShadingError> {
+        let mut estimate = estimate_light(&self.values)?;
+        estimate.light = self.light_on_picture(estimate.light);
+        Ok(estimate)
+    }
+}
+
+/// The tilt grown by so much, −180° (not included) to 180°.
+fn turned(light: Light, by_deg: f64) -> Light {
+    let tilt_deg = (light.tilt_deg + by_deg).rem_euclid(360.0);
+    let tilt_deg = if tilt_deg > 180.0 {
+        tilt_deg - 360.0
+    } else {
+        tilt_deg
+    };
+    Light { tilt_deg, ..light }
+}
+
+/// Heights of what was cut, under a light on the picture.
+///
+/// # Errors
+/// See [`shape_from_shading`].
+pub fn shape_of(
+    brightness: &Brightness,
+    on_picture: Light,
+    options: &ShadingOptions,
+    progress: &mut Progress<'_>,
+) -> Result<Shape, ShadingError> {
+    // A light that is out of range is refused in the user's own numbers.
+    on_picture.check()?;
+    let light = brightness.light(on_picture);
+    shape_from_shading(&brightness.values, light, options, progress)
+}
+
+/// The files of a textile of that shape; size and lattice are taken from what it was cut from.
+///
+/// # Errors
+/// See [`to_textile`].
+pub fn textile_of(
+    shape: &Shape,
+    brightness: &Brightness,
+    tile: &Tile,
+    about: &PictureTextile,
+) -> Result<Vec<BuiltFile>, TextileError> {
+    let y_up = |[x, y]: [f64; 2]| [x, -y];
+    let about = PictureTextile {
+        size_px: Some(brightness.size_px),
+        lattice_px: Some([y_up(tile.p1_px), y_up(tile.p2_px)]),
+        ..about.clone()
+    };
+    to_textile(shape, &about)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::{AnalysisOptions, DirectionOptions, EvenLight, Picture, analyse};
+    use super::*;
+    use crate::numerics::Random;
+    use crate::progress::unheard;
+
+    /// Of the picture, px.
+    const SIDE: usize = 300;
+    const LIGHT: Light = Light {
+        slant_deg: 40.0,
+        tilt_deg: 60.0,
+    };
+
+    /// Waves of a cloth: orders along its vectors, amplitude (px) and phase. None of its mirror
+    /// images or turns is like it.
+    const WAVES: [([f64; 2], f64, f64); 5] = [
+        ([1.0, 0.0], 1.0, 0.3),
+        ([0.0, 1.0], 0.8, 1.9),
+        ([1.0, 1.0], 0.7, 0.8),
+        ([2.0, 1.0], 0.35, 2.6),
+        ([1.0, -2.0], 0.3, 4.0),
+    ];
+
+    /// Height and its slopes along x and y (down) at a place of the picture.
+    fn cloth(basis: &Basis, place: [f64; 2]) -> [f64; 3] {
+        let [u, v] = basis.coordinates(place);
+        let (ex, ey) = (basis.coordinates([1.0, 0.0]), basis.coordinates([0.0, 1.0]));
+        let mut sum = [0.0; 3];
+        for (order, amplitude, phase) in WAVES {
+            let turn = TAU * dot(order, [u, v]) + phase;
+            sum[0] += amplitude * turn.cos();
+            sum[1] -= amplitude * TAU * dot(order, ex) * turn.sin();
+            sum[2] -= amplitude * TAU * dot(order, ey) * turn.sin();
+        }
+        sum
+    }
+
+    /// The cloth under the light, with the noise of a camera.
+    fn picture(basis: &Basis) -> Picture {
+        let mut random = Random::new(4);
+        let lean = LIGHT.lean();
+        let values = (0..SIDE * SIDE).map(|i| {
+            let [_, p, down] = cloth(basis, [(i % SIDE) as f64, (i / SIDE) as f64]);
+            let q = -down;
+            let facing = 1.0 - p * lean[0] - q * lean[1];
+            let norm = (1.0 + p * p + q * q).sqrt() * (1.0 + dot(lean, lean)).sqrt();
+            (0.8 * facing.max(0.0) / norm + 0.02 * random.normal()).clamp(0.0, 1.0)
+        });
+        let grid = Grid::from_rows(SIDE, values.collect()).unwrap();
+        Picture::grey(grid)
+    }
+
+    fn tile_of(basis: &Basis) -> Tile {
+        let options = AnalysisOptions {
+            light: EvenLight::Auto,
+            directions: DirectionOptions::default(),
+            n_threads: 2,
+        };
+        let picture = picture(basis);
+        let found = unheard(|progress| analyse(&picture, &options, progress)).unwrap();
+        found.found.unwrap().tile
+    }
+
+    /// Correlation of heights with those of the cloth, where `place` says a sample lies in what
+    /// was cut (along, down; px).
+    fn agreement(
+        basis: &Basis,
+        (cut, shape): (&Brightness, &Shape),
+        place: impl Fn(f64, f64) -> [f64; 2],
+    ) -> f64 {
+        let (s, c) = cut.angle_rad.sin_cos();
+        let heights = &shape.height_px;
+        let n = [heights.width(), heights.height()];
+        let step = [0, 1].map(|axis| cut.size_px[axis] / n[axis] as f64);
+        let (mut sums, mut count) = ([0.0; 5], 0.0);
+        for (j, row) in (0..n[1]).map(|j| (j, heights.row(n[1] - 1 - j))) {
+            for (i, z) in row.iter().enumerate() {
+                let [x, y] = place(i as f64 * step[0], j as f64 * step[1]);
+                let truth = cloth(basis, [x * c - y * s, x * s + y * c])[0];
+                let terms = [*z, truth, z * z, truth * truth, z * truth];
+                sums.iter_mut().zip(terms).for_each(|(sum, x)| *sum += x);
+                count += 1.0;
+            }
+        }
+        let [a, b, aa, bb, ab] = sums.map(|sum| sum / count);
+        (ab - a * b) / ((aa - a * a) * (bb - b * b)).sqrt()
+    }
+
+    fn turned_basis(angle_deg: f64, sides: [f64; 2], between_deg: f64) -> Basis {
+        let vector = |length: f64, deg: f64| {
+            let (s, c) = deg.to_radians().sin_cos();
+            [length * c, length * s]
+        };
+        Basis::new(
+            vector(sides[0], angle_deg),
+            vector(sides[1], angle_deg + between_deg),
+        )
+    }
+
+    fn shape(cut: &Brightness) -> Shape {
+        let options = ShadingOptions::default();
+        unheard(|progress| shape_of(cut, LIGHT, &options, progress)).unwrap()
+    }
+
+    #[test]
+    fn a_picture_of_a_turned_cloth_gives_its_relief_the_right_way_round() {
+        let basis = turned_basis(17.0, [22.0, 26.0], 90.0);
+        let cut = brightness_of(&tile_of(&basis), 20.0, 2);
+        assert!(
+            matches!(cut.extent, Extent::Repeat { .. }),
+            "{:?}",
+            cut.extent
+        );
+        let shape = shape(&cut);
+        let [width, height] = cut.size_px;
+        let right = agreement(&basis, (&cut, &shape), |x, y| [x, y]);
+        // More than 0.999 when this was written: no wave of this cloth lies across the light.
+        assert!(right > 0.98, "{right}");
+        for (name, wrong) in [
+            (
+                "mirrored",
+                agreement(&basis, (&cut, &shape), |x, y| [width - x, y]),
+            ),
+            (
+                "upside down",
+                agreement(&basis, (&cut, &shape), |x, y| [x, height - y]),
+            ),
+            (
+                "turned",
+                agreement(&basis, (&cut, &shape), |x, y| [width - x, height - y]),
+            ),
+        ] {
+            assert!(wrong < 0.7, "{name}: {wrong} beside {right}");
+        }
+    }
+
+    #[test]
+    fn synthesized_cloth_shows_the_relief_and_nearly_closes() {
+        let basis = turned_basis(9.0, [21.3, 24.9], 71.3);
+        let tile = tile_of(&basis);
+        let cut = synthesized(&tile, 8.0, 2);
+        let Extent::Patch { seam_px } = cut.extent else {
+            panic!("{:?} at {:?}", cut.extent, tile.basis());
+        };
+        assert!(seam_px < 2.5, "seam {seam_px}");
+        let least_px = N_WINDOWS * WINDOW_LENGTH_MM * 8.0;
+        assert!(
+            cut.size_px.iter().all(|side| *side > 0.95 * least_px),
+            "{:?}",
+            cut.size_px
+        );
+        let right = agreement(&basis, (&cut, &shape(&cut)), |x, y| [x, y]);
+        assert!(right > 0.85, "{right}");
+    }
+
+    #[test]
+    fn a_light_is_turned_to_what_was_cut_and_back() {
+        let cut = Brightness {
+            values: Grid::filled(4, 4, 0.5),
+            size_px: [4.0, 4.0],
+            angle_rad: 0.5,
+            extent: Extent::Repeat { shear_rad: 0.0 },
+        };
+        let here = cut.light(Light {
+            slant_deg: 40.0,
+            tilt_deg: 170.0,
+        });
+        assert!((here.tilt_deg - (170.0 + 0.5_f64.to_degrees() - 360.0)).abs() < 1e-9);
+        let back = cut.light_on_picture(here);
+        assert!((back.tilt_deg - 170.0).abs() < 1e-9 && back.slant_deg > 39.0);
+    }
+}

@@ -1,0 +1,210 @@
+//! Heights of a picture's cell: found, told and drawn.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::felt::{Brightness, Extent, brightness_of, shape_of};
+use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
+use super::tile::Tile;
+use crate::files::{FileError, GrayImage, encode_gray_png, gray_values};
+use crate::progress::Progress;
+
+/// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
+/// have it.
+const BELIEVED_DEG: std::ops::RangeInclusive<f64> = 20.0..=70.0;
+const ASSUMED_DEG: f64 = 45.0;
+
+/// Heights found on a picture, with where they come from.
+#[derive(Debug, Clone)]
+pub struct Relief {
+    /// The brightness that they were found of.
+    pub brightness: Brightness,
+    /// The heights.
+    pub shape: Shape,
+    /// The light on the picture, y up.
+    pub light: Light,
+    /// How it was estimated, if it was not given.
+    pub estimate: Option<LightEstimate>,
+}
+
+/// What a file says of heights that were found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReliefReport {
+    /// The method's word.
+    pub method: &'static str,
+    /// Iterations done.
+    pub iterations: usize,
+    /// Rounds of conjugate gradients.
+    pub rounds: usize,
+    /// Slant and tilt of the light on the picture (tilt from +x, y up, towards the light), degrees.
+    pub light_deg: [f64; 2],
+    /// Whether it was estimated.
+    pub light_estimated: bool,
+    /// How sure the estimate is.
+    pub light_words: Option<String>,
+    /// How much gradients agree on the tilt's side, 0 to 1.
+    pub tilt_agreement: Option<f64>,
+    /// How much more brightness changes along the tilt than across it, 0 to 1.
+    pub axis_coherence: Option<f64>,
+    /// The albedo.
+    pub albedo: f64,
+    /// Mean of |E/a − R| of a level surface.
+    pub residual_of_level: f64,
+    /// The same of the heights.
+    pub residual: f64,
+    /// How far the method can be trusted under this light.
+    pub reliability: String,
+    /// Samples along rows and across.
+    pub samples: [usize; 2],
+    /// Their extent, px of the picture.
+    pub size_px: [f64; 2],
+    /// Direction of the rows in the picture, degrees clockwise from +x.
+    pub angle_deg: f64,
+    /// What the rectangle was sheared by to close, degrees.
+    pub shear_deg: Option<f64>,
+    /// The sideways jump at the upper edge of cloth that has no rectangle, px.
+    pub seam_px: Option<f64>,
+    /// From the lowest to the highest height and rms, samples' widths.
+    pub height_px: Span,
+    /// The same in µm, where the relief is known.
+    pub height_um: Option<Span>,
+}
+
+/// How high a relief is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Span {
+    /// From the lowest to the highest height.
+    pub relief: f64,
+    /// Root of the mean square about the mean.
+    pub rms: f64,
+}
+
+impl Relief {
+    /// Finds the heights of a tile under a light, or under the light that the picture suggests.
+    ///
+    /// # Errors
+    /// See [`super::shading::shape_from_shading`].
+    pub fn of(
+        tile: &Tile,
+        px_per_mm: Option<f64>,
+        light: Option<Light>,
+        (options, n_threads): (&ShadingOptions, usize),
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ShadingError> {
+        let brightness = brightness_of(tile, px_per_mm.unwrap_or(1.0), n_threads);
+        let estimate = match light {
+            Some(_) => None,
+            None => Some(believed(brightness.estimated_light()?)),
+        };
+        let light = light.or_else(|| estimate.as_ref().map(|e| e.light));
+        let light = light.ok_or(ShadingError::Empty)?;
+        let shape = shape_of(&brightness, light, options, progress)?;
+        Ok(Self {
+            brightness,
+            shape,
+            light,
+            estimate,
+        })
+    }
+
+    /// From the lowest to the highest height, widths of a sample.
+    pub fn relief_px(&self) -> f64 {
+        let [low, high] = self.shape.range_px();
+        high - low
+    }
+
+    /// What files say of it; heights in µm if `relief_um`, from lowest to highest, is known.
+    pub fn report(&self, relief_um: Option<f64>) -> ReliefReport {
+        let shape = &self.shape;
+        let heights = &shape.height_px;
+        let n = heights.values().len().max(1) as f64;
+        let height_px = Span {
+            relief: self.relief_px(),
+            rms: (heights.values().iter().map(|z| z * z).sum::<f64>() / n).sqrt(),
+        };
+        let (shear_deg, seam_px) = match self.brightness.extent {
+            Extent::Repeat { shear_rad } => (Some(shear_rad.to_degrees()), None),
+            Extent::Patch { seam_px } => (None, Some(seam_px)),
+        };
+        let estimate = self.estimate.as_ref();
+        let residual = |at: usize| shape.residuals.get(at).copied().unwrap_or(0.0);
+        ReliefReport {
+            method: shape.method.word(),
+            iterations: shape.n_iterations(),
+            rounds: shape.n_rounds,
+            light_deg: [self.light.slant_deg, self.light.tilt_deg],
+            light_estimated: estimate.is_some(),
+            light_words: estimate.map(|e| e.words.clone()),
+            tilt_agreement: estimate.map(|e| e.tilt_agreement),
+            axis_coherence: estimate.map(|e| e.axis_coherence),
+            albedo: shape.albedo,
+            residual_of_level: residual(0),
+            residual: residual(shape.n_iterations()),
+            reliability: shape.reliability.clone(),
+            samples: [heights.width(), heights.height()],
+            size_px: self.brightness.size_px,
+            angle_deg: self.brightness.angle_rad.to_degrees(),
+            shear_deg,
+            seam_px,
+            height_px,
+            height_um: relief_um.filter(|_| height_px.relief > 0.0).map(|um| Span {
+                relief: um,
+                rms: height_px.rms * um / height_px.relief,
+            }),
+        }
+    }
+
+    /// The heights as a grey picture of 16 bits with the keys of Gwyddion, rows from the top.
+    ///
+    /// Metres where they are known; what has no scale says `px`: extents in pixels of the picture,
+    /// heights in widths of a sample.
+    ///
+    /// # Errors
+    /// More samples than the format holds.
+    pub fn picture(
+        &self,
+        px_per_mm: Option<f64>,
+        relief_um: Option<f64>,
+    ) -> Result<Vec<u8>, FileError> {
+        let heights = &self.shape.height_px;
+        let [low, high] = self.shape.range_px();
+        let span = if high > low { high - low } else { 1.0 };
+        let rows = (0..heights.height()).rev();
+        let shares = rows.flat_map(|row| heights.row(row).iter().map(|z| (z - low) / span));
+        let (height, height_unit) = relief_um.map_or((1.0, "px"), |um| (um * 1e-6 / span, "m"));
+        let (length, length_unit) = px_per_mm.map_or((1.0, "px"), |n| (1e-3 / n, "m"));
+        let size = self.brightness.size_px;
+        let texts = [
+            ("ZMin", (low * height).to_string()),
+            ("ZMax", (high * height).to_string()),
+            ("XReal", (size[0] * length).to_string()),
+            ("YReal", (size[1] * length).to_string()),
+            ("XYUnit", length_unit.to_owned()),
+            ("ZUnit", height_unit.to_owned()),
+        ];
+        let picture = GrayImage {
+            width: heights.width(),
+            height: heights.height(),
+            values: gray_values(shares),
+            white: u16::MAX,
+            texts: texts
+                .map(|(key, text)| (format!("Gwy::{key}"), text))
+                .to_vec(),
+        };
+        encode_gray_png(&picture, Path::new("height.png"))
+    }
+}
+
+/// An estimate with another slant where its own cannot be.
+fn believed(mut estimate: LightEstimate) -> LightEstimate {
+    if !BELIEVED_DEG.contains(&estimate.light.slant_deg) {
+        estimate.light.slant_deg = ASSUMED_DEG;
+        let words = format!(
+            "{} {ASSUMED_DEG}° is taken instead, as in a flatbed scanner.",
+            estimate.words
+        );
+        estimate.words = words;
+    }
+    estimate
+}
