@@ -165,6 +165,10 @@ fn zz_look() {
         } else {
             eframe::egui::Theme::Light
         });
+        if n == 1 {
+            press(&mut harness, Modifiers::COMMAND, Key::Num2);
+            click_tab(&mut harness, "Picture");
+        }
         type_into(&mut harness, "scale", "300");
         type_into(&mut harness, "height", "80");
         harness.run_steps(4);

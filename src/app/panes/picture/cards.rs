@@ -144,7 +144,10 @@ fn show_card(
     let cloth = found.and_then(|found| found.cloth.as_deref());
     let images = cloth.and_then(|cloth| cloth.images.as_ref());
     if card == 6 {
-        return show_relief(ui, found.and_then(|found| found.made.as_ref()), textures);
+        let Some(made) = found.and_then(|found| found.made.as_ref()) else {
+            return nothing(ui, room, waiting(card, cloth));
+        };
+        return show_relief(ui, made, textures);
     }
     let title = TITLES[card].split_once("  ").map_or("", |(_, title)| title);
     let response = ui.interact(room, ui.scope_id().with("card"), Sense::hover());
@@ -233,12 +236,7 @@ fn correlation(
     Some(())
 }
 
-fn show_relief(ui: &mut Ui, made: Option<&Arc<Made>>, textures: &mut PictureTextures) {
-    let room = ui.max_rect();
-    let Some(made) = made else {
-        nothing(ui, room, "needs scale and height");
-        return;
-    };
+fn show_relief(ui: &mut Ui, made: &Arc<Made>, textures: &mut PictureTextures) {
     let is_same = textures
         .made
         .as_ref()

@@ -7,7 +7,7 @@ use crate::app::command::{FileCommand, Purpose};
 use crate::app::panes::Wishes;
 use crate::app::panes::import::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::app::picturing::{
-    Cloth, Draft, Found, Known, Part, PictureCommand, Picturing, ScaleUnit, Shaped, Standing, Step,
+    Cloth, Draft, Found, Part, PictureCommand, Picturing, ScaleUnit, Shaped, Standing, Step,
 };
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{Curve, RowShape, Scale, button, slider_row_as, toggle};
@@ -38,8 +38,6 @@ pub(super) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) 
     let shaped = found.and_then(|found| found.shaped.as_deref());
     show_light(ui, &mut picturing.draft, shaped);
     show_failure(ui, found, Step::Light);
-    show_height(ui, &mut picturing.draft);
-    show_failure(ui, found, Step::Felt);
 }
 
 fn show_failure(ui: &mut Ui, found: Option<&Found>, step: Step) {
@@ -317,27 +315,4 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
         .font(theme::small())
         .color(palette.dim);
     ui.add(eframe::egui::Label::new(words).wrap());
-}
-
-fn show_height(ui: &mut Ui, draft: &mut Draft) {
-    row_of(ui, NAME, ("height", "µm"), |ui, label| {
-        let need = Need::of(draft.height_scale().is_none());
-        text(ui, label, &mut draft.height, ("80", NUMBER, need));
-        for (known, word, tip) in [
-            (
-                Known::Relief,
-                "relief",
-                "From the lowest to the highest point",
-            ),
-            (
-                Known::Smd,
-                "SMD",
-                "The roughness that the surface tester reads",
-            ),
-        ] {
-            if toggle(ui, word, draft.known == known, tip) {
-                draft.known = known;
-            }
-        }
-    });
 }

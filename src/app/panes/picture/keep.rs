@@ -4,7 +4,7 @@ use eframe::egui::{Button, Ui, vec2};
 
 use crate::app::panes::Wishes;
 use crate::app::panes::import::fields::{Need, Tone, note, row_of, step_title, text};
-use crate::app::picturing::{PictureCommand, Picturing};
+use crate::app::picturing::{Draft, Known, PictureCommand, Picturing, Step};
 use crate::app::theme::{ROW, STEP};
 use crate::app::widgets::{button, toggle};
 use crate::quantity::with_unit;
@@ -19,6 +19,7 @@ pub(super) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) 
         format!("relief {relief}, SMD {}", with_unit(made.smd_um, 2, "µm"))
     });
     step_title(ui, 7, "To the fingertip", &figures);
+    show_height(ui, &mut picturing.draft);
     let own = picturing.draft.own_name();
     row_of(ui, 44.0, ("name", ""), |ui, label| {
         let felt = &mut picturing.draft.representation;
@@ -64,9 +65,36 @@ pub(super) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) 
             wishes.push(PictureCommand::Keep { is_felt: false }.into());
         }
     });
+    let failure = picturing.found().and_then(|found| found.failure.clone());
+    if let Some((Step::Felt, line)) = failure {
+        return note(ui, &line, Tone::Wrong);
+    }
     match (refusal, picturing.kept()) {
         (Some(line), _) => note(ui, &line, Tone::Quiet),
         (None, Some(id)) => note(ui, &format!("handed to the library: {id}"), Tone::Quiet),
         (None, None) => {}
     }
+}
+
+fn show_height(ui: &mut Ui, draft: &mut Draft) {
+    row_of(ui, 44.0, ("height", "µm"), |ui, label| {
+        let need = Need::of(draft.height_scale().is_none());
+        text(ui, label, &mut draft.height, ("80", 72.0, need));
+        for (known, word, tip) in [
+            (
+                Known::Relief,
+                "relief",
+                "From the lowest to the highest point",
+            ),
+            (
+                Known::Smd,
+                "SMD",
+                "The roughness that the surface tester reads",
+            ),
+        ] {
+            if toggle(ui, word, draft.known == known, tip) {
+                draft.known = known;
+            }
+        }
+    });
 }

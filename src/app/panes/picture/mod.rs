@@ -26,7 +26,7 @@ const WIDE: f32 = 560.0;
 /// Width of the left column, points.
 const LEFT: f32 = 286.0;
 /// Height of what is always in sight below it, points.
-const KEEP: f32 = 112.0;
+const KEEP: f32 = 142.0;
 /// What is said before a picture was chosen.
 const EMPTY: [&str; 3] = [
     "A scan or a photograph of a cloth, taken straight from above, its threads at least three \
