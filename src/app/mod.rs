@@ -73,6 +73,7 @@ mod state;
 mod study;
 mod tab_row;
 mod take;
+mod task;
 mod theme;
 mod view;
 mod why;

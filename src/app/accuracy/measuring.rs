@@ -2,14 +2,13 @@
 //! found.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::Duration;
 
 use eframe::egui;
 
 use crate::app::job::{Job, Polled};
 use crate::app::rendering::Rendering;
-use crate::progress::{CancelFlag, Progress};
+use crate::app::task::Watch;
+use crate::progress::Progress;
 use crate::render::RenderScene;
 use crate::report::{
     Bench, Effort, Findings, ReportError, Row, Running, Study as _, ThisSceneStudy, pareto,
@@ -20,8 +19,6 @@ use crate::scene::{ExplorationPath, Pose};
 const SEED: u64 = 1;
 /// Ticks of an exploration that are handed on at most; the study takes still fewer.
 const MOST_TICKS: u64 = 600;
-/// Progress is drawn this often.
-const NEWS: Duration = Duration::from_millis(100);
 
 /// What is measured.
 pub(crate) struct Wanted {
@@ -41,8 +38,7 @@ pub(crate) struct Wanted {
 #[derive(Debug)]
 pub(crate) struct Measuring {
     job: Job<Result<Measured, ReportError>>,
-    cancel: CancelFlag,
-    done_permille: Arc<AtomicU32>,
+    watch: Watch,
 }
 
 /// A measurement that is over.
@@ -85,36 +81,23 @@ impl Measuring {
         effort: Effort,
         ctx: &egui::Context,
     ) -> std::io::Result<Self> {
-        let (cancel, done_permille) = (CancelFlag::new(), Arc::new(AtomicU32::new(0)));
-        let (flag, done, waker) = (cancel.clone(), Arc::clone(&done_permille), ctx.clone());
-        let work = move || {
-            let mut heard = |share: f64, _: &str| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a share of 1000"
-                )]
-                done.store((1000.0 * share) as u32, Ordering::Relaxed);
-                waker.request_repaint_after(NEWS);
-            };
-            measure(wanted, effort, &mut Progress::new(&mut heard, flag))
-        };
+        let watch = Watch::default();
+        let (own, waker) = (watch.clone(), ctx.clone());
+        let work = move || own.over(&waker, |progress| measure(wanted, effort, progress));
         Ok(Self {
             job: Job::start("selvedge-measure", ctx, work)?,
-            cancel,
-            done_permille,
+            watch,
         })
     }
 
     /// How far it is, 0…1.
     pub(crate) fn share(&self) -> f32 {
-        let permille = self.done_permille.load(Ordering::Relaxed).min(1000);
-        u16::try_from(permille).map_or(1.0, |permille| f32::from(permille) / 1000.0)
+        self.watch.share()
     }
 
     /// Asks it to stop.
     pub(crate) fn stop(&self) {
-        self.cancel.cancel();
+        self.watch.stop();
     }
 
     /// What it found, once it is over.

@@ -10,7 +10,6 @@ pub(crate) use choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, W
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use eframe::egui;
@@ -18,8 +17,9 @@ use eframe::egui;
 use super::dispatch::resting_stroke;
 use super::error::AppError;
 use super::job::{Job, Polled};
+use super::task::Watch;
 use super::window::Workbench;
-use crate::progress::{CancelFlag, Progress};
+use crate::progress::Progress;
 use crate::render::array::TableCache;
 use crate::render::{DifferenceMeter, LevelDifference, RenderScene, Spread, replay_pair};
 use crate::scene::{LoadedScene, TICKS_PER_S};
@@ -43,9 +43,7 @@ struct Brought {
 struct Running {
     inputs: Inputs,
     job: Job<Brought>,
-    cancel: CancelFlag,
-    /// Thousandths that are done.
-    done: Arc<AtomicU32>,
+    watch: Watch,
 }
 
 /// How a comparison ended.
@@ -131,8 +129,7 @@ impl Comparison {
             Err(words) => return Standing::Impossible((*words).to_owned()),
         };
         if let Some(running) = &self.running {
-            let done = running.done.load(Ordering::Relaxed);
-            return Standing::Running(done as f32 / 1000.0);
+            return Standing::Running(running.watch.share());
         }
         match &self.ended {
             Some((of, End::Cancelled)) if of == inputs => Standing::Cancelled,
@@ -163,21 +160,14 @@ impl Comparison {
         self.cancel();
         self.running = None;
         self.n_begun += 1;
-        let (cancel, done) = (CancelFlag::new(), Arc::new(AtomicU32::new(0)));
+        let watch = Watch::default();
         let mut cache = std::mem::take(&mut self.cache);
-        let (flag, share) = (cancel.clone(), Arc::clone(&done));
+        let (own, waker) = (watch.clone(), ctx.clone());
         let (loaded, asked) = (loaded.clone(), inputs.clone());
         let work = move || {
-            let mut report = |done: f64, _: &str| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "0 … 1000"
-                )]
-                share.store((done * 1000.0) as u32, Ordering::Relaxed);
-            };
-            let mut progress = Progress::new(&mut report, flag);
-            let found = compare(&asked, &loaded, &mut cache, &mut progress);
+            let found = own.over(&waker, |progress| {
+                compare(&asked, &loaded, &mut cache, progress)
+            });
             let found = found.map_err(|error| error.to_string());
             Brought { cache, found }
         };
@@ -186,12 +176,7 @@ impl Comparison {
         }
         match Job::start("selvedge-compare", ctx, work) {
             Ok(job) => {
-                self.running = Some(Running {
-                    inputs,
-                    job,
-                    cancel,
-                    done,
-                });
+                self.running = Some(Running { inputs, job, watch });
             }
             Err(error) => {
                 let words = format!("Nothing was compared: {error}; press “compare” to try again");
@@ -203,7 +188,7 @@ impl Comparison {
     /// Asks the comparison under way to stop.
     pub(crate) fn cancel(&self) {
         if let Some(running) = &self.running {
-            running.cancel.cancel();
+            running.watch.stop();
         }
     }
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use eframe::egui;
 
 use crate::app::keep::Keep;
-use crate::app::lab::{self, Beginning, Compared, Family, LabCommand, Plan, Preview, Task, taken};
+use crate::app::lab::{self, Beginning, Compared, Family, LabCommand, Plan, Preview};
+use crate::app::task::{Task, taken};
 use crate::app::window::Workbench;
 use crate::progress::Progress;
 use crate::textile::{Manifest, RECIPES};

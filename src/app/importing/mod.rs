@@ -25,16 +25,16 @@ pub(crate) use work::{Body, Found, Heights, Inputs, Strokes};
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use eframe::egui;
 
 use super::job::{Job, Polled};
 use super::keep::NewTextile;
+use super::task::Watch;
 use super::widgets::ReliefPicture;
 use super::window::Workbench;
-use crate::progress::{CancelFlag, Cancelled, Progress};
+use crate::progress::Cancelled;
 
 /// More files than these are no import.
 const MOST_FILES: usize = 8;
@@ -78,9 +78,7 @@ pub(crate) enum Standing {
 struct Running {
     inputs: Inputs,
     job: Job<Result<Found, Cancelled>>,
-    cancel: CancelFlag,
-    /// Thousandths that are done.
-    done: Arc<AtomicU32>,
+    watch: Watch,
 }
 
 /// Textiles on their way to the library.
@@ -149,11 +147,8 @@ impl Importing {
         if self.stopped.as_ref() == Some(&inputs) {
             return Standing::Stopped;
         }
-        let done = self
-            .running
-            .as_ref()
-            .map_or(0, |running| running.done.load(Ordering::Relaxed));
-        Standing::Reading(done as f32 / 1000.0)
+        let running = self.running.as_ref();
+        Standing::Reading(running.map_or(0.0, |running| running.watch.share()))
     }
 
     /// Takes files to those that are there; says why not, in one line.
@@ -210,7 +205,7 @@ impl Importing {
     /// Stops reading until something else is chosen.
     pub(crate) fn cancel(&mut self) {
         if let Some(running) = &self.running {
-            running.cancel.cancel();
+            running.watch.stop();
             self.stopped = Some(running.inputs.clone());
         }
     }
@@ -257,7 +252,7 @@ impl Importing {
         }
         if let Some(running) = &self.running {
             if running.inputs.told != inputs.told {
-                running.cancel.cancel();
+                running.watch.stop();
             }
             ctx.request_repaint_after(PROGRESS);
             return;
@@ -267,20 +262,13 @@ impl Importing {
 
     fn begin(&mut self, inputs: Inputs, ctx: &egui::Context, is_at_once: bool) {
         self.n_read += 1;
-        let (cancel, done) = (CancelFlag::new(), Arc::new(AtomicU32::new(0)));
-        let (flag, share) = (cancel.clone(), Arc::clone(&done));
+        let watch = Watch::default();
+        let (own, waker) = (watch.clone(), ctx.clone());
         let (asked, prior) = (inputs.clone(), self.found.clone());
         let read = move || {
-            let mut report = |done: f64, _: &str| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "0 … 1000"
-                )]
-                share.store((done * 1000.0) as u32, Ordering::Relaxed);
-            };
-            let mut progress = Progress::new(&mut report, flag);
-            work::read(asked, prior.as_deref(), &mut progress)
+            own.over(&waker, |progress| {
+                work::read(asked, prior.as_deref(), progress)
+            })
         };
         if is_at_once {
             if let Ok(found) = read() {
@@ -290,12 +278,7 @@ impl Importing {
         }
         match Job::start("selvedge-import", ctx, read) {
             Ok(job) => {
-                self.running = Some(Running {
-                    inputs,
-                    job,
-                    cancel,
-                    done,
-                });
+                self.running = Some(Running { inputs, job, watch });
             }
             Err(error) => {
                 let line = format!("nothing was read: {error}; press “read again”");

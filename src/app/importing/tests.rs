@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::app::theme::ColourMap;
 use crate::progress::unheard;
+use crate::progress::{CancelFlag, Progress};
 use crate::surface::Representation;
 use crate::textile::KesAsk;
 use crate::textile::metrology::{HeightImport, ImportOptions};

@@ -13,7 +13,6 @@ mod family;
 mod fields;
 mod preview;
 mod steps;
-mod task;
 
 pub(crate) use command::{Beginning, LabCommand, Look, Page, Plan};
 #[cfg(test)]
@@ -22,12 +21,12 @@ pub(crate) use family::{Family, FamilyFields, key_value};
 pub(crate) use fields::KeepFields;
 pub(crate) use preview::{Compared, Felt, Preview, SPEEDS_MM_PER_S, Shown, speeds_mm_per_s};
 pub(crate) use steps::Steps;
-pub(crate) use task::{Task, taken};
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::keep::NewTextile;
+use super::task::Task;
 use crate::progress::Progress;
 use crate::tactile::Filters;
 use crate::textile::{self, Draft, Fault, Library, Manifest, Parent, Provenance, TextileError};

@@ -86,7 +86,7 @@ impl Headless {
         let path = folder.0.join("twill.txt");
         fs::write(&path, export()).unwrap();
         self.dispatch(ImportCommand::Add(vec![path]));
-        self.pass_ticks(2);
+        self.pass_ticks(4);
     }
 
     /// Waits for the threads that compare and check.

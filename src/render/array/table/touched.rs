@@ -4,10 +4,10 @@
 //! Memory is set aside when preparing: a row of nodes for every point, or for as many as fit. A
 //! row's nodes stand in lines of the processor's cache, and lines of the same nodes stand together
 //! row after row: a display reads points that lie near each other at one speed, so what it reads is
-//! near each other too. When all rows are taken, the row that was taken first is given to the point that needs one. A
-//! node made is the number that preparing would have stored, whenever it is made, so amplitudes
-//! depend on nothing but scene and pose; what a first touch costs is bounded by the two nodes that
-//! a look-up reads, and is counted.
+//! near each other too. When all rows are taken, the row that was taken first is given to the point
+//! that needs one. A node made is the number that preparing would have stored, whenever it is made,
+//! so amplitudes depend on nothing but scene and pose; what a first touch costs is bounded by the
+//! two nodes that a look-up reads, and is counted.
 
 use std::sync::Arc;
 

@@ -95,7 +95,7 @@ fn a_textile_of_a_picture_says_how_it_was_found_and_is_felt() {
     assert_eq!(keys.recipe_hash, hash);
     let text = String::from_utf8(files.last().unwrap().bytes.clone()).unwrap();
     assert!(
-        text.contains("kind = \"picture\"") && !text.contains("nan"),
+        text.contains("kind = \"picture\"") && !text.contains("= nan"),
         "{text}"
     );
     let (folder, library) = library("felt", &files);

@@ -1,4 +1,4 @@
-//! Work of the lab on a thread of its own: with progress, and it can be stopped.
+//! Work on a thread of its own that shows how far it is and can be stopped.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -12,12 +12,55 @@ use crate::progress::{CancelFlag, Progress};
 /// Progress is drawn this often.
 const NEWS: Duration = Duration::from_millis(100);
 
+/// How far work is and the flag that stops it: what the window and the thread both hold.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Watch {
+    cancel: CancelFlag,
+    done_permille: Arc<AtomicU32>,
+}
+
+impl Watch {
+    /// Does `work`, which says how far it is; `ctx` is woken as it goes on.
+    pub(crate) fn over<T>(
+        &self,
+        ctx: &egui::Context,
+        work: impl FnOnce(&mut Progress<'_>) -> T,
+    ) -> T {
+        let mut heard = |share: f64, _: &str| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a share of 1000"
+            )]
+            self.done_permille
+                .store((1000.0 * share) as u32, Ordering::Relaxed);
+            ctx.request_repaint_after(NEWS);
+        };
+        work(&mut Progress::new(&mut heard, self.cancel.clone()))
+    }
+
+    /// How far it is, 0…1.
+    pub(crate) fn share(&self) -> f32 {
+        let permille = self.done_permille.load(Ordering::Relaxed).min(1000);
+        u16::try_from(permille).map_or(1.0, |permille| f32::from(permille) / 1000.0)
+    }
+
+    /// Asks it to stop.
+    pub(crate) fn stop(&self) {
+        self.cancel.cancel();
+    }
+
+    /// Whether it was asked to stop.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+}
+
 /// Work under way.
 #[derive(Debug)]
 pub(crate) struct Task<T> {
     at: At<T>,
-    cancel: CancelFlag,
-    done_permille: Arc<AtomicU32>,
+    watch: Watch,
 }
 
 #[derive(Debug)]
@@ -36,20 +79,9 @@ impl<T: Send + 'static> Task<T> {
         is_at_once: bool,
         work: impl FnOnce(&mut Progress<'_>) -> Result<T, String> + Send + 'static,
     ) -> Self {
-        let (cancel, done_permille) = (CancelFlag::new(), Arc::new(AtomicU32::new(0)));
-        let (flag, done, waker) = (cancel.clone(), Arc::clone(&done_permille), ctx.clone());
-        let work = move || {
-            let mut heard = |share: f64, _: &str| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a share of 1000"
-                )]
-                done.store((1000.0 * share) as u32, Ordering::Relaxed);
-                waker.request_repaint_after(NEWS);
-            };
-            work(&mut Progress::new(&mut heard, flag))
-        };
+        let watch = Watch::default();
+        let (own, waker) = (watch.clone(), ctx.clone());
+        let work = move || own.over(&waker, work);
         let at = if is_at_once {
             At::Here(Some(work()))
         } else {
@@ -58,27 +90,22 @@ impl<T: Send + 'static> Task<T> {
                 Err(error) => At::Here(Some(Err(format!("no thread: {error}; try again")))),
             }
         };
-        Self {
-            at,
-            cancel,
-            done_permille,
-        }
+        Self { at, watch }
     }
 
     /// How far it is, 0…1.
     pub(crate) fn share(&self) -> f32 {
-        let permille = self.done_permille.load(Ordering::Relaxed).min(1000);
-        u16::try_from(permille).map_or(1.0, |permille| f32::from(permille) / 1000.0)
+        self.watch.share()
     }
 
     /// Asks it to stop.
     pub(crate) fn stop(&self) {
-        self.cancel.cancel();
+        self.watch.stop();
     }
 
     /// Whether it was asked to stop.
     pub(crate) fn is_stopped(&self) -> bool {
-        self.cancel.is_cancelled()
+        self.watch.is_stopped()
     }
 
     /// What came of it, once, when it is over.
