@@ -17,15 +17,15 @@ pub(crate) use work::{Cloth, Found, Made, Shaped, Step};
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use eframe::egui;
 
 use super::importing::SourceFile;
 use super::job::{Job, Polled};
+use super::task::Watch;
 use super::window::Workbench;
-use crate::progress::{CancelFlag, Cancelled, Progress};
+use crate::progress::Cancelled;
 
 /// How often progress is shown.
 const PROGRESS: Duration = Duration::from_millis(100);
@@ -65,9 +65,7 @@ pub(crate) enum Standing {
 struct Running {
     inputs: Draft,
     job: Job<Result<Found, Cancelled>>,
-    cancel: CancelFlag,
-    /// Thousandths that are done.
-    done: Arc<AtomicU32>,
+    watch: Watch,
 }
 
 /// A picture, what is wanted of it and what was made.
@@ -111,9 +109,8 @@ impl Picturing {
         if self.stopped.as_ref() == Some(&self.draft) {
             return Standing::Stopped;
         }
-        let done = self.running.as_ref();
-        let done = done.map_or(0, |running| running.done.load(Ordering::Relaxed));
-        Standing::Working(done as f32 / 1000.0)
+        let running = self.running.as_ref();
+        Standing::Working(running.map_or(0.0, |running| running.watch.share()))
     }
 
     /// Why nothing can be kept now; `None` if it can.
@@ -164,7 +161,7 @@ impl Picturing {
     /// Stops until something else is chosen.
     pub(crate) fn cancel(&mut self) {
         if let Some(running) = &self.running {
-            running.cancel.cancel();
+            running.watch.stop();
             self.stopped = Some(running.inputs.clone());
         }
     }
@@ -204,7 +201,7 @@ impl Picturing {
         if let Some(running) = &self.running {
             // What was made so far of a file is kept only when the run ends.
             if running.inputs.source != self.draft.source {
-                running.cancel.cancel();
+                running.watch.stop();
             }
             ctx.request_repaint_after(PROGRESS);
             return;
@@ -215,20 +212,13 @@ impl Picturing {
     fn begin(&mut self, ctx: &egui::Context, is_at_once: bool) {
         self.n_begun += 1;
         let inputs = self.draft.clone();
-        let (cancel, done) = (CancelFlag::new(), Arc::new(AtomicU32::new(0)));
-        let (flag, share) = (cancel.clone(), Arc::clone(&done));
+        let watch = Watch::default();
+        let (own, waker) = (watch.clone(), ctx.clone());
         let (asked, prior) = (inputs.clone(), self.found.clone());
         let make = move || {
-            let mut report = |done: f64, _: &str| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "0 … 1000"
-                )]
-                share.store((done * 1000.0) as u32, Ordering::Relaxed);
-            };
-            let mut progress = Progress::new(&mut report, flag);
-            work::read(asked, prior.as_deref(), &mut progress)
+            own.over(&waker, |progress| {
+                work::read(asked, prior.as_deref(), progress)
+            })
         };
         if is_at_once {
             if let Ok(found) = make() {
@@ -238,12 +228,7 @@ impl Picturing {
         }
         match Job::start("selvedge-picture", ctx, make) {
             Ok(job) => {
-                self.running = Some(Running {
-                    inputs,
-                    job,
-                    cancel,
-                    done,
-                });
+                self.running = Some(Running { inputs, job, watch });
             }
             Err(error) => {
                 let line = format!("nothing was worked out: {error}; change something");

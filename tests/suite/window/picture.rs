@@ -149,33 +149,3 @@ fn a_flat_picture_says_why_it_has_no_lattice() {
     assert!(reason.is_some());
     assert_eq!(harness.state().picture_lattice(), None);
 }
-
-#[test]
-fn zz_look() {
-    let folder = Folder::new("picture-look");
-    let Ok(from) = std::env::var("LOOK") else {
-        return;
-    };
-    for (n, dark) in [(0, true), (1, false)] {
-        let mut harness = with_picture(&folder, |path| {
-            fs::copy(&from, path).unwrap();
-        });
-        harness.ctx.set_theme(if dark {
-            eframe::egui::Theme::Dark
-        } else {
-            eframe::egui::Theme::Light
-        });
-        if n == 1 {
-            press(&mut harness, Modifiers::COMMAND, Key::Num2);
-            click_tab(&mut harness, "Picture");
-        }
-        type_into(&mut harness, "scale", "300");
-        type_into(&mut harness, "height", "80");
-        harness.run_steps(4);
-        harness
-            .render()
-            .unwrap()
-            .save(format!("/tmp/pic{n}.png"))
-            .unwrap();
-    }
-}

@@ -22,6 +22,8 @@ const PAST: f32 = 0.45;
 /// Maxima that are drawn, and those that are numbered.
 const N_MAXIMA: usize = 60;
 const N_NUMBERED: usize = 6;
+/// A card is small: the relief is first drawn this near.
+const FIRST_ZOOM: f32 = 1.6;
 /// The cards in their order.
 const TITLES: [&str; 8] = [
     "1  The picture",
@@ -241,7 +243,10 @@ fn show_relief(ui: &mut Ui, made: &Arc<Made>, textures: &mut PictureTextures) {
         .made
         .as_ref()
         .is_some_and(|before| Arc::ptr_eq(before, made));
-    let usual = View3d::for_relief(&made.relief);
+    let usual = View3d {
+        zoom: FIRST_ZOOM,
+        ..View3d::for_relief(&made.relief)
+    };
     if !is_same {
         // Turned as before; how much heights are drawn too high follows the relief.
         let exaggeration = usual.exaggeration;
