@@ -25,8 +25,6 @@ use crate::textile::{Construction, Manifest, Source, TextileError, n_threads, re
 pub(crate) enum Step {
     /// Which picture.
     Picture = 1,
-    /// What repeats it.
-    Lattice = 4,
     /// Light and height.
     Light = 6,
     /// The textile.
@@ -331,9 +329,10 @@ fn shaped(inputs: &Draft, tiled: &Tiled, progress: &mut Progress<'_>) -> Result<
     // Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
     let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
     let brightness = brightness_of(&tiled.tile, px_per_mm, n_threads());
-    let estimate = match inputs.is_light_estimated {
-        true => Some(brightness.estimated_light().map_err(failed)?),
-        false => None,
+    let estimate = if inputs.is_light_estimated {
+        Some(brightness.estimated_light().map_err(failed)?)
+    } else {
+        None
     };
     let light = estimate
         .as_ref()

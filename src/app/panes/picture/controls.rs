@@ -12,6 +12,7 @@ use crate::app::picturing::{
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{Curve, RowShape, Scale, button, slider_row_as, toggle};
 use crate::quantity::{self, with_unit};
+use crate::textile::picture::Directions;
 use crate::textile::picture::shading::Method;
 
 /// Room for the name of a field, points.
@@ -164,33 +165,7 @@ fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
     ui.add_space(STEP);
     step_title(ui, 2, "Autocorrelation", &format!("{n} maxima count"));
     if let Some(directions) = directions {
-        step_title(
-            ui,
-            3,
-            "Directions",
-            if draft.lambda.is_none() {
-                "λ by the maxima"
-            } else {
-                ""
-            },
-        );
-        let scale = Scale {
-            least: 0.02,
-            most: 5.0,
-            resting: directions.lambda_per_px,
-            step: 0.01,
-            decimals: 2,
-            unit: "1/px",
-            curve: Curve::Decades(2.4),
-            ..scale_of([0.02, 5.0], 0.5, "1/px")
-        };
-        let now = draft.lambda.unwrap_or(directions.lambda_per_px);
-        if let Some(lambda) = slider(ui, "λ", scale, now) {
-            draft.lambda = Some(lambda.max(0.02));
-        }
-        if draft.lambda.is_some() && button(ui, "λ by the maxima", "", None) {
-            draft.lambda = None;
-        }
+        show_directions(ui, draft, directions);
     }
     match cloth.map(|cloth| &cloth.found) {
         Some(Ok(tiled)) => {
@@ -227,6 +202,36 @@ fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
             note(ui, &format!("No lattice: {reason}."), Tone::Wrong);
         }
         None => step_title(ui, 4, "Lattice", ""),
+    }
+}
+
+fn show_directions(ui: &mut Ui, draft: &mut Draft, directions: &Directions) {
+    step_title(
+        ui,
+        3,
+        "Directions",
+        if draft.lambda.is_none() {
+            "λ by the maxima"
+        } else {
+            ""
+        },
+    );
+    let scale = Scale {
+        least: 0.02,
+        most: 5.0,
+        resting: directions.lambda_per_px,
+        step: 0.01,
+        decimals: 2,
+        unit: "1/px",
+        curve: Curve::Decades(2.4),
+        ..scale_of([0.02, 5.0], 0.5, "1/px")
+    };
+    let now = draft.lambda.unwrap_or(directions.lambda_per_px);
+    if let Some(lambda) = slider(ui, "λ", scale, now) {
+        draft.lambda = Some(lambda.max(0.02));
+    }
+    if draft.lambda.is_some() && button(ui, "λ by the maxima", "", None) {
+        draft.lambda = None;
     }
 }
 
@@ -285,6 +290,13 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
             }
         });
     });
+    show_method(ui, draft);
+    if let Some(shaped) = shaped {
+        show_trust(ui, shaped);
+    }
+}
+
+fn show_method(ui: &mut Ui, draft: &mut Draft) {
     row_of(ui, NAME, ("method", ""), |ui, _| {
         for method in Method::ALL.into_iter().rev() {
             let tip = format!("Shape from shading: {}", method.label());
@@ -293,9 +305,10 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
             }
         }
     });
-    let Some(shaped) = shaped else {
-        return;
-    };
+}
+
+/// How well the heights fit the brightness, and how far the method can be trusted.
+fn show_trust(ui: &mut Ui, shaped: &Shaped) {
     if let Some(residual) = shaped.shape.residuals.last() {
         let n = shaped.shape.n_iterations();
         let residual = quantity::fixed(*residual, 4);

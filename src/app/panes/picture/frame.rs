@@ -33,9 +33,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, size: [usize; 2], part: &mut Part) {
             for nth in 0..4 {
                 let before = corner(ends, nth);
                 let after = handle(ui, (rect, size), nth, before);
-                if after != before {
-                    (ends[EDGES[nth][0]], ends[EDGES[nth][1]]) = (after[0], after[1]);
-                }
+                (ends[EDGES[nth][0]], ends[EDGES[nth][1]]) = (after[0], after[1]);
             }
             *region = region_of(ends, size);
         }

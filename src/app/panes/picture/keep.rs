@@ -65,6 +65,11 @@ pub(super) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) 
             wishes.push(PictureCommand::Keep { is_felt: false }.into());
         }
     });
+    show_outcome(ui, picturing, refusal);
+}
+
+/// What was kept, or why nothing can be.
+fn show_outcome(ui: &mut Ui, picturing: &Picturing, refusal: Option<String>) {
     let failure = picturing.found().and_then(|found| found.failure.clone());
     if let Some((Step::Felt, line)) = failure {
         return note(ui, &line, Tone::Wrong);

@@ -61,7 +61,7 @@ pub(crate) fn show(
         let (steps, keep) = left.split_top_bottom_at_y(edge);
         inside(ui, steps.with_max_y(edge - 6.0), |ui| {
             scrolled(ui, "picture-steps", |ui| {
-                controls::show(ui, picturing, wishes)
+                controls::show(ui, picturing, wishes);
             });
         });
         ui.painter().hline(left.x_range(), edge - 3.0, hairline);
