@@ -21,7 +21,13 @@ const PICTURES: f32 = 236.0;
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// The workspace and what stands behind it.
-const FRONT: [Pane; 4] = [Pane::Workspace, Pane::Lab, Pane::Import, Pane::Collection];
+const FRONT: [Pane; 5] = [
+    Pane::Workspace,
+    Pane::Lab,
+    Pane::Import,
+    Pane::Picture,
+    Pane::Collection,
+];
 
 /// A part of the window that can be moved, stacked and hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -58,11 +64,13 @@ pub(crate) enum Pane {
     Lab,
     /// Measurements that become textiles.
     Import,
+    /// A picture of a cloth that becomes a textile.
+    Picture,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 16] = [
+    pub(crate) const ALL: [Self; 17] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -79,6 +87,7 @@ impl Pane {
         Self::Collection,
         Self::Lab,
         Self::Import,
+        Self::Picture,
     ];
 
     /// Its title.
@@ -100,6 +109,7 @@ impl Pane {
             Self::Collection => "Collection",
             Self::Lab => "Textile lab",
             Self::Import => "Import",
+            Self::Picture => "Picture",
         }
     }
 
@@ -121,7 +131,8 @@ impl Pane {
             | Self::Accuracy
             | Self::Compare
             | Self::Collection
-            | Self::Import => self.title(),
+            | Self::Import
+            | Self::Picture => self.title(),
         }
     }
 

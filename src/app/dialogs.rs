@@ -24,6 +24,8 @@ const MEASUREMENTS: [&str; 17] = [
     "txt", "csv", "dat", "asc", "prn", "x3p", "sur", "pro", "gwy", "gsf", "npy", "png", "tif",
     "tiff", "tmd", "frt", "hfm",
 ];
+/// Endings of pictures that a cloth is found on.
+const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
 /// Nobody sees a dialog and puts it away in less time.
 const GLANCE: Duration = Duration::from_millis(400);
 /// Whoever asks again after this time does not see the dialog that was asked for first.
@@ -205,6 +207,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
             .add_filter("Drawings", &["svg"])
             .add_filter("Tables", &["csv"]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
+        Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());
@@ -233,7 +236,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
         Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
         Purpose::Export(_) => ".png",
-        Purpose::ImportFiles => return path,
+        Purpose::ImportFiles | Purpose::OpenPicture => return path,
     });
     let longer = path.with_file_name(name);
     if longer.exists() { path } else { longer }

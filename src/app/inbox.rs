@@ -26,6 +26,7 @@ impl Workbench {
         self.poll_prepared(ctx);
         self.transient.comparison.poll();
         self.poll_import(ctx);
+        self.transient.picturing.poll();
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();

@@ -180,6 +180,25 @@ impl Workbench {
         self.dispatch(&ctx, FileCommand::Use(Purpose::ImportFiles, path).into());
     }
 
+    /// Runs of the stages from a picture to a textile that were begun.
+    pub fn n_pictures_worked_out(&self) -> u64 {
+        self.transient.picturing.n_begun()
+    }
+
+    /// The lattice vectors found on the picture, px: x right, y down.
+    pub fn picture_lattice(&self) -> Option<[[f64; 2]; 2]> {
+        let found = self.transient.picturing.found()?;
+        let cloth = found.cloth.as_ref()?;
+        let lattice = cloth.found.as_ref().ok()?.lattice;
+        Some([lattice.p1_px, lattice.p2_px])
+    }
+
+    /// Takes a picture of a cloth, as when it is dropped or chosen.
+    pub fn open_picture(&mut self, path: PathBuf) {
+        let ctx = self.ctx.clone();
+        self.dispatch(&ctx, FileCommand::Use(Purpose::OpenPicture, path).into());
+    }
+
     /// The sentences that are shown.
     pub fn notices(&self) -> Vec<String> {
         self.transient

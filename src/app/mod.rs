@@ -53,6 +53,7 @@ mod native;
 mod opening;
 mod panes;
 mod perspective;
+mod picturing;
 mod pointer;
 #[cfg(target_os = "linux")]
 mod pointer_x11;

@@ -72,7 +72,13 @@ impl Perspective {
 /// The library on the left, the lab in the middle, every other pane in a row of tabs below it; in
 /// a small window the lab in front of all.
 fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
-    let middle = [Pane::Lab, Pane::Import, Pane::Collection, Pane::Workspace];
+    let middle = [
+        Pane::Lab,
+        Pane::Import,
+        Pane::Picture,
+        Pane::Collection,
+        Pane::Workspace,
+    ];
     if !is_roomy(size) {
         let mut all = Pane::ALL;
         all.sort_by_key(|pane| match pane {

@@ -16,10 +16,12 @@ use super::keep::Keeping;
 use super::lab::Lab;
 use super::maps::Maps;
 use super::opening::{Opening, Origin};
+use super::panes::PictureTextures;
 use super::panes::{
     Ask, ContactSpectrogram, DriveSpectrogram, LabPictures, Notices, SpatialSpectra,
     TransportState, WaveScale,
 };
+use super::picturing::Picturing;
 use super::ports::Ports;
 use super::query::IntervalMeter;
 use super::signals::History;
@@ -85,6 +87,10 @@ pub(crate) struct Transient {
     pub(crate) comparison: Comparison,
     /// Measurements that are imported.
     pub(crate) importing: Importing,
+    /// A picture of a cloth on its way to a textile.
+    pub(crate) picturing: Picturing,
+    /// Its stages as textures.
+    pub(crate) picture_textures: PictureTextures,
     /// How accurate rendering was found to be.
     pub(crate) accuracy: AccuracyWatch,
     /// Maps of the textiles at the chosen velocity.

@@ -76,7 +76,8 @@ pub(crate) fn corner_width(pane: Pane) -> f32 {
         | Pane::Library
         | Pane::Tuning
         | Pane::Bridge
-        | Pane::Import => 0.0,
+        | Pane::Import
+        | Pane::Picture => 0.0,
     };
     own + export
 }

@@ -20,6 +20,7 @@ use super::importing::ImportCommand;
 use super::keep::Keep;
 use super::lab::LabCommand;
 use super::perspective::Perspective;
+use super::picturing::PictureCommand;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
@@ -51,6 +52,8 @@ pub(crate) enum Command {
     Collection(CollectionCommand),
     /// Bring measurements.
     Import(ImportCommand),
+    /// Make a textile of a picture.
+    Picture(PictureCommand),
     /// Keep new textiles in the library.
     Keep(Keep),
     /// Do something in the textile lab.
@@ -86,6 +89,12 @@ impl From<CompareCommand> for Command {
 impl From<ImportCommand> for Command {
     fn from(command: ImportCommand) -> Self {
         Self::Import(command)
+    }
+}
+
+impl From<PictureCommand> for Command {
+    fn from(command: PictureCommand) -> Self {
+        Self::Picture(command)
     }
 }
 
@@ -187,6 +196,8 @@ pub(crate) enum Purpose {
     Export(Exportable),
     /// Take files of measurements to those that are imported.
     ImportFiles,
+    /// Make a textile of a picture.
+    OpenPicture,
 }
 
 /// What moves the display, and how that is recorded.

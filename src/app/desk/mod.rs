@@ -75,6 +75,7 @@ impl Desk<'_> {
             Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
             Pane::Import => framed(ui, 10, |ui| self.show_import(ui)),
+            Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
         }
     }
 
@@ -227,6 +228,13 @@ impl Desk<'_> {
         };
         panes::show_import(ui, &mut bench.transient.importing, &view, self.wishes);
     }
+
+    fn show_picture(&mut self, ui: &mut Ui) {
+        self.bench.follow_picture(ui.ctx());
+        let transient = &mut self.bench.transient;
+        let hands = (&mut transient.picturing, &mut transient.picture_textures);
+        panes::show_picture(ui, hands, self.wishes);
+    }
 }
 
 /// Views that are drawn and exported.
@@ -334,7 +342,8 @@ impl Desk<'_> {
             | Pane::Library
             | Pane::Tuning
             | Pane::Bridge
-            | Pane::Import => {}
+            | Pane::Import
+            | Pane::Picture => {}
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::app::importing::ImportCommand;
 use crate::app::job::Job;
 use crate::app::opening::{Opened, Opening, Origin, open};
 use crate::app::panes::Ask;
+use crate::app::picturing::PictureCommand;
 use crate::app::state::After;
 use crate::app::take::Take;
 use crate::app::window::Workbench;
@@ -34,6 +35,10 @@ impl Workbench {
             FileCommand::Use(Purpose::ImportFiles, path) => {
                 self.transient.ask = None;
                 self.dispatch(ctx, ImportCommand::Add(vec![path]).into());
+            }
+            FileCommand::Use(Purpose::OpenPicture, path) => {
+                self.transient.ask = None;
+                self.dispatch(ctx, PictureCommand::Open(path).into());
             }
             FileCommand::CopyTable(what) => self.copy_table(ctx, what),
             FileCommand::Save => match self.document.path().cloned() {
@@ -68,6 +73,10 @@ impl Workbench {
             Purpose::ImportFiles => {
                 let files = &self.transient.importing.draft.told.files;
                 files.last().map(|file| file.source.path().to_owned())
+            }
+            Purpose::OpenPicture => {
+                let chosen = self.transient.picturing.draft.source.as_ref();
+                chosen.map(|chosen| chosen.file().path().to_owned())
             }
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = self.take.as_ref()?;

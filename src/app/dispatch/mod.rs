@@ -10,6 +10,7 @@ mod file;
 mod import;
 mod keep;
 mod lab;
+mod picture;
 mod play;
 mod show;
 
@@ -37,6 +38,7 @@ impl Workbench {
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
             Command::Collection(command) => self.dispatch_collection(ctx, command),
             Command::Import(command) => self.dispatch_import(ctx, command),
+            Command::Picture(command) => self.dispatch_picture(ctx, command),
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),

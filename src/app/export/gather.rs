@@ -7,7 +7,7 @@ use eframe::egui::Theme;
 use super::write::ExportError;
 use super::{
     Exportable, Exported, Kind, Origin, accuracy, collection, comparison, compression, contactors,
-    drive, import, lab, map, response, spatial, spectrograms, timeline, why,
+    drive, import, lab, map, picture, response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
@@ -44,6 +44,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Compare => Some(Workbench::gather_comparison),
         Pane::Lab => Some(Workbench::gather_lab),
         Pane::Import => Some(Workbench::gather_import),
+        Pane::Picture => Some(Workbench::gather_picture),
         Pane::Workspace => Some(Workbench::gather_maps),
         Pane::Collection => Some(Workbench::gather_collection),
         Pane::Library | Pane::Bridge => None,
@@ -311,6 +312,12 @@ impl Workbench {
         let found = self.transient.importing.found();
         let exported = found.and_then(|found| import::measurement(found, map));
         exported.ok_or("There is nothing to export yet: choose files in the Import pane")
+    }
+
+    fn gather_picture(&mut self) -> Result<Exported, &'static str> {
+        let found = self.transient.picturing.found();
+        let exported = found.and_then(|found| picture::directions(found));
+        exported.ok_or("There is nothing to export yet: open a picture in the Picture pane")
     }
 
     /// The scene as panes draw it, without a look at pictures.

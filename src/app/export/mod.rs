@@ -33,6 +33,7 @@ mod import;
 mod lab;
 mod map;
 mod origin;
+mod picture;
 mod response;
 mod sheet;
 mod spatial;

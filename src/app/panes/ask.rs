@@ -74,6 +74,14 @@ impl AskWords {
                 name: "strokes.txt",
                 ending: "",
             },
+            Purpose::OpenPicture => Self {
+                title: "Cloth from a picture",
+                verb: "Open",
+                hint: "/path/to/NAME.png",
+                missing: "Type the path of a picture first",
+                name: "cloth.png",
+                ending: "",
+            },
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",
                 verb: "Export",

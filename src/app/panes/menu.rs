@@ -62,6 +62,8 @@ pub(crate) fn show_scene_menu(
         ui.separator();
         let import = FileCommand::Ask(Purpose::ImportFiles);
         entry(ui, "Import measurements…", import.into(), None, wishes);
+        let picture = FileCommand::Ask(Purpose::OpenPicture);
+        entry(ui, "Cloth from a picture…", picture.into(), None, wishes);
         let open = FileCommand::Ask(Purpose::OpenRecording);
         entry(ui, "Open a recording…", open.into(), None, wishes);
         ui.separator();

@@ -21,6 +21,7 @@ mod lab;
 mod library;
 mod menu;
 mod notices;
+mod picture;
 mod question;
 mod response;
 mod spatial;
@@ -56,6 +57,7 @@ pub(crate) use lab::{LabHands, LabPictures, LabView, show as show_lab};
 pub(crate) use library::show as show_library;
 pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
+pub(crate) use picture::{PictureTextures, show as show_picture};
 pub(crate) use question::show as show_question;
 pub(crate) use response::{
     ResponseView, ends_db as response_ends_db, fill_range as response_range, show as show_response,

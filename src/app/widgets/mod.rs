@@ -9,7 +9,6 @@ mod card;
 mod list;
 mod polyline;
 mod relief;
-#[cfg_attr(not(test), expect(dead_code, reason = "panes of reliefs show it"))]
 mod relief3d;
 mod scale;
 mod slider;
@@ -23,7 +22,6 @@ pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
 pub(crate) use list::list;
 pub(crate) use polyline::corners;
 pub(crate) use relief::{BAR_ROOM, Relief, ReliefPicture, paint_height_bar};
-#[expect(unused_imports, reason = "panes of reliefs show it")]
 pub(crate) use relief3d::{Relief3d, View3d, relief3d};
 pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{

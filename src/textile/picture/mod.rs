@@ -41,7 +41,7 @@ pub use lattice::{Lattice, NoLattice};
 pub use light::{EvenLight, even_light};
 pub use maxima::{Maxima, Maximum};
 pub use output::{About, FILE_NAMES, files};
-pub use overlay::overlay;
+pub use overlay::{overlay, range};
 pub use refine::refine;
 pub use relief::{Relief, ReliefReport, Span};
 pub use shading::{PictureSource, PictureTextile, ShadingError, to_textile};

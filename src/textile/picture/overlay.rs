@@ -71,7 +71,7 @@ fn on_lines(basis: &Basis, place: Place, factor: usize) -> [([f64; 3], f64); 2] 
 }
 
 /// The range of all but the most extreme values, so that contrast shows.
-pub(super) fn range(grid: &Grid<f64>) -> (f64, f64) {
+pub fn range(grid: &Grid<f64>) -> (f64, f64) {
     let every = (grid.values().len() / 20_000).max(1);
     let mut some: Vec<f64> = grid.values().iter().step_by(every).copied().collect();
     some.sort_by(f64::total_cmp);

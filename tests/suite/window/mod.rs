@@ -9,6 +9,7 @@ mod export;
 mod import;
 mod lab;
 mod overlays;
+mod picture;
 #[cfg(unix)]
 mod ports;
 mod views;

@@ -18,12 +18,13 @@ use crate::app::headless::Headless;
 use crate::app::importing::ImportCommand;
 use crate::app::importing::tests::export;
 use crate::app::lab::{Beginning, LabCommand};
+use crate::app::picturing::PictureCommand;
 use crate::app::workspace::Overlay;
 use crate::files::{self, Table};
 use crate::tactile::Band;
 use crate::{figure, quantity};
 
-const ALL: [Exportable; 15] = [
+const ALL: [Exportable; 16] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -36,6 +37,7 @@ const ALL: [Exportable; 15] = [
     Exportable::Pane(Pane::Compare),
     Exportable::Pane(Pane::Lab),
     Exportable::Pane(Pane::Import),
+    Exportable::Pane(Pane::Picture),
     Exportable::Pane(Pane::Workspace),
     Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
@@ -53,6 +55,7 @@ impl Headless {
     fn explored(n_ticks: u32) -> Self {
         let mut desk = Self::fresh();
         desk.import();
+        desk.open_picture();
         desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
         desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
@@ -88,6 +91,27 @@ impl Headless {
         fs::write(&path, export()).unwrap();
         self.dispatch(ImportCommand::Add(vec![path]));
         self.bench.follow_import(&self.ctx);
+    }
+
+    /// Works out a picture of a cloth.
+    fn open_picture(&mut self) {
+        let folder = Folder::new(&format!("picture-{:?}", thread::current().id()));
+        let path = folder.0.join("weave.png");
+        let grey = |i: u32| {
+            let (x, y) = (f64::from(i % 160), f64::from(i / 160));
+            let shares = [0.45 * x, 0.35 * y, 0.45 * x + 0.35 * y].map(f64::sin);
+            0.5 + 0.15 * shares.iter().sum::<f64>()
+        };
+        let picture = files::GrayImage {
+            width: 160,
+            height: 120,
+            values: files::gray_values((0..160 * 120).map(grey)),
+            white: u16::MAX,
+            texts: Vec::new(),
+        };
+        fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
+        self.dispatch(PictureCommand::Open(path));
+        self.bench.follow_picture(&self.ctx);
     }
 
     /// Waits for the threads that compare and check.
@@ -179,7 +203,8 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
                 Kind::Svg => {
                     let svg = String::from_utf8(bytes).unwrap();
                     assert!(figure::is_well_formed(&svg), "{name}: {svg}");
-                    let is_imported = what == Exportable::Pane(Pane::Import);
+                    let brought = [Pane::Import, Pane::Picture].map(Exportable::Pane);
+                    let is_imported = brought.contains(&what);
                     let of = if is_imported {
                         "file = "
                     } else {

@@ -8,13 +8,13 @@ use crate::app::importing::{Failure, Step};
 use crate::app::theme::{self, Palette, STEP};
 
 /// Height of a row, points.
-pub(super) const LINE: f32 = 22.0;
+pub(in crate::app::panes) const LINE: f32 = 22.0;
 /// Width of a row's name, points.
 const NAME: f32 = 96.0;
 
 /// Whether a field is what the reader asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Need {
+pub(in crate::app::panes) enum Need {
     /// It may be left as it is.
     Optional,
     /// The reader needs it.
@@ -23,7 +23,7 @@ pub(super) enum Need {
 
 impl Need {
     /// Asked for if so.
-    pub(super) fn of(is_asked: bool) -> Self {
+    pub(in crate::app::panes) fn of(is_asked: bool) -> Self {
         if is_asked {
             Self::Asked
         } else {
@@ -33,7 +33,7 @@ impl Need {
 }
 
 /// The title of a step, and how far it is in a few words.
-pub(super) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
+pub(in crate::app::panes) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
     let palette = Palette::in_ui(ui);
     let line = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
@@ -53,7 +53,7 @@ pub(super) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
 }
 
 /// The line that says what is wrong at a step, if something is.
-pub(super) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
+pub(in crate::app::panes) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
     let Some(failure) = failure.filter(|failure| failure.step == step) else {
         return;
     };
@@ -62,7 +62,7 @@ pub(super) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
 
 /// How much a line matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Tone {
+pub(in crate::app::panes) enum Tone {
     /// What was found or done.
     Quiet,
     /// What must be mended.
@@ -70,7 +70,7 @@ pub(super) enum Tone {
 }
 
 /// A line of small words, broken where the column ends.
-pub(super) fn note(ui: &mut Ui, words: &str, tone: Tone) {
+pub(in crate::app::panes) fn note(ui: &mut Ui, words: &str, tone: Tone) {
     let palette = Palette::in_ui(ui);
     let ink = match tone {
         Tone::Quiet => palette.dim,
@@ -89,7 +89,7 @@ pub(super) fn note(ui: &mut Ui, words: &str, tone: Tone) {
 
 /// A row: a name, `content` with the name's response to be labelled by, and behind it in small
 /// words how it is known.
-pub(super) fn row(
+pub(in crate::app::panes) fn row(
     ui: &mut Ui,
     name: &str,
     known: &str,
@@ -99,7 +99,7 @@ pub(super) fn row(
 }
 
 /// The same with this much room for the name, points.
-pub(super) fn row_of(
+pub(in crate::app::panes) fn row_of(
     ui: &mut Ui,
     room: f32,
     (name, known): (&str, &str),
@@ -125,7 +125,7 @@ pub(super) fn row_of(
 }
 
 /// A field of text, named by `label`; it is as wide as it may be, or `width` points.
-pub(super) fn text(
+pub(in crate::app::panes) fn text(
     ui: &mut Ui,
     label: &egui::Response,
     typed: &mut String,
@@ -144,7 +144,7 @@ pub(super) fn text(
 }
 
 /// A list to choose from, named.
-pub(super) fn choose(
+pub(in crate::app::panes) fn choose(
     ui: &mut Ui,
     name: &str,
     (text, width, need): (&str, f32, Need),
@@ -176,7 +176,7 @@ fn mark_asked(ui: &Ui, response: &egui::Response, need: Need) {
 }
 
 /// A list over the values of something that may be left to the file.
-pub(super) fn choose_of<T: Copy + PartialEq>(
+pub(in crate::app::panes) fn choose_of<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
     chosen: &mut Option<T>,

@@ -1,5 +1,7 @@
 //! The first step: which files, and what each of them holds.
 
+use std::path::PathBuf;
+
 use eframe::egui::{Align, Label, Layout, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
 use super::fields::{LINE, Need, choose, step_title};
@@ -40,6 +42,14 @@ const HOLDS: [(Option<KesPlace>, &str); 7] = {
 
 /// Takes files that are dropped on the window while the pane is in sight.
 pub(super) fn take_dropped(ui: &Ui, wishes: &mut Wishes) {
+    let dropped = dropped(ui);
+    if !dropped.is_empty() {
+        wishes.push(ImportCommand::Add(dropped).into());
+    }
+}
+
+/// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
+pub(in crate::app::panes) fn dropped(ui: &Ui) -> Vec<PathBuf> {
     let (dropped, is_hovered) = ui.input(|input| {
         let paths = input
             .raw
@@ -51,14 +61,12 @@ pub(super) fn take_dropped(ui: &Ui, wishes: &mut Wishes) {
             !input.raw.hovered_files.is_empty(),
         )
     });
-    if !dropped.is_empty() {
-        wishes.push(ImportCommand::Add(dropped).into());
-    }
     if is_hovered {
         let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
         ui.painter()
             .rect_stroke(ui.max_rect(), 4, edge, StrokeKind::Inside);
     }
+    dropped
 }
 
 /// What to do when there is nothing yet.

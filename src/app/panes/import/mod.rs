@@ -4,8 +4,8 @@
 //! what `importing` found; asks for everything by commands.
 
 mod curves;
-mod fields;
-mod files;
+pub(super) mod fields;
+pub(super) mod files;
 mod heights;
 mod keep;
 mod map;
@@ -89,13 +89,13 @@ pub(crate) fn show(
     }
 }
 
-fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
+pub(super) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
     child.set_clip_rect(rect.expand(4.0).intersect(ui.clip_rect()));
     content(&mut child);
 }
 
-fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
+pub(super) fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
     ScrollArea::vertical()
         .id_salt(id)
         .auto_shrink(false)

@@ -1,0 +1,151 @@
+//! The picture pane: from a picture of a cloth to a textile under the display.
+
+use eframe::egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use super::*;
+
+/// A lit cloth with a cell of 20 × 24 px, in grey.
+fn cloth(path: &Path) {
+    let light = |x: f64, y: f64| {
+        let (u, v) = (
+            x / 20.0 * std::f64::consts::TAU,
+            y / 24.0 * std::f64::consts::TAU,
+        );
+        let slope = 0.5 * (v + 0.4).cos() + 0.3 * (u + v).sin() + 0.2 * (2.0 * u - v).cos();
+        let grain = ((x * 12.9898 + y * 78.233).sin() * 43_758.545_3).fract();
+        128.0 + 60.0 * slope + 20.0 * (u + 1.0).cos() + 3.0 * grain
+    };
+    let picture = image::GrayImage::from_fn(300, 240, |x, y| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 … 255"
+        )]
+        let grey = light(f64::from(x), f64::from(y)).clamp(0.0, 255.0) as u8;
+        image::Luma([grey])
+    });
+    picture.save(path).unwrap();
+}
+
+/// A window with a picture opened in its pane.
+fn with_picture(folder: &Folder, write: impl Fn(&Path)) -> Harness<'static, Workbench> {
+    let path = folder.0.join("Blue twill.png");
+    write(&path);
+    let mut harness = window(&folder.scene());
+    harness.run();
+    harness.state_mut().open_picture(path);
+    harness.run_steps(4);
+    click_tab(&mut harness, "Picture");
+    harness.run_steps(4);
+    harness
+}
+
+fn type_into(harness: &mut Harness<'_, Workbench>, label: &str, text: &str) {
+    harness
+        .get_by_role_and_label(Role::TextInput, label)
+        .focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.step();
+    harness.event(eframe::egui::Event::Text(text.to_owned()));
+    harness.run_steps(4);
+}
+
+fn feel(harness: &mut Harness<'_, Workbench>) {
+    harness
+        .get_by_role_and_label(Role::Button, "Feel it")
+        .click();
+    harness.run_steps(6);
+}
+
+#[test]
+fn an_empty_pane_says_what_to_do() {
+    let folder = Folder::new("picture-empty");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    click_tab(&mut harness, "Picture");
+    let words = harness.query_by_label_contains("at least three pixels wide");
+    assert!(words.is_some());
+    assert_eq!(harness.state().n_pictures_worked_out(), 0);
+}
+
+#[test]
+fn a_picture_a_scale_and_a_height_are_enough_to_feel_a_cloth() {
+    let folder = Folder::new("picture-felt");
+    let mut harness = with_picture(&folder, cloth);
+    let lattice = harness.state().picture_lattice().unwrap();
+    let lengths = lattice.map(|[x, y]| x.hypot(y));
+    assert!((lengths[0] - 20.0).abs() < 0.2, "{lattice:?}");
+    assert!((lengths[1] - 24.0).abs() < 0.2, "{lattice:?}");
+    feel(&mut harness);
+    assert!(
+        !folder.0.join("library/blue-twill").exists(),
+        "no scale yet"
+    );
+    type_into(&mut harness, "scale", "600");
+    type_into(&mut harness, "height", "80");
+    harness.render().unwrap();
+    feel(&mut harness);
+    let made = folder.0.join("library/blue-twill");
+    let manifest = fs::read_to_string(made.join("textile.toml")).unwrap();
+    for part in [
+        "kind = \"picture\"",
+        "relief_um = 80.0",
+        "picture = \"Blue twill.png\"",
+    ] {
+        assert!(manifest.contains(part), "{part} in {manifest}");
+    }
+    let library = selvedge::textile::Library::open(&folder.0.join("library")).unwrap();
+    library.load("blue-twill").unwrap();
+    let scene = harness.state().scene();
+    let is_placed = scene.textiles.iter().any(|one| one.id == "blue-twill");
+    assert!(is_placed, "it lies in the scene");
+    assert!(
+        harness
+            .query_by_label_contains("handed to the library")
+            .is_some()
+    );
+}
+
+#[test]
+fn a_hidden_pane_works_nothing_out() {
+    let folder = Folder::new("picture-hidden");
+    let mut harness = with_picture(&folder, cloth);
+    let n = harness.state().n_pictures_worked_out();
+    assert!(n > 0);
+    harness.run_steps(6);
+    assert_eq!(
+        harness.state().n_pictures_worked_out(),
+        n,
+        "nothing changed"
+    );
+    click_tab(&mut harness, "Workspace");
+    let path = folder.0.join("other.png");
+    cloth(&path);
+    harness.state_mut().open_picture(path);
+    click_tab(&mut harness, "Workspace");
+    let n = harness.state().n_pictures_worked_out();
+    harness.run_steps(6);
+    assert_eq!(harness.state().n_pictures_worked_out(), n, "nobody looks");
+}
+
+#[test]
+fn nonsense_is_one_line_at_the_first_step() {
+    let folder = Folder::new("picture-nonsense");
+    let harness = with_picture(&folder, |path| fs::write(path, "no picture").unwrap());
+    assert!(harness.query_by_label_contains("Blue twill.png:").is_some());
+    let refused = harness.query_by_label_contains("Step 1 has something to mend");
+    assert!(refused.is_some());
+    assert_eq!(harness.state().picture_lattice(), None);
+}
+
+#[test]
+fn a_flat_picture_says_why_it_has_no_lattice() {
+    let folder = Folder::new("picture-flat");
+    let flat = |path: &Path| image::GrayImage::from_pixel(120, 100, image::Luma([90])).save(path);
+    let harness = with_picture(&folder, |path| flat(path).unwrap());
+    let reason = harness.query_by_label_contains("No lattice: the picture is of one colour");
+    assert!(reason.is_some());
+    assert_eq!(harness.state().picture_lattice(), None);
+}
