@@ -1,0 +1,168 @@
+//! The routes from a cloth to what is felt of it.
+
+use super::cloths::{Cloth, LIGHT, Photograph};
+use super::felt::Felt;
+use crate::numerics::Random;
+use crate::progress::unheard;
+use crate::report::ReportError;
+use crate::report::picture::analysed;
+use crate::surface::{AREAL_WIRE_MM, Direction, HeightMap, Probe, Profile, ProfileSet};
+use crate::textile::picture::shading::{
+    HeightScale, Light, Method, ShadingOptions, mean_smd_um, scaled, shape_from_shading,
+};
+use crate::textile::{Reduced, TextileError};
+
+/// Harmonics that a restored profile keeps.
+const N_HARMONICS: usize = 8;
+/// Where a relief is stroked, shares of its size.
+const PLACES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
+
+/// A route.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    /// The tester's strokes as they are.
+    Kes,
+    /// The tester's strokes, reduced and restored.
+    Restoration,
+    /// The picture, its lattice, its shape by a method, scaled to the tester's SMD.
+    Picture(Method),
+}
+
+impl Way {
+    pub(super) const ALL: [Self; 4] = [
+        Self::Kes,
+        Self::Restoration,
+        Self::Picture(Method::Variational),
+        Self::Picture(Method::Linear),
+    ];
+
+    pub(super) fn name(self) -> String {
+        match self {
+            Self::Kes => "KES strokes".to_owned(),
+            Self::Restoration => "KES, restored".to_owned(),
+            Self::Picture(method) => format!("picture, {}", method.label()),
+        }
+    }
+
+    pub(super) fn is_picture(self) -> bool {
+        matches!(self, Self::Picture(_))
+    }
+}
+
+/// A cloth with everything that routes begin with.
+pub(super) struct Subject {
+    pub(super) cloth: Cloth,
+    pub(super) strokes: ProfileSet,
+    pub(super) photograph: Photograph,
+    pub(super) truth: Felt,
+}
+
+fn strokes(
+    map: &HeightMap,
+    probe: &Probe,
+    share: f64,
+    random: &Random,
+) -> Result<ProfileSet, TextileError> {
+    let middle_mm = map.size_mm().map(|mm| share * mm);
+    map.strokes(probe, middle_mm, random)
+        .map_err(|(_, source)| TextileError::Surface {
+            path: "a relief".into(),
+            source,
+        })
+}
+
+/// What a wire as wide as a contactor feels of a relief at five places, without friction or noise.
+fn felt(map: &HeightMap, name: &str) -> Result<Felt, ReportError> {
+    let wire = Probe {
+        width_mm: AREAL_WIRE_MM,
+        ..Probe::ideal()
+    };
+    let at = |share: f64| strokes(map, &wire, share, &Random::new(0));
+    let sets: Result<Vec<ProfileSet>, TextileError> = PLACES.into_iter().map(at).collect();
+    Felt::of(sets?, name)
+}
+
+impl Subject {
+    /// Strokes over a cloth and photographs it, `side_px` pixels a side of `points_a_px` points.
+    pub(super) fn new(
+        cloth: Cloth,
+        [side_px, points_a_px]: [usize; 2],
+        seed: u64,
+    ) -> Result<Self, ReportError> {
+        let random = Random::new(seed).branch("tester").branch(&cloth.name);
+        let strokes = strokes(&cloth.map, &Probe::default(), 0.5, &random)?;
+        let photograph = cloth.photograph(side_px, points_a_px, seed);
+        let truth = felt(&cloth.map, &cloth.name)?;
+        Ok(Self {
+            cloth,
+            strokes,
+            photograph,
+            truth,
+        })
+    }
+
+    /// What is felt by a route, or in words why it ends nowhere.
+    pub(super) fn felt_by(&self, way: Way) -> Result<Felt, String> {
+        let name = &self.cloth.name;
+        let made = match way {
+            Way::Kes => Felt::of(vec![self.strokes.clone()], name),
+            Way::Restoration => restored(&self.strokes)
+                .map_err(ReportError::from)
+                .and_then(|profiles| Felt::of(vec![profiles], name)),
+            Way::Picture(method) => felt(&self.relief(method)?, name),
+        };
+        made.map_err(|error| error.to_string())
+    }
+
+    /// The relief of the mean cell of the photograph, as high as reads the SMD of the strokes.
+    pub(super) fn relief(&self, method: Method) -> Result<HeightMap, String> {
+        let analysis = analysed(&self.photograph.luminance).ok_or("cancelled")?;
+        let found = analysis.found.map_err(|reason| reason.to_string())?;
+        let cell = found
+            .tile
+            .rectangle(1.0, 1)
+            .ok_or("the lattice has no rectangle")?;
+        let mut brightness = cell.values;
+        for value in brightness.values_mut() {
+            *value = value.clamp(0.0, 1.0);
+        }
+        // The light turns with the cell; rows are those of heights, so angles count upwards.
+        let light = Light {
+            tilt_deg: LIGHT.tilt_deg - cell.angle_rad.to_degrees(),
+            ..LIGHT
+        };
+        let options = ShadingOptions {
+            method,
+            ..ShadingOptions::default()
+        };
+        let shape = unheard(|progress| shape_from_shading(&brightness, light, &options, progress))
+            .map_err(|error| error.to_string())?;
+        let n = [brightness.width(), brightness.height()].map(|n| n as f64);
+        let step_mm = [0, 1].map(|i| cell.size_px[i] / n[i] * self.photograph.px_mm[i]);
+        let smd_um = HeightScale::SmdUm(mean_smd_um(&self.strokes));
+        let tester = |map: &HeightMap| strokes(map, &Probe::default(), 0.5, &Random::new(1));
+        let scaled = scaled(&shape, step_mm, smd_um, &tester).map_err(|e| e.to_string())?;
+        Ok(scaled.map)
+    }
+}
+
+/// The forward strokes reduced and restored, as long as they were.
+fn restored(strokes: &ProfileSet) -> Result<ProfileSet, TextileError> {
+    let mut profiles = ProfileSet::default();
+    for direction in [Direction::WarpForward, Direction::WeftForward] {
+        let Some(profile) = &strokes[direction.index()] else {
+            continue;
+        };
+        let reduced = Reduced::of(profile, N_HARMONICS)?;
+        let (n, step_mm) = (profile.heights_um().len(), profile.step_mm());
+        let mut random = Random::new(1).branch(direction.key());
+        let heights_um = reduced.restored_um(n, step_mm, &mut random);
+        let restored = Profile::new(step_mm, heights_um);
+        let restored = restored.map_err(|source| TextileError::Surface {
+            path: "a restored profile".into(),
+            source,
+        })?;
+        profiles[direction.index()] = Some(restored);
+    }
+    Ok(profiles)
+}
