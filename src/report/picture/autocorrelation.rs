@@ -40,10 +40,10 @@ impl Study for AutocorrelationStudy {
 
     fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         let sides = bench.effort.pick(
-            vec![32, 64, 128],
+            vec![24, 48, 96],
             vec![64, 96, 128, 192, 256, 512, 1024, 2362],
         );
-        let most_by_definition = bench.effort.pick(64, 192);
+        let most_by_definition = bench.effort.pick(48, 192);
         let mut rows = Vec::new();
         for (done, &n) in sides.iter().enumerate() {
             bench.step(done as f64 / sides.len() as f64, &format!("{n} × {n} px"))?;
@@ -53,9 +53,10 @@ impl Study for AutocorrelationStudy {
             };
             let picture = spoilt.picture(0, &Random::new(bench.seed)).luminance;
             let shifts = shifts(n, bench);
+            let truth = by_definition(&picture, &shifts);
             for way in Way::ALL {
                 if way != Way::Definition || n <= most_by_definition {
-                    rows.push(row(way, &picture, &shifts, bench));
+                    rows.push(row(way, &picture, (&shifts, &truth), bench));
                 }
             }
         }
@@ -156,9 +157,13 @@ fn circular(picture: &Grid<f64>, shifts: &[[isize; 2]]) -> Vec<f64> {
     shifts.iter().map(at).collect()
 }
 
-fn row(way: Way, picture: &Grid<f64>, shifts: &[[isize; 2]], bench: &mut Bench<'_>) -> Row {
+fn row(
+    way: Way,
+    picture: &Grid<f64>,
+    (shifts, truth): (&[[isize; 2]], &[f64]),
+    bench: &mut Bench<'_>,
+) -> Row {
     let n = picture.width();
-    let truth = by_definition(picture, shifts);
     let found = way.at(picture, shifts);
     let every = match way {
         Way::Definition => all_shifts(n),
@@ -175,7 +180,7 @@ fn row(way: Way, picture: &Grid<f64>, shifts: &[[isize; 2]], bench: &mut Bench<'
         setting: "f64, one thread".to_owned(),
         case: format!("{n} × {n} px"),
         size: Some((n * n) as f64),
-        error: Some(largest_difference(&found, &truth)),
+        error: Some(largest_difference(&found, truth)),
         promised: (way == Way::Transforms).then_some(PROMISED),
         cost: Some(cost),
         more: vec![

@@ -37,7 +37,7 @@ impl Study for PictureScaleStudy {
 
     fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         let periods_px = bench.effort.pick(
-            vec![10.0, 4.0, 1.5],
+            vec![9.5, 4.0, 1.5],
             vec![
                 20.0, 14.0, 10.0, 7.0, 5.0, 4.0, 3.5, 3.0, 2.7, 2.4, 2.2, 2.0, 1.8, 1.5,
             ],

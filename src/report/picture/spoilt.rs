@@ -250,7 +250,8 @@ mod tests {
         for (number, drawing) in drawings.iter().enumerate() {
             let lattice = drawing.lattice();
             let apart = |shift: Place| {
-                let places = (0..50_u8).map(|i| [1.37 * f64::from(i), 2.11 * f64::from(i % 7)]);
+                let places = (0..50_u8)
+                    .map(|i| [0.31 + 1.37 * f64::from(i), 0.57 + 2.11 * f64::from(i % 7)]);
                 let pair =
                     |p: Place| drawing.at(p) - drawing.at([p[0] + shift[0], p[1] + shift[1]]);
                 places.map(|p| pair(p).abs()).fold(0.0, f64::max)

@@ -32,43 +32,58 @@ const IDS: [&str; 11] = [
     "wool-rib",
 ];
 
+/// The corner of a relief that quick mode looks at: 10 mm, points 0.02 mm apart.
+const CORNER: [usize; 4] = [0, 0, 500, 500];
+
 /// A cloth with its relief.
 pub(super) struct Cloth {
     pub(super) name: String,
     pub(super) map: HeightMap,
+    /// Whether it is nearly the first cloth.
+    pub(super) is_double: bool,
 }
 
-/// The pair of fine cloths first, then the others.
+/// The fine cloth first, then its doubles, then the others.
 pub(super) fn cloths(effort: Effort) -> Result<Vec<Cloth>, ReportError> {
     let library = Library::shipped()?;
     let mut cloths = Vec::new();
     if let Source::Weave(weave) = library.manifest(FINE)?.source {
-        let double = Weave {
-            weft_per_cm: 1.03 * weave.weft_per_cm,
-            seed: weave.seed + 1000,
-            ..weave.as_ref().clone()
-        };
-        cloths.push(of(FINE, &Source::Weave(weave))?);
-        cloths.push(of(
-            "its double, picks 3 % closer",
-            &Source::Weave(Box::new(double)),
-        )?);
+        cloths.push(of(FINE, &Source::Weave(weave.clone()), effort)?);
+        for number in 1..=effort.pick(1, 4) {
+            let double = Weave {
+                weft_per_cm: 1.03 * weave.weft_per_cm,
+                seed: weave.seed + 1000 * number,
+                ..weave.as_ref().clone()
+            };
+            let name = format!("its double {number}, picks 3 % closer");
+            let double = of(&name, &Source::Weave(Box::new(double)), effort)?;
+            cloths.push(Cloth {
+                is_double: true,
+                ..double
+            });
+        }
     }
-    for id in IDS.iter().take(effort.pick(2, IDS.len())) {
-        cloths.push(of(id, &library.manifest(id)?.source)?);
+    for id in IDS.iter().take(effort.pick(1, IDS.len())) {
+        cloths.push(of(id, &library.manifest(id)?.source, effort)?);
     }
     Ok(cloths)
 }
 
-fn of(name: &str, source: &Source) -> Result<Cloth, ReportError> {
+/// The relief of a model, in quick mode a corner of it.
+fn of(name: &str, source: &Source, effort: Effort) -> Result<Cloth, ReportError> {
     let map = source.height_map().unwrap_or(Err(SurfaceError::AllMissing));
-    let map = map.map_err(|source| TextileError::Surface {
+    let cut = |map: HeightMap| match (effort, map.heights_um().part(CORNER)) {
+        (Effort::Quick, Some(corner)) => HeightMap::new(corner, map.step_mm()),
+        _ => Ok(map),
+    };
+    let map = map.and_then(cut).map_err(|source| TextileError::Surface {
         path: name.into(),
         source,
     })?;
     Ok(Cloth {
         name: name.to_owned(),
         map,
+        is_double: false,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::cloths::{Cloth, LIGHT, Photograph};
 use super::felt::Felt;
-use crate::numerics::Random;
+use crate::numerics::{Grid, Random};
 use crate::progress::unheard;
 use crate::report::ReportError;
 use crate::report::picture::analysed;
@@ -26,14 +26,17 @@ pub(super) enum Way {
     Restoration,
     /// The picture, its lattice, its shape by a method, scaled to the tester's SMD.
     Picture(Method),
+    /// The shape of the whole picture by the linear method, no lattice and no mean cell.
+    Whole,
 }
 
 impl Way {
-    pub(super) const ALL: [Self; 4] = [
+    pub(super) const ALL: [Self; 5] = [
         Self::Kes,
         Self::Restoration,
         Self::Picture(Method::Variational),
         Self::Picture(Method::Linear),
+        Self::Whole,
     ];
 
     pub(super) fn name(self) -> String {
@@ -41,11 +44,12 @@ impl Way {
             Self::Kes => "KES strokes".to_owned(),
             Self::Restoration => "KES, restored".to_owned(),
             Self::Picture(method) => format!("picture, {}", method.label()),
+            Self::Whole => "picture without lattice, linear".to_owned(),
         }
     }
 
     pub(super) fn is_picture(self) -> bool {
-        matches!(self, Self::Picture(_))
+        matches!(self, Self::Picture(_) | Self::Whole)
     }
 }
 
@@ -109,13 +113,20 @@ impl Subject {
             Way::Restoration => restored(&self.strokes)
                 .map_err(ReportError::from)
                 .and_then(|profiles| Felt::of(vec![profiles], name)),
-            Way::Picture(method) => felt(&self.relief(method)?, name),
+            Way::Picture(_) | Way::Whole => felt(&self.relief(way)?, name),
         };
         made.map_err(|error| error.to_string())
     }
 
-    /// The relief of the mean cell of the photograph, as high as reads the SMD of the strokes.
-    pub(super) fn relief(&self, method: Method) -> Result<HeightMap, String> {
+    /// The relief that a picture shows, as high as reads the SMD of the strokes.
+    pub(super) fn relief(&self, way: Way) -> Result<HeightMap, String> {
+        let method = match way {
+            Way::Picture(method) => method,
+            _ => {
+                let whole = &self.photograph.luminance;
+                return self.shaped(whole, LIGHT, self.photograph.px_mm, Method::Linear);
+            }
+        };
         let analysis = analysed(&self.photograph.luminance).ok_or("cancelled")?;
         let found = analysis.found.map_err(|reason| reason.to_string())?;
         let cell = found
@@ -131,14 +142,24 @@ impl Subject {
             tilt_deg: LIGHT.tilt_deg - cell.angle_rad.to_degrees(),
             ..LIGHT
         };
+        let n = [brightness.width(), brightness.height()].map(|n| n as f64);
+        let step_mm = [0, 1].map(|i| cell.size_px[i] / n[i] * self.photograph.px_mm[i]);
+        self.shaped(&brightness, light, step_mm, method)
+    }
+
+    fn shaped(
+        &self,
+        brightness: &Grid<f64>,
+        light: Light,
+        step_mm: [f64; 2],
+        method: Method,
+    ) -> Result<HeightMap, String> {
         let options = ShadingOptions {
             method,
             ..ShadingOptions::default()
         };
-        let shape = unheard(|progress| shape_from_shading(&brightness, light, &options, progress))
+        let shape = unheard(|progress| shape_from_shading(brightness, light, &options, progress))
             .map_err(|error| error.to_string())?;
-        let n = [brightness.width(), brightness.height()].map(|n| n as f64);
-        let step_mm = [0, 1].map(|i| cell.size_px[i] / n[i] * self.photograph.px_mm[i]);
         let smd_um = HeightScale::SmdUm(mean_smd_um(&self.strokes));
         let tester = |map: &HeightMap| strokes(map, &Probe::default(), 0.5, &Random::new(1));
         let scaled = scaled(&shape, step_mm, smd_um, &tester).map_err(|e| e.to_string())?;
