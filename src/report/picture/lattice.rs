@@ -197,7 +197,7 @@ pub(super) fn of_estimates(
     estimates: &[Estimate],
     bench: &mut Bench<'_>,
 ) -> Result<Findings, ReportError> {
-    let n_px = bench.effort.pick(112, 192);
+    let n_px = bench.effort.pick(112, 160);
     let usual = Spoilt::usual(n_px);
     bench.step(0.0, "usual pictures")?;
     let mut rows = of_pictures(estimates, &usual, ("usual", f64::NAN), bench);
@@ -229,7 +229,7 @@ fn of_pictures(
     (name, value): (&str, f64),
     bench: &Bench<'_>,
 ) -> Vec<Row> {
-    let n_trials = bench.effort.pick(4, 16);
+    let n_trials = bench.effort.pick(4, 8);
     let random = Random::new(bench.seed);
     let mut tallies = vec![Tally::default(); estimates.len()];
     for number in 0..n_trials {

@@ -7,6 +7,7 @@ use crate::progress::unheard;
 use crate::report::ReportError;
 use crate::report::picture::analysed;
 use crate::surface::{AREAL_WIRE_MM, Direction, HeightMap, Probe, Profile, ProfileSet};
+use crate::textile::picture::Rectangle;
 use crate::textile::picture::shading::{
     HeightScale, Light, Method, ShadingOptions, mean_smd_um, scaled, shape_from_shading,
 };
@@ -59,6 +60,15 @@ pub(super) struct Subject {
     pub(super) strokes: ProfileSet,
     pub(super) photograph: Photograph,
     pub(super) truth: Felt,
+    cell: Result<Rectangle, String>,
+}
+
+/// The rectangle that repeats in a photograph, as the mean of all.
+fn mean_cell(photograph: &Photograph) -> Result<Rectangle, String> {
+    let analysis = analysed(&photograph.luminance).ok_or("cancelled")?;
+    let found = analysis.found.map_err(|reason| reason.to_string())?;
+    let cell = found.tile.rectangle(1.0, 1);
+    cell.ok_or_else(|| "the lattice has no rectangle".to_owned())
 }
 
 fn strokes(
@@ -100,6 +110,7 @@ impl Subject {
         Ok(Self {
             cloth,
             strokes,
+            cell: mean_cell(&photograph),
             photograph,
             truth,
         })
@@ -113,13 +124,21 @@ impl Subject {
             Way::Restoration => restored(&self.strokes)
                 .map_err(ReportError::from)
                 .and_then(|profiles| Felt::of(vec![profiles], name)),
-            Way::Picture(_) | Way::Whole => felt(&self.relief(way)?, name),
+            Way::Picture(_) | Way::Whole => felt(&self.relief_of(&self.cell, way)?, name),
         };
         made.map_err(|error| error.to_string())
     }
 
-    /// The relief that a picture shows, as high as reads the SMD of the strokes.
+    /// The relief that a picture shows, from the picture on.
     pub(super) fn relief(&self, way: Way) -> Result<HeightMap, String> {
+        if way == Way::Whole {
+            return self.relief_of(&self.cell, way);
+        }
+        self.relief_of(&mean_cell(&self.photograph), way)
+    }
+
+    /// The relief of a mean cell, or of the whole picture, as high as reads the SMD of the strokes.
+    fn relief_of(&self, cell: &Result<Rectangle, String>, way: Way) -> Result<HeightMap, String> {
         let method = match way {
             Way::Picture(method) => method,
             _ => {
@@ -127,13 +146,8 @@ impl Subject {
                 return self.shaped(whole, LIGHT, self.photograph.px_mm, Method::Linear);
             }
         };
-        let analysis = analysed(&self.photograph.luminance).ok_or("cancelled")?;
-        let found = analysis.found.map_err(|reason| reason.to_string())?;
-        let cell = found
-            .tile
-            .rectangle(1.0, 1)
-            .ok_or("the lattice has no rectangle")?;
-        let mut brightness = cell.values;
+        let cell = cell.as_ref().map_err(String::clone)?;
+        let mut brightness = cell.values.clone();
         for value in brightness.values_mut() {
             *value = value.clamp(0.0, 1.0);
         }
