@@ -465,7 +465,8 @@ fn notes(rows: &[Row]) -> Vec<String> {
          that is missing or farther off than the shorter vector counts as that vector's length."
             .to_owned(),
         "The directions and the shortest vectors are set beside the pipeline as estimates of \
-         their own, neither checked for finer and coarser lattices nor refined: on weaves they tend to find \
+         their own, neither checked for finer and coarser lattices nor refined: on weaves they \
+         tend to find \
          the lattice of the threads (finer_percent), not that of the weave. Costs hold from \
          the picture on, each with the autocorrelation that it needs."
             .to_owned(),

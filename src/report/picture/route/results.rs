@@ -243,7 +243,8 @@ impl Summary {
         };
         format!(
             "{name}: {} of {} cloths; median level error {} dB, median spectrum error {} %, rank \
-             correlation of SMD {}, of A40 {}, of A320 {}; the fine cloth is {} dB from its doubles, in truth \
+             correlation of SMD {}, of A40 {}, of A320 {}; the fine cloth is {} dB from its \
+             doubles, in truth \
              {} dB.",
             self.n,
             self.n_cloths,
