@@ -231,7 +231,7 @@ fn points(rows: &[Row]) -> Vec<[f64; 2]> {
 
 /// The exponent e of `cost = c·sizeᵉ` that fits best over the logarithms; `None` of less than two
 /// points.
-fn exponent(points: &[[f64; 2]]) -> Option<f64> {
+pub(super) fn exponent(points: &[[f64; 2]]) -> Option<f64> {
     let logs = points.iter().filter(|[x, y]| *x > 0.0 && *y > 0.0);
     let logs: Vec<[f64; 2]> = logs.map(|point| point.map(f64::ln)).collect();
     let n = logs.len() as f64;

@@ -27,6 +27,7 @@ mod listing;
 mod machine;
 mod models;
 mod pareto;
+mod picture;
 mod readable;
 mod readers;
 mod rendering;
@@ -50,6 +51,7 @@ pub use left_out::{LeftOutStudy, SavingRule};
 pub use machine::Machine;
 pub use models::{BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy};
 pub use pareto::pareto;
+pub use picture::{AutocorrelationStudy, LatticeStudy, PictureRouteStudy, PictureScaleStudy};
 pub use readers::ReadersStudy;
 pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
@@ -73,6 +75,10 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(ResamplingStudy),
         Box::new(ProbeStudy),
         Box::new(ShadingStudy),
+        Box::new(AutocorrelationStudy),
+        Box::new(LatticeStudy),
+        Box::new(PictureScaleStudy),
+        Box::new(PictureRouteStudy),
         Box::new(ReadersStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),

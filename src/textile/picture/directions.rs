@@ -51,22 +51,50 @@ pub struct Directions {
 impl Directions {
     /// Measures directions.
     pub fn of(significant: &SignificantMaxima, options: DirectionOptions) -> Self {
-        let half = significant.all().iter().take(N_NEAREST).map(|m| m.place);
-        let places: Vec<Place> = half.flat_map(|p| [p, p.map(|x| -x)]).collect();
-        let automatic = || 1.0 / automatic_width_px(&places);
-        let lambda_per_px = options.lambda_per_px.unwrap_or_else(automatic);
-        let measured = |measure: &dyn Fn(&mut [f64]) -> f64| {
-            let curve = curve(&places, measure);
-            let best = two_best(&curve);
-            let basis = best.and_then(|best| with_lengths(best, &places, 1.0 / lambda_per_px));
-            Measured { curve, best, basis }
-        };
+        let places = looked_along(significant);
+        let lambda_per_px = lambda_per_px(&places, options);
         Self {
             lambda_per_px,
-            by_concentration: measured(&|offsets| mean_concentration(offsets, lambda_per_px)),
-            by_hough: measured(&|offsets| votes(offsets, 1.0 / lambda_per_px)),
+            by_concentration: Measured::by_concentration(significant, options),
+            by_hough: Measured::by_hough(significant, options),
         }
     }
+}
+
+impl Measured {
+    /// Directions by mean concentration alone.
+    pub fn by_concentration(significant: &SignificantMaxima, options: DirectionOptions) -> Self {
+        let places = looked_along(significant);
+        let lambda = lambda_per_px(&places, options);
+        let concentration = |offsets: &mut [f64]| mean_concentration(offsets, lambda);
+        Self::of(&places, &concentration, 1.0 / lambda)
+    }
+
+    /// Directions by votes of a Hough transform alone.
+    pub fn by_hough(significant: &SignificantMaxima, options: DirectionOptions) -> Self {
+        let places = looked_along(significant);
+        let width_px = 1.0 / lambda_per_px(&places, options);
+        Self::of(&places, &|offsets| votes(offsets, width_px), width_px)
+    }
+
+    fn of(places: &[Place], measure: &dyn Fn(&mut [f64]) -> f64, width_px: f64) -> Self {
+        let curve = curve(places, measure);
+        let best = two_best(&curve);
+        let basis = best.and_then(|best| with_lengths(best, places, width_px));
+        Self { curve, best, basis }
+    }
+}
+
+/// The nearest maxima that count, both of d and −d.
+fn looked_along(significant: &SignificantMaxima) -> Vec<Place> {
+    let half = significant.all().iter().take(N_NEAREST).map(|m| m.place);
+    half.flat_map(|p| [p, p.map(|x| -x)]).collect()
+}
+
+/// λ that was asked for, or the one that the maxima suggest.
+fn lambda_per_px(places: &[Place], options: DirectionOptions) -> f64 {
+    let automatic = || 1.0 / automatic_width_px(places);
+    options.lambda_per_px.unwrap_or_else(automatic)
 }
 
 /// `n⁻² Σ_ij exp(−λ|x_i − x_j|)`, exactly, in O(n log n): with the offsets sorted,

@@ -31,6 +31,7 @@ pub use light::{Light, LightEstimate, estimate_light};
 pub use linear::Blind;
 pub use reflectance::picture_of;
 pub use scale::HeightScale;
+pub(crate) use scale::{mean_smd_um, scaled};
 pub use source::PictureSource;
 pub use textile::{PictureTextile, relief_um_of, to_textile};
 pub use tsai_shah::Edges;

@@ -25,14 +25,17 @@ const NEAR: f64 = 1e-3;
 const MOST_RELIEF_UM: f64 = 1e5;
 
 /// A relief in µm, and how its height was found.
-pub(super) struct Scaled {
-    pub(super) map: HeightMap,
-    pub(super) relief_um: f64,
-    pub(super) smd_um: Option<f64>,
+pub(crate) struct Scaled {
+    /// The relief of one repeat.
+    pub(crate) map: HeightMap,
+    /// From its lowest to its highest height.
+    pub(crate) relief_um: f64,
+    /// The SMD that was asked for.
+    pub(crate) smd_um: Option<f64>,
 }
 
 /// Gives a shape its heights; `strokes` draws the tester over a map.
-pub(super) fn scaled(
+pub(crate) fn scaled(
     shape: &Shape,
     step_mm: [f64; 2],
     scale: HeightScale,
@@ -116,7 +119,7 @@ fn relief_for(
     .into())
 }
 
-pub(super) fn mean_smd_um(strokes: &ProfileSet) -> f64 {
+pub(crate) fn mean_smd_um(strokes: &ProfileSet) -> f64 {
     let smd_um: Vec<f64> = strokes.iter().flatten().map(Profile::smd_um).collect();
     smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
 }
