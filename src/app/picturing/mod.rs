@@ -8,12 +8,13 @@
 //! pane is hidden, and nothing is written here.
 
 mod draft;
+mod found;
 mod images;
 mod work;
 
 pub(crate) use draft::{Chosen, Draft, Known, Part, ScaleUnit};
+pub(crate) use found::{Cloth, Found, Made, Shaped, Step};
 pub(crate) use images::Image;
-pub(crate) use work::{Cloth, Found, Made, Shaped, Step};
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -5,142 +5,20 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::draft::{Draft, Part};
-use super::images::{self, Image};
+use super::found::{Cloth, Correlated, Found, Loaded, Made, Shaped, Step};
+use super::images;
 use crate::app::keep::NewTextile;
 use crate::app::widgets::Relief3d;
 use crate::files::sha256_hex;
-use crate::numerics::Grid;
 use crate::progress::{Cancelled, Progress};
 use crate::surface::{Direction, HeightMap};
 use crate::textile::picture::felt::{Brightness, brightness_of, shape_of, textile_of};
-use crate::textile::picture::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
+use crate::textile::picture::shading::{ShadingError, ShadingOptions, Shape};
 use crate::textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
-    Picture, PictureTextile, SignificantMaxima, even_light, load,
+    PictureTextile, SignificantMaxima, even_light, load,
 };
 use crate::textile::{Construction, Manifest, Source, TextileError, n_threads, read_profile};
-
-/// A step of the pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Step {
-    /// Which picture.
-    Picture = 1,
-    /// Light and height.
-    Light = 6,
-    /// The textile.
-    Felt = 7,
-}
-
-/// The decoded picture.
-#[derive(Debug)]
-pub(crate) struct Loaded {
-    picture: Picture,
-    sha256: String,
-    /// As it is shown.
-    pub(crate) image: Image,
-    /// Columns and rows.
-    pub(crate) size: [usize; 2],
-}
-
-/// The part that is looked at, and its autocorrelation.
-#[derive(Debug)]
-pub(crate) struct Correlated {
-    picture: Picture,
-    luminance: Grid<f64>,
-    /// Whether its light was evened out.
-    pub(crate) was_evened: bool,
-    /// The autocorrelation and its maxima; why there are none.
-    read: Result<(Autocorrelation, Maxima, SignificantMaxima), String>,
-}
-
-/// Directions, lattice and tile.
-#[derive(Debug)]
-pub(crate) struct Cloth {
-    /// The autocorrelation, and the shift at its edge, px.
-    pub(crate) correlation: Option<(Image, usize)>,
-    /// The maxima that count, px and height, the most dominant first.
-    pub(crate) maxima: Vec<([f64; 2], f64)>,
-    /// Directions by both measures.
-    pub(crate) directions: Option<Directions>,
-    /// Lattice and tile; why there are none, in a sentence.
-    pub(crate) found: Result<Box<Tiled>, String>,
-    /// The lattice on the picture, cloth of the tile, what that leaves.
-    pub(crate) images: Option<[Image; 3]>,
-}
-
-/// Heights in pixels.
-#[derive(Debug)]
-pub(crate) struct Shaped {
-    /// What they were found on.
-    pub(crate) brightness: Brightness,
-    /// The heights.
-    pub(crate) shape: Shape,
-    /// The light on the picture.
-    pub(crate) light: Light,
-    /// How it was estimated, if it was.
-    pub(crate) estimate: Option<LightEstimate>,
-}
-
-/// A textile, ready to be kept.
-#[derive(Debug)]
-pub(crate) struct Made {
-    /// Its files.
-    pub(crate) textile: Arc<Vec<NewTextile>>,
-    /// The relief in its true scale.
-    pub(crate) relief: Relief3d,
-    /// From the lowest to the highest point, µm.
-    pub(crate) relief_um: f64,
-    /// Mean roughness of the four strokes, µm.
-    pub(crate) smd_um: f64,
-    /// Heights along the strokes with their step: µm and mm.
-    pub(crate) profiles: Vec<(Direction, Vec<f64>, f64)>,
-}
-
-/// What was made of a draft, as far as it went.
-#[derive(Debug, Clone)]
-pub(crate) struct Found {
-    /// Of what.
-    pub(crate) inputs: Draft,
-    /// Stage by stage.
-    pub(crate) loaded: Option<Arc<Loaded>>,
-    /// See [`Correlated`].
-    pub(crate) correlated: Option<Arc<Correlated>>,
-    /// See [`Cloth`].
-    pub(crate) cloth: Option<Arc<Cloth>>,
-    /// See [`Shaped`].
-    pub(crate) shaped: Option<Arc<Shaped>>,
-    /// See [`Made`].
-    pub(crate) made: Option<Arc<Made>>,
-    /// What is wrong, where.
-    pub(crate) failure: Option<(Step, String)>,
-}
-
-impl Found {
-    /// Nothing but what is wrong.
-    pub(super) fn failed(inputs: Draft, step: Step, line: String) -> Self {
-        Self {
-            failure: Some((step, line)),
-            ..Self::begun(inputs)
-        }
-    }
-
-    fn begun(inputs: Draft) -> Self {
-        Self {
-            inputs,
-            loaded: None,
-            correlated: None,
-            cloth: None,
-            shaped: None,
-            made: None,
-            failure: None,
-        }
-    }
-
-    /// The picture's hash, once it is read.
-    pub(crate) fn sha256(&self) -> Option<&str> {
-        self.loaded.as_deref().map(|loaded| loaded.sha256.as_str())
-    }
-}
 
 /// Why a run ended early.
 enum End {

@@ -1,6 +1,7 @@
 //! Every exportable pane of a window that explores the shipped scene: its numbers, its kinds of
 //! files, and what is said when there is nothing.
 
+mod opened;
 mod over_cloth;
 mod spectra;
 
@@ -15,10 +16,7 @@ use super::*;
 use crate::app::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::app::compare::Standing;
 use crate::app::headless::Headless;
-use crate::app::importing::ImportCommand;
-use crate::app::importing::tests::export;
 use crate::app::lab::{Beginning, LabCommand};
-use crate::app::picturing::PictureCommand;
 use crate::app::workspace::Overlay;
 use crate::files::{self, Table};
 use crate::tactile::Band;
@@ -82,36 +80,6 @@ impl Headless {
             desk.run_after(0).drop_without_applying_deltas();
         }
         desk
-    }
-
-    /// Reads strokes of the tester.
-    fn import(&mut self) {
-        let folder = Folder::new(&format!("strokes-{:?}", thread::current().id()));
-        let path = folder.0.join("twill.txt");
-        fs::write(&path, export()).unwrap();
-        self.dispatch(ImportCommand::Add(vec![path]));
-        self.bench.follow_import(&self.ctx);
-    }
-
-    /// Works out a picture of a cloth.
-    fn open_picture(&mut self) {
-        let folder = Folder::new(&format!("picture-{:?}", thread::current().id()));
-        let path = folder.0.join("weave.png");
-        let grey = |i: u32| {
-            let (x, y) = (f64::from(i % 160), f64::from(i / 160));
-            let shares = [0.45 * x, 0.35 * y, 0.45 * x + 0.35 * y].map(f64::sin);
-            0.5 + 0.15 * shares.iter().sum::<f64>()
-        };
-        let picture = files::GrayImage {
-            width: 160,
-            height: 120,
-            values: files::gray_values((0..160 * 120).map(grey)),
-            white: u16::MAX,
-            texts: Vec::new(),
-        };
-        fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
-        self.dispatch(PictureCommand::Open(path));
-        self.bench.follow_picture(&self.ctx);
     }
 
     /// Waits for the threads that compare and check.

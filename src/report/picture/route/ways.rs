@@ -139,12 +139,9 @@ impl Subject {
 
     /// The relief of a mean cell, or of the whole picture, as high as reads the SMD of the strokes.
     fn relief_of(&self, cell: &Result<Rectangle, String>, way: Way) -> Result<HeightMap, String> {
-        let method = match way {
-            Way::Picture(method) => method,
-            _ => {
-                let whole = &self.photograph.luminance;
-                return self.shaped(whole, LIGHT, self.photograph.px_mm, Method::Linear);
-            }
+        let Way::Picture(method) = way else {
+            let whole = &self.photograph.luminance;
+            return self.shaped(whole, LIGHT, self.photograph.px_mm, Method::Linear);
         };
         let cell = cell.as_ref().map_err(String::clone)?;
         let mut brightness = cell.values.clone();
