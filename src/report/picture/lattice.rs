@@ -1,15 +1,13 @@
 //! The lattice of a picture: who finds it, how exactly, and what spoils it.
 
+use super::costs::of_costs;
 use super::spoilt::Spoilt;
+use super::sweeps::{Sweep, sweeps};
 use super::{RIGHT, analysed, share_off};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
-use crate::numerics::{Grid, Random, median};
-use crate::report::{Bench, Effort, Findings, ReportError, Row, Study};
-use crate::textile::picture::{
-    Analysis, Autocorrelation, Basis, DirectionOptions, EvenLight, Lattice, Maxima, Measured,
-    Measurements, SignificantMaxima, even_light, refine,
-};
-use std::convert::Infallible;
+use crate::figure::{Axis, Plot, Series, Style};
+use crate::numerics::{Random, median};
+use crate::report::{Bench, Findings, ReportError, Row, Study};
+use crate::textile::picture::{Analysis, Basis, SignificantMaxima};
 
 /// Lattices of pictures that are spoilt in seven ways, by five estimates.
 #[derive(Debug, Clone, Copy, Default)]
@@ -86,111 +84,10 @@ pub(super) const ESTIMATES: [Estimate; 5] = [
 const PARALLEL: f64 = 0.2;
 
 /// The nearest maximum that counts, and the nearest in another direction.
-fn shortest(significant: &SignificantMaxima) -> Option<Basis> {
+pub(super) fn shortest(significant: &SignificantMaxima) -> Option<Basis> {
     let first = significant.all().first()?.place;
     let mut pairs = significant.all().iter().map(|m| Basis::new(first, m.place));
     pairs.find(|pair| pair.sine() >= PARALLEL)
-}
-
-/// A way to spoil pictures, in steps.
-struct Sweep {
-    name: &'static str,
-    label: &'static str,
-    scale: Scale,
-    values: Vec<f64>,
-    spoil: fn(&mut Spoilt, f64),
-}
-
-fn sweeps(effort: Effort) -> Vec<Sweep> {
-    let mut all = of_cloth(effort);
-    all.extend(of_camera(effort));
-    all
-}
-
-/// Values in quick and in full mode.
-type Values<'a> = [&'a [f64]; 2];
-
-impl Sweep {
-    fn new(
-        [name, label]: [&'static str; 2],
-        [quick, full]: Values<'_>,
-        effort: Effort,
-        spoil: fn(&mut Spoilt, f64),
-    ) -> Self {
-        Self {
-            name,
-            label,
-            scale: Scale::Linear,
-            values: effort.pick(quick, full).to_vec(),
-            spoil,
-        }
-    }
-}
-
-/// What may be wrong with the cloth under the camera.
-fn of_cloth(effort: Effort) -> Vec<Sweep> {
-    vec![
-        Sweep::new(
-            ["turn", "turn of the threads, degrees"],
-            [
-                &[20.0],
-                &[0.0, 2.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 88.0],
-            ],
-            effort,
-            |spoilt, x| spoilt.turn_deg = Some(x),
-        ),
-        Sweep::new(
-            ["bend", "amplitude of the waves that the cloth lies in, px"],
-            [&[4.0], &[0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0]],
-            effort,
-            |spoilt, x| spoilt.bend_px = x,
-        ),
-        Sweep::new(
-            ["repeats", "side of the picture, in mean periods"],
-            [&[3.0], &[1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0]],
-            effort,
-            |spoilt, x| spoilt.n_repeats = Some(x),
-        ),
-    ]
-}
-
-/// What may be wrong with camera, light and file.
-fn of_camera(effort: Effort) -> Vec<Sweep> {
-    vec![
-        Sweep::new(
-            ["noise", "signal over noise, dB"],
-            [
-                &[-12.0, 6.0],
-                &[-18.0, -15.0, -12.0, -9.0, -6.0, -3.0, 0.0, 6.0, 12.0, 24.0],
-            ],
-            effort,
-            |spoilt, x| spoilt.snr_db = x,
-        ),
-        Sweep::new(
-            ["blur", "blur, px (standard deviation)"],
-            [&[3.0], &[0.0, 0.7, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0]],
-            effort,
-            |spoilt, x| spoilt.blur_px = x,
-        ),
-        Sweep {
-            scale: Scale::Log,
-            ..Sweep::new(
-                ["light", "brightest over darkest light"],
-                [&[8.0], &[1.0, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0]],
-                effort,
-                |spoilt, x| spoilt.light_ratio = x,
-            )
-        },
-        Sweep {
-            scale: Scale::Log,
-            ..Sweep::new(
-                ["compression", "quality of the JPEG"],
-                [&[20.0], &[2.0, 5.0, 10.0, 20.0, 35.0, 50.0, 75.0, 95.0]],
-                effort,
-                |spoilt, x| spoilt.quality = Some(x),
-            )
-        },
-    ]
 }
 
 /// The study with other estimates.
@@ -332,91 +229,6 @@ impl Tally {
             ..Row::default()
         }
     }
-}
-
-/// What estimates and steps cost on one usual picture.
-fn of_costs(usual: &Spoilt, rows: &mut Vec<Row>, bench: &mut Bench<'_>) {
-    let picture = usual.picture(0, &Random::new(bench.seed)).luminance;
-    let options = DirectionOptions::default();
-    let significant = |light: &Grid<f64>| {
-        let rho = Autocorrelation::of(light, 1);
-        SignificantMaxima::of(&Maxima::of(&rho), &rho)
-    };
-    let n = bench.effort.pick(2, 7);
-    let whole = bench.time_repeated(n, 1, || analysed(&picture));
-    let concentration = bench.time_repeated(n, 1, || {
-        Measured::by_concentration(&significant(&picture), options)
-    });
-    let hough = bench.time_repeated(n, 1, || Measured::by_hough(&significant(&picture), options));
-    let short = bench.time_repeated(n, 1, || shortest(&significant(&picture)));
-    for row in rows.iter_mut() {
-        row.cost = match row.method.as_str() {
-            "whole pipeline" => Some(whole),
-            "mean concentration" => Some(concentration),
-            "Hough" => Some(hough),
-            "shortest vectors alone" => Some(short),
-            _ => None,
-        };
-    }
-    rows.extend(steps(&picture, n, bench));
-}
-
-/// A row without an error for every step of the pipeline.
-fn steps(picture: &Grid<f64>, n: usize, bench: &mut Bench<'_>) -> Vec<Row> {
-    let (light, _) = even_light(picture, EvenLight::Auto);
-    let rho = Autocorrelation::of(&light, 1);
-    let maxima = Maxima::of(&rho);
-    let significant = SignificantMaxima::of(&maxima, &rho);
-    let options = DirectionOptions::default();
-    let directions = crate::textile::picture::Directions::of(&significant, options);
-    let measured = Measurements {
-        rho,
-        maxima,
-        significant,
-        directions,
-    };
-    let lattice = measured.lattice();
-    let mut costs = vec![
-        (
-            "light",
-            bench.time_repeated(n, 1, || even_light(picture, EvenLight::Auto)),
-        ),
-        (
-            "autocorrelation",
-            bench.time_repeated(n, 1, || Autocorrelation::of(&light, 1)),
-        ),
-        (
-            "maxima",
-            bench.time_repeated(n, 1, || Maxima::of(&measured.rho)),
-        ),
-        (
-            "directions by mean concentration",
-            bench.time_repeated(n, 1, || {
-                Measured::by_concentration(&measured.significant, options)
-            }),
-        ),
-        (
-            "directions by Hough",
-            bench.time_repeated(n, 1, || Measured::by_hough(&measured.significant, options)),
-        ),
-        ("lattice", bench.time_repeated(n, 1, || measured.lattice())),
-    ];
-    if let Some(basis) = lattice.as_ref().ok().map(Lattice::basis) {
-        costs.push((
-            "refining",
-            bench.time_repeated(n, 1, || {
-                refine(&light, basis, 1, |_| Ok::<(), Infallible>(()))
-            }),
-        ));
-    }
-    let row = |(name, cost): (&str, crate::report::Timing)| Row {
-        method: format!("step: {name}"),
-        case: "usual".to_owned(),
-        size: Some(picture.values().len() as f64),
-        cost: Some(cost),
-        ..Row::default()
-    };
-    costs.into_iter().map(row).collect()
 }
 
 fn further(row: &Row, name: &str) -> Option<f64> {

@@ -5,11 +5,13 @@
 //! a relief.
 
 mod autocorrelation;
+mod costs;
 mod drawings;
 mod lattice;
 mod route;
 mod scale;
 mod spoilt;
+mod sweeps;
 #[cfg(test)]
 mod tests;
 
