@@ -103,27 +103,83 @@ impl<'a> Bench<'a> {
         &mut self,
         n_repeats: usize,
         n_units: usize,
-        mut work: impl FnMut() -> T,
+        work: impl FnMut() -> T,
     ) -> Timing {
-        let least_s = self.effort.pick(0.5e-3, 2e-3);
-        black_box(work());
-        let n_inner = inner_repeats(least_s, &mut work);
-        let n = (n_inner * n_units.max(1)) as f64;
-        let mut cpu_s = Vec::with_capacity(n_repeats);
-        let mut wall_s = Vec::with_capacity(n_repeats);
+        let mut runs = Runs::new(self.least_s(), n_units, work);
         for _ in 0..n_repeats {
-            let (start, start_cpu_s) = (Instant::now(), thread_cpu_seconds());
-            for _ in 0..n_inner {
-                black_box(work());
-            }
-            cpu_s.push((thread_cpu_seconds() - start_cpu_s) / n);
-            wall_s.push(start.elapsed().as_secs_f64() / n);
+            runs.run();
         }
+        runs.timing()
+    }
+
+    /// Measures several works of `n_units` each, repeat by repeat in turn, so that a machine that
+    /// changes its pace meanwhile changes it for all. Beside each timing stands its CPU time as a
+    /// multiple of the first's, in the median over the repeats.
+    pub fn time_in_turn<T>(
+        &mut self,
+        n_units: usize,
+        works: Vec<impl FnMut() -> T>,
+    ) -> Vec<(Timing, f64)> {
+        let least_s = self.least_s();
+        let runs = |work| Runs::new(least_s, n_units, work);
+        let mut all: Vec<_> = works.into_iter().map(runs).collect();
+        for _ in 0..self.effort.pick(5, 15) {
+            all.iter_mut().for_each(Runs::run);
+        }
+        let first_s = all.first().map(|runs| runs.cpu_s.clone());
+        let first_s = first_s.unwrap_or_default();
+        let with_multiple = |runs: Runs<_>| {
+            let pairs = runs.cpu_s.iter().zip(&first_s);
+            let mut multiples: Vec<f64> = pairs.map(|(own_s, first_s)| own_s / first_s).collect();
+            (runs.timing(), median(&mut multiples))
+        };
+        all.into_iter().map(with_multiple).collect()
+    }
+
+    /// Least time of one measurement, s.
+    fn least_s(&self) -> f64 {
+        self.effort.pick(0.5e-3, 2e-3)
+    }
+}
+
+/// Work and how long it took, run by run.
+struct Runs<W> {
+    work: W,
+    n_inner: usize,
+    n_units: usize,
+    cpu_s: Vec<f64>,
+    wall_s: Vec<f64>,
+}
+
+impl<T, W: FnMut() -> T> Runs<W> {
+    /// Warms up, and finds how often the work is to be repeated for one measurement.
+    fn new(least_s: f64, n_units: usize, mut work: W) -> Self {
+        black_box(work());
+        Self {
+            n_inner: inner_repeats(least_s, &mut work),
+            n_units: n_units.max(1),
+            work,
+            cpu_s: Vec::new(),
+            wall_s: Vec::new(),
+        }
+    }
+
+    fn run(&mut self) {
+        let (start, start_cpu_s) = (Instant::now(), thread_cpu_seconds());
+        for _ in 0..self.n_inner {
+            black_box((self.work)());
+        }
+        let n = (self.n_inner * self.n_units) as f64;
+        self.cpu_s.push((thread_cpu_seconds() - start_cpu_s) / n);
+        self.wall_s.push(start.elapsed().as_secs_f64() / n);
+    }
+
+    fn timing(mut self) -> Timing {
         Timing {
-            cpu_s: median(&mut cpu_s),
-            cpu_quartiles_s: [0.25, 0.75].map(|q| quantile(&mut cpu_s, q)),
-            wall_s: median(&mut wall_s),
-            n_repeats,
+            cpu_s: median(&mut self.cpu_s),
+            cpu_quartiles_s: [0.25, 0.75].map(|q| quantile(&mut self.cpu_s, q)),
+            wall_s: median(&mut self.wall_s),
+            n_repeats: self.cpu_s.len(),
         }
     }
 }
@@ -159,6 +215,21 @@ mod tests {
         assert!(n_calls > 5 && timing.cpu_s >= 0.0, "{timing:?}");
         let [low, high] = timing.cpu_quartiles_s;
         assert!(low <= timing.cpu_s && timing.cpu_s <= high, "{timing:?}");
+    }
+
+    #[test]
+    fn works_measured_in_turn_are_compared_with_the_first() {
+        let mut report = |_: f64, _: &str| {};
+        let mut progress = Progress::new(&mut report, CancelFlag::new());
+        let mut bench = Bench::new(Effort::Quick, 1, &mut progress);
+        let work = |n: u64| move || (0..n).fold(0, |sum: u64, i| black_box(sum ^ i));
+        let found = bench.time_in_turn(1, vec![work(100), work(10_000)]);
+        let [(first, of_itself), (second, of_first)] = found[..] else {
+            panic!("{found:?}");
+        };
+        assert!((of_itself - 1.0).abs() < 1e-12, "{of_itself}");
+        assert_eq!((first.n_repeats, second.n_repeats), (5, 5));
+        assert!(of_first.is_finite() && of_first >= 0.0, "{of_first}");
     }
 
     #[test]

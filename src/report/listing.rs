@@ -3,7 +3,7 @@
 //! The CSV has every row and every digit; here is what a reader looks for.
 
 use super::columns::{further_cell, further_columns};
-use super::readable::{bytes, number, time};
+use super::readable::{self, bytes, number, time};
 use super::{Findings, Row, Study, Timing, pareto, write};
 
 /// More rows than this are folded away below a plot.
@@ -78,8 +78,8 @@ fn columns<'a>(
     };
     columns.push(column("front", ring));
     for name in further_columns(&findings.rows) {
-        let say = move |_: usize, row: &Row| further_cell(row, name).to_owned();
-        columns.push(column(&name.replace('_', " "), say));
+        let say = move |_: usize, row: &Row| readable::cell(further_cell(row, name));
+        columns.push(column(&readable::heading(name), say));
     }
     columns.push(column("kept", |_, row| kept(row).to_owned()));
     columns

@@ -44,9 +44,75 @@ pub(super) fn bytes(n: u64) -> String {
     }
 }
 
+/// Units that names of columns end with, and how they are written.
+const UNITS: [(&str, &str); 9] = [
+    ("db", "dB"),
+    ("percent", "%"),
+    ("um", "µm"),
+    ("mm", "mm"),
+    ("px", "px"),
+    ("hz", "Hz"),
+    ("ms", "ms"),
+    ("us", "µs"),
+    ("s", "s"),
+];
+
+/// The name of a column as a heading: `mean_offset_db` is `mean offset, dB`.
+pub(super) fn heading(name: &str) -> String {
+    let (stem, last) = name.rsplit_once('_').unwrap_or(("", name));
+    let unit = UNITS
+        .iter()
+        .find(|(key, _)| *key == last && !stem.is_empty());
+    match unit {
+        Some((_, unit)) => format!("{}, {unit}", stem.replace('_', " ")),
+        None => name.replace('_', " "),
+    }
+}
+
+/// A cell as it stands in the CSV, as people read it: long numbers with three digits that count.
+pub(super) fn cell(text: &str) -> String {
+    match text {
+        "true" => return "yes".to_owned(),
+        "false" => return "no".to_owned(),
+        _ => {}
+    }
+    match text.parse::<f64>() {
+        Ok(value) if value.is_infinite() => if value > 0.0 { "∞" } else { "−∞" }.to_owned(),
+        Ok(value) if text.len() > 7 || text.contains('e') => number(value),
+        Ok(_) => text.replace('-', "−"),
+        Err(_) => text.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_of_columns_and_cells_of_the_table_become_readable() {
+        let names = ["mean_offset_db", "right_percent", "points", "bound_db", "s"].map(heading);
+        assert_eq!(
+            names,
+            ["mean offset, dB", "right, %", "points", "bound, dB", "s"]
+        );
+        let cells = [
+            "2.204e-7",
+            "1.3000000000000001",
+            "-1.5",
+            "4794",
+            "inf",
+            "true",
+            "2026-11",
+            "wool",
+        ];
+        let said = cells.map(cell);
+        assert_eq!(
+            said,
+            [
+                "2.2e−7", "1.30", "−1.5", "4794", "∞", "yes", "2026-11", "wool"
+            ]
+        );
+    }
 
     #[test]
     fn numbers_have_three_digits_that_count() {

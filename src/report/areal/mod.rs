@@ -10,7 +10,7 @@ use std::sync::Arc;
 use cases::Case;
 
 use super::rendering::cloths::{exeter, placed, poses_between, scene_of};
-use super::{Bench, Findings, ReportError, Row, Study, Timing};
+use super::{Bench, Findings, ReportError, Row, Study};
 use crate::figure::{Axis, Plot, Scale, Series};
 use crate::geometry::Point;
 use crate::numerics::{Random, quantile};
@@ -110,9 +110,7 @@ impl Felt {
     fn rows(&self, case: &Case, bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
         let mut rows = Vec::new();
         let settings = ["one profile, wire of 5 mm", "one profile, wire of 1 mm"];
-        for ((surface, setting), errors) in
-            case.economical.iter().zip(settings).zip(&self.errors_db)
-        {
+        for (setting, errors) in settings.into_iter().zip(&self.errors_db) {
             let mut sizes: Vec<f64> = errors.iter().map(|db| db.abs()).collect();
             let row = Row {
                 method: "economical".to_owned(),
@@ -126,9 +124,9 @@ impl Felt {
                 ],
                 ..Row::default()
             };
-            rows.push(self.with_cost(row, surface, case, bench)?);
+            rows.push(row);
         }
-        let row = Row {
+        rows.push(Row {
             method: "areal".to_owned(),
             setting: "every mm, tables made on first touch".to_owned(),
             error: Some(self.table_db),
@@ -139,37 +137,50 @@ impl Felt {
                 ("spread_db", number(self.spread_db[1])),
             ],
             ..Row::default()
-        };
-        rows.push(self.with_cost(row, &case.areal, case, bench)?);
+        });
+        let [kes, narrow] = &case.economical;
+        self.add_costs(&mut rows, [kes, narrow, &case.areal], bench)?;
+        for row in &mut rows {
+            row.case.clone_from(&case.name);
+        }
         Ok(rows)
     }
 
-    /// What a tick costs once all is made, what preparing costs, and what is kept in memory.
-    fn with_cost(
+    /// What a tick over each surface costs once all is made, also as a multiple of the first's;
+    /// what preparing costs, and what is kept in memory.
+    fn add_costs(
         &self,
-        mut row: Row,
-        surface: &Arc<Surface>,
-        case: &Case,
+        rows: &mut [Row],
+        surfaces: [&Arc<Surface>; 3],
         bench: &mut Bench<'_>,
-    ) -> Result<Row, ReportError> {
-        let scene = scene(surface);
-        let mut renderer = prepared(&scene, Method::Table)?;
+    ) -> Result<(), ReportError> {
+        let mut renderers = Vec::new();
+        for (row, surface) in rows.iter_mut().zip(surfaces) {
+            let scene = scene(surface);
+            let renderer = prepared(&scene, Method::Table)?;
+            let preparing = bench.time(1, || prepared(&scene, Method::Table).is_ok());
+            row.bytes = u64::try_from(renderer.n_bytes()).ok();
+            row.more.extend([
+                ("preparing_ms", number(1e3 * preparing.cpu_s)),
+                ("points", cases::n_points(surface).to_string()),
+            ]);
+            renderers.push(renderer);
+        }
         let poses = &self.poses[..N_TIMED];
-        let mut all = || {
-            for pose in poses {
-                renderer.tick(std::slice::from_ref(pose));
+        let stroke = |mut renderer: ArrayRenderer| {
+            move || {
+                for pose in poses {
+                    renderer.tick(std::slice::from_ref(pose));
+                }
             }
         };
-        let cost: Timing = bench.time(N_TIMED, &mut all);
-        let preparing = bench.time(1, || prepared(&scene, Method::Table).is_ok());
-        row.case.clone_from(&case.name);
-        row.bytes = u64::try_from(renderer.n_bytes()).ok();
-        row.more.extend([
-            ("preparing_ms", number(1e3 * preparing.cpu_s)),
-            ("points", cases::n_points(surface).to_string()),
-        ]);
-        row.cost = Some(cost);
-        Ok(row)
+        let strokes = renderers.into_iter().map(stroke).collect();
+        let costs = bench.time_in_turn(N_TIMED, strokes);
+        for (row, (cost, multiple)) in rows.iter_mut().zip(costs) {
+            row.cost = Some(cost);
+            row.more.push(("times_the_first", number(multiple)));
+        }
+        Ok(())
     }
 
     fn note(&self, case: &str) -> String {

@@ -50,10 +50,10 @@ fn made_at(lines: &[[Kept; LINE]], line: usize, step: usize) -> Option<[Kept; 2]
     (is_made(nodes[0]) & is_made(nodes[1])).then_some(nodes)
 }
 
-/// Powers a share of the way from a node to the next.
+/// Powers a share of the way from a node to the next, with their signs turned as they are kept.
 #[inline]
-fn between([before, after]: [Kept; 2], share: f32) -> [f32; 2] {
-    [0, 1].map(|band: usize| -(before[band] + (after[band] - before[band]) * share))
+fn between([before, after]: [Kept; 2], share: f32) -> Kept {
+    [0, 1].map(|band: usize| before[band] + (after[band] - before[band]) * share)
 }
 
 /// What contactors that share a speed along an axis of an areal surface hear.
@@ -194,18 +194,28 @@ impl TouchedTables {
         match heard {
             [Some(warp), Some(weft)] => {
                 let starts = [warp, weft].map(|heard| {
-                    let row = self.firsts[heard.spectra];
-                    (self.line(row, heard.spot.node), heard.spot.node % STEPS)
+                    let first = self.firsts[heard.spectra];
+                    let line = self.line(0, heard.spot.node);
+                    (first, line, heard.spot.node % STEPS)
                 });
                 let is_whole = self.is_whole;
                 contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                     // One surface: its grid is looked up once for both.
                     let [i, j] = warp.points.indices(u_mm, w_mm);
                     let points = [warp.points.number([i, j]), weft.points.number([j, i])];
-                    let at =
-                        |axis: usize| made_at(kept, starts[axis].0 + points[axis], starts[axis].1);
+                    let at = |axis: usize| {
+                        let (first, line, step) = starts[axis];
+                        let place = first + points[axis];
+                        let row = if is_whole {
+                            place
+                        } else {
+                            self.row_of[place] as usize
+                        };
+                        // No row lies beyond every line.
+                        made_at(kept, line + row, step)
+                    };
                     let [a, b] = match (at(0), at(1)) {
-                        (Some(a), Some(b)) if is_whole => {
+                        (Some(a), Some(b)) => {
                             [between(a, warp.spot.share), between(b, weft.spot.share)]
                         }
                         _ => [
@@ -213,18 +223,18 @@ impl TouchedTables {
                             self.at_in(kept, (weft.spectra, points[1]), weft.spot, counters),
                         ],
                     };
-                    (0..2).for_each(|band| power[band] += a[band] + b[band]);
+                    (0..2).for_each(|band| power[band] -= a[band] + b[band]);
                 });
             }
             [Some(warp), None] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                 let point = (warp.spectra, warp.points.nearest(u_mm, w_mm));
                 let own = self.at_in(kept, point, warp.spot, counters);
-                (0..2).for_each(|band| power[band] += own[band]);
+                (0..2).for_each(|band| power[band] -= own[band]);
             }),
             [None, Some(weft)] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                 let point = (weft.spectra, weft.points.nearest(w_mm, u_mm));
                 let own = self.at_in(kept, point, weft.spot, counters);
-                (0..2).for_each(|band| power[band] += own[band]);
+                (0..2).for_each(|band| power[band] -= own[band]);
             }),
             [None, None] => {}
         }
@@ -247,11 +257,12 @@ impl TouchedTables {
         counters: &mut Counters,
     ) -> [f32; 2] {
         let mut memory = std::mem::take(&mut self.kept);
-        let powers = self.at_in(lines_of(&mut memory), point, spot, counters);
+        let kept = self.at_in(lines_of(&mut memory), point, spot, counters);
         self.kept = memory;
-        powers
+        kept.map(|power| -power)
     }
 
+    /// The same with their signs turned.
     #[inline]
     fn at_in(
         &mut self,
@@ -259,7 +270,7 @@ impl TouchedTables {
         point: (usize, usize),
         spot: Spot,
         counters: &mut Counters,
-    ) -> [f32; 2] {
+    ) -> Kept {
         let place = self.firsts[point.0] + point.1;
         let row = if self.is_whole {
             place
