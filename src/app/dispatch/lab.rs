@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::app::arrangement::{self, Pane};
+use crate::app::command::ShowCommand;
 use crate::app::keep::Keep;
 use crate::app::lab::{self, Beginning, Compared, Family, LabCommand, Plan, Preview};
 use crate::app::task::{Task, taken};
@@ -15,13 +17,18 @@ impl Workbench {
     pub(super) fn dispatch_lab(&mut self, ctx: &egui::Context, command: LabCommand) {
         let lab = &mut self.transient.lab;
         match command {
-            LabCommand::Begin(beginning) => self.begin_lab(ctx, beginning),
+            LabCommand::Begin(beginning) => {
+                if !arrangement::is_shown(&self.tree, Pane::Lab) {
+                    self.dispatch_show(ctx, &ShowCommand::Pane(Pane::Lab));
+                }
+                self.begin_lab(ctx, beginning);
+            }
             LabCommand::Set(place, value) => {
                 let is_held = ctx.input(|input| input.pointer.any_down());
                 self.change_recipe(|steps| steps.set(place, value, is_held));
             }
-            LabCommand::Undo => self.change_recipe(lab::Steps::undo),
-            LabCommand::Redo => self.change_recipe(lab::Steps::redo),
+            LabCommand::Undo => lab.undo(),
+            LabCommand::Redo => lab.redo(),
             LabCommand::Restart => self.change_recipe(lab::Steps::restart),
             LabCommand::Compare(None) => lab.compared = None,
             LabCommand::Compare(Some(id)) => self.compare_in_lab(ctx, id),

@@ -12,6 +12,7 @@ mod command;
 mod family;
 mod fields;
 mod preview;
+mod recipes;
 mod steps;
 
 pub(crate) use command::{Beginning, LabCommand, Look, Page, Plan};
@@ -68,6 +69,7 @@ pub(crate) struct Lab {
     pub(crate) n_computed: u64,
     /// Counts changes of the recipe and of what it is felt through.
     serial: u64,
+    recipes: recipes::Recipes,
     shown_serial: Option<u64>,
     filters: Option<Filters>,
     pub(super) beginning: Option<Task<Begun>>,
@@ -120,8 +122,9 @@ impl Lab {
         is_idle.then(|| (self.serial, manifest.clone()))
     }
 
-    /// Begins a recipe.
+    /// Begins a recipe; the one at hand can be had back.
     pub(super) fn begin(&mut self, begun: Begun) {
+        self.set_aside();
         let manifest = begun.draft.read().ok();
         let name = manifest.map_or_else(String::new, |manifest| manifest.name);
         let is_copy = begun.parent.is_some();

@@ -57,6 +57,36 @@ fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
 }
 
 #[test]
+fn a_recipe_that_another_took_the_place_of_comes_back_with_all_its_steps() {
+    let mut lab = small();
+    lab.steps
+        .as_mut()
+        .unwrap()
+        .set(HURST, Some(0.3.into()), false);
+    lab.fields.id = "mine".to_owned();
+    let mine = lab.steps.as_ref().unwrap().now().clone();
+    lab.begin(begun(&Beginning::Copy("polyamide-taffeta".to_owned())));
+    assert!(lab.parent.is_some());
+    assert_eq!(lab.can_step(), [true, false]);
+    lab.undo();
+    assert_eq!(lab.steps.as_ref().unwrap().now(), &mine);
+    assert_eq!(
+        (lab.fields.id.as_str(), lab.parent.is_none()),
+        ("mine", true)
+    );
+    lab.undo();
+    assert_ne!(
+        lab.steps.as_ref().unwrap().now(),
+        &mine,
+        "its own steps too"
+    );
+    lab.redo();
+    lab.redo();
+    assert_eq!(lab.parent.as_ref().unwrap().id, "polyamide-taffeta");
+    assert_eq!(lab.can_step(), [true, false]);
+}
+
+#[test]
 fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
     let folder = std::env::temp_dir().join(format!("selvedge-lab-{}", std::process::id()));
     let textile = folder.join("measured");

@@ -8,7 +8,8 @@ use eframe::egui::{
 use super::{Wishes, swatch};
 use crate::app::audition::Audition;
 use crate::app::collection::{CollectionCommand, Joining};
-use crate::app::command::{Edit, Part, ShowCommand};
+use crate::app::command::{Command, Edit, Part, ShowCommand};
+use crate::app::lab::{Beginning, LabCommand};
 use crate::app::shelf::Shelf;
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::view::{Cloth, ClothPicture, SceneView, ShelfItem};
@@ -166,9 +167,7 @@ fn answer_item(
     }
     let is_entered = response.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     if response.double_clicked() || is_entered {
-        let [width_mm, height_mm] = scene.size_mm;
-        let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
-        wishes.push(Edit::AddCloth(item.id.clone(), middle).into());
+        wishes.push(added(item, scene));
     } else if response.clicked() {
         let joining = if ui.input(|input| input.modifiers.command) {
             Joining::Toggled
@@ -177,6 +176,7 @@ fn answer_item(
         };
         wishes.push(CollectionCommand::Select(vec![item.id.clone()], joining).into());
     }
+    response.context_menu(|ui| show_item_menu(ui, item, scene, wishes));
     if response.drag_started() {
         let id = item.id.clone();
         DragAndDrop::set_payload(ui.ctx(), LibraryItem { id });
@@ -190,9 +190,38 @@ fn answer_item(
     response
         .on_hover_cursor(egui::CursorIcon::Grab)
         .on_hover_text(format!(
-            "{}\n{}{level}\nDrag it into the workspace, or double click",
+            "{}\n{}{level}\nDrag it into the workspace, or double click; more with the right button",
             item.name, item.kind
         ));
+}
+
+/// The act that adds a textile in the middle of the workspace.
+fn added(item: &ShelfItem, scene: &SceneView) -> Command {
+    let [width_mm, height_mm] = scene.size_mm;
+    let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
+    Edit::AddCloth(item.id.clone(), middle).into()
+}
+
+/// What can be done with a textile of the library.
+fn show_item_menu(ui: &mut Ui, item: &ShelfItem, scene: &SceneView, wishes: &mut Wishes) {
+    let id = || item.id.clone();
+    let acts = [
+        ("Add to the scene", added(item, scene)),
+        (
+            "Vary a copy in the lab",
+            LabCommand::Begin(Beginning::Copy(id())).into(),
+        ),
+        (
+            "Restore in the lab from what repeats",
+            LabCommand::Begin(Beginning::Restore(id())).into(),
+        ),
+    ];
+    for (words, act) in acts {
+        if ui.button(words).clicked() {
+            wishes.push(act);
+            ui.close();
+        }
+    }
 }
 
 /// A line around the row that has the keyboard.

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
 use super::{LabHands, LabView, family, keep, recipe};
-use crate::app::lab::{Beginning, LabCommand, Page, Steps};
+use crate::app::lab::{Beginning, Lab, LabCommand, Page, Steps};
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette, ROW, STEP};
 use crate::app::view::ShelfItem;
@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, wishes
     ui.allocate_ui_with_layout(size, line, |ui| {
         show_beginnings(ui, view.items, wishes);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_steps(ui, view.lab.steps.as_ref(), wishes);
+            show_steps(ui, view.lab, wishes);
         });
     });
     ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, wishes));
@@ -90,9 +90,12 @@ fn list(ui: &mut Ui, salt: &str, items: &[ShelfItem]) -> Option<String> {
     chosen
 }
 
-fn show_steps(ui: &mut Ui, steps: Option<&Steps>, wishes: &mut Wishes) {
-    let [back, forth] = steps.map_or([false; 2], Steps::can_step);
-    let is_changed = steps.is_some_and(|steps| steps.now() != steps.first());
+fn show_steps(ui: &mut Ui, lab: &Lab, wishes: &mut Wishes) {
+    let [back, forth] = lab.can_step();
+    let is_changed = lab
+        .steps
+        .as_ref()
+        .is_some_and(|steps| steps.now() != steps.first());
     // From the right.
     let all = [
         (
