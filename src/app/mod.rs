@@ -38,6 +38,7 @@ mod editing;
 mod error;
 mod export;
 mod felt;
+mod follower;
 mod frame;
 mod free_places;
 mod headless;

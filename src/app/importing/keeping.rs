@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use eframe::egui;
 
-use super::{Body, Failure, Found, Importing, Keeping, Standing, Step, WordsDraft};
+use super::{Body, Failure, Found, Importing, Keeping, Step, WordsDraft};
+use crate::app::follower::Standing;
 use crate::app::job::{Job, Polled};
 use crate::app::keep::{Keep, NewTextile};
 use crate::app::window::Workbench;
@@ -64,7 +65,7 @@ impl Importing {
     pub(crate) fn refusal(&self) -> Option<String> {
         match self.standing() {
             Standing::Empty => return Some("Choose files first".to_owned()),
-            Standing::Reading(_) => return Some("The files are being read".to_owned()),
+            Standing::Working(_) => return Some("The files are being read".to_owned()),
             Standing::Stopped => return Some("Reading was stopped; press “read again”".to_owned()),
             Standing::Fresh => {}
         }
@@ -100,7 +101,7 @@ impl Workbench {
             importing.kept = Some(Err(Failure::at(Step::Keep, line)));
             return;
         }
-        let Some(found) = importing.found.clone() else {
+        let Some(found) = importing.found().cloned() else {
             return;
         };
         importing.kept = None;

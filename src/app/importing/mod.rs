@@ -25,21 +25,17 @@ pub(crate) use work::{Body, Found, Heights, Inputs, Strokes};
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use eframe::egui;
 
-use super::job::{Job, Polled};
+use super::follower::{Follower, Standing};
+use super::job::Job;
 use super::keep::NewTextile;
-use super::task::Watch;
-use super::widgets::ReliefPicture;
+use super::widgets::{Relief, ReliefPicture};
 use super::window::Workbench;
-use crate::progress::Cancelled;
 
 /// More files than these are no import.
 const MOST_FILES: usize = 8;
-/// How often progress is shown.
-const PROGRESS: Duration = Duration::from_millis(100);
 
 /// What can be wanted of an import. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,26 +57,6 @@ pub(crate) enum ImportCommand {
     },
 }
 
-/// How what was read stands to what is chosen now.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Standing {
-    /// No file was chosen.
-    Empty,
-    /// It is of what is chosen.
-    Fresh,
-    /// It is being read: the share that is done, 0…1.
-    Reading(f32),
-    /// It was stopped.
-    Stopped,
-}
-
-/// A reading under way.
-struct Running {
-    inputs: Inputs,
-    job: Job<Result<Found, Cancelled>>,
-    watch: Watch,
-}
-
 /// Textiles on their way to the library.
 struct Keeping {
     job: Job<Result<Vec<NewTextile>, Failure>>,
@@ -94,24 +70,21 @@ pub(crate) struct Importing {
     pub(crate) draft: Draft,
     /// The relief as a texture.
     pub(crate) picture: ReliefPicture,
-    found: Option<Arc<Found>>,
-    running: Option<Running>,
-    stopped: Option<Inputs>,
+    reading: Follower<Found>,
     keeping: Option<Keeping>,
     /// What was kept last, or why nothing was.
     kept: Option<Result<String, Failure>>,
-    n_read: u64,
 }
 
 impl Importing {
     /// What was found last, whatever has changed since.
     pub(crate) fn found(&self) -> Option<&Arc<Found>> {
-        self.found.as_ref()
+        self.reading.found()
     }
 
     /// Readings that were begun.
     pub(crate) fn n_read(&self) -> u64 {
-        self.n_read
+        self.reading.n_begun()
     }
 
     /// What was kept last, or why nothing was.
@@ -136,19 +109,7 @@ impl Importing {
         if self.draft.told.files.is_empty() {
             return Standing::Empty;
         }
-        let inputs = self.inputs();
-        if self
-            .found
-            .as_ref()
-            .is_some_and(|found| found.inputs == inputs)
-        {
-            return Standing::Fresh;
-        }
-        if self.stopped.as_ref() == Some(&inputs) {
-            return Standing::Stopped;
-        }
-        let running = self.running.as_ref();
-        Standing::Reading(running.map_or(0.0, |running| running.watch.share()))
+        self.reading.standing(&self.inputs())
     }
 
     /// Takes files to those that are there; says why not, in one line.
@@ -198,93 +159,45 @@ impl Importing {
         for file in &mut self.draft.told.files {
             file.source = Arc::new(SourceFile::new(file.source.path().to_owned()));
         }
-        self.stopped = None;
+        self.reading.go_on();
         self.picture = ReliefPicture::default();
     }
 
     /// Stops reading until something else is chosen.
     pub(crate) fn cancel(&mut self) {
-        if let Some(running) = &self.running {
-            running.watch.stop();
-            self.stopped = Some(running.inputs.clone());
-        }
+        self.reading.stop();
     }
 
     /// Takes what a thread has read, if it is done.
     pub(crate) fn poll(&mut self) {
-        let Some(running) = self.running.take() else {
-            return;
-        };
-        match running.job.poll() {
-            Polled::Working => self.running = Some(running),
-            Polled::Done(Ok(found)) => self.take_found(found),
-            Polled::Done(Err(Cancelled)) => {}
-            Polled::BrokeOff => {
-                let line = "reading broke off; press “read again”, and report the file";
-                self.take_found(Found {
-                    inputs: running.inputs,
-                    kind: crate::textile::Measurement::Heights,
-                    body: Body::Nothing,
-                    failure: Some(Failure::at(Step::Files, line)),
-                });
-            }
-        }
+        let before = self.relief();
+        self.reading.poll();
+        self.renew_picture(before.as_ref());
     }
 
-    fn take_found(&mut self, found: Found) {
-        let before = self.found.as_ref().and_then(|found| found.heights());
-        let relief = |heights: &Heights| heights.relief.clone();
-        let is_same = match (before.and_then(relief), found.heights().and_then(relief)) {
-            (Some(before), Some(now)) => Arc::ptr_eq(&before, &now),
-            _ => false,
+    /// Lets the reading follow what was chosen.
+    fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
+        if self.standing() == Standing::Empty {
+            return;
+        }
+        let before = self.relief();
+        self.reading.follow(ctx, is_at_once, self.inputs());
+        self.renew_picture(before.as_ref());
+    }
+
+    fn relief(&self) -> Option<Arc<Relief>> {
+        self.found()?.heights()?.relief.clone()
+    }
+
+    /// Forgets the picture of another relief.
+    fn renew_picture(&mut self, before: Option<&Arc<Relief>>) {
+        let now = self.relief();
+        let is_same = match (before, &now) {
+            (Some(before), Some(now)) => Arc::ptr_eq(before, now),
+            _ => before.is_none() && now.is_none(),
         };
         if !is_same {
             self.picture = ReliefPicture::default();
-        }
-        self.found = Some(Arc::new(found));
-    }
-
-    /// Lets the reading follow what was chosen: one at a time, the newest words only.
-    fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
-        let inputs = self.inputs();
-        if !matches!(self.standing(), Standing::Reading(_)) {
-            return;
-        }
-        if let Some(running) = &self.running {
-            if running.inputs.told != inputs.told {
-                running.watch.stop();
-            }
-            ctx.request_repaint_after(PROGRESS);
-            return;
-        }
-        self.begin(inputs, ctx, is_at_once);
-    }
-
-    fn begin(&mut self, inputs: Inputs, ctx: &egui::Context, is_at_once: bool) {
-        self.n_read += 1;
-        let watch = Watch::default();
-        let (own, waker) = (watch.clone(), ctx.clone());
-        let (asked, prior) = (inputs.clone(), self.found.clone());
-        let read = move || {
-            own.over(&waker, |progress| {
-                work::read(asked, prior.as_deref(), progress)
-            })
-        };
-        if is_at_once {
-            if let Ok(found) = read() {
-                self.take_found(found);
-            }
-            return;
-        }
-        match Job::start("selvedge-import", ctx, read) {
-            Ok(job) => {
-                self.running = Some(Running { inputs, job, watch });
-            }
-            Err(error) => {
-                let line = format!("nothing was read: {error}; press “read again”");
-                self.stopped = Some(inputs);
-                self.kept = Some(Err(Failure::at(Step::Files, line)));
-            }
         }
     }
 }
@@ -301,7 +214,7 @@ impl std::fmt::Debug for Importing {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Importing")
             .field("draft", &self.draft)
-            .field("n_read", &self.n_read)
+            .field("n_read", &self.n_read())
             .finish_non_exhaustive()
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::app::theme::ColourMap;
 use crate::progress::unheard;
-use crate::progress::{CancelFlag, Progress};
+use crate::progress::{CancelFlag, Cancelled, Progress};
 use crate::surface::Representation;
 use crate::textile::KesAsk;
 use crate::textile::metrology::{HeightImport, ImportOptions};
@@ -290,10 +290,11 @@ fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
     let mut silent = |_: f64, _: &str| {};
     let mut progress = Progress::new(&mut silent, flag);
     assert!(matches!(
-        work::read(inputs.clone(), None, &mut progress),
+        work::read(inputs, None, &mut progress),
         Err(Cancelled)
     ));
-    importing.stopped = Some(inputs);
+    importing.follow(&egui::Context::default(), false);
+    importing.cancel();
     assert_eq!(importing.standing(), Standing::Stopped);
     importing.draft.looked.is_official = true;
     read(&mut importing);

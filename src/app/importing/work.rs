@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::draft::{DraftFile, Looked, Told};
 use super::{Envelope, Failure, Step};
+use crate::app::follower::Answer;
 use crate::app::widgets::Relief;
 use crate::progress::{Cancelled, Progress};
 use crate::quantity::with_unit;
@@ -126,6 +127,32 @@ impl Found {
         let first = self.inputs.told.files.first();
         let stem = first.and_then(|file| file.source.path().file_stem());
         stem.unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
+impl Answer for Found {
+    type Inputs = Inputs;
+    const THREAD: &str = "selvedge-import";
+
+    fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    fn work(
+        inputs: Inputs,
+        prior: Option<&Self>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        read(inputs, prior, progress)
+    }
+
+    fn broken(inputs: Inputs, why: &str) -> Self {
+        let line = format!("nothing was read: {why}; press “read again”");
+        Self::failed(inputs, Measurement::Heights, Failure::at(Step::Files, line))
+    }
+
+    fn serves(under_way: &Inputs, now: &Inputs) -> bool {
+        under_way.told == now.told
     }
 }
 

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::draft::{Draft, Part};
 use super::found::{Cloth, Correlated, Found, Loaded, Made, Shaped, Step};
 use super::images;
+use crate::app::follower::Answer;
 use crate::app::keep::NewTextile;
 use crate::app::widgets::Relief3d;
 use crate::files::sha256_hex;
@@ -29,6 +30,33 @@ enum End {
 impl From<Cancelled> for End {
     fn from(cancelled: Cancelled) -> Self {
         Self::Cancelled(cancelled)
+    }
+}
+
+impl Answer for Found {
+    type Inputs = Draft;
+    const THREAD: &str = "selvedge-picture";
+
+    fn inputs(&self) -> &Draft {
+        &self.inputs
+    }
+
+    fn work(
+        inputs: Draft,
+        prior: Option<&Self>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        read(inputs, prior, progress)
+    }
+
+    fn broken(inputs: Draft, why: &str) -> Self {
+        let line = format!("nothing was worked out: {why}; open the picture again");
+        Self::failed(inputs, Step::Picture, line)
+    }
+
+    /// What was made so far of a file is kept only when the run ends.
+    fn serves(under_way: &Draft, now: &Draft) -> bool {
+        under_way.source == now.source
     }
 }
 

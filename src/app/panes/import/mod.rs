@@ -16,7 +16,8 @@ mod table;
 use eframe::egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::Wishes;
-use crate::app::importing::{Body, Failure, Found, ImportCommand, Importing, Standing, Step};
+use crate::app::follower::Standing;
+use crate::app::importing::{Body, Failure, Found, ImportCommand, Importing, Step};
 use crate::app::theme::{ColourMap, Palette, STEP};
 use crate::app::view::ShelfItem;
 use crate::textile::Measurement;
@@ -145,12 +146,12 @@ fn show_look(ui: &mut Ui, importing: &mut Importing, view: &ImportView<'_>, wish
     let standing = importing.standing();
     let found = importing.found().cloned();
     let state = match standing {
-        Standing::Reading(share) => format!("reading {:.0} %", 100.0 * share),
+        Standing::Working(share) => format!("reading {:.0} %", 100.0 * share),
         Standing::Stopped => "stopped".to_owned(),
         Standing::Empty | Standing::Fresh => String::new(),
     };
     step_title(ui, 3, "Look", &state);
-    if matches!(standing, Standing::Reading(_))
+    if matches!(standing, Standing::Working(_))
         && crate::app::widgets::button(ui, "Stop reading", "", None)
     {
         wishes.push(ImportCommand::Cancel.into());

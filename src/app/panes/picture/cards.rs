@@ -9,7 +9,8 @@ use eframe::egui::{
 };
 
 use super::{frame, plots};
-use crate::app::picturing::{Cloth, Found, Image, Made, Picturing, Standing};
+use crate::app::follower::Standing;
+use crate::app::picturing::{Cloth, Found, Image, Made, Picturing};
 use crate::app::theme::{self, Palette};
 use crate::app::widgets::{View3d, relief3d};
 use crate::quantity;

@@ -4,10 +4,11 @@ use eframe::egui::{RichText, Ui};
 
 use super::hemisphere;
 use crate::app::command::{FileCommand, Purpose};
+use crate::app::follower::Standing;
 use crate::app::panes::Wishes;
 use crate::app::panes::import::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::app::picturing::{
-    Cloth, Draft, Found, Part, PictureCommand, Picturing, ScaleUnit, Shaped, Standing, Step,
+    Cloth, Draft, Found, Part, PictureCommand, Picturing, ScaleUnit, Shaped, Step,
 };
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{Curve, RowShape, Scale, button, slider_row_as, toggle};
