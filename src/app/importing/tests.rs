@@ -78,6 +78,12 @@ fn importing(paths: &[PathBuf]) -> Importing {
 fn read(importing: &mut Importing) {
     let ctx = egui::Context::default();
     importing.follow(&ctx, true);
+    // What was stopped on a thread ends first.
+    while matches!(importing.standing(), Standing::Working(_)) {
+        importing.poll();
+        importing.follow(&ctx, true);
+        std::thread::yield_now();
+    }
     assert_eq!(importing.standing(), Standing::Fresh);
 }
 
