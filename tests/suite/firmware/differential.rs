@@ -45,7 +45,7 @@ fn compare(defines: &[&str], model: &DeviceModel, n_scripts: u64) {
 
 #[test]
 fn the_core_in_c_answers_as_our_device_does() {
-    compare(&[], &DeviceModel::default(), 4000);
+    compare(&[], &DeviceModel::default(), 250);
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn another_array_in_c_answers_as_our_device_does() {
         modes: Caps::MODE_A,
         ..DeviceModel::default()
     };
-    compare(&defines, &model, 1000);
+    compare(&defines, &model, 80);
 }
 
 /// Every cut and every flipped bit of every golden packet: neither device takes one, and both count
