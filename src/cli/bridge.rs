@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::{CliError, output, play, terminal};
+use super::{CliError, bridge_kit, output, play, terminal};
 use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
@@ -21,6 +21,12 @@ pub(super) enum BridgeCommand {
         /// The array that the device drives: exeter-24, 5x5 or 10x10
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
         array: ArrayLayout,
+    },
+    /// Write what a firmware engineer needs: protocol, golden vectors, a device core in C
+    Kit {
+        /// A new folder
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
     },
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
     Emulate {
@@ -40,6 +46,7 @@ pub(super) enum BridgeCommand {
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
         BridgeCommand::List => list(),
+        BridgeCommand::Kit { out } => bridge_kit::run(out),
         BridgeCommand::Test { port, array } => {
             play::check_port(port)?;
             let report = self_test(Target::Port(port.clone()), profile_of(*array));

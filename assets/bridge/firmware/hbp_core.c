@@ -403,7 +403,7 @@ void hbp_receive(hbp_device *d, uint16_t phase_us, uint8_t byte) {
 /* ---- Time -------------------------------------------------------------------------------- */
 /* The lease ran out or the cable is gone: running output ramps down first. */
 static void end_session(hbp_device *d) {
-    if (has_output(d->state)) descend(d, HBP_IDLE);
+    if (has_output(d->state)) descend(d, HBP_IDLE), enter(d, HBP_RAMP);
     else if (d->state == HBP_FAULT) d->has_session = 0;
     else silence(d, HBP_IDLE);
 }

@@ -87,6 +87,16 @@ fn build(program: &std::path::Path) {
 }
 
 #[test]
+fn the_firmware_builds_for_a_board_without_a_word() {
+    if tools::has(COMPILER, "the firmware built for a board") {
+        let lab = Lab::new();
+        build(&lab.path("hbp.elf"));
+        let size = std::fs::metadata(lab.path("hbp.elf")).unwrap().len();
+        assert!((2000..200_000).contains(&size), "{size} bytes");
+    }
+}
+
+#[test]
 fn an_emulated_board_passes_the_self_test_and_plays_a_stroke() {
     let lab = Lab::with_scene();
     let Some(board) = Board::start(&lab, "the firmware on an emulated board") else {
@@ -196,10 +206,11 @@ fn an_emulated_board_falls_silent_within_100_ms_of_its_own_clock() {
         let age_ms = status.age_ms;
         let expected = match age_ms {
             0..=59 => full..=full,
-            60..=99 => 0..=full - 1,
+            60..=98 => 1..=full - 1,
+            99 => 0..=full / 40,
             _ => 0..=0,
         };
-        // A step late of its millisecond may show an age that is one short.
+        // An age is told in whole ms, rounded down.
         let is_edge = age_ms == 60;
         assert!(
             expected.contains(&status.amp_sum) || is_edge,
@@ -207,7 +218,10 @@ fn an_emulated_board_falls_silent_within_100_ms_of_its_own_clock() {
         );
         falling += usize::from(status.amp_sum > 0 && status.amp_sum < full);
         let is_silent = status.state == DeviceState::Ready.code();
-        assert_eq!(is_silent, age_ms >= 99, "{age_ms} ms: {status:?}");
+        assert!(
+            is_silent == (age_ms >= 99) || age_ms == 99,
+            "{age_ms} ms: {status:?}"
+        );
     }
     assert!(falling > 0, "the ramp is seen: {statuses:?}");
 }

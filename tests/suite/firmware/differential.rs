@@ -168,8 +168,9 @@ fn a_lost_link_ramps_a_running_core_down_and_ends_a_resting_one() {
     }
     let state = |answer: &str| answer.split(' ').next().unwrap_or_default().to_owned();
     let now_us: u64 = 25_000;
-    assert_eq!(state(&core.obey("lost")), "RUN");
-    assert_eq!(state(&core.obey(&format!("at {}", now_us + 1000))), "RAMP");
+    assert_eq!(state(&core.obey("lost")), "RAMP");
+    let first = core.obey(&format!("at {}", now_us + 1000));
+    assert_eq!(first, "RAMP 403650 -", "39 of 40 steps");
     let end = core.obey(&format!("at {}", now_us + 40_000));
     assert!(end.starts_with("IDLE 0 "), "{end}");
     assert_eq!(core.obey("at 500000"), "IDLE 0 -", "no session, no STATUS");

@@ -6,6 +6,7 @@
 
 mod board;
 mod differential;
+mod kit;
 mod layout;
 mod reference;
 mod script;
