@@ -9,7 +9,8 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use selvedge::bridge::{
-    ArrayProfile, Bridge, BridgeEvent, BridgeState, DeviceState, Status, StopHow, Target, self_test,
+    ArrayProfile, Bridge, BridgeEvent, BridgeState, DeviceState, SelfTestReport, Status, StopHow,
+    Target, self_test,
 };
 
 use super::tools;
@@ -104,7 +105,7 @@ fn an_emulated_board_passes_the_self_test_and_plays_a_stroke() {
     };
     let mut tries =
         (0..5).map(|_| self_test(Target::Port(board.port.clone()), ArrayProfile::default()));
-    let report = tries.find(|report| report.passed()).unwrap();
+    let report = tries.find(SelfTestReport::passed).unwrap();
     let caps = report.caps.unwrap();
     assert_eq!((caps.name(), caps.n_ch), ("reference firmware", 24));
     assert_eq!(report.counters.device.dup, 0);
@@ -168,7 +169,7 @@ impl Host {
     /// To full amplitude, beyond the soft start.
     fn stream(&mut self) -> Option<()> {
         self.until(|host| host.bridge.state() == BridgeState::Ready)?;
-        assert!(self.bridge.arm());
+        assert!(self.bridge.arm(), "a ready device can be armed");
         self.until(|host| host.bridge.counters().frames_sent >= 30)?;
         let full = 24 * (13_107 + 26_214);
         self.until(|host| host.bridge.status().is_some_and(|s| s.amp_sum == full))

@@ -2,7 +2,7 @@
 
 use selvedge::bridge::{Caps, DeviceModel, Packet, kind};
 
-use super::reference::{CCore, Obedient, OurCore, hex};
+use super::reference::{CCore, Obedient as _, OurCore, hex};
 use super::script::Script;
 use super::{tools, vectors};
 use crate::program::Lab;

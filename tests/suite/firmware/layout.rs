@@ -202,7 +202,7 @@ fn append(payload: &mut Vec<u8>, field: Field, name: &str, values: &BTreeMap<&st
         }
         Codes => {
             let (low, high) = (list(values["a40"]), list(values["a320"]));
-            assert_eq!(low.len(), high.len());
+            assert_eq!(low.len(), high.len(), "as many A40 as A320");
             for pair in low.into_iter().zip(high) {
                 payload.extend(pair.0.to_le_bytes());
                 payload.extend(pair.1.to_le_bytes());

@@ -46,7 +46,7 @@ impl Run {
     fn obey(&mut self, line: &str) {
         let answer = self.device.obey(line);
         let (state, sent) = answer.rsplit_once(' ').unwrap();
-        self.state = state.to_owned();
+        state.clone_into(&mut self.state);
         self.sent.extend(bytes(sent));
     }
 

@@ -93,7 +93,7 @@ pub(crate) fn read() -> Vectors {
         ["packet", "invalid", "session"].contains(&word)
     };
     let mut vectors = Vectors::default();
-    for block in lines.chunk_by(|_, next| !is_heading(&next)) {
+    for block in lines.chunk_by(|_, next| !is_heading(next)) {
         vectors.take(block);
     }
     vectors
