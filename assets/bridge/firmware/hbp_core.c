@@ -140,10 +140,11 @@ static int may_sound(const hbp_device *d, unsigned ch) { return d->mask[ch / 32]
 /* Writes what the sample interrupt reads. */
 static void refresh(hbp_device *d) {
     unsigned i;
-    for (i = 0; i < HBP_VALUES; i++) {
-        uint32_t code = (uint32_t)d->slewed[i] * d->gain_step / d->gain_steps;
-        if (d->ident_on) code = i == 2u * d->ident_channel + 1 ? d->ident_amp : 0;
-        d->drive[i] = (uint16_t)(is_live(d->state) ? code : 0);
+    for (i = 0; i < HBP_CHANNELS; i++) {
+        uint32_t low = (uint32_t)d->slewed[2 * i] * d->gain_step / d->gain_steps;
+        uint32_t high = (uint32_t)d->slewed[2 * i + 1] * d->gain_step / d->gain_steps;
+        if (d->ident_on) low = 0, high = i == d->ident_channel ? d->ident_amp : 0;
+        d->drive[i] = is_live(d->state) ? low | high << 16 : 0; /* one write: no torn pair */
     }
 }
 
@@ -171,7 +172,7 @@ static void descend(hbp_device *d, uint8_t end) {
 /* Zero output, empty queue, full gain for the next frame, and on to `state`. */
 static void silence(hbp_device *d, uint8_t state) {
     unsigned i;
-    for (i = 0; i < HBP_VALUES; i++) d->target[i] = d->slewed[i] = d->drive[i] = 0;
+    for (i = 0; i < HBP_VALUES; i++) d->target[i] = d->slewed[i] = 0, d->drive[i / 2] = 0;
     d->gain_steps = d->ramp_ms > 0 ? d->ramp_ms : 1;
     d->gain_step = d->gain_steps;
     descend(d, state);
@@ -194,7 +195,8 @@ void hbp_sample(hbp_device *d, uint16_t codes[HBP_CHANNELS]) {
     unsigned i = d->sample, channel;
     int32_t sine_40 = sine(i), sine_320 = sine(8 * i % 200);
     for (channel = 0; channel < HBP_CHANNELS; channel++) {
-        int32_t value = d->drive[2 * channel] * sine_40 + d->drive[2 * channel + 1] * sine_320;
+        uint32_t pair = d->drive[channel]; /* together at most 65535: the sum fits */
+        int32_t value = (int32_t)(pair & 0xFFFF) * sine_40 + (int32_t)(pair >> 16) * sine_320;
         /* Half scale and half a step are added first: no shift of a negative number. */
         codes[channel] = (uint16_t)(((uint32_t)value + 0x80000000u + 0x80000u) >> 20);
     }
@@ -461,7 +463,6 @@ void hbp_step_ms(hbp_device *d) {
     if (is_live(d->state)) step_gain(d);
     if (d->state == HBP_FAULT && d->has_session && d->fault_left_ms == 0) send_fault(d);
     if (d->ms_in_tick > 0) return;
-    d->sample = 0;
     if (is_live(d->state) && !d->descending) apply_frame(d);
     if (d->has_session && d->wants_status) send_status(d);
 }

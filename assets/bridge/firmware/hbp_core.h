@@ -6,9 +6,8 @@
  * calls five: hbp_init once, hbp_step_ms every millisecond, hbp_receive for every received byte,
  * hbp_sample 8000 times a second, hbp_raise_fault when something breaks. README.md tells how.
  *
- * hbp_step_ms, hbp_receive, hbp_raise_fault and hbp_link_lost must not interrupt each other: call
- * them from one loop or from interrupts of one priority. hbp_sample only reads what they write, one
- * 16-bit word at a time, and may interrupt them.
+ * All but hbp_sample must not interrupt each other: call them from one loop, or from interrupts of
+ * one priority. hbp_sample may interrupt them: it only reads `drive`, one 32-bit word a channel.
  */
 #ifndef HBP_CORE_H
 #define HBP_CORE_H
@@ -50,14 +49,15 @@ typedef struct {
     void (*measure)(void *context, hbp_measured *measured);
 } hbp_port;
 
-/* One device. Zero-initialised memory plus hbp_init. Read it freely, write nothing. */
+/* One device. Read it freely, write nothing. */
 typedef struct {
     hbp_port port;
     /* Clock: tick and dev_us count from boot and wrap. */
     uint32_t tick, dev_us;
     uint16_t phase_us, ms_in_tick;
     /* Session. */
-    uint8_t state, descending, descent_end, has_session, wants_status, configured, has_seq;
+    uint8_t state, descending, descent_end, has_session, wants_status, configured;
+    uint8_t has_seq, has_frame; /* an accepted FRAME since HELLO, and since ARM */
     uint16_t last_seq, next_seq, lease_ms;
     uint32_t session, quiet_ms; /* quiet_ms: since the last valid packet */
     /* Settings in force, and which channels may sound. */
@@ -65,7 +65,6 @@ typedef struct {
     uint32_t mask[HBP_MASK_WORDS];
     uint16_t underrun, late, dup, bad, clipped; /* counters since boot: they wrap */
     /* Age of the last accepted FRAME: steps of the 1 ms clock since, its phase within one. */
-    uint8_t has_frame;
     uint32_t age_steps;
     uint16_t age_phase_us;
     /* Faults. */
@@ -74,7 +73,7 @@ typedef struct {
     uint32_t fault_tick;
     /* Output: newest target, after slew, after gain. The gain is gain_step / gain_steps. */
     uint16_t target[HBP_VALUES], slewed[HBP_VALUES];
-    volatile uint16_t drive[HBP_VALUES];
+    volatile uint32_t drive[HBP_CHANNELS]; /* A40 | A320 << 16 */
     uint16_t gain_step, gain_steps;
     uint8_t ident_on;
     uint16_t ident_channel, ident_amp, ident_left_ms;
@@ -100,7 +99,7 @@ void hbp_raise_fault(hbp_device *device, uint16_t phase_us, uint16_t bits, uint1
 void hbp_end_fault_cause(hbp_device *device, uint16_t bits);
 /* DTR dropped, USB suspended or reset: as if the lease had run out. Call within 20 ms. */
 void hbp_link_lost(hbp_device *device);
-/* The next sample of all channels: 12-bit codes around 2048, 200 a tick. */
+/* The next sample of all channels: 12-bit codes around 2048. Exactly 8 calls a millisecond. */
 void hbp_sample(hbp_device *device, uint16_t codes[HBP_CHANNELS]);
 /* Sum of all output codes after gain, as in STATUS. */
 uint32_t hbp_amp_sum(const hbp_device *device);

@@ -36,7 +36,8 @@ pub(crate) fn compile(compiler: &str, args: &[String]) {
     );
 }
 
-/// Compiles the core and its driver for this machine, with `defines` for `hbp_config.h`.
+/// Compiles the core and its driver for this machine, with `defines` for `hbp_config.h`; it ends at
+/// the first undefined behaviour where the compiler can watch for that.
 pub(crate) fn build_host(program: &Path, defines: &[&str]) {
     let folder = kit().join("firmware");
     let mut args: Vec<String> = [
@@ -56,5 +57,10 @@ pub(crate) fn build_host(program: &Path, defines: &[&str]) {
     for source in ["host/hbp_host.c", "hbp_core.c"] {
         args.push(folder.join(source).display().to_string());
     }
-    compile("cc", &args);
+    let watched = ["-fsanitize=undefined", "-fno-sanitize-recover=all"].map(String::from);
+    let all = [args.as_slice(), &watched].concat();
+    let built = Command::new("cc").args(&all).output().unwrap();
+    if !built.status.success() {
+        compile("cc", &args);
+    }
 }

@@ -5,7 +5,8 @@
  *   hbp_host vectors.txt    runs every session of the file; exit code 1 if one goes wrong
  *   hbp_host                obeys standard input; every line is answered by one line
  *
- * Lines: boot | at US | in HEX... | fault BITS CHANNEL VALUE | cured BITS | lost | codes | samples N
+ * Lines: boot | at US | in HEX... | fault BITS CHANNEL VALUE | cured BITS | lost | codes
+ *        | samples N
  * An answer is STATE AMP_SUM BYTES, the bytes in hex or "-"; of codes and samples, the numbers.
  * Sessions add what must hold: out HEX... | state NAME AMP_SUM | drive CHANNEL A40 A320.
  */
@@ -67,6 +68,9 @@ static void advance(unsigned long long us)
     }
     if (now_ms == us / 1000 && us % 1000 > phase_us) phase_us = (unsigned)(us % 1000);
 }
+
+static unsigned low(uint32_t pair) { return pair & 0xFFFF; }
+static unsigned high(uint32_t pair) { return pair >> 16; }
 
 /* Hex digits in pairs, blanks between them or not, to `bytes`; the number of bytes. */
 static size_t read_hex(const char *text, uint8_t *bytes, size_t room)
@@ -135,7 +139,9 @@ static int obey_input(void)
     boot();
     while (fgets(line, sizeof line, stdin)) {
         if (strncmp(line, "codes", 5) == 0) {
-            for (i = 0; i < HBP_VALUES; i++) printf("%u ", device.drive[i]);
+            for (i = 0; i < HBP_CHANNELS; i++) {
+                printf("%u %u ", low(device.drive[i]), high(device.drive[i]));
+            }
             puts("");
         } else if (sscanf(line, "samples %u", &n) == 1) {
             print_samples(n);
@@ -166,8 +172,8 @@ static int holds(const char *line)
         return strcmp(name, states[device.state]) == 0 && sum == hbp_amp_sum(&device);
     }
     if (sscanf(line, "drive %u %u %u", &channel, &a40, &a320) == 3) {
-        return channel < HBP_CHANNELS && device.drive[2 * channel] == a40
-            && device.drive[2 * channel + 1] == a320;
+        return channel < HBP_CHANNELS && low(device.drive[channel]) == a40
+            && high(device.drive[channel]) == a320;
     }
     return -1;
 }
