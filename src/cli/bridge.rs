@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::{CliError, bridge_kit, output, play, terminal};
+use super::{CliError, output, play, terminal};
 use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
@@ -46,7 +46,7 @@ pub(super) enum BridgeCommand {
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
         BridgeCommand::List => list(),
-        BridgeCommand::Kit { out } => bridge_kit::run(out),
+        BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test { port, array } => {
             play::check_port(port)?;
             let report = self_test(Target::Port(port.clone()), profile_of(*array));
