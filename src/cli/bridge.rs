@@ -22,6 +22,12 @@ pub(super) enum BridgeCommand {
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
         array: ArrayLayout,
     },
+    /// Write what a firmware engineer needs: protocol, golden vectors, a device core in C
+    Kit {
+        /// A new folder
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
     Emulate {
         /// The link to the terminal: the port that a host opens
@@ -40,6 +46,7 @@ pub(super) enum BridgeCommand {
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
         BridgeCommand::List => list(),
+        BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test { port, array } => {
             play::check_port(port)?;
             let report = self_test(Target::Port(port.clone()), profile_of(*array));

@@ -10,6 +10,7 @@
 mod bad_input;
 mod bridge_end_to_end;
 mod commands;
+mod firmware;
 mod import;
 mod import_kes;
 mod model_surfaces;

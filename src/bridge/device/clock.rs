@@ -19,7 +19,9 @@ impl DeviceCore {
         if self.state.is_live() {
             self.step_gain();
         }
-        if self.state == DeviceState::Fault && self.now_us >= self.next_fault_us {
+        // Without a session nobody is told, and the next one is told at once.
+        let is_due = self.session.is_some() && self.now_us >= self.next_fault_us;
+        if self.state == DeviceState::Fault && is_due {
             self.send_fault(sink);
         }
         self.report_change(sink);

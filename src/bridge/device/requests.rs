@@ -155,9 +155,10 @@ impl DeviceCore {
             self.counters.dup = self.counters.dup.wrapping_add(1);
             return Answer::Silence;
         }
-        let next = wrapped_u32(self.now_us / super::TICK).wrapping_add(1);
-        let ahead = apply_tick.wrapping_sub(next).cast_signed();
-        let late = apply_tick != NEXT_TICK && ahead < 0;
+        let present = wrapped_u32(self.now_us / super::TICK);
+        let next = present.wrapping_add(1);
+        let ahead = apply_tick.wrapping_sub(present).cast_signed();
+        let late = apply_tick != NEXT_TICK && ahead <= 0;
         let tick = if late || apply_tick == NEXT_TICK {
             next
         } else {

@@ -53,6 +53,21 @@ fn apply_ticks_compare_across_the_wrap() {
 }
 
 #[test]
+fn half_the_clock_away_is_late_and_one_tick_less_is_too_far_ahead() {
+    let mut bench = Bench::armed();
+    bench.at(75_000);
+    assert_eq!(
+        bench.frame_ack(3 + (1 << 31)),
+        None,
+        "the difference is −2³¹"
+    );
+    assert_eq!(bench.core.counters().late, 1);
+    let far = 2 + (1 << 31);
+    assert_eq!(bench.frame_ack(far), Some(AckCode::QueueFull));
+    assert_eq!(bench.core.counters().late, 1);
+}
+
+#[test]
 fn clipping_counts_values_and_channels_and_masked_channels_stay_silent() {
     let config = Config {
         comp_limit: [40_000, 65_535],

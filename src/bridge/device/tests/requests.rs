@@ -198,6 +198,25 @@ fn faults_are_told_every_100_ms_in_a_session() {
 }
 
 #[test]
+fn a_new_session_is_told_of_an_old_fault_at_once() {
+    let mut bench = Bench::new();
+    bench.send(&Hello {
+        lease_ms: 99,
+        ..Hello::new(SESSION)
+    });
+    let mut sink = std::mem::take(&mut bench.sink);
+    bench
+        .core
+        .raise_fault(fault_bit::OVER_CURRENT, 5, 42, &mut sink);
+    // The lease ends in the very step in which the fault would be told again.
+    bench.at(110_000);
+    bench.send(&Hello::new(9));
+    bench.take();
+    bench.at(111_000);
+    assert!(matches!(bench.take()[..], [DeviceMessage::Fault(_)]));
+}
+
+#[test]
 fn short_payloads_and_device_types_are_bad_and_do_not_renew_the_lease() {
     let mut bench = Bench::ready();
     let kinds = [1, 2, 3, 4, 5, 6, 7, 8, 9, 0x80, 0x84, 0xff];

@@ -1,0 +1,15 @@
+//! The kit for firmware engineers: golden vectors, and the core in C against our own device and
+//! against the real host.
+//!
+//! What needs a compiler or an emulator that is not installed says so on stderr and passes.
+#![cfg(unix)]
+
+mod board;
+mod differential;
+mod kit;
+mod layout;
+mod reference;
+mod script;
+mod sessions;
+mod tools;
+mod vectors;
