@@ -82,6 +82,9 @@ pub(super) enum Drive {
 }
 
 impl ContactorModel {
+    /// The place of the pin's displacement in m among the states of [`system`](Self::system).
+    pub const PIN: usize = X_PIN;
+
     /// Refuses a model that is no contactor.
     pub fn check(&self) -> Result<(), BridgeError> {
         self.bimorph.check()?;
