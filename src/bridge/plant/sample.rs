@@ -53,6 +53,8 @@ pub(super) struct Steps {
     preload_n: Option<f64>,
     time_constant_s: f64,
     steepest_v_per_s: f64,
+    /// By how much the square of an amplifier's slope falls in a sample, 0…1.
+    fallen: f64,
 }
 
 impl Steps {
@@ -85,6 +87,7 @@ impl Steps {
             preload_n: preload_um.map(|um| 1e-6 * um * skin.stiffness_n_per_m),
             time_constant_s: model.amplifier.time_constant_s,
             steepest_v_per_s: model.steepest_v_per_s(),
+            fallen: fallen(SAMPLE_S, model.amplifier.time_constant_s),
         })
     }
 
@@ -99,6 +102,13 @@ impl Steps {
     pub(super) fn drives(&self, from_v: f64, volts: f64) -> Drives {
         let asked = volts - from_v;
         let too_far = asked.abs() - self.steepest_v_per_s * self.time_constant_s;
+        if too_far <= 0.0 {
+            return Drives {
+                volts,
+                slewing_parts: 0,
+                slope_v_per_s: 0.0,
+            };
+        }
         let parts = too_far / self.steepest_v_per_s / SAMPLE_S * f64::from(PARTS);
         #[expect(
             clippy::cast_possible_truncation,
@@ -184,7 +194,11 @@ impl Steps {
             .clamp(-self.steepest_v_per_s, self.steepest_v_per_s);
         let tau_s = self.time_constant_s;
         let slewing_s = SAMPLE_S * f64::from(drives.slewing_parts) / f64::from(PARTS);
-        let falls = 1.0 - (-2.0 * (SAMPLE_S - slewing_s) / tau_s).exp();
+        let falls = if drives.is_slewing() {
+            fallen(SAMPLE_S - slewing_s, tau_s)
+        } else {
+            self.fallen
+        };
         let slopes = slope * slope * (slewing_s + 0.5 * tau_s * falls) / SAMPLE_S;
         let mean_slope = (to[U_AMP] - from[U_AMP]) / SAMPLE_S;
         let moving = 0.5 * charge_c_per_m * (from[V_BEAM] + to[V_BEAM]);
@@ -194,6 +208,11 @@ impl Steps {
         let first = capacitance_f * slope + charge_c_per_m * from[V_BEAM];
         [mean_square.max(0.0), first.abs()]
     }
+}
+
+/// `1 − e^{−2t/τ}`.
+fn fallen(time_s: f64, time_constant_s: f64) -> f64 {
+    -(-2.0 * time_s / time_constant_s).exp_m1()
 }
 
 const EMPTY: Step = Propagator {

@@ -1,7 +1,9 @@
 //! The emulator's own contactors, run: DAC, 12 bits and all.
+//!
+//! They are read at their samples, where a line comes with the images that fold onto it.
 
-use super::{CARRIERS_HZ, Findings, Row, truth::held_response};
-use crate::bridge::{ContactorModel, MOST_QUALITY, Plant, SAMPLES_PER_S, Skin};
+use super::{CARRIERS_HZ, Findings, Row, SAMPLE_S, truth::held_response};
+use crate::bridge::{ContactorModel, MOST_QUALITY, Plant, Skin};
 use crate::figure::{Axis, Ink, Plot, Scale, Series, Style};
 use crate::numerics::ode::StepMethod;
 use crate::report::Bench;
@@ -41,16 +43,19 @@ fn run(model: &ContactorModel, bench: &mut Bench<'_>) -> Option<Row> {
         one.tick(&[CODES], RAIL_V);
     }
     let found = one.reading().contactors[0];
-    let errors = CARRIERS_HZ
-        .into_iter()
-        .enumerate()
-        .map(|(band, frequency_hz)| {
-            let volts = model.full_scale_v * f64::from(CODES[band]) / 65_535.0;
-            let line = model.response_um_per_v(frequency_hz).norm()
-                * ContactorModel::hold_droop(frequency_hz);
-            (found.amplitude_um[band] / (volts * line) - 1.0).abs()
-        });
-    let error = errors.fold(0.0, f64::max);
+    let off = |truth: &dyn Fn(f64) -> f64| {
+        let errors = CARRIERS_HZ
+            .into_iter()
+            .enumerate()
+            .map(|(band, frequency_hz)| {
+                let volts = model.full_scale_v * f64::from(CODES[band]) / 65_535.0;
+                (found.amplitude_um[band] / (volts * truth(frequency_hz)) - 1.0).abs()
+            });
+        errors.fold(0.0, f64::max)
+    };
+    let error = off(&|hz| held_response(model, hz, SAMPLE_S).norm());
+    let without_images =
+        off(&|hz| model.response_um_per_v(hz).norm() * ContactorModel::hold_droop(hz));
     let mut array = Plant::new(model, N_CONTACTORS).ok()?;
     let codes = [CODES; N_CONTACTORS];
     let cost = bench.time(N_CONTACTORS, || array.tick(&codes, RAIL_V).n_ticks);
@@ -62,9 +67,10 @@ fn run(model: &ContactorModel, bench: &mut Bench<'_>) -> Option<Row> {
         promised: Some(PROMISED),
         cost: Some(super::times(cost, TICKS_PER_S)),
         more: vec![
-            ("step_s", format!("{:e}", 1.0 / f64::from(SAMPLES_PER_S))),
+            ("step_s", format!("{SAMPLE_S:e}")),
             ("quality", model.quality.to_string()),
             ("skin_n_per_m", model.skin.stiffness_n_per_m.to_string()),
+            ("error_without_images", format!("{without_images:e}")),
         ],
         ..Row::default()
     })
@@ -98,12 +104,11 @@ pub(super) fn responses() -> Plot {
             style: Style::Line,
             ..Series::default()
         });
-        let sample_s = 1.0 / f64::from(SAMPLES_PER_S);
-        let exact = super::propagator(&model, StepMethod::ExactHold, sample_s);
+        let exact = super::propagator(&model, StepMethod::ExactHold, SAMPLE_S);
         let dot = |hz: f64| {
-            let found = exact?.response(std::f64::consts::TAU * hz * sample_s)?;
+            let found = exact?.response(std::f64::consts::TAU * hz * SAMPLE_S)?;
             // Both are held alike, so that the dot lies on the line where the method is right.
-            let held = held_response(&model, hz, sample_s).norm();
+            let held = held_response(&model, hz, SAMPLE_S).norm();
             let relative = 1e6 * found[ContactorModel::PIN][0].norm() / held;
             Some([hz, relative * model.response_um_per_v(hz).norm()])
         };
