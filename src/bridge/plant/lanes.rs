@@ -5,8 +5,8 @@
 
 use std::array::from_fn;
 
-use super::contactor::{Contact, N_STATES, U_AMP, X_PIN};
-use super::sample::{Drives, State, Step, Steps};
+use super::contactor::{Contact, N_STATES, U_AMP, V_BEAM, X_PIN};
+use super::sample::{SAMPLE_S, Step, Steps};
 use super::synth::{Phasors, Synth};
 use super::{ContactorModel, ContactorReading, PlantReading, SAMPLES_PER_TICK};
 use crate::bridge::BridgeError;
@@ -127,11 +127,8 @@ impl Plant {
             for (nth, block) in self.blocks.iter_mut().enumerate() {
                 let at = |lane: usize| codes.get(LANES * nth + lane).copied().unwrap_or_default();
                 let asked: Lane = from_fn(|lane| self.synth.volts(at(lane), phasors));
-                let drives = block.drives(&self.steps, &asked, rail_v);
-                let before = block.states;
-                block.step(&self.steps, &drives);
+                block.sample(&self.steps, &asked, rail_v, self.electric);
                 block.measure(phasors);
-                block.measure_current(&self.steps, &before, &drives, self.electric);
             }
             self.sample += 1;
             if self.sample == SAMPLES_PER_TICK {
@@ -178,38 +175,63 @@ impl Plant {
 }
 
 impl Block {
-    fn state(&self, lane: usize) -> State {
-        self.states.map(|states| states[lane])
-    }
-
-    /// How the amplifiers are driven, and whether anything holds them back.
-    fn drives(&mut self, steps: &Steps, asked: &Lane, rail_v: f64) -> [Drives; LANES] {
-        let drives: [Drives; LANES] = from_fn(|lane| {
-            let volts = asked[lane].clamp(-rail_v, rail_v);
-            steps.drives(self.states[U_AMP][lane], volts)
-        });
-        for lane in 0..LANES {
-            let is_held = asked[lane].abs() > rail_v || drives[lane].is_slewing();
-            self.saturated[lane] += f64::from(u8::from(is_held));
-        }
-        drives
-    }
-
-    fn step(&mut self, steps: &Steps, drives: &[Drives; LANES]) {
-        let volts: Lane = from_fn(|lane| drives[lane].volts);
+    /// One sample of the DAC asking for these volts: all abreast where that is the plain step for
+    /// every one, else one by one.
+    fn sample(&mut self, steps: &Steps, asked: &Lane, rail_v: f64, electric: (f64, f64)) {
+        let volts = asked.map(|volts| volts.clamp(-rail_v, rail_v));
+        let gaps: Lane = from_fn(|lane| volts[lane] - self.states[U_AMP][lane]);
         let next = abreast(steps.plain(), &self.states, &volts);
-        for (lane, drives) in drives.iter().enumerate() {
-            let mut plain = next.map(|states| states[lane]);
-            let is_plain =
-                !drives.is_slewing() && self.contacts[lane] == Contact::On && steps.pushes(&plain);
-            if !is_plain {
-                plain = self.state(lane);
-                steps.advance(&mut plain, &mut self.contacts[lane], *drives);
+        let follow = gaps.iter().all(|gap| gap.abs() <= steps.largest_gap_v());
+        let touch = self.contacts == [Contact::On; LANES];
+        if follow && touch && steps.all_push(&next) {
+            self.add_currents(steps, &gaps, &next, electric);
+            self.states = next;
+        } else {
+            for (lane, volts) in volts.into_iter().enumerate() {
+                self.sample_alone(steps, (lane, volts), electric);
             }
-            for (states, value) in self.states.iter_mut().zip(plain) {
-                states[lane] = value;
-            }
-            self.lost[lane] += f64::from(u8::from(self.contacts[lane] == Contact::Off));
+        }
+        for ((saturated, asked), volts) in self.saturated.iter_mut().zip(asked).zip(volts) {
+            *saturated += f64::from(u8::from(*asked > volts || *asked < volts));
+        }
+    }
+
+    /// One sample of one contactor through whatever regimes it passes.
+    fn sample_alone(&mut self, steps: &Steps, (lane, volts): (usize, f64), electric: (f64, f64)) {
+        let from = self.states.map(|states| states[lane]);
+        let drives = steps.drives(from[U_AMP], volts);
+        let mut to = from;
+        steps.advance(&mut to, &mut self.contacts[lane], drives);
+        for (states, value) in self.states.iter_mut().zip(to) {
+            states[lane] = value;
+        }
+        let [square, largest] = steps.current((&from, &to), &drives, electric);
+        self.squares[lane] += square;
+        self.largest_a[lane] = self.largest_a[lane].max(largest);
+        self.lost[lane] += f64::from(u8::from(self.contacts[lane] == Contact::Off));
+        self.saturated[lane] += f64::from(u8::from(drives.is_slewing()));
+    }
+
+    /// The currents of a plain sample, as [`Steps::current`] has them.
+    fn add_currents(
+        &mut self,
+        steps: &Steps,
+        gaps: &Lane,
+        next: &[Lane; N_STATES],
+        (capacitance_f, charge_c_per_m): (f64, f64),
+    ) {
+        let [per_gap, per_square] = steps.slopes_of_gap();
+        for (lane, gap) in gaps.iter().enumerate() {
+            let (speed, speed_then) = (self.states[V_BEAM][lane], next[V_BEAM][lane]);
+            let risen = next[U_AMP][lane] - self.states[U_AMP][lane];
+            let moving = 0.5 * charge_c_per_m * (speed + speed_then);
+            let charging = capacitance_f * risen / SAMPLE_S;
+            let square = capacitance_f * capacitance_f * per_square * gap * gap
+                + 2.0 * charging * moving
+                + moving * moving;
+            let first = capacitance_f * per_gap * gap + charge_c_per_m * speed;
+            self.squares[lane] += square.max(0.0);
+            self.largest_a[lane] = self.largest_a[lane].max(first.abs());
         }
     }
 
@@ -224,21 +246,6 @@ impl Block {
                     *sum += factor * x;
                 }
             }
-        }
-    }
-
-    fn measure_current(
-        &mut self,
-        steps: &Steps,
-        before: &[Lane; N_STATES],
-        drives: &[Drives; LANES],
-        electric: (f64, f64),
-    ) {
-        for (lane, drives) in drives.iter().enumerate() {
-            let from = before.map(|states| states[lane]);
-            let [square, largest] = steps.current((&from, &self.state(lane)), drives, electric);
-            self.squares[lane] += square;
-            self.largest_a[lane] = self.largest_a[lane].max(largest);
         }
     }
 

@@ -101,7 +101,7 @@ impl Steps {
     /// steepest slope it slews; that ends where both slopes are alike.
     pub(super) fn drives(&self, from_v: f64, volts: f64) -> Drives {
         let asked = volts - from_v;
-        let too_far = asked.abs() - self.steepest_v_per_s * self.time_constant_s;
+        let too_far = asked.abs() - self.largest_gap_v();
         if too_far <= 0.0 {
             return Drives {
                 volts,
@@ -128,6 +128,25 @@ impl Steps {
         self.preload_n.is_none_or(|preload_n| {
             preload_n + self.skin_n_per_m * state[X_PIN] + self.skin_n_s_per_m * state[V_PIN] > 0.0
         })
+    }
+
+    /// The same of several contactors: whether skin pushes on every one.
+    pub(super) fn all_push<const L: usize>(&self, states: &[[f64; L]; N_STATES]) -> bool {
+        self.preload_n.is_none()
+            || (0..L).all(|lane| self.pushes(&states.map(|states| states[lane])))
+    }
+
+    /// The farthest that an amplifier is from its input where its pole asks for no more than its
+    /// steepest slope, V.
+    pub(super) fn largest_gap_v(&self) -> f64 {
+        self.steepest_v_per_s * self.time_constant_s
+    }
+
+    /// Of an amplifier that follows: the first slope for each volt that it is off, 1/s, and the
+    /// mean square of its slope for each squared, 1/s².
+    pub(super) fn slopes_of_gap(&self) -> [f64; 2] {
+        let rate = 1.0 / self.time_constant_s;
+        [rate, 0.5 * rate * self.fallen / SAMPLE_S]
     }
 
     /// One sample of a contactor in whatever regimes it passes through.

@@ -13,6 +13,9 @@ use crate::bridge::FULL_CODE;
 const DAC_BITS: u32 = 12;
 /// Counts of the DAC for full drive, either way.
 const FULL_COUNTS: f64 = ((1 << (DAC_BITS - 1)) - 1) as f64;
+/// Added and taken away again it leaves a whole number (1.5 · 2⁵²): `round` is a call of a library
+/// where the processor is not known to have an instruction for it.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
 /// Periods of each carrier in a tick.
 const PERIODS: [usize; 2] = [1, 8];
 
@@ -48,12 +51,9 @@ impl Synth {
 
     /// What the DAC puts out for codes at a sample, V: a whole number of counts.
     pub(super) fn volts(&self, codes: [u16; 2], phasors: &Phasors) -> f64 {
-        let drive: f64 = codes
-            .iter()
-            .zip(phasors)
-            .map(|(code, [_, sine])| f64::from(*code) * sine)
-            .sum();
-        let counts = (self.counts_per_code * drive).round();
+        let [low, high] = codes.map(f64::from);
+        let drive = low * phasors[0][1] + high * phasors[1][1];
+        let counts = self.counts_per_code * drive + WHOLE - WHOLE;
         self.volts_per_count * counts.clamp(-FULL_COUNTS, FULL_COUNTS)
     }
 

@@ -68,6 +68,15 @@ impl Step {
         self.hold_s / f64::from(self.per_hold)
     }
 
+    /// A case with what is asked of the step: an input that is held longer is another drive.
+    pub(super) fn of_case(&self, name: &str) -> String {
+        if self.hold_s > SAMPLE_S {
+            format!("{name}, held for {}", time_span(self.hold_s))
+        } else {
+            name.to_owned()
+        }
+    }
+
     pub(super) fn label(&self) -> String {
         format!("steps of {}", time_span(self.step_s()))
     }

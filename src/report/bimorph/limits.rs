@@ -1,6 +1,6 @@
 //! The longest step that does not grow without end, by method and stiffness.
 
-use super::{Findings, Row, propagator};
+use super::{Findings, Row, SAMPLE_S, propagator};
 use crate::bridge::{ContactorModel, MOST_QUALITY, Skin};
 use crate::figure::{Axis, Plot, Scale, Series, Style};
 use crate::numerics::ode::StepMethod;
@@ -30,20 +30,42 @@ pub(super) fn find(bench: &Bench<'_>, findings: &mut Findings) {
             findings
                 .rows
                 .extend(limits.iter().map(|limit| row(method, quality, *limit)));
-            series.push(Series {
-                name: format!("{}, Q {quality}", method.name()),
-                points: limits,
-                style: Style::Line,
-                ..Series::default()
-            });
+            if method == StepMethod::RungeKutta4 {
+                series.push(line(&format!("{}, Q {quality}", method.name()), limits));
+            }
         }
     }
+    let [least, most] = [1.0, 1e5];
+    let flat = |name: &str, step_s: f64| Series {
+        style: Style::Dashed,
+        ..line(name, vec![[least, step_s], [most, step_s]])
+    };
+    series.push(flat("a sample of the DAC", SAMPLE_S));
+    let all_steps = "the others: every step";
+    series.push(flat(all_steps, STEPS_S[1]));
+    findings
+        .plots
+        .push(("bimorph-limits".to_owned(), plot(series)));
+}
+
+fn line(name: &str, points: Vec<[f64; 2]>) -> Series {
+    // Free skin has no place on a logarithmic axis; it stands in the table.
+    let is_placed = |point: &[f64; 2]| point[0] > 0.0;
+    Series {
+        name: name.to_owned(),
+        points: points.into_iter().filter(is_placed).collect(),
+        style: Style::Line,
+        ..Series::default()
+    }
+}
+
+fn plot(series: Vec<Series>) -> Plot {
     let axis = |label: &str| Axis {
         label: label.to_owned(),
         scale: Scale::Log,
         range: None,
     };
-    let plot = Plot {
+    Plot {
         title: "Longest stable step".to_owned(),
         x: axis("stiffness of the skin, N/m"),
         y: axis("step, s"),
@@ -52,8 +74,7 @@ pub(super) fn find(bench: &Bench<'_>, findings: &mut Findings) {
             "Skin without damping. Steps up to {} were looked at.",
             time_span(STEPS_S[1])
         ),
-    };
-    findings.plots.push(("bimorph-limits".to_owned(), plot));
+    }
 }
 
 fn contactor(stiffness_n_per_m: f64, quality: f64) -> ContactorModel {

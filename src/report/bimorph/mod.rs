@@ -118,7 +118,7 @@ fn rows(case: &Case, method: StepMethod, cost: Option<Timing>, bench: &Bench<'_>
         Row {
             method: method.name().to_owned(),
             setting: step.label(),
-            case: case.name.clone(),
+            case: step.of_case(&case.name),
             error,
             promised: (method == StepMethod::ExactHold).then_some(EXACT),
             cost: cost.map(|cost| times(cost, 1.0 / step.step_s())),
@@ -163,7 +163,7 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
             name: method.name().to_owned(),
             points: rows
                 .iter()
-                .filter(|row| row.method == method.name() && row.case == case.name)
+                .filter(|row| row.method == method.name() && row.case.starts_with(&case.name))
                 .filter_map(|row| Some([step_of(row)?, row.error?]))
                 .collect(),
             style: Style::LineAndDots,
@@ -180,7 +180,7 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
             y: axis("error of the displacement, of it"),
             series: series.into(),
             footnote: "The worse of 40 and 320 Hz; no dot where a method grows without end. \
-                       Steps above 125 µs hold their input as long as they are."
+                       Steps above 125 µs hold their input as long as they last."
                 .to_owned(),
         };
         Some((format!("bimorph-{name}"), plot))

@@ -90,17 +90,16 @@ fn ticks(time_s: f64) -> u32 {
 pub(super) fn responses() -> Plot {
     let frequency = |nth: u32| 10.0 * 400.0_f64.powf(f64::from(nth) / 240.0);
     let mut series = Vec::new();
+    let mut stepped = Vec::new();
     for (name, skin) in Skin::NAMED {
         let model = ContactorModel {
             skin,
             ..ContactorModel::default()
         };
+        let line = |hz: f64| [hz, model.response_um_per_v(hz).norm()];
         series.push(Series {
             name: format!("{name}, closed form"),
-            points: (0..=240)
-                .map(frequency)
-                .map(|hz| [hz, model.response_um_per_v(hz).norm()])
-                .collect(),
+            points: (0..=240).map(frequency).map(line).collect(),
             style: Style::Line,
             ..Series::default()
         });
@@ -112,18 +111,15 @@ pub(super) fn responses() -> Plot {
             let relative = 1e6 * found[ContactorModel::PIN][0].norm() / held;
             Some([hz, relative * model.response_um_per_v(hz).norm()])
         };
-        series.push(Series {
-            name: format!("{name}, exact hold"),
-            points: (0..=240)
-                .step_by(20)
-                .map(frequency)
-                .filter_map(dot)
-                .collect(),
-            style: Style::Dots,
-            ink: Ink::Grey,
-            ..Series::default()
-        });
+        stepped.extend((0..=240).step_by(20).map(frequency).filter_map(dot));
     }
+    series.push(Series {
+        name: "exact hold".to_owned(),
+        points: stepped,
+        style: Style::Dots,
+        ink: Ink::Grey,
+        ..Series::default()
+    });
     let axis = |label: &str| Axis {
         label: label.to_owned(),
         scale: Scale::Log,

@@ -19,7 +19,7 @@ const BETWEEN: f32 = 12.0;
 /// Height of a grid's title, points.
 const TITLE: f32 = 20.0;
 /// Width of a number, points.
-const CELL: f32 = 34.0;
+const CELL: f32 = 42.0;
 /// Height of a line of numbers, points.
 const LINE: f32 = 13.0;
 
