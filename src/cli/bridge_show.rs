@@ -197,10 +197,11 @@ fn grid(
     let width = (CELL * n_columns).max(heading.chars().count());
     let mut lines = vec![format!("{heading:>width$}")];
     for row in reading.contactors.chunks(n_columns.max(1)) {
-        let cells: String = row
+        let cells: Vec<String> = row
             .iter()
             .map(|one| format!("{:>CELL$}", of(one)))
             .collect();
+        let cells = cells.concat();
         lines.push(format!("{cells:>width$}"));
     }
     lines
@@ -214,7 +215,10 @@ fn share_words(what: &str, reading: &PlantReading, of: fn(&ContactorReading) -> 
         return format!("{what}: none");
     }
     let most = quantity::with_unit(100.0 * shares().fold(0.0, f64::max), 0, "%");
-    format!("{what}: {n} contactors, up to {most} of the time")
+    format!(
+        "{what}: on {n} of {}, up to {most} of the time",
+        reading.contactors.len()
+    )
 }
 
 #[cfg(test)]
@@ -247,7 +251,7 @@ mod tests {
             "12.3",
             "0.26",
             "light (200 N/m, 0.05 N s/m)",
-            "skin off: 1 contactors, up to 50 % of the time",
+            "skin off: on 1 of 24, up to 50 % of the time",
             "model estimate",
         ] {
             assert!(text.contains(words), "{words} in\n{text}");

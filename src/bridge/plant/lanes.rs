@@ -15,6 +15,9 @@ use crate::bridge::message::DeviceState;
 /// Contactors stepped together.
 const LANES: usize = 4;
 
+/// What moves less than this in a tick without drive is at rest, µm: a tenth of a nanometre.
+const REST_UM: f64 = 1e-4;
+
 /// One number a lane.
 type Lane = [f64; LANES];
 
@@ -54,6 +57,8 @@ pub struct Plant {
     blocks: Vec<Block>,
     /// The sample of the tick that comes next.
     sample: usize,
+    /// Whether nothing moves, so that nothing has to be computed until something is driven.
+    is_at_rest: bool,
     reading: PlantReading,
 }
 
@@ -67,6 +72,7 @@ impl Plant {
             electric: (model.held_capacitance_f(), model.bimorph.force_n_per_v()),
             blocks: vec![AT_REST; n_contactors.div_ceil(LANES)],
             sample: 0,
+            is_at_rest: true,
             reading: PlantReading::new(n_contactors),
         })
     }
@@ -95,6 +101,7 @@ impl Plant {
     pub fn rest(&mut self) {
         self.blocks.fill(AT_REST);
         self.sample = 0;
+        self.is_at_rest = true;
     }
 
     /// The sample of the tick that comes next, 0…199.
@@ -122,13 +129,10 @@ impl Plant {
             0.0
         };
         let mut is_ready = false;
+        self.is_at_rest &= codes.iter().all(|codes| *codes == [0; 2]);
         for _ in 0..n_samples {
-            let phasors = self.synth.phasors(self.sample);
-            for (nth, block) in self.blocks.iter_mut().enumerate() {
-                let at = |lane: usize| codes.get(LANES * nth + lane).copied().unwrap_or_default();
-                let asked: Lane = from_fn(|lane| self.synth.volts(at(lane), phasors));
-                block.sample(&self.steps, &asked, rail_v, self.electric);
-                block.measure(phasors);
+            if !self.is_at_rest {
+                self.run_sample(codes, rail_v);
             }
             self.sample += 1;
             if self.sample == SAMPLES_PER_TICK {
@@ -138,6 +142,16 @@ impl Plant {
             }
         }
         is_ready
+    }
+
+    fn run_sample(&mut self, codes: &[[u16; 2]], rail_v: f64) {
+        let phasors = self.synth.phasors(self.sample);
+        for (nth, block) in self.blocks.iter_mut().enumerate() {
+            let at = |lane: usize| codes.get(LANES * nth + lane).copied().unwrap_or_default();
+            let asked: Lane = from_fn(|lane| self.synth.volts(at(lane), phasors));
+            block.sample(&self.steps, &asked, rail_v, self.electric);
+            block.measure(phasors);
+        }
     }
 
     /// Says in which state the device is; kept in the readings from then on.
@@ -157,6 +171,12 @@ impl Plant {
         {
             *out = self.blocks[index / LANES].reading(index % LANES);
             *code = codes.get(index).copied().unwrap_or_default();
+        }
+        let is_still = |one: &ContactorReading| one.peak_um < REST_UM;
+        if codes.iter().all(|codes| *codes == [0; 2])
+            && self.reading.contactors.iter().all(is_still)
+        {
+            self.rest();
         }
         for block in &mut self.blocks {
             *block = Block {
@@ -192,7 +212,7 @@ impl Block {
             }
         }
         for ((saturated, asked), volts) in self.saturated.iter_mut().zip(asked).zip(volts) {
-            *saturated += f64::from(u8::from(*asked > volts || *asked < volts));
+            *saturated += f64::from(u8::from(asked.abs() > volts.abs()));
         }
     }
 

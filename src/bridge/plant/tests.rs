@@ -333,3 +333,24 @@ fn a_sharp_resonance_against_stiff_skin_meets_the_closed_form_to_a_billionth() {
     let off = (held - closed).norm() / closed.norm();
     assert!(off < 1e-9, "{off:e}");
 }
+
+#[test]
+fn what_rang_down_is_exactly_at_rest_and_moves_again_when_driven() {
+    let mut plant = Plant::new(&loaded(Skin::FREE), 3).unwrap();
+    let loud = [[0, 0], [20_000, 20_000], [0, 0]];
+    for _ in 0..4 {
+        plant.tick(&loud, RAIL_V);
+    }
+    for _ in 0..80 {
+        plant.tick(&[[0, 0]; 3], RAIL_V);
+    }
+    assert_eq!(plant.reading().contactors, [ContactorReading::default(); 3]);
+    assert_eq!(plant.reading().n_ticks, 84, "ticks go on");
+    plant.tick(&loud, RAIL_V);
+    let peaks = plant
+        .reading()
+        .contactors
+        .iter()
+        .map(|one| one.peak_um > 1.0);
+    assert_eq!(peaks.collect::<Vec<_>>(), [false, true, false]);
+}

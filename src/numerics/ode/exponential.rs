@@ -96,9 +96,11 @@ fn balance<const N: usize>(mut a: Matrix<N, N>) -> (Matrix<N, N>, [f64; N]) {
             };
             is_done = false;
             scales[i] *= factor;
-            for j in 0..N {
-                a[j][i] *= factor;
-                a[i][j] /= factor;
+            for row in &mut a {
+                row[i] *= factor;
+            }
+            for value in &mut a[i] {
+                *value /= factor;
             }
         }
         if is_done {

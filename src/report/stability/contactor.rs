@@ -55,8 +55,8 @@ pub(super) fn cases() -> Vec<Case> {
 
 fn loaded(skin: Skin, quality: f64) -> ContactorModel {
     ContactorModel {
-        skin,
         quality,
+        skin,
         ..ContactorModel::default()
     }
 }

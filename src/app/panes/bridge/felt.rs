@@ -203,13 +203,13 @@ fn troubles(contactors: &[PlantCell]) -> String {
     let current = quantity::with_unit(current, 2, "mA");
     let held = match count(|one| one.held_share) {
         0 => "every amplifier follows".to_owned(),
-        n => format!("{n} amplifiers are held back"),
+        n => format!("amplifiers held back: {n}"),
     };
     let off = match count(|one| one.lost_share) {
         0 => String::new(),
-        n => format!("; skin lifts off {n} contactors"),
+        n => format!("; contactors that skin lifts off: {n}"),
     };
-    format!("Bright: moved. Dim: told. All together {current}; {held}{off}.")
+    format!("Above: moved. Below: told. All together {current}; {held}{off}.")
 }
 
 /// The grids for those who do not see them.
@@ -247,7 +247,7 @@ mod tests {
         contactors[2].held_share = 0.1;
         contactors[2].current_ma = [0.25, 1.0];
         let words = troubles(&contactors);
-        for part in ["0.25 mA", "1 amplifiers are held back", "skin lifts off 1"] {
+        for part in ["0.25 mA", "amplifiers held back: 1", "skin lifts off: 1"] {
             assert!(words.contains(part), "{part} in {words}");
         }
     }
