@@ -263,8 +263,8 @@ mod tests {
         for skin in [Skin::FREE, Skin::LIGHT, Skin::FIRM, Skin::bonded(1e5, 0.0)] {
             for quality in [0.5, 40.0, MOST_QUALITY] {
                 let model = ContactorModel {
-                    skin,
                     quality,
+                    skin,
                     ..ContactorModel::default()
                 };
                 for frequency_hz in [0.0, 1.0, 40.0, 320.0, 435.0, 8000.0, 3e4] {

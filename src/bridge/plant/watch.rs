@@ -11,12 +11,13 @@ use triple_buffer::{Input, Output, triple_buffer};
 
 use super::{ContactorModel, Plant, PlantReading, SAMPLES_PER_TICK};
 use crate::bridge::device::DeviceCore;
+use crate::bridge::message::DeviceState;
 
 /// Samples of the device's 1 ms clock.
 const SAMPLES_PER_MS: usize = 8;
 /// One step of the device's clock, µs.
 const MS_US: u64 = 1000;
-/// A step of 1 ms in which nothing was driven.
+/// Steps of the device's clock in a tick.
 const MS_PER_TICK: u64 = (SAMPLES_PER_TICK / SAMPLES_PER_MS) as u64;
 
 /// The end of who looks.
@@ -36,6 +37,7 @@ pub struct PlantFeed {
     /// Made when somebody looks for the first time; `None` also where the model is refused.
     plant: Option<Box<Plant>>,
     codes: Vec<[u16; 2]>,
+    next_codes: Vec<[u16; 2]>,
     rail_v: f64,
     /// Up to when the plant was stepped, µs of the device; `None` while nobody looks.
     until_us: Option<u64>,
@@ -53,6 +55,7 @@ pub fn plant_watch(model: ContactorModel, n_contactors: usize) -> (PlantFeed, Pl
         n_contactors,
         plant: None,
         codes: vec![[0; 2]; n_contactors],
+        next_codes: vec![[0; 2]; n_contactors],
         rail_v: 0.0,
         until_us: None,
     };
@@ -96,22 +99,34 @@ impl PlantWatch {
 impl PlantFeed {
     /// A device has done a step of its 1 ms clock: what it put out until then is played, what it
     /// puts out now comes next.
+    ///
+    /// While nothing changes that is done once a tick, after its STATUS is on its way.
     pub fn stepped(&mut self, device: &DeviceCore) {
         if !self.is_looked_at.load(Ordering::Relaxed) {
-            self.until_us = None;
+            if self.until_us.take().is_some() {
+                self.rail_v = 0.0;
+                self.codes.fill([0; 2]);
+            }
             return;
         }
         let now_us = device.moment().dev_us;
-        self.play(now_us, device);
-        device.write_output(&mut self.codes);
-        self.rail_v = device.rail_v();
+        device.write_output(&mut self.next_codes);
+        let rail_v = device.rail_v();
+        let is_same = self.next_codes == self.codes && rail_v.to_bits() == self.rail_v.to_bits();
+        let is_tick = now_us.is_multiple_of(MS_PER_TICK * MS_US);
+        if is_same && !is_tick {
+            return;
+        }
+        self.play(now_us, device.state());
+        self.codes.copy_from_slice(&self.next_codes);
+        self.rail_v = rail_v;
         if let Some(plant) = &mut self.plant {
             plant.set_state(device.state());
         }
     }
 
     /// Steps the plant up to now. A device that slept was silent meanwhile.
-    fn play(&mut self, now_us: u64, device: &DeviceCore) {
+    fn play(&mut self, now_us: u64, state: DeviceState) {
         let is_changed = self.models.updated();
         if self.plant.is_none() || is_changed {
             self.remodel();
@@ -122,7 +137,7 @@ impl PlantFeed {
         self.until_us = Some(now_us);
         if last_ms.is_none_or(|last_ms| now_ms.wrapping_sub(last_ms) > 2 * MS_PER_TICK) {
             plant.rest();
-            plant.set_state(device.state());
+            plant.set_state(state);
         }
         let in_tick = usize::try_from(now_ms % MS_PER_TICK).unwrap_or(0) * SAMPLES_PER_MS;
         let behind = (in_tick + SAMPLES_PER_TICK - plant.next_sample()) % SAMPLES_PER_TICK;

@@ -211,7 +211,8 @@ fn notes(findings: &Findings) -> Vec<String> {
         };
         let (name, n) = (method.name(), rows.len());
         format!(
-            "One step a sample of 125 µs, {name}: grows without end in {n_grown} of {n} cases{error}."
+            "One step a sample of 125 µs, {name}: grows without end in {n_grown} of {n} \
+             cases{error}."
         )
     };
     let mut notes: Vec<String> = StepMethod::ALL.map(worst).into();

@@ -189,8 +189,8 @@ fn contactor_words(index: usize, one: &PlantCell) -> String {
     let lines: String = lines.collect();
     let [rms, peak] = one.current_ma.map(|ma| quantity::with_unit(ma, 2, "mA"));
     format!(
-        "Contactor {index}\n{lines}Current: {rms} rms, {peak} peak\nSkin off {} of the time; amplifier \
-         held back {}",
+        "Contactor {index}\n{lines}Current: {rms} rms, {peak} peak\nSkin off {} of the time; \
+         amplifier held back {}",
         percent(one.lost_share),
         percent(one.held_share)
     )
