@@ -104,11 +104,6 @@ impl Plant {
         self.is_at_rest = true;
     }
 
-    /// The sample of the tick that comes next, 0…199.
-    pub fn next_sample(&self) -> usize {
-        self.sample
-    }
-
     /// The last whole tick.
     pub fn reading(&self) -> &PlantReading {
         &self.reading

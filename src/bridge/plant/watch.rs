@@ -133,14 +133,16 @@ impl PlantFeed {
         }
         let Some(plant) = &mut self.plant else { return };
         let now_ms = now_us / MS_US;
-        let last_ms = self.until_us.map(|until_us| until_us / MS_US);
-        self.until_us = Some(now_us);
-        if last_ms.is_none_or(|last_ms| now_ms.wrapping_sub(last_ms) > 2 * MS_PER_TICK) {
-            plant.rest();
-            plant.set_state(state);
-        }
-        let in_tick = usize::try_from(now_ms % MS_PER_TICK).unwrap_or(0) * SAMPLES_PER_MS;
-        let behind = (in_tick + SAMPLES_PER_TICK - plant.next_sample()) % SAMPLES_PER_TICK;
+        let last_ms = self.until_us.replace(now_us).map(|us| us / MS_US);
+        let passed_ms = last_ms.and_then(|last_ms| now_ms.checked_sub(last_ms));
+        let behind_ms = passed_ms
+            .filter(|passed| *passed <= 2 * MS_PER_TICK)
+            .unwrap_or_else(|| {
+                plant.rest();
+                plant.set_state(state);
+                now_ms % MS_PER_TICK
+            });
+        let behind = usize::try_from(behind_ms).unwrap_or(0) * SAMPLES_PER_MS;
         if plant.run(&self.codes, self.rail_v, behind) {
             self.readings.input_buffer_mut().copy_from(plant.reading());
             self.readings.publish();
