@@ -34,6 +34,7 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
         (show_desk(bench, ui, &scene, &mut wishes), rect)
     });
     let (shown, rect) = desk.inner;
+    bench.leave_plant();
     let over = shown.map_or(rect, |shown| shown.ground);
     show_overlays(bench, ui, over, &mut wishes);
     feel(bench, ui.ctx(), &scene, shown);

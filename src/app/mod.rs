@@ -55,6 +55,7 @@ mod opening;
 mod panes;
 mod perspective;
 mod picturing;
+mod plant;
 mod pointer;
 #[cfg(target_os = "linux")]
 mod pointer_x11;

@@ -22,6 +22,7 @@ use super::panes::{
     TransportState, WaveScale,
 };
 use super::picturing::Picturing;
+use super::plant::PlantPeek;
 use super::ports::Ports;
 use super::query::IntervalMeter;
 use super::signals::History;
@@ -123,6 +124,8 @@ pub(crate) struct Transient {
     pub(crate) desk_size: Vec2,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured_bridge: Option<BridgeView>,
+    /// The emulator's contactors.
+    pub(crate) plant: PlantPeek,
     /// Refusals to arm that are expected, since there is no device.
     pub(crate) n_expected_refusals: u32,
     /// The device's measured interval between frames.

@@ -38,6 +38,9 @@ pub enum BridgeError {
     /// A pseudo-terminal could not be made.
     #[error("no pseudo-terminal: {0}")]
     Pty(String),
+    /// A model of a contactor that cannot be.
+    #[error("{0}")]
+    Model(String),
     /// A link broke.
     #[error("{port}: {reason}")]
     Link {

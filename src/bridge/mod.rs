@@ -33,6 +33,7 @@ mod handle;
 mod host;
 mod link;
 pub mod message;
+mod plant;
 mod port;
 mod self_test;
 mod wav;
@@ -54,6 +55,10 @@ pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
     Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
     frame, kind,
+};
+pub use plant::{
+    Amplifier, Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantFeed,
+    PlantReading, PlantWatch, SAMPLES_PER_S, SAMPLES_PER_TICK, Skin, plant_watch,
 };
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};

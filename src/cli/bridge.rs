@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
+use super::bridge_show::{PlantArgs, PlantView};
 use super::{CliError, output, play, terminal};
 use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
@@ -39,6 +40,8 @@ pub(super) enum BridgeCommand {
         /// The array that the device drives: exeter-24, 5x5 or 10x10
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
         array: ArrayLayout,
+        #[command(flatten)]
+        plant: PlantArgs,
     },
 }
 
@@ -61,7 +64,12 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
             );
             Err(CliError::Failed(what))
         }
-        BridgeCommand::Emulate { link, log, array } => emulate(link, log.as_deref(), *array),
+        BridgeCommand::Emulate {
+            link,
+            log,
+            array,
+            plant,
+        } => emulate(link, log.as_deref(), *array, plant),
     }
 }
 
@@ -83,14 +91,24 @@ fn emulate(
     link: &std::path::Path,
     log: Option<&std::path::Path>,
     array: ArrayLayout,
+    plant: &PlantArgs,
 ) -> Result<(), CliError> {
+    let contactors = plant.model()?;
     let stop = super::signals::stop_flag()?;
     let model = crate::bridge::DeviceModel::for_array(&profile_of(array));
-    let emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
+    let n_columns = usize::from(model.cols);
+    let mut emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
     let ready = format!("{} -> {}\n", link.display(), emulator.device_path());
     // A reader that only wanted this line may be gone; the device runs on.
     drop(output::print(&ready));
-    Ok(emulator.run(&stop)?)
+    let view = if plant.is_shown() {
+        Some(PlantView::start(emulator.watch(contactors), n_columns)?)
+    } else {
+        None
+    };
+    let ended = emulator.run(&stop);
+    drop(view);
+    Ok(ended?)
 }
 
 #[cfg(not(unix))]
@@ -98,6 +116,7 @@ fn emulate(
     _link: &std::path::Path,
     _log: Option<&std::path::Path>,
     _array: ArrayLayout,
+    _plant: &PlantArgs,
 ) -> Result<(), CliError> {
     let what = "there are no pseudo-terminals on this system; use the emulator in the workbench";
     Err(CliError::Input(what.to_owned()))

@@ -12,6 +12,7 @@
 
 mod bridge;
 mod bridge_kit;
+mod bridge_show;
 mod failure;
 mod output;
 mod picture;

@@ -20,7 +20,7 @@ use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayProfile, Bridge, Target};
+use crate::bridge::{ArrayProfile, Bridge, PlantWatch, Target};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;
@@ -53,6 +53,7 @@ pub struct Engine {
     n_contactors: usize,
     n_felt: usize,
     profile: ArrayProfile,
+    plant: Option<PlantWatch>,
 }
 
 enum Body {
@@ -128,6 +129,7 @@ impl Engine {
             n_contactors,
             n_felt,
             profile,
+            plant: None,
         })
     }
 
@@ -180,6 +182,7 @@ impl Engine {
             Command::Connect(target) => self.connect_order(target),
             Command::Disconnect => {
                 self.switch.set_device(None);
+                self.plant = None;
                 Order::Disconnect
             }
             Command::Arm => Order::Arm {
@@ -271,6 +274,11 @@ impl Engine {
         &self.profile
     }
 
+    /// A look at the contactors of the emulator that was connected last; `None` of other devices.
+    pub fn plant(&mut self) -> Option<&mut PlantWatch> {
+        self.plant.as_mut()
+    }
+
     /// Whether the engine's thread is still there; an engine without one always is.
     pub fn is_running(&self) -> bool {
         match &self.body {
@@ -299,10 +307,11 @@ impl Engine {
         Order::Scene(next, input)
     }
 
-    fn connect_order(&self, target: Target) -> Order {
+    fn connect_order(&mut self, target: Target) -> Order {
         let switch = self.switch.clone();
         let wake = move || switch.wake_engine();
-        let bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
+        let mut bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
+        self.plant = bridge.take_plant();
         self.switch.set_device(bridge.stop_handle());
         Order::Connect(Box::new(bridge))
     }

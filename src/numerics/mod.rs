@@ -9,6 +9,7 @@ mod correlation;
 mod fft;
 mod grid;
 mod maxima;
+pub mod ode;
 mod parallel;
 mod plane;
 mod random;

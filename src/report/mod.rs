@@ -15,6 +15,7 @@
 
 mod areal;
 mod bench;
+mod bimorph;
 mod chart;
 mod columns;
 mod drive_updates;
@@ -43,6 +44,7 @@ mod write;
 
 pub use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
+pub use bimorph::BimorphStudy;
 pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
@@ -79,6 +81,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(LatticeStudy),
         Box::new(PictureScaleStudy),
         Box::new(PictureRouteStudy),
+        Box::new(BimorphStudy),
         Box::new(ReadersStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),

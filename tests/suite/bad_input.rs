@@ -200,6 +200,11 @@ fn wrong_ports_are_refused_before_anything_moves() {
             "{line}"
         );
         assert_eq!(lab.read("a.csv"), PATH, "what was there is still there");
+        let line = lab.refuse(&["bridge", "emulate", "--link", "b", "--quality", "5000"]);
+        assert!(
+            line.contains("quality factor of 5000") && line.contains("0.1 to 1000"),
+            "{line}"
+        );
     }
 }
 

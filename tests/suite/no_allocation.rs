@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 
+use selvedge::bridge::{ContactorModel, Plant, Skin};
 use selvedge::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge::numerics::{Grid, Random};
 use selvedge::render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
@@ -139,4 +140,28 @@ fn the_drive_waveform_allocates_nothing() {
         }
     });
     assert_eq!(synth.next_sample(), 4800);
+}
+
+#[test]
+fn contactors_that_lift_off_and_slew_allocate_nothing() {
+    let mut model = ContactorModel {
+        skin: Skin {
+            preload_um: Some(5.0),
+            ..Skin::bonded(500.0, 0.2)
+        },
+        ..ContactorModel::default()
+    };
+    model.amplifier.slew_v_per_us = 0.05;
+    let mut plant = Plant::new(&model, 24).unwrap();
+    let codes = [[40_000, 25_000]; 24];
+    assert_no_alloc(|| {
+        for _ in 0..4 {
+            plant.tick(&codes, 60.0);
+        }
+    });
+    let last = plant.reading().contactors[23];
+    assert!(
+        last.lost_share > 0.0 && last.saturated_share > 0.0,
+        "{last:?}"
+    );
 }

@@ -24,6 +24,7 @@ use super::picturing::PictureCommand;
 use super::probe::Probe;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
+use crate::bridge::Skin;
 use crate::geometry::Point;
 use crate::tactile::Band;
 
@@ -158,6 +159,10 @@ pub(crate) enum DeviceCommand {
     Disconnect,
     /// Look anew which ports there are.
     ListPorts,
+    /// Model the emulator's contactors and show what they do, or no longer.
+    ShowContactors(bool),
+    /// Lay another finger on the emulator's contactors.
+    LoadContactors(Skin),
 }
 
 /// What can be done with files.

@@ -55,6 +55,9 @@ impl Desk<'_> {
                 let ports = transient.ports.view();
                 let port = &mut transient.port;
                 panes::show_bridge(ui, &transient.live, target, port, ports, self.wishes);
+                if let Some(view) = self.bench.peek_at_plant(ui.ctx()) {
+                    panes::show_felt(ui, view, self.wishes);
+                }
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),

@@ -25,6 +25,8 @@ impl Workbench {
                 self.send(engine::Command::Disconnect);
             }
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
+            DeviceCommand::ShowContactors(is_open) => self.transient.plant.is_open = is_open,
+            DeviceCommand::LoadContactors(skin) => self.transient.plant.skin = skin,
         }
     }
 

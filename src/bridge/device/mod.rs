@@ -126,6 +126,7 @@ impl DeviceCore {
             if step_us.is_multiple_of(TICK) {
                 self.step_tick(sink);
             }
+            sink.stepped(self);
             step_us += MS_US;
         }
         self.now_us = end_us;
@@ -174,10 +175,25 @@ impl DeviceCore {
     /// Output codes at this moment, `[40 Hz, 320 Hz]` per channel, everything applied.
     pub fn output(&self) -> Vec<[u16; 2]> {
         let mut codes = vec![[0; 2]; self.model.n_channels()];
-        if self.state.is_live() {
-            self.output.write_to(&mut codes);
-        }
+        self.write_output(&mut codes);
         codes
+    }
+
+    /// Writes [`output`](Self::output) to codes that are there already.
+    pub fn write_output(&self, codes: &mut [[u16; 2]]) {
+        codes.fill([0; 2]);
+        if self.state.is_live() {
+            self.output.write_to(codes);
+        }
+    }
+
+    /// The voltage of the amplifiers' rails, V: 0 while high voltage is off.
+    pub fn rail_v(&self) -> f64 {
+        if self.state.is_live() {
+            0.1 * f64::from(self.config.hv_dv)
+        } else {
+            0.0
+        }
     }
 
     /// Where the device is.

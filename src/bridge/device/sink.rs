@@ -1,5 +1,6 @@
 //! What a device tells the outside besides its output: packets, and moments worth logging.
 
+use super::DeviceCore;
 use crate::bridge::message::DeviceState;
 
 /// A FRAME that took effect at a tick.
@@ -38,6 +39,8 @@ pub trait DeviceSink {
     fn applied(&mut self, _frame: &AppliedFrame<'_>) {}
     /// The state changed.
     fn changed(&mut self, _moment: &Moment) {}
+    /// A step of the 1 ms clock is done; what the device puts out now holds until the next.
+    fn stepped(&mut self, _device: &DeviceCore) {}
 }
 
 /// Collects the bytes and drops the rest.

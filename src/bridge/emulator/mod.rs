@@ -1,7 +1,7 @@
 //! Emulated devices in real time: the device's state machine with a clock and a link around it.
 //!
-//! They answer the same bytes as a real device, in process or behind a pseudo-terminal. There is no
-//! contactor physics here.
+//! They answer the same bytes as a real device, in process or behind a pseudo-terminal. What
+//! contactors would do is modelled in `plant`, while somebody looks.
 
 mod log;
 #[cfg(unix)]
@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 
 use super::BridgeError;
 use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment};
+use super::plant::PlantFeed;
 use super::port::{PairPort, Port, pair};
 pub use log::DeviceLog;
 #[cfg(unix)]
@@ -30,6 +31,14 @@ impl EmulatorThread {
     /// Boots a device and gives the host's end of its link; the thread ends when all copies of that
     /// end are gone.
     pub fn start(model: DeviceModel) -> Result<PairPort, BridgeError> {
+        Self::start_watched(model, None)
+    }
+
+    /// The same with contactors that somebody may look at.
+    pub fn start_watched(
+        model: DeviceModel,
+        plant: Option<PlantFeed>,
+    ) -> Result<PairPort, BridgeError> {
         let (host, mut device) = pair("emulator");
         Builder::new()
             .name(String::from("bridge-emulator"))
@@ -37,6 +46,7 @@ impl EmulatorThread {
                 let mut emulation = Emulation {
                     core: DeviceCore::new(model),
                     log: None,
+                    plant,
                 };
                 // The end of the link is this thread's way to end.
                 drop(emulation.run(&mut device, &AtomicBool::new(false), || {}));
@@ -46,10 +56,11 @@ impl EmulatorThread {
     }
 }
 
-/// A device and its log.
+/// A device, its log, and its contactors where somebody may look at them.
 struct Emulation {
     core: DeviceCore,
     log: Option<DeviceLog>,
+    plant: Option<PlantFeed>,
 }
 
 impl Emulation {
@@ -70,6 +81,7 @@ impl Emulation {
             let mut sink = LiveSink {
                 port: &mut *port,
                 log: self.log.as_mut(),
+                plant: self.plant.as_mut(),
                 gone: None,
             };
             self.core
@@ -87,6 +99,7 @@ impl Emulation {
 struct LiveSink<'a> {
     port: &'a mut dyn Port,
     log: Option<&'a mut DeviceLog>,
+    plant: Option<&'a mut PlantFeed>,
     gone: Option<io::Error>,
 }
 
@@ -108,6 +121,12 @@ impl DeviceSink for LiveSink<'_> {
     fn changed(&mut self, moment: &Moment) {
         if let Some(log) = &mut self.log {
             log.change(moment);
+        }
+    }
+
+    fn stepped(&mut self, device: &DeviceCore) {
+        if let Some(plant) = &mut self.plant {
+            plant.stepped(device);
         }
     }
 }

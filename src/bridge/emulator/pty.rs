@@ -15,6 +15,7 @@ use serialport::{SerialPort as _, TTYPort};
 use super::{DeviceLog, Emulation};
 use crate::bridge::BridgeError;
 use crate::bridge::device::{DeviceCore, DeviceModel};
+use crate::bridge::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
 use crate::bridge::port::SerialLink;
 
 const RELEASE_EVERY: Duration = Duration::from_millis(250);
@@ -28,6 +29,7 @@ pub struct PtyEmulator {
     device_path: String,
     link: NamedLink,
     log: Option<DeviceLog>,
+    plant: Option<PlantFeed>,
 }
 
 impl PtyEmulator {
@@ -49,7 +51,15 @@ impl PtyEmulator {
             device_path,
             link,
             log,
+            plant: None,
         })
+    }
+
+    /// Gives the device contactors of this kind, and a way to look at them while it runs.
+    pub fn watch(&mut self, model: ContactorModel) -> PlantWatch {
+        let (feed, watch) = plant_watch(model, self.model.n_channels());
+        self.plant = Some(feed);
+        watch
     }
 
     /// The terminal itself, `/dev/pts/7`.
@@ -64,6 +74,7 @@ impl PtyEmulator {
         let mut emulation = Emulation {
             core: DeviceCore::new(self.model),
             log: self.log,
+            plant: self.plant,
         };
         let mut released = Instant::now();
         let slave = self.slave;

@@ -16,6 +16,7 @@ use super::emulator::EmulatorThread;
 use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
+use super::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
 use super::port::SerialLink;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
@@ -40,10 +41,11 @@ impl Target {
     }
 
     /// Opens both ends. May block.
-    fn open(&self, profile: &ArrayProfile) -> Result<Ends, BridgeError> {
+    fn open(&self, profile: &ArrayProfile, plant: Option<PlantFeed>) -> Result<Ends, BridgeError> {
         match self {
             Self::Emulator => {
-                let port = EmulatorThread::start(DeviceModel::for_array(profile))?;
+                let model = DeviceModel::for_array(profile);
+                let port = EmulatorThread::start_watched(model, plant)?;
                 Ok((Box::new(port.clone()), Box::new(port)))
             }
             Self::Port(path) => {
@@ -60,6 +62,7 @@ pub struct Bridge {
     target: String,
     session: HostSession,
     link: Option<Link>,
+    plant: Option<PlantWatch>,
     /// The STATUS that the last frame answered; only the first answer is timed.
     answered: Option<Instant>,
 }
@@ -78,7 +81,10 @@ impl Bridge {
         let sequence = Sequence::default();
         let name = target.name();
         let shape = profile.clone();
-        let opener = Box::new(move || target.open(&shape));
+        let plant = (target == Target::Emulator)
+            .then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
+        let (feed, plant) = plant.unzip();
+        let opener = Box::new(move || target.open(&shape, feed));
         let waker: Waker = Arc::new(waker);
         let mut session = HostSession::new(nonce(), profile, n_contactors, sequence.clone());
         let link = match Link::open(opener, n_contactors, sequence, waker) {
@@ -92,6 +98,7 @@ impl Bridge {
             target: name,
             session,
             link,
+            plant,
             answered: None,
         }
     }
@@ -223,6 +230,11 @@ impl Bridge {
             write_timeouts: link.write_timeouts,
             ..session
         }
+    }
+
+    /// A look at the contactors of the emulator in this process; there is one.
+    pub fn take_plant(&mut self) -> Option<PlantWatch> {
+        self.plant.take()
     }
 
     /// How long frames took to reach the port.

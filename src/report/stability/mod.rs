@@ -9,6 +9,7 @@
 )]
 
 mod cloth;
+mod contactor;
 #[cfg(test)]
 mod tests;
 
@@ -97,6 +98,7 @@ impl Study for Stability {
             picture::cases(),
             shading::cases(),
             device::cases(),
+            contactor::cases(),
         ];
         try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)
     }

@@ -5,6 +5,7 @@ mod around;
 mod basics;
 mod collection;
 mod compare;
+mod contactors;
 mod export;
 mod import;
 mod lab;

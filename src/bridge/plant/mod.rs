@@ -1,0 +1,41 @@
+//! What contactors do with drive codes: DAC, amplifier, bimorph, pin and skin, stepped exactly.
+//!
+//! ```text
+//! codes ─ sines ─ DAC (12 bit, held 125 µs) ─ amplifier (pole, slew, rails) ─ bimorph ─ pin ─ skin
+//! ```
+//!
+//! Every number that comes out is an estimate from design-sheet values: no contactor was measured
+//! for it, and the skin under a finger changes displacement several times over. So amplitudes are
+//! told in drive volts elsewhere; here stands what they would move, with the load stated.
+//!
+//! # Invariants
+//! - no clock, no thread, no port: callers say which codes hold for which samples
+//! - nothing allocates after [`Plant::new`] but a change of the model
+//! - whatever the codes, every number stays finite
+//! - no hysteresis and no creep: bimorphs have 10–15 % of the former
+
+mod amplifier;
+mod bimorph;
+mod contactor;
+mod lanes;
+mod reading;
+mod sample;
+mod skin;
+mod synth;
+mod watch;
+
+pub use amplifier::Amplifier;
+pub use bimorph::Bimorph;
+pub use contactor::{ContactorModel, MOST_QUALITY};
+pub use lanes::Plant;
+pub use reading::{ContactorReading, PlantReading};
+pub use skin::Skin;
+pub use watch::{PlantFeed, PlantWatch, plant_watch};
+
+/// Samples a second that the DAC is given.
+pub const SAMPLES_PER_S: u32 = 8000;
+/// Samples of a tick of 25 ms.
+pub const SAMPLES_PER_TICK: usize = 200;
+
+#[cfg(test)]
+mod tests;
