@@ -36,9 +36,12 @@ pub mod message;
 mod port;
 mod self_test;
 mod wav;
+mod wire;
 
 pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
-pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
+pub use device::{
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Moment, Sense, Wiring,
+};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use emulator::{DeviceLog, EmulatorThread};
@@ -58,3 +61,9 @@ pub use message::{
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
 pub use wav::{SampleFormat, WavSpec, WavWriter};
+pub(crate) use wire::Simulation;
+pub use wire::{
+    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
+    WiredDevice, parse_latency, parse_lie, parse_one_off, parse_rate, parse_rate_and_time,
+    parse_swap, parse_time_us,
+};

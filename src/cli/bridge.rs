@@ -2,17 +2,22 @@
 
 use std::path::PathBuf;
 
-use clap::Subcommand;
+use clap::{Args, Subcommand};
 
+use super::bridge_faults::FaultArgs;
 use super::{CliError, output, play, terminal};
-use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
+use crate::bridge::{ArrayProfile, Target, UDEV_RULE, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
 pub(super) enum BridgeCommand {
     /// List the serial ports
-    List,
+    List {
+        /// Print the udev rule that lets everybody at this machine use the array
+        #[arg(long)]
+        udev_rule: bool,
+    },
     /// Test a connected device: handshake, pings, a second of faint frames, STOP
     Test {
         /// Serial port of the device
@@ -23,23 +28,30 @@ pub(super) enum BridgeCommand {
         array: ArrayLayout,
     },
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
-    Emulate {
-        /// The link to the terminal: the port that a host opens
-        #[arg(long, value_name = "PATH")]
-        link: PathBuf,
-        /// Every frame applied and every change of state, as CSV
-        #[arg(long, value_name = "L.csv")]
-        log: Option<PathBuf>,
-        /// The array that the device drives: exeter-24, 5x5 or 10x10
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
-        array: ArrayLayout,
-    },
+    Emulate(Box<EmulateArgs>),
+}
+
+/// The device to be, and what is to go wrong with it.
+#[derive(Debug, Args)]
+pub(super) struct EmulateArgs {
+    /// The link to the terminal: the port that a host opens
+    #[arg(long, value_name = "PATH")]
+    link: PathBuf,
+    /// Every frame applied, every change of state and every injected fault, as CSV
+    #[arg(long, value_name = "L.csv")]
+    log: Option<PathBuf>,
+    /// The array that the device drives: exeter-24, 5x5 or 10x10
+    #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
+    array: ArrayLayout,
+    #[command(flatten)]
+    faults: FaultArgs,
 }
 
 /// Does it.
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
-        BridgeCommand::List => list(),
+        BridgeCommand::List { udev_rule: true } => output::print(UDEV_RULE),
+        BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Test { port, array } => {
             play::check_port(port)?;
             let report = self_test(Target::Port(port.clone()), profile_of(*array));
@@ -54,7 +66,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
             );
             Err(CliError::Failed(what))
         }
-        BridgeCommand::Emulate { link, log, array } => emulate(link, log.as_deref(), *array),
+        BridgeCommand::Emulate(args) => emulate(args),
     }
 }
 
@@ -72,26 +84,23 @@ fn list() -> Result<(), CliError> {
 }
 
 #[cfg(unix)]
-fn emulate(
-    link: &std::path::Path,
-    log: Option<&std::path::Path>,
-    array: ArrayLayout,
-) -> Result<(), CliError> {
+fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
+    let model = crate::bridge::DeviceModel::for_array(&profile_of(args.array));
+    let faults = args.faults.faults();
+    faults.check(model.n_channels()).map_err(CliError::Input)?;
     let stop = super::signals::stop_flag()?;
-    let model = crate::bridge::DeviceModel::for_array(&profile_of(array));
-    let emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
-    let ready = format!("{} -> {}\n", link.display(), emulator.device_path());
+    let log = args.log.as_deref();
+    let emulator = crate::bridge::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
     // A reader that only wanted this line may be gone; the device runs on.
-    drop(output::print(&ready));
-    Ok(emulator.run(&stop)?)
+    let tell = |link: &std::path::Path, path: &str| {
+        drop(output::print(&format!("{} -> {path}\n", link.display())));
+    };
+    tell(&args.link, emulator.device_path());
+    Ok(emulator.run(&stop, tell)?)
 }
 
 #[cfg(not(unix))]
-fn emulate(
-    _link: &std::path::Path,
-    _log: Option<&std::path::Path>,
-    _array: ArrayLayout,
-) -> Result<(), CliError> {
+fn emulate(_args: &EmulateArgs) -> Result<(), CliError> {
     let what = "there are no pseudo-terminals on this system; use the emulator in the workbench";
     Err(CliError::Input(what.to_owned()))
 }

@@ -1,6 +1,7 @@
 //! What a device tells the outside besides its output: packets, and moments worth logging.
 
 use crate::bridge::message::DeviceState;
+use crate::bridge::wire::Injection;
 
 /// A FRAME that took effect at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub struct Moment {
     pub state: DeviceState,
     /// Age of the last accepted frame in ms; 65535 = none or older.
     pub age_ms: u16,
+    /// The same in µs, as long as one was accepted since ARM or HELLO.
+    pub age_us: Option<u64>,
     /// Hold and ramp gain, 0…1.
     pub gain: f64,
     /// Sum of all output codes, gain included, rounded down.
@@ -38,6 +41,8 @@ pub trait DeviceSink {
     fn applied(&mut self, _frame: &AppliedFrame<'_>) {}
     /// The state changed.
     fn changed(&mut self, _moment: &Moment) {}
+    /// A fault was injected into the device or its link.
+    fn injected(&mut self, _moment: &Moment, _injection: &Injection) {}
 }
 
 /// Collects the bytes and drops the rest.

@@ -2,7 +2,8 @@
 //! device's own clock.
 //!
 //! `dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0,…`. A `frame` row carries the
-//! codes as received; a `state` row has no seq and no codes. `gain` is the hold and ramp gain,
+//! codes as received; a `state` row has no seq and no codes, nor has a row of an injected fault, whose
+//! event begins with `fault`. `gain` is the hold and ramp gain,
 //! `amp_sum` the sum of the output codes from then on.
 
 use std::fs::File;
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use crate::bridge::BridgeError;
 use crate::bridge::device::{AppliedFrame, Moment};
+use crate::bridge::wire::Injection;
 
 /// A log being written. The first error is kept and given by [`finish`](Self::finish).
 #[derive(Debug)]
@@ -60,6 +62,15 @@ impl DeviceLog {
         self.keep(flushed);
     }
 
+    /// A fault was injected: `event` says which and how much of it.
+    pub fn injected(&mut self, moment: &Moment, injection: &Injection) {
+        self.moment(&injection.to_string(), moment, None);
+        for _ in 0..self.n_channels {
+            self.text(format_args!(",,"));
+        }
+        self.end_line();
+    }
+
     /// Writes what is left.
     pub fn finish(mut self) -> Result<(), BridgeError> {
         let flushed = self.out.flush();
@@ -78,6 +89,7 @@ impl DeviceLog {
             age_ms,
             gain,
             amp_sum,
+            ..
         } = moment;
         let seq = seq.map(|seq| seq.to_string()).unwrap_or_default();
         self.text(format_args!(

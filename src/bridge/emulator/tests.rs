@@ -68,7 +68,7 @@ mod behind_a_pty {
     fn run(emulator: PtyEmulator) -> Running {
         let stop = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&stop);
-        let thread = Builder::new().spawn(move || emulator.run(&seen)).unwrap();
+        let thread = Builder::new().spawn(move || emulator.run(&seen, |_, _| {})).unwrap();
         (stop, thread)
     }
 

@@ -1,0 +1,3 @@
+//! Failing links and devices in virtual time.
+
+use super::*;
