@@ -63,6 +63,7 @@ mod probe;
 mod query;
 mod raster;
 mod rendering;
+mod replug;
 mod screenshot;
 mod sensation;
 mod settings;

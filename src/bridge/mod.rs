@@ -58,7 +58,10 @@ pub use message::{
     Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
     frame, kind,
 };
-pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
+pub use port::{
+    FoundPort, PairPort, Port, PortEntry, PortIdentity, RecognisedBy, SerialLink, UDEV_RULE,
+    UsbIdentity, list_ports, pair,
+};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
 pub use wav::{SampleFormat, WavSpec, WavWriter};
 pub(crate) use wire::Simulation;

@@ -96,7 +96,7 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
         drop(output::print(&format!("{} -> {path}\n", link.display())));
     };
     tell(&args.link, emulator.device_path());
-    Ok(emulator.run(&stop, tell)?)
+    Ok(emulator.run_telling(&stop, tell)?)
 }
 
 #[cfg(not(unix))]

@@ -22,6 +22,7 @@ impl Workbench {
             DeviceCommand::ConnectPort(path) => self.connect(Target::Port(path)),
             DeviceCommand::Disconnect => {
                 self.transient.target = None;
+                self.transient.ports.hold(None);
                 self.send(engine::Command::Disconnect);
             }
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
@@ -34,6 +35,7 @@ impl Workbench {
             self.transient.notices.forget_about(last);
         }
         self.transient.target = Some(query::device_name(&target));
+        self.transient.ports.hold(Some(&target));
         self.send(engine::Command::Connect(target));
     }
 }

@@ -84,4 +84,10 @@ impl DeviceCore {
         self.age_us()
             .filter(|age_us| *age_us > above_us && self.amp_sum() > 0)
     }
+
+    /// How much it holds room for: text, waiting frames, codes.
+    #[cfg(test)]
+    pub(in crate::bridge) fn held(&self) -> usize {
+        self.decoder.capacity() + self.queue.held() + self.scratch.capacity()
+    }
 }

@@ -64,10 +64,13 @@ impl PtyEmulator {
 
     /// Boots the device and runs it on this thread until `stop` is set; then the link is removed
     /// and the log complete.
-    ///
-    /// A pulled cable takes terminal and link away. When it is in again there is another terminal
-    /// under another name, `PATH-2` after `PATH`; `moved` hears of it.
-    pub fn run(
+    pub fn run(self, stop: &AtomicBool) -> Result<(), BridgeError> {
+        self.run_telling(stop, |_, _| {})
+    }
+
+    /// The same. A pulled cable takes terminal and link away; when it is in again there is another
+    /// terminal under another name, `PATH-2` after `PATH`, and `moved` hears of it.
+    pub fn run_telling(
         self,
         stop: &AtomicBool,
         mut moved: impl FnMut(&Path, &str),

@@ -5,7 +5,7 @@
 //! silent by itself, as it should.
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ use super::emulator::EmulatorThread;
 use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
-use super::port::SerialLink;
+use super::port::{SerialLink, holder_of};
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -304,6 +304,10 @@ fn open_patiently(path: &str) -> Result<SerialLink, BridgeError> {
         match SerialLink::open(path) {
             Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
                 std::thread::sleep(BUSY_NAP);
+            }
+            Err(BridgeError::Busy { port, .. }) => {
+                let holder = holder_of(Path::new(path));
+                return Err(BridgeError::Busy { port, holder });
             }
             result => return result,
         }

@@ -7,9 +7,10 @@ use std::fmt;
 use std::io;
 use std::time::Duration;
 
-use serialport::{ClearBuffer, ErrorKind, SerialPort};
+use serialport::{ClearBuffer, SerialPort};
 
 use super::Port;
+use super::refusal::open_error;
 use crate::bridge::BridgeError;
 
 /// For bridges with a real UART; USB-CDC and ptys ignore it.
@@ -102,34 +103,6 @@ fn is_patience(error: &io::Error) -> bool {
         error.kind(),
         io::ErrorKind::TimedOut | io::ErrorKind::Interrupted | io::ErrorKind::WouldBlock
     )
-}
-
-/// Why a port did not open, and what to do.
-fn open_error(path: &str, error: &serialport::Error) -> BridgeError {
-    let text = error.to_string();
-    let port = String::from(path);
-    let reason = match error.kind {
-        ErrorKind::Io(io::ErrorKind::NotFound) => "no such port: see `selvedge bridge list`",
-        ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
-            "no permission: join the group that owns the port (often dialout)"
-        }
-        _ if text.contains("exclusive lock") || text.contains("busy") => {
-            return BridgeError::Busy { port };
-        }
-        _ if text.contains("typewriter") || text.contains("ioctl") => {
-            "not a serial port: see `selvedge bridge list`"
-        }
-        _ => {
-            return BridgeError::Open {
-                port,
-                reason: format!("cannot be opened: {text}"),
-            };
-        }
-    };
-    BridgeError::Open {
-        port,
-        reason: String::from(reason),
-    }
 }
 
 #[cfg(all(test, unix))]

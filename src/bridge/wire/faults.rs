@@ -30,9 +30,9 @@ pub struct Faults {
 }
 
 /// The largest error of a clock that can be asked for, parts per million.
-pub const LARGEST_PPM: i32 = 10_000;
+const LARGEST_PPM: i32 = 10_000;
 /// The largest tick jitter that can be asked for, µs: ticks must stay in order.
-pub const LARGEST_JITTER_US: u32 = 10_000;
+const LARGEST_JITTER_US: u32 = 10_000;
 
 impl Faults {
     /// Whether anything at all is to go wrong.

@@ -175,6 +175,12 @@ impl Lane {
         self.last_write_us = None;
     }
 
+    /// Writes that wait.
+    #[cfg(test)]
+    pub(super) fn waiting(&self) -> impl Iterator<Item = &[u8]> {
+        self.waiting.iter().map(|chunk| chunk.bytes.as_slice())
+    }
+
     /// What was injected since the last call.
     pub(super) fn take_injections(&mut self) -> Vec<Injection> {
         std::mem::take(&mut self.injections)

@@ -150,7 +150,7 @@ mod tests {
             (time_us("5").unwrap_err(), "300ms"),
             (time_us("5 parsecs").unwrap_err(), "300ms"),
             (time_us("-1s").unwrap_err(), "from 0"),
-            (time_us("1e9h").unwrap_err(), "1000h"),
+            (time_us("9999999h").unwrap_err(), "1000h"),
             (time_us("NaNs").unwrap_err(), "300ms"),
             (rate("2").unwrap_err(), "0 to 1"),
             (rate("NaN").unwrap_err(), "0 to 1"),

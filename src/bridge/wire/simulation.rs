@@ -83,6 +83,7 @@ impl DeviceSink for SimulationLog {
 
 impl Simulation {
     /// A host that has just opened the port of a device without faults.
+    #[cfg(test)]
     pub(crate) fn new() -> Self {
         Self::of(DeviceModel::default(), &Faults::default())
     }
@@ -172,6 +173,7 @@ impl Simulation {
     }
 
     /// Writes a packet as the host would.
+    #[cfg(test)]
     pub(crate) fn host_writes(&mut self, packet: &Packet) {
         if !self.cut {
             self.device.host_wrote(self.us, packet.as_bytes());

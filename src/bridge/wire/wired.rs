@@ -12,6 +12,19 @@ const HOT_CDEG: i16 = 8500;
 const OVER_CURRENT_MA: u16 = 900;
 const SAGGING_PER_MILLE: u16 = 600;
 
+/// The way out of the device, borrowing all but the device itself.
+macro_rules! outlet {
+    ($wired:expr, $sink:expr) => {
+        Outlet {
+            lane: &mut $wired.to_host,
+            now_us: $wired.now_us,
+            sink: $sink,
+            #[cfg(test)]
+            tap: &mut $wired.tap,
+        }
+    };
+}
+
 /// An emulated device as a host finds it at the end of a cable, in told true time.
 #[derive(Clone, Debug)]
 pub struct WiredDevice {
@@ -31,7 +44,7 @@ pub struct WiredDevice {
     stalled_reading_until_us: u64,
     earlier: Vec<CoreCounters>,
     #[cfg(test)]
-    pub(super) tap: Option<Vec<(u64, Vec<u8>)>>,
+    pub(super) tap: super::tests::Tap,
 }
 
 impl WiredDevice {
@@ -65,7 +78,7 @@ impl WiredDevice {
             stalled_reading_until_us: 0,
             earlier: Vec::new(),
             #[cfg(test)]
-            tap: None,
+            tap: super::tests::Tap::default(),
         };
         wired.to_host.say(0, BOOT_BANNER);
         wired
@@ -173,7 +186,7 @@ impl WiredDevice {
 
     fn advance_core(&mut self, sink: &mut impl DeviceSink) {
         let device_us = self.device_us();
-        let mut out = self.to_host.outlet(self.now_us, sink);
+        let mut out = outlet!(self, sink);
         self.core.advance(device_us, &mut out);
     }
 
@@ -182,6 +195,8 @@ impl WiredDevice {
         self.to_device.make_due(self.now_us);
         self.to_host.make_due(self.now_us);
         if !self.is_plugged() {
+            #[cfg(test)]
+            self.tap.cleared(&self.to_device);
             self.to_device.clear();
             self.to_host.clear();
             return;
@@ -189,13 +204,13 @@ impl WiredDevice {
         let device_us = self.device_us();
         while let Some(bytes) = self.to_device.take(self.now_us) {
             if self.n_booting > 0 {
+                #[cfg(test)]
+                self.tap.discarded(&bytes);
                 continue;
             }
             #[cfg(test)]
-            if let Some(tap) = &mut self.tap {
-                tap.push((device_us, bytes.clone()));
-            }
-            let mut out = self.to_host.outlet(self.now_us, sink);
+            self.tap.delivered(device_us, &bytes);
+            let mut out = outlet!(self, sink);
             self.core.receive(device_us, &bytes, &mut out);
         }
         while let Some(bytes) = self.to_host.take(self.now_us) {
@@ -214,8 +229,10 @@ impl WiredDevice {
             OneOffKind::StallWriting => self.to_host.stall(until_us),
             OneOffKind::Unplug => {
                 self.n_unplugged += 1;
-                self.core
-                    .hang_up(&mut self.to_host.outlet(self.now_us, sink));
+                #[cfg(test)]
+                self.tap.hung_up();
+                let mut out = outlet!(self, sink);
+                self.core.hang_up(&mut out);
             }
             OneOffKind::Reboot | OneOffKind::Watchdog => self.go_down(sink),
             OneOffKind::OverTemperature => self.fail(
@@ -252,11 +269,11 @@ impl WiredDevice {
         match once.kind {
             OneOffKind::StallReading | OneOffKind::StallWriting => {}
             OneOffKind::Unplug => self.n_unplugged -= 1,
-            OneOffKind::Reboot => self.come_up(sink),
+            OneOffKind::Reboot => self.come_up(),
             OneOffKind::Watchdog => {
-                self.come_up(sink);
+                self.come_up();
                 let bits = fault_bit::WATCHDOG;
-                let mut out = self.to_host.outlet(self.now_us, sink);
+                let mut out = outlet!(self, sink);
                 self.core.raise_fault(bits, u16::MAX, 0, &mut out);
                 self.core.end_fault_cause(bits);
             }
@@ -269,6 +286,8 @@ impl WiredDevice {
 
     /// Output is gone with the processor.
     fn go_down(&mut self, sink: &mut impl DeviceSink) {
+        #[cfg(test)]
+        self.tap.booted();
         self.n_booting += 1;
         self.earlier.push(self.core.counters());
         let was_live = self.core.state().is_live();
@@ -279,7 +298,7 @@ impl WiredDevice {
         }
     }
 
-    fn come_up(&mut self, _sink: &mut impl DeviceSink) {
+    fn come_up(&mut self) {
         self.n_booting -= 1;
         self.core = DeviceCore::new(self.model.clone());
         self.boot_us = self.now_us;
@@ -288,7 +307,7 @@ impl WiredDevice {
 
     fn fail(&mut self, bits: u16, value: i32, sense: Sense, sink: &mut impl DeviceSink) {
         self.core.set_sense(sense);
-        let mut out = self.to_host.outlet(self.now_us, sink);
+        let mut out = outlet!(self, sink);
         self.core.raise_fault(bits, u16::MAX, value, &mut out);
     }
 
@@ -308,28 +327,26 @@ struct Outlet<'a, S> {
     lane: &'a mut Lane,
     now_us: u64,
     sink: &'a mut S,
-}
-
-impl Lane {
-    fn outlet<'a, S: DeviceSink>(&'a mut self, now_us: u64, sink: &'a mut S) -> Outlet<'a, S> {
-        Outlet {
-            lane: self,
-            now_us,
-            sink,
-        }
-    }
+    #[cfg(test)]
+    tap: &'a mut super::tests::Tap,
 }
 
 impl<S: DeviceSink> DeviceSink for Outlet<'_, S> {
     fn packet(&mut self, bytes: &[u8]) {
+        #[cfg(test)]
+        self.tap.emitted(bytes);
         self.lane.send(self.now_us, bytes);
     }
 
     fn applied(&mut self, frame: &AppliedFrame<'_>) {
+        #[cfg(test)]
+        self.tap.applied(frame);
         self.sink.applied(frame);
     }
 
     fn changed(&mut self, moment: &Moment) {
+        #[cfg(test)]
+        self.tap.changed(moment);
         self.sink.changed(moment);
     }
 }

@@ -14,6 +14,7 @@ mod tests;
 
 mod device;
 mod input;
+mod link_faults;
 mod motion;
 mod picture;
 mod pointer;
@@ -97,6 +98,7 @@ impl Study for Stability {
             picture::cases(),
             shading::cases(),
             device::cases(),
+            link_faults::cases(),
         ];
         try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)
     }

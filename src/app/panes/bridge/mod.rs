@@ -1,5 +1,7 @@
 //! The device: where it is, how it is, arming, and the counters that tell whether to trust it.
 
+mod back;
+
 use std::path::PathBuf;
 
 use eframe::egui::{
@@ -14,6 +16,8 @@ use crate::app::theme::{self, Palette, ROW, STEP};
 use crate::app::view::{BridgePhase, BridgeView, Live};
 use crate::app::widgets::{button, choice, mark, quiet_pair, row};
 use crate::quantity;
+
+pub(crate) use back::words as back_words;
 
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;
@@ -30,6 +34,7 @@ pub(crate) fn show(
 ) {
     show_state(ui, live.bridge.as_ref(), target);
     show_arming(ui, live.bridge.as_ref(), live.is_stopped, wishes);
+    back::show(ui, ports.back.as_ref(), wishes);
     ui.add_space(STEP);
     show_port(ui, port, ports, wishes);
     show_connecting(ui, live.bridge.is_some(), port, wishes);
