@@ -110,7 +110,10 @@ impl Workbench {
         let is_lost = snapshot
             .link
             .is_some_and(|link| link.state == BridgeState::Lost);
-        let uid = snapshot.link.and_then(|link| link.caps).map(|caps| caps.uid);
+        let uid = snapshot
+            .link
+            .and_then(|link| link.caps)
+            .map(|caps| caps.uid);
         if let Some(found) = transient.ports.follow(ctx, is_lost, uid) {
             transient.notices.give(panes::back_words(&found));
         }

@@ -96,7 +96,8 @@ impl BridgeError {
     /// The message without the port's name, for owners that know which port they asked for.
     pub fn without_port(&self) -> String {
         let text = self.to_string();
-        let (Self::Open { port, .. } | Self::Busy { port, .. } | Self::Link { port, .. }) = self else {
+        let (Self::Open { port, .. } | Self::Busy { port, .. } | Self::Link { port, .. }) = self
+        else {
             return text;
         };
         let bare = text

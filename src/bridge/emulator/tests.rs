@@ -148,8 +148,13 @@ mod behind_a_pty {
         thread.join().unwrap().unwrap();
         assert!(fs::symlink_metadata(&again).is_err());
         let log = fs::read_to_string(&log).unwrap();
-        let begins = log.lines().find(|line| line.contains("fault unplug begins"));
-        assert!(begins.unwrap().starts_with("400000,16,fault unplug"), "{log}");
+        let begins = log
+            .lines()
+            .find(|line| line.contains("fault unplug begins"));
+        assert!(
+            begins.unwrap().starts_with("400000,16,fault unplug"),
+            "{log}"
+        );
         assert!(log.contains(",fault unplug ends 300000 us,"), "{log}");
         assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
         fs::remove_dir_all(&folder).unwrap();

@@ -12,7 +12,10 @@ pub(crate) fn holder_of(path: &Path) -> Option<String> {
     let own = std::process::id().to_string();
     for process in fs::read_dir("/proc").ok()?.flatten() {
         let name = process.file_name();
-        let Some(id) = name.to_str().filter(|id| id.bytes().all(|b| b.is_ascii_digit())) else {
+        let Some(id) = name
+            .to_str()
+            .filter(|id| id.bytes().all(|b| b.is_ascii_digit()))
+        else {
             continue;
         };
         let Some(open) = fs::read_dir(process.path().join("fd")).ok() else {

@@ -55,7 +55,9 @@ fn permission_words(access: &Access) -> String {
             "no permission: it belongs to the group {group}: run \"sudo usermod -aG {group} \
              $USER\" and log in again, or install the rule that {RULE} prints"
         ),
-        None => format!("no permission: only root may open it: install the rule that {RULE} prints"),
+        None => {
+            format!("no permission: only root may open it: install the rule that {RULE} prints")
+        }
     }
 }
 
@@ -172,7 +174,10 @@ mod tests {
             holder: Some(String::from("ModemManager, process 812")),
         };
         let line = held.to_string();
-        assert!(line.contains("process 812") && line.contains("--udev-rule"), "{line}");
+        assert!(
+            line.contains("process 812") && line.contains("--udev-rule"),
+            "{line}"
+        );
     }
 
     #[test]

@@ -65,7 +65,10 @@ impl PortIdentity {
         };
         Self {
             path: path.to_path_buf(),
-            usb: listed.iter().find(is_it).and_then(|entry| entry.usb.clone()),
+            usb: listed
+                .iter()
+                .find(is_it)
+                .and_then(|entry| entry.usb.clone()),
             uid: None,
             node: node_of(path),
             was_away: false,
@@ -164,9 +167,16 @@ fn carries(entry: &PortEntry, uid: &[u8; 12]) -> bool {
     let Some(serial) = entry.usb.as_ref().and_then(|usb| usb.serial.as_deref()) else {
         return false;
     };
-    let hex: String = uid.iter().map(|byte| format!("{byte:02x}")).collect();
     let is_set = uid.iter().any(|byte| *byte != 0);
-    is_set && (serial.eq_ignore_ascii_case(&hex) || serial.as_bytes() == uid)
+    is_set && (is_hexadecimal_of(serial, uid) || serial.as_bytes() == uid)
+}
+
+fn is_hexadecimal_of(text: &str, bytes: &[u8]) -> bool {
+    let digits = |nth: usize| text.get(2 * nth..2 * nth + 2);
+    let same = |(nth, byte): (usize, &u8)| {
+        digits(nth).is_some_and(|two| u8::from_str_radix(two, 16) == Ok(*byte))
+    };
+    text.len() == 2 * bytes.len() && bytes.iter().enumerate().all(same)
 }
 
 #[cfg(unix)]
@@ -242,10 +252,7 @@ mod tests {
         let uid = *b"\x01\x23\x45\x67\x89\xab\xcd\xef\x01\x23\x45\x67";
         let mut gone = lost(usb(None), true);
         gone.uid = Some(uid);
-        let back = [port(
-            "/dev/ttyACM3",
-            usb(Some("0123456789ABCDEF01234567")),
-        )];
+        let back = [port("/dev/ttyACM3", usb(Some("0123456789ABCDEF01234567")))];
         assert_eq!(
             gone.among(&back, false),
             found("/dev/ttyACM3", RecognisedBy::DeviceUid)

@@ -251,7 +251,9 @@ impl Lane {
             Latency::Normal {
                 mean_us,
                 deviation_us,
-            } => now_us + whole(f64::from(mean_us) + f64::from(deviation_us) * self.random.normal()),
+            } => {
+                now_us + whole(f64::from(mean_us) + f64::from(deviation_us) * self.random.normal())
+            }
         };
         if self.chance(self.faults.hiccup_rate) {
             let longer_us = self.faults.hiccup_us;

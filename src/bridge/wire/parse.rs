@@ -1,31 +1,33 @@
 //! Faults as people write them: `5s`, `300ms`, `0.1%`, `5s+2s`, `rows=5`. Each refusal is one line
 //! that says what was expected.
 
+use std::time::Duration;
+
 use super::faults::{Latency, OneOff, OneOffKind};
 use crate::bridge::device::Lie;
 
-/// The longest time that can be asked for: 1000 hours.
-const LONGEST_S: f64 = 3.6e6;
+/// The longest time that can be asked for.
+const LONGEST: Duration = Duration::from_hours(1000);
 
 /// A time in µs: `5s`, `300ms`, `250us`, `2min`, `1h`.
 pub fn time_us(text: &str) -> Result<u64, String> {
     let refused = || format!("\"{text}\" is no time: write for example 5s, 300ms or 250us");
     let split = text.find(|letter: char| letter.is_ascii_alphabetic());
     let (number, unit) = text.split_at(split.ok_or_else(refused)?);
-    let us_each = match unit {
-        "us" => 1.0,
-        "ms" => 1e3,
-        "s" => 1e6,
-        "min" => 60e6,
-        "h" => 3600e6,
+    let s_each = match unit {
+        "us" => 1e-6,
+        "ms" => 1e-3,
+        "s" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
         _ => return Err(refused()),
     };
-    let us = number.trim().parse::<f64>().map_err(|_| refused())? * us_each;
-    if !(0.0..=LONGEST_S * 1e6).contains(&us) {
-        return Err(format!("\"{text}\": choose a time from 0 to 1000h"));
-    }
-    // Within range: exact to the µs.
-    format!("{us:.0}").parse().map_err(|_| refused())
+    let number: Option<f64> = number.trim().parse().ok();
+    let s = number.ok_or_else(refused)? * s_each;
+    let time = Duration::try_from_secs_f64(s).ok();
+    let time = time.filter(|time| *time <= LONGEST);
+    time.and_then(|time| u64::try_from(time.as_micros()).ok())
+        .ok_or_else(|| format!("\"{text}\": choose a time from 0 to 1000h"))
 }
 
 /// A share: `0.001` or `0.1%`.
@@ -113,9 +115,8 @@ pub fn swap(text: &str) -> Result<[u16; 2], String> {
 }
 
 fn number<T: std::str::FromStr>(key: &str, value: &str) -> Result<T, String> {
-    value
-        .parse()
-        .map_err(|_| format!("{key}=\"{value}\": write a whole number that fits its field"))
+    let number = value.parse().ok();
+    number.ok_or_else(|| format!("{key}=\"{value}\": write a whole number that fits its field"))
 }
 
 #[cfg(test)]

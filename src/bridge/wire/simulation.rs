@@ -10,9 +10,7 @@ use super::{Faults, Injection, WiredDevice};
 use crate::bridge::codes::ArrayProfile;
 use crate::bridge::device::{AppliedFrame, DeviceModel, DeviceSink, Moment};
 use crate::bridge::framing::{Decoder, LARGEST_BODY, Packet};
-use crate::bridge::host::{
-    BridgeEvent, BridgeState, DisarmedBy, HostSession, SentFrame, Sequence,
-};
+use crate::bridge::host::{BridgeEvent, BridgeState, DisarmedBy, HostSession, SentFrame, Sequence};
 use crate::bridge::message::{DeviceMessage, kind};
 
 /// Contactors of the simulated display, and channels of the usual device.
@@ -129,7 +127,8 @@ impl Simulation {
     /// The host's clock.
     pub(crate) fn now(&self) -> Instant {
         let us = i64::try_from(self.us).unwrap_or(i64::MAX / 2);
-        let host_us = us + us / 1_000_000 * self.host_ppm + us % 1_000_000 * self.host_ppm / 1_000_000;
+        let host_us =
+            us + us / 1_000_000 * self.host_ppm + us % 1_000_000 * self.host_ppm / 1_000_000;
         self.start + Duration::from_micros(u64::try_from(host_us).unwrap_or(0))
     }
 

@@ -42,12 +42,13 @@ pub(super) fn cases() -> Vec<Case> {
 
 /// Faults that a link lives with.
 fn lasting() -> Vec<(&'static str, Faults)> {
-    let both = |lane: LaneFaults| Faults {
-        seed: 1,
-        to_device: lane,
-        to_host: lane,
-        ..Faults::default()
-    };
+    let mut cases = harms();
+    cases.extend(delays());
+    cases
+}
+
+/// Bytes that are harmed.
+fn harms() -> Vec<(&'static str, Faults)> {
     let lane = LaneFaults::default();
     let drops = LaneFaults {
         drop_rate: 1e-4,
@@ -73,6 +74,28 @@ fn lasting() -> Vec<(&'static str, Faults)> {
         garbage_every_us: Some(500_000),
         ..lane
     };
+    vec![
+        ("one byte in 10 000 lost", both(drops)),
+        ("one byte in 10 000 changed", both(flips)),
+        ("one byte too many in 10 000", both(inserts)),
+        ("one USB packet in 100 lost", both(lost)),
+        ("one write in 100 twice", both(twice)),
+        ("a burst of garbage every 0.5 s", both(garbage)),
+    ]
+}
+
+fn both(lane: LaneFaults) -> Faults {
+    Faults {
+        seed: 1,
+        to_device: lane,
+        to_host: lane,
+        ..Faults::default()
+    }
+}
+
+/// Bytes and ticks that come when they should not.
+fn delays() -> Vec<(&'static str, Faults)> {
+    let lane = LaneFaults::default();
     let slow = LaneFaults {
         latency: Latency::Normal {
             mean_us: 3000,
@@ -93,12 +116,6 @@ fn lasting() -> Vec<(&'static str, Faults)> {
         ..Faults::default()
     };
     vec![
-        ("one byte in 10 000 lost", both(drops)),
-        ("one byte in 10 000 changed", both(flips)),
-        ("one byte too many in 10 000", both(inserts)),
-        ("one USB packet in 100 lost", both(lost)),
-        ("one write in 100 twice", both(twice)),
-        ("a burst of garbage every 0.5 s", both(garbage)),
         ("3 ± 1 ms, one write in 100 by 50 ms late", both(slow)),
         ("an adapter with a 16 ms timer", ftdi),
         ("a device's clock 100 ppm fast", clock(100, 0)),
@@ -136,7 +153,9 @@ fn streams_on(faults: &Faults) -> Verdict {
 fn ends_safely(kind: OneOffKind) -> Verdict {
     let mut trial = Simulation::streaming_over(&once(kind, ms_of(kind)), 6000);
     let is_kept = trial.is_at_rest() && trial.arms_written == 1;
-    let reason = trial.lost().or(trial.disarmed_by().map(|(_, why)| why));
+    let reason = trial
+        .lost()
+        .or_else(|| trial.disarmed_by().map(|(_, why)| why));
     let reason = reason.map(str::to_owned);
     trial.open_anew();
     let is_usable = trial.run_until(2000, |it| {

@@ -25,5 +25,8 @@ pub(super) fn show(ui: &mut Ui, back: Option<&FoundPort>, wishes: &mut Wishes) {
 
 /// The sentence, here and as a notice.
 pub(crate) fn words(found: &FoundPort) -> String {
-    format!("The array is back as {}: connect again", found.path.display())
+    format!(
+        "The array is back as {}: connect again",
+        found.path.display()
+    )
 }

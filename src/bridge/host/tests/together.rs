@@ -23,7 +23,8 @@ fn host_and_device_stream_without_a_miss() {
         assert_eq!(*tick, first + u32::try_from(index).unwrap());
         let gain = (f64::from(tick - first + 1) / 20.0).min(1.0);
         assert!((stamp.gain - gain).abs() < 1e-12);
-        let expected = Coder::new(&ArrayProfile::default(), 24).encode(&[pair.amplitude_um; 24], gain);
+        let expected =
+            Coder::new(&ArrayProfile::default(), 24).encode(&[pair.amplitude_um; 24], gain);
         assert_eq!(*codes, expected);
     }
     assert_eq!(pair.device.output(), vec![[13107, 26214]; 24]);

@@ -66,7 +66,10 @@ fn bytes_are_dropped_changed_and_inserted_as_often_as_was_said() {
         let wanted = [100_000 - harmed, 100_000, 100_000 + harmed][nth];
         assert_eq!(n_bytes, wanted, "{kind:?}");
         let original: Vec<u8> = (0..=u8::MAX).cycle().take(100).collect();
-        let n_whole = arrived.iter().filter(|(_, bytes)| *bytes == original).count();
+        let n_whole = arrived
+            .iter()
+            .filter(|(_, bytes)| *bytes == original)
+            .count();
         assert!((300..450).contains(&n_whole), "e⁻¹ of all: {n_whole}");
     }
 }
@@ -90,7 +93,10 @@ fn usb_packets_are_lost_whole_and_writes_come_twice() {
     };
     let (arrived, injections) = through(faults, 400, 111);
     let lengths: Vec<usize> = arrived.iter().map(|(_, bytes)| bytes.len()).collect();
-    assert!(lengths.iter().all(|n| [64, 47, 111].contains(n)), "{lengths:?}");
+    assert!(
+        lengths.iter().all(|n| [64, 47, 111].contains(n)),
+        "{lengths:?}"
+    );
     let lost = injections.len();
     assert!((330..470).contains(&lost), "400 of 800: {lost}");
     let faults = LaneFaults {

@@ -130,8 +130,8 @@ impl Known {
                     let stamp: [u8; 4] = packet.payload[..4].try_into().unwrap();
                     let apply_tick = u32::from_le_bytes(stamp);
                     let tick = u32::try_from(device_us / TICK_US).unwrap();
-                    let is_late = apply_tick != NEXT_TICK
-                        && apply_tick.wrapping_sub(tick).cast_signed() <= 0;
+                    let is_late =
+                        apply_tick != NEXT_TICK && apply_tick.wrapping_sub(tick).cast_signed() <= 0;
                     let is_repeated = self.last_seq == Some(packet.seq);
                     // A second refusal of the same frame names the same seq: settled one by one.
                     self.open.push((packet.seq, is_late, is_repeated));
@@ -162,7 +162,8 @@ impl Known {
             kind::ACK if payload[0] == kind::FRAME && payload[1] != 0 => {
                 let seq = u16::from_le_bytes([payload[2], payload[3]]);
                 let at = self.open.iter().position(|(open, ..)| *open == seq);
-                self.open.remove(at.expect("it refuses what has just arrived"));
+                self.open
+                    .remove(at.expect("it refuses what has just arrived"));
                 sums.refused += 1;
             }
             kind::STATUS => {

@@ -4,6 +4,7 @@ mod ledger;
 mod lies;
 mod mutated;
 mod once;
+mod ports;
 mod silence;
 mod soak;
 

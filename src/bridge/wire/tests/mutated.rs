@@ -140,11 +140,7 @@ impl Mutator {
 
     /// Without an end, rarely long: no buffer may grow with it.
     fn oversize(&mut self) {
-        let length = if self.random.index(50) == 0 {
-            5000
-        } else {
-            20
-        };
+        let length = if self.random.index(50) == 0 { 5000 } else { 20 };
         let byte = self.byte();
         self.out.resize(length, byte);
     }

@@ -69,9 +69,7 @@ fn a_device_that_breaks_says_what_and_how_bad_it_is() {
         }
         trial.run(500);
         let told = trial.events.iter().any(|event| match event {
-            crate::bridge::BridgeEvent::Fault(fault) => {
-                fault.faults == bit && fault.value == value
-            }
+            crate::bridge::BridgeEvent::Fault(fault) => fault.faults == bit && fault.value == value,
             _ => false,
         });
         assert!(told, "{}: {:?}", kind.name(), trial.events);
@@ -112,7 +110,12 @@ fn a_reboot_starts_tick_and_counters_anew_and_keeps_no_session() {
 fn a_short_stall_either_way_is_lived_through() {
     for kind in [OneOffKind::StallReading, OneOffKind::StallWriting] {
         let mut trial = Simulation::streaming_over(&with(kind, 50_000), 8000);
-        assert_eq!(trial.host.state(), BridgeState::Streaming, "{}", kind.name());
+        assert_eq!(
+            trial.host.state(),
+            BridgeState::Streaming,
+            "{}",
+            kind.name()
+        );
         let device = trial.host.counters().device;
         assert!(device.underrun > 0, "{}: {device:?}", kind.name());
         assert_eq!(device.bad, 0);
@@ -131,7 +134,11 @@ fn chatter_and_banners_cost_a_text_and_no_more() {
     assert_eq!(trial.host.state(), BridgeState::Streaming);
     assert!(trial.device.core().counters().bad >= 1);
     assert!(trial.bad_texts_received() >= 1);
-    assert_eq!(trial.host.counters().device.bad, 0, "all before the session");
+    assert_eq!(
+        trial.host.counters().device.bad,
+        0,
+        "all before the session"
+    );
     assert_eq!(trial.log.injections.len(), 2);
 }
 
