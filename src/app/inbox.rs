@@ -115,7 +115,7 @@ impl Workbench {
             .and_then(|link| link.caps)
             .map(|caps| caps.uid);
         if let Some(found) = transient.ports.follow(ctx, is_lost, uid) {
-            transient.notices.give(panes::back_words(&found));
+            transient.notices.give(panes::back_notice(&found));
         }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
         let mut live = query::live_view(snapshot, interval_s, &transient.audition);

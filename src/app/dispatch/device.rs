@@ -3,8 +3,8 @@
 use eframe::egui;
 
 use crate::app::command::DeviceCommand;
-use crate::app::query;
 use crate::app::window::Workbench;
+use crate::app::{panes, query};
 use crate::bridge::Target;
 use crate::engine;
 
@@ -34,6 +34,7 @@ impl Workbench {
         if let Some(last) = &self.transient.target {
             self.transient.notices.forget_about(last);
         }
+        self.transient.notices.forget_about(panes::BACK);
         self.transient.target = Some(query::device_name(&target));
         self.transient.ports.hold(Some(&target));
         self.send(engine::Command::Connect(target));

@@ -54,10 +54,7 @@ impl DeviceLog {
     /// The state changed. Changes are rare and matter: they reach the disk at once.
     pub fn change(&mut self, moment: &Moment) {
         self.moment("state", moment, None);
-        for _ in 0..self.n_channels {
-            self.text(format_args!(",,"));
-        }
-        self.end_line();
+        self.end_row_without_codes();
         let flushed = self.out.flush();
         self.keep(flushed);
     }
@@ -65,10 +62,11 @@ impl DeviceLog {
     /// A fault was injected: `event` says which and how much of it.
     pub fn injected(&mut self, moment: &Moment, injection: &Injection) {
         self.moment(&injection.to_string(), moment, None);
-        for _ in 0..self.n_channels {
-            self.text(format_args!(",,"));
+        self.end_row_without_codes();
+        if injection.is_rare() {
+            let flushed = self.out.flush();
+            self.keep(flushed);
         }
-        self.end_line();
     }
 
     /// Writes what is left.
@@ -99,6 +97,13 @@ impl DeviceLog {
 
     fn text(&mut self, text: std::fmt::Arguments<'_>) {
         self.line.push_str(&std::fmt::format(text));
+    }
+
+    fn end_row_without_codes(&mut self) {
+        for _ in 0..self.n_channels {
+            self.text(format_args!(",,"));
+        }
+        self.end_line();
     }
 
     fn end_line(&mut self) {

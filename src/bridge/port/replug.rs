@@ -193,6 +193,10 @@ fn node_of(path: &Path) -> Option<(u64, u64)> {
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "expectations read like what they are compared with"
+)]
 mod tests {
     use super::*;
 

@@ -238,6 +238,13 @@ pub enum InjectionKind {
     Ends(OneOffKind),
 }
 
+impl Injection {
+    /// Whether it happened at a told time, rather than again and again by chance.
+    pub fn is_rare(&self) -> bool {
+        matches!(self.kind, InjectionKind::Begins(_) | InjectionKind::Ends(_))
+    }
+}
+
 impl fmt::Display for Injection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let n = self.amount;

@@ -127,6 +127,8 @@ fn a_device_that_comes_back_under_another_name_is_told_and_connects_with_one_cli
     harness.get_by_role_and_label(Role::Button, "Arm").click();
     wait(&mut harness, Workbench::is_armed);
     device.vanish();
+    // A killed emulator leaves its link, which would lead to whatever terminal comes next.
+    fs::remove_file(&link).unwrap();
     wait(&mut harness, |bench| {
         bench.notices().iter().any(|notice| notice.contains("gone"))
     });

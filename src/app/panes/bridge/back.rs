@@ -8,6 +8,9 @@ use crate::app::theme::{Palette, STEP};
 use crate::app::widgets::button;
 use crate::bridge::FoundPort;
 
+/// How the sentence begins, here and as a notice.
+pub(crate) const BACK: &str = "The array is back as";
+
 /// Shows what is back, if anything is.
 pub(super) fn show(ui: &mut Ui, back: Option<&FoundPort>, wishes: &mut Wishes) {
     let Some(found) = back else { return };
@@ -23,10 +26,31 @@ pub(super) fn show(ui: &mut Ui, back: Option<&FoundPort>, wishes: &mut Wishes) {
     });
 }
 
-/// The sentence, here and as a notice.
-pub(crate) fn words(found: &FoundPort) -> String {
-    format!(
-        "The array is back as {}: connect again",
-        found.path.display()
-    )
+/// Where it is.
+fn words(found: &FoundPort) -> String {
+    format!("{BACK} {}", found.path.display())
+}
+
+/// The notice of it.
+pub(crate) fn notice(found: &FoundPort) -> String {
+    format!("{}: connect again", words(found))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+    use crate::bridge::RecognisedBy;
+
+    #[test]
+    fn a_notice_begins_with_what_it_is_put_away_by() {
+        let found = FoundPort {
+            path: PathBuf::from("/dev/ttyACM1"),
+            by: RecognisedBy::UsbSerial,
+        };
+        let line = notice(&found);
+        assert_eq!(line, "The array is back as /dev/ttyACM1: connect again");
+        assert!(line.starts_with(BACK));
+    }
 }

@@ -17,7 +17,7 @@ use crate::app::view::{BridgePhase, BridgeView, Live};
 use crate::app::widgets::{button, choice, mark, quiet_pair, row};
 use crate::quantity;
 
-pub(crate) use back::words as back_words;
+pub(crate) use back::{BACK, notice as back_notice};
 
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;

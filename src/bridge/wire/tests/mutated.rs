@@ -10,8 +10,8 @@ use crate::bridge::device::DeviceCore;
 use crate::bridge::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::bridge::host::{HostSession, Sequence};
 use crate::bridge::message::{
-    Ack, AckCode, Arm, ChannelMask, Clear, Config, DeviceMessage, Fault, Hello, Ident, Message,
-    Ping, Pong, Status, Stop, StopHow, frame, kind,
+    Ack, AckCode, Arm, ChannelMask, Clear, Config, DeviceMessage, Fault, Hello, Ident,
+    Message as _, Ping, Pong, Status, Stop, StopHow, frame, kind,
 };
 use crate::numerics::Random;
 
@@ -146,6 +146,10 @@ impl Mutator {
     }
 }
 
+#[expect(
+    clippy::large_types_passed_by_value,
+    reason = "what an encoder gives goes in as it is"
+)]
 fn wire(packet: Option<Packet>) -> Vec<u8> {
     packet.unwrap().as_bytes().to_vec()
 }
