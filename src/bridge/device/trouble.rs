@@ -78,8 +78,8 @@ impl DeviceCore {
         self.report_change(sink);
     }
 
-    /// Age of the last accepted frame in µs if it is above `above_us` and there is still output; for
-    /// those who watch that it ends in time.
+    /// Age of the last accepted frame in µs if it is above `above_us` and there is still output;
+    /// for those who watch that it ends in time.
     pub fn loud_age_us(&self, above_us: u64) -> Option<u64> {
         self.age_us()
             .filter(|age_us| *age_us > above_us && self.amp_sum() > 0)

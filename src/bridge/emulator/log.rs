@@ -2,9 +2,9 @@
 //! device's own clock.
 //!
 //! `dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0,…`. A `frame` row carries the
-//! codes as received; a `state` row has no seq and no codes, nor has a row of an injected fault, whose
-//! event begins with `fault`. `gain` is the hold and ramp gain,
-//! `amp_sum` the sum of the output codes from then on.
+//! codes as received; a `state` row has no seq and no codes, nor has a row of an injected fault,
+//! whose event begins with `fault`. `gain` is the hold and ramp gain, `amp_sum` the sum of the
+//! output codes from then on.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};

@@ -113,6 +113,7 @@ impl Emulation {
     }
 
     /// Runs without a port until the cable is in again; false when `stop` came first.
+    #[cfg(unix)]
     fn wait_for_cable(&mut self, stop: &AtomicBool) -> bool {
         while !self.device.is_plugged() {
             if stop.load(Ordering::Acquire) {

@@ -124,7 +124,18 @@ impl Bridge {
         if !self.session.state().is_open() {
             self.release();
         }
-        self.session.next_event()
+        self.session.next_event().map(|event| self.explained(event))
+    }
+
+    /// A device that was never heard of, on a port that says something, is another device.
+    fn explained(&self, event: BridgeEvent) -> BridgeEvent {
+        let is_stranger = self.session.caps().is_none() && self.counters().bad_received > 0;
+        match event {
+            BridgeEvent::Lost(reason) if is_stranger => {
+                BridgeEvent::Lost(format!("{reason}; what comes from it is not this protocol"))
+            }
+            event => event,
+        }
     }
 
     /// Asks for output; `Armed` or `Disarmed` follows. False when the device is not `Ready`.

@@ -17,7 +17,9 @@ pub struct PortIdentity {
     pub usb: Option<UsbIdentity>,
     /// The device's own number from CAPS.
     pub uid: Option<[u8; 12]>,
-    /// Which node the path led to.
+    /// What the path led to, if it was a link.
+    leads_to: Option<PathBuf>,
+    /// Which node that was.
     node: Option<(u64, u64)>,
     /// Whether the port was seen to be away.
     was_away: bool,
@@ -70,6 +72,7 @@ impl PortIdentity {
                 .find(is_it)
                 .and_then(|entry| entry.usb.clone()),
             uid: None,
+            leads_to,
             node: node_of(path),
             was_away: false,
         }
@@ -88,9 +91,11 @@ impl PortIdentity {
     fn among(&self, listed: &[PortEntry], is_there: bool) -> Option<FoundPort> {
         let found = |path: &str, by| {
             // A port that never went away is not back.
-            let is_new = self.was_away || Path::new(path) != self.path;
+            let path = Path::new(path);
+            let is_new =
+                self.was_away || (path != self.path && Some(path) != self.leads_to.as_deref());
             is_new.then(|| FoundPort {
-                path: PathBuf::from(path),
+                path: path.to_path_buf(),
                 by,
             })
         };
@@ -221,6 +226,7 @@ mod tests {
             path: PathBuf::from("/dev/ttyACM0"),
             usb,
             uid: None,
+            leads_to: None,
             node: Some((1, 2)),
             was_away,
         }
@@ -248,6 +254,20 @@ mod tests {
             lost(usb(Some("A1")), true).among(&back[..1], true),
             None,
             "another device under the old name"
+        );
+    }
+
+    #[test]
+    fn a_port_that_was_opened_by_a_link_and_never_went_away_is_not_back() {
+        let mut stalled = lost(usb(Some("A1")), false);
+        stalled.path = PathBuf::from("/dev/selvedge-A1");
+        stalled.leads_to = Some(PathBuf::from("/dev/ttyACM0"));
+        let here = [port("/dev/ttyACM0", usb(Some("A1")))];
+        assert_eq!(stalled.among(&here, true), None);
+        let there = [port("/dev/ttyACM1", usb(Some("A1")))];
+        assert_eq!(
+            stalled.among(&there, true),
+            found("/dev/ttyACM1", RecognisedBy::UsbSerial)
         );
     }
 

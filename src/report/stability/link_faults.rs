@@ -10,6 +10,7 @@ use crate::bridge::{
     BridgeState, DeviceModel, Faults, InjectionKind, LaneFaults, Latency, Lie, OneOffKind,
     Simulation,
 };
+use crate::quantity::fixed;
 
 /// The longest that output may outlast the last frame, µs of the device's clock.
 const SILENT_BY_US: u64 = 100_000;
@@ -153,9 +154,9 @@ fn streams_on(faults: &Faults) -> Verdict {
 fn ends_safely(kind: OneOffKind) -> Verdict {
     let mut trial = Simulation::streaming_over(&once(kind, ms_of(kind)), 6000);
     let is_kept = trial.is_at_rest() && trial.arms_written == 1;
-    let reason = trial
-        .lost()
-        .or_else(|| trial.disarmed_by().map(|(_, why)| why));
+    // What was told first.
+    let disarmed = trial.disarmed_by().map(|(_, reason)| reason);
+    let reason = disarmed.or_else(|| trial.lost());
     let reason = reason.map(str::to_owned);
     trial.open_anew();
     let is_usable = trial.run_until(2000, |it| {
@@ -184,6 +185,6 @@ fn told(trial: &Simulation) -> String {
         sum(|c| c.dup),
         sum(|c| c.underrun),
         trial.bad_texts_received(),
-        trial.loudest_age_us as f64 / 1000.0,
+        fixed(trial.loudest_age_us as f64 / 1000.0, 1),
     )
 }

@@ -44,6 +44,7 @@ fn a_port_that_only_says_garbage_is_given_up_with_the_reason() {
         master.write_all(b"AT+GCAP\r\n\0").unwrap();
     });
     assert!(reason.contains("no answer within 5 s"), "{reason}");
+    assert!(reason.ends_with("is not this protocol"), "{reason}");
     assert!(bridge.counters().bad_received > 10);
     assert!(n_turns > 100, "the caller went on: {n_turns} turns");
     bridge.close(Duration::from_millis(500)).unwrap();
