@@ -10,7 +10,8 @@ use super::dialogs::Answer;
 use super::job::{Job, Polled};
 use super::opening::Opening;
 use super::window::{FRAME, Workbench};
-use super::{query, shortcuts};
+use super::{panes, query, shortcuts};
+use crate::bridge::BridgeState;
 use crate::engine::{Notice, TICKS_PER_S};
 
 /// At most as many notices are taken in a frame as anybody can be told of.
@@ -106,6 +107,16 @@ impl Workbench {
         let snapshot = self.engine.snapshot();
         let transient = &mut self.transient;
         let status = snapshot.link.and_then(|link| link.status);
+        let is_lost = snapshot
+            .link
+            .is_some_and(|link| link.state == BridgeState::Lost);
+        let uid = snapshot
+            .link
+            .and_then(|link| link.caps)
+            .map(|caps| caps.uid);
+        if let Some(found) = transient.ports.follow(ctx, is_lost, uid) {
+            transient.notices.give(panes::back_notice(&found));
+        }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
         let mut live = query::live_view(snapshot, interval_s, &transient.audition);
         if live.bridge.is_none() {

@@ -65,6 +65,7 @@ mod probe;
 mod query;
 mod raster;
 mod rendering;
+mod replug;
 mod screenshot;
 mod sensation;
 mod settings;

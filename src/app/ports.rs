@@ -5,7 +5,8 @@ use std::thread;
 
 use eframe::egui;
 
-use crate::bridge::{BridgeError, PortEntry, list_ports};
+use super::replug::Replug;
+use crate::bridge::{BridgeError, FoundPort, PortEntry, Target, list_ports};
 
 /// The ports as a pane shows them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -18,6 +19,8 @@ pub(crate) struct PortsView {
     pub(crate) ports: Vec<(String, String)>,
     /// Why they cannot be listed.
     pub(crate) error: Option<String>,
+    /// The device that was lost and is back.
+    pub(crate) back: Option<FoundPort>,
 }
 
 /// What a listing found.
@@ -28,6 +31,7 @@ type Listed = Result<Vec<PortEntry>, BridgeError>;
 pub(crate) struct Ports {
     view: PortsView,
     listing: Option<Receiver<Listed>>,
+    replug: Replug,
 }
 
 impl Ports {
@@ -83,7 +87,33 @@ impl Ports {
                 .map(|port| (port.path, port.description))
                 .collect(),
             error,
+            back: self.view.back.take(),
         };
+    }
+
+    /// A link is opened to `target`, or to none any more.
+    pub(crate) fn hold(&mut self, target: Option<&Target>) {
+        self.view.back = None;
+        match target {
+            Some(Target::Port(path)) => self.replug.hold(path.clone()),
+            Some(Target::Emulator) | None => self.replug.let_go(),
+        }
+    }
+
+    /// Follows the link: while it is lost its device is looked for, off this thread. Gives what is
+    /// back, once. To be called every frame.
+    pub(crate) fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        is_lost: bool,
+        uid: Option<[u8; 12]>,
+    ) -> Option<FoundPort> {
+        let ctx = ctx.clone();
+        let found = self
+            .replug
+            .follow(is_lost, uid, move || ctx.request_repaint());
+        self.view.back = self.replug.back().cloned();
+        found
     }
 
     /// What is known of them.
@@ -115,6 +145,7 @@ mod tests {
         vec![PortEntry {
             path: "/dev/ttyACM0".to_owned(),
             description: "Array bridge".to_owned(),
+            usb: None,
         }]
     }
 

@@ -17,10 +17,12 @@ pub enum BridgeError {
         reason: String,
     },
     /// Another program, or an earlier link of this one, holds the port.
-    #[error("{port}: in use by another program: close that one first")]
+    #[error("{port}: in use by another program{}", busy_words(holder.as_deref()))]
     Busy {
         /// Name of the port.
         port: String,
+        /// Which program, if that can be told.
+        holder: Option<String>,
     },
     /// A file or link could not be written.
     #[error("cannot {action}: {source}: {}", path.display())]
@@ -81,11 +83,24 @@ pub enum BridgeError {
     Wav(io::Error),
 }
 
+/// Who holds a port and how to get it.
+fn busy_words(holder: Option<&str>) -> String {
+    match holder {
+        Some(name) if name.starts_with("ModemManager") => format!(
+            " ({name}): wait until it has given up, and keep it away for good with the rule that \
+             \"selvedge bridge list --udev-rule\" prints"
+        ),
+        Some(name) => format!(" ({name}): close that one first"),
+        None => String::from(": close that one first"),
+    }
+}
+
 impl BridgeError {
     /// The message without the port's name, for owners that know which port they asked for.
     pub fn without_port(&self) -> String {
         let text = self.to_string();
-        let (Self::Open { port, .. } | Self::Busy { port } | Self::Link { port, .. }) = self else {
+        let (Self::Open { port, .. } | Self::Busy { port, .. } | Self::Link { port, .. }) = self
+        else {
             return text;
         };
         let bare = text

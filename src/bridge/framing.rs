@@ -147,6 +147,12 @@ impl Decoder {
         self.bad
     }
 
+    /// Bytes that it holds room for.
+    #[cfg(test)]
+    pub(in crate::bridge) fn capacity(&self) -> usize {
+        self.body.capacity()
+    }
+
     /// Counts a packet that was whole but whose meaning was refused by the layer above.
     pub fn count_bad(&mut self) {
         self.bad += 1;

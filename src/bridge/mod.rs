@@ -37,9 +37,12 @@ mod plant;
 mod port;
 mod self_test;
 mod wav;
+mod wire;
 
 pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
-pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
+pub use device::{
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Moment, Sense, Wiring,
+};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use emulator::{DeviceLog, EmulatorThread};
@@ -60,6 +63,15 @@ pub use plant::{
     Amplifier, Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantFeed,
     PlantReading, PlantWatch, SAMPLES_PER_S, SAMPLES_PER_TICK, Skin, plant_watch,
 };
-pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
+pub use port::{
+    FoundPort, PairPort, Port, PortEntry, PortIdentity, RecognisedBy, SerialLink, UDEV_RULE,
+    UsbIdentity, list_ports, pair,
+};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
 pub use wav::{SampleFormat, WavSpec, WavWriter};
+pub(crate) use wire::Simulation;
+pub use wire::{
+    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
+    WiredDevice, parse_latency, parse_lie, parse_one_off, parse_rate, parse_rate_and_time,
+    parse_swap, parse_time_us,
+};

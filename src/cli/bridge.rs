@@ -2,18 +2,23 @@
 
 use std::path::PathBuf;
 
-use clap::Subcommand;
+use clap::{Args, Subcommand};
 
+use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::{CliError, output, play, terminal};
-use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
+use crate::bridge::{ArrayProfile, Target, UDEV_RULE, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
 pub(super) enum BridgeCommand {
     /// List the serial ports
-    List,
+    List {
+        /// Print the udev rule that lets everybody at this machine use the array
+        #[arg(long)]
+        udev_rule: bool,
+    },
     /// Test a connected device: handshake, pings, a second of faint frames, STOP
     Test {
         /// Serial port of the device
@@ -30,25 +35,32 @@ pub(super) enum BridgeCommand {
         out: PathBuf,
     },
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
-    Emulate {
-        /// The link to the terminal: the port that a host opens
-        #[arg(long, value_name = "PATH")]
-        link: PathBuf,
-        /// Every frame applied and every change of state, as CSV
-        #[arg(long, value_name = "L.csv")]
-        log: Option<PathBuf>,
-        /// The array that the device drives: exeter-24, 5x5 or 10x10
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
-        array: ArrayLayout,
-        #[command(flatten)]
-        plant: PlantArgs,
-    },
+    Emulate(Box<EmulateArgs>),
+}
+
+/// The device to be, and what is to go wrong with it.
+#[derive(Debug, Args)]
+pub(super) struct EmulateArgs {
+    /// The link to the terminal: the port that a host opens
+    #[arg(long, value_name = "PATH")]
+    link: PathBuf,
+    /// Every frame applied, every change of state and every injected fault, as CSV
+    #[arg(long, value_name = "L.csv")]
+    log: Option<PathBuf>,
+    /// The array that the device drives: exeter-24, 5x5 or 10x10
+    #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
+    array: ArrayLayout,
+    #[command(flatten)]
+    plant: PlantArgs,
+    #[command(flatten)]
+    faults: FaultArgs,
 }
 
 /// Does it.
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
-        BridgeCommand::List => list(),
+        BridgeCommand::List { udev_rule: true } => output::print(UDEV_RULE),
+        BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test { port, array } => {
             play::check_port(port)?;
@@ -64,12 +76,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
             );
             Err(CliError::Failed(what))
         }
-        BridgeCommand::Emulate {
-            link,
-            log,
-            array,
-            plant,
-        } => emulate(link, log.as_deref(), *array, plant),
+        BridgeCommand::Emulate(args) => emulate(args),
     }
 }
 
@@ -87,37 +94,32 @@ fn list() -> Result<(), CliError> {
 }
 
 #[cfg(unix)]
-fn emulate(
-    link: &std::path::Path,
-    log: Option<&std::path::Path>,
-    array: ArrayLayout,
-    plant: &PlantArgs,
-) -> Result<(), CliError> {
-    let contactors = plant.model()?;
+fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
+    let model = crate::bridge::DeviceModel::for_array(&profile_of(args.array));
+    let faults = args.faults.faults();
+    faults.check(model.n_channels()).map_err(CliError::Input)?;
+    let contactors = args.plant.model()?;
     let stop = super::signals::stop_flag()?;
-    let model = crate::bridge::DeviceModel::for_array(&profile_of(array));
+    let log = args.log.as_deref();
     let n_columns = usize::from(model.cols);
-    let mut emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
-    let ready = format!("{} -> {}\n", link.display(), emulator.device_path());
+    let mut emulator = crate::bridge::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
     // A reader that only wanted this line may be gone; the device runs on.
-    drop(output::print(&ready));
-    let view = if plant.is_shown() {
+    let tell = |link: &std::path::Path, path: &str| {
+        drop(output::print(&format!("{} -> {path}\n", link.display())));
+    };
+    tell(&args.link, emulator.device_path());
+    let view = if args.plant.is_shown() {
         Some(PlantView::start(emulator.watch(contactors), n_columns)?)
     } else {
         None
     };
-    let ended = emulator.run(&stop);
+    let ended = emulator.run_telling(&stop, tell);
     drop(view);
     Ok(ended?)
 }
 
 #[cfg(not(unix))]
-fn emulate(
-    _link: &std::path::Path,
-    _log: Option<&std::path::Path>,
-    _array: ArrayLayout,
-    _plant: &PlantArgs,
-) -> Result<(), CliError> {
+fn emulate(_args: &EmulateArgs) -> Result<(), CliError> {
     let what = "there are no pseudo-terminals on this system; use the emulator in the workbench";
     Err(CliError::Input(what.to_owned()))
 }

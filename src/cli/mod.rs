@@ -11,6 +11,7 @@
 //! - a reader that closes our output is no failure
 
 mod bridge;
+mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
 mod failure;

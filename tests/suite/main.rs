@@ -9,6 +9,7 @@
 
 mod bad_input;
 mod bridge_end_to_end;
+mod bridge_faults;
 mod commands;
 mod firmware;
 mod import;

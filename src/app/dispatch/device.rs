@@ -3,8 +3,8 @@
 use eframe::egui;
 
 use crate::app::command::DeviceCommand;
-use crate::app::query;
 use crate::app::window::Workbench;
+use crate::app::{panes, query};
 use crate::bridge::Target;
 use crate::engine;
 
@@ -22,6 +22,7 @@ impl Workbench {
             DeviceCommand::ConnectPort(path) => self.connect(Target::Port(path)),
             DeviceCommand::Disconnect => {
                 self.transient.target = None;
+                self.transient.ports.hold(None);
                 self.send(engine::Command::Disconnect);
             }
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
@@ -35,7 +36,9 @@ impl Workbench {
         if let Some(last) = &self.transient.target {
             self.transient.notices.forget_about(last);
         }
+        self.transient.notices.forget_about(panes::BACK);
         self.transient.target = Some(query::device_name(&target));
+        self.transient.ports.hold(Some(&target));
         self.send(engine::Command::Connect(target));
     }
 }

@@ -13,6 +13,7 @@ use crate::app::command::{Command, DeviceCommand, FileCommand, Purpose};
 use crate::app::ports::PortsView;
 use crate::app::theme;
 use crate::app::view::Live;
+use crate::bridge::{FoundPort, RecognisedBy};
 
 /// A window with nothing in it but `content`, and what is wished for in it.
 fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
@@ -139,4 +140,24 @@ fn opening_the_menu_lists_ports_and_choosing_one_connects() {
     );
     let again = click(&mut harness, "Connect");
     assert_eq!(again, [DeviceCommand::ConnectPort(path).into()]);
+}
+
+#[test]
+fn a_device_that_is_back_is_connected_with_one_click_and_not_armed() {
+    let path = PathBuf::from("/dev/ttyACM1");
+    let ports = PortsView {
+        back: Some(FoundPort {
+            path: path.clone(),
+            by: RecognisedBy::UsbSerial,
+        }),
+        ..PortsView::default()
+    };
+    let mut port = String::new();
+    let mut harness = window(|ui, wishes| {
+        show_bridge(ui, &Live::default(), None, &mut port, &ports, wishes);
+    });
+    harness.run();
+    harness.get_by_label("The array is back as /dev/ttyACM1");
+    let asked = click(&mut harness, "Connect again");
+    assert_eq!(asked, [DeviceCommand::ConnectPort(path).into()]);
 }

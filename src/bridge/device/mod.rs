@@ -7,18 +7,22 @@
 //! frame whatever the phase of the tick. Contactor physics is not here.
 
 mod clock;
+mod lie;
 mod model;
 mod output;
 mod queue;
 mod requests;
 mod sink;
+mod trouble;
 
 use super::framing::{Decoder, Packet};
 use super::message::{Config, DeviceState, Fault, Message, Status, TICK_US, fault_bit};
+pub use lie::{Lie, Wiring};
 pub use model::DeviceModel;
 use output::OutputStage;
 use queue::FrameQueue;
 pub use sink::{AppliedFrame, DeviceSink, Moment};
+pub use trouble::Sense;
 
 const MS_US: u64 = 1000;
 const TICK: u64 = TICK_US as u64;
@@ -71,6 +75,7 @@ pub struct DeviceCore {
     faults: u16,
     fault_causes: u16,
     fault: Fault,
+    sense: Sense,
     next_fault_us: u64,
     next_seq: u16,
 }
@@ -110,6 +115,7 @@ impl DeviceCore {
                 value: 0,
                 tick: 0,
             },
+            sense: Sense::default(),
             next_fault_us: 0,
             next_seq: 0,
             model,
@@ -172,7 +178,8 @@ impl DeviceCore {
         Some(ramp_us.map_or(next_tick, |ramp_us| next_tick.min(ramp_us.max(next_ms))))
     }
 
-    /// Output codes at this moment, `[40 Hz, 320 Hz]` per channel, everything applied.
+    /// Output codes at this moment, `[40 Hz, 320 Hz]` per contactor, everything applied, wiring
+    /// faults too.
     pub fn output(&self) -> Vec<[u16; 2]> {
         let mut codes = vec![[0; 2]; self.model.n_channels()];
         self.write_output(&mut codes);
@@ -184,6 +191,7 @@ impl DeviceCore {
         codes.fill([0; 2]);
         if self.state.is_live() {
             self.output.write_to(codes);
+            self.model.wiring.connect(codes);
         }
     }
 
@@ -218,30 +226,10 @@ impl DeviceCore {
             tick: self.tick(),
             state: self.state,
             age_ms: self.age_ms(),
+            age_us: self.age_us(),
             gain: self.output.gain(),
             amp_sum: self.amp_sum(),
         }
-    }
-
-    /// Something in the device broke: output zero and high voltage off at once, latched until
-    /// cleared.
-    pub fn raise_fault(&mut self, bits: u16, channel: u16, value: i32, sink: &mut impl DeviceSink) {
-        self.faults |= bits;
-        self.fault_causes |= bits;
-        self.fault = Fault {
-            faults: self.faults,
-            channel,
-            value,
-            tick: self.tick(),
-        };
-        self.silence(DeviceState::Fault);
-        self.send_fault(sink);
-        self.report_change(sink);
-    }
-
-    /// The cause of these fault bits is gone; the faults stay latched until CLEAR.
-    pub fn end_fault_cause(&mut self, bits: u16) {
-        self.fault_causes &= !bits;
     }
 
     /// Whether time alone can change anything.
@@ -285,13 +273,9 @@ impl DeviceCore {
             dup: self.counters.dup,
             bad: self.counters.bad,
             clipped: self.counters.clipped,
-            hv_dv: if self.state.is_live() {
-                self.config.hv_dv
-            } else {
-                0
-            },
-            i_ma: 0,
-            temp_cdeg: 2500,
+            hv_dv: self.measured_hv_dv(),
+            i_ma: self.sense.i_ma,
+            temp_cdeg: self.sense.temp_cdeg,
             faults: self.faults | informative,
             age_ms: self.age_ms(),
             amp_sum: self.amp_sum(),

@@ -1,5 +1,6 @@
 //! What an emulated device says of itself in CAPS.
 
+use super::lie::{Lie, Wiring};
 use crate::bridge::codes::ArrayProfile;
 use crate::bridge::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::bridge::message::{Caps, Config, MAGIC, TICK_US, frame};
@@ -27,6 +28,10 @@ pub struct DeviceModel {
     pub hv_max_dv: u16,
     /// Name shown to people, at most 32 bytes.
     pub name: String,
+    /// What CAPS say although it is not so.
+    pub lies: Vec<Lie>,
+    /// How its contactors are connected.
+    pub wiring: Wiring,
 }
 
 impl Default for DeviceModel {
@@ -42,6 +47,8 @@ impl Default for DeviceModel {
             max_body: 256,
             hv_max_dv: 600,
             name: String::from("emulated array"),
+            lies: Vec::new(),
+            wiring: Wiring::default(),
         }
     }
 }

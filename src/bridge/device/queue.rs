@@ -36,6 +36,13 @@ impl FrameQueue {
         self.slots.iter().filter(|slot| slot.full).map(|_| 1).sum()
     }
 
+    /// Channels that all slots hold room for.
+    #[cfg(test)]
+    pub(super) fn held(&self) -> usize {
+        let room = |slot: &Waiting| slot.received.capacity() + slot.allowed.capacity();
+        self.slots.iter().map(room).sum()
+    }
+
     pub(super) fn clear(&mut self) {
         for slot in &mut self.slots {
             slot.full = false;

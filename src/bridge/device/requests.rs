@@ -1,6 +1,7 @@
 //! What a device does with each packet. Every refusal has its ACK code; nothing here panics on any
 //! bytes.
 
+use super::lie::caps_packet;
 use super::output::{IdentDrive, allow};
 use super::{DeviceCore, DeviceSink, MS_US, Session, wrapped_u32};
 use crate::bridge::framing::Received;
@@ -99,7 +100,8 @@ impl DeviceCore {
         let caps = self
             .model
             .caps(hello.session, if common { VERSION } else { 0 });
-        self.send(&caps, sink);
+        let caps = caps_packet(caps, &self.model.lies, self.next_seq);
+        self.send_packet(caps.as_ref(), sink);
         Some(Answer::Silence)
     }
 

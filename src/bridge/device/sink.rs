@@ -2,6 +2,7 @@
 
 use super::DeviceCore;
 use crate::bridge::message::DeviceState;
+use crate::bridge::wire::Injection;
 
 /// A FRAME that took effect at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +26,8 @@ pub struct Moment {
     pub state: DeviceState,
     /// Age of the last accepted frame in ms; 65535 = none or older.
     pub age_ms: u16,
+    /// The same in µs, as long as one was accepted since ARM or HELLO.
+    pub age_us: Option<u64>,
     /// Hold and ramp gain, 0…1.
     pub gain: f64,
     /// Sum of all output codes, gain included, rounded down.
@@ -41,6 +44,8 @@ pub trait DeviceSink {
     fn changed(&mut self, _moment: &Moment) {}
     /// A step of the 1 ms clock is done; what the device puts out now holds until the next.
     fn stepped(&mut self, _device: &DeviceCore) {}
+    /// A fault was injected into the device or its link.
+    fn injected(&mut self, _moment: &Moment, _injection: &Injection) {}
 }
 
 /// Collects the bytes and drops the rest.

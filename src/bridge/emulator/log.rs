@@ -2,8 +2,9 @@
 //! device's own clock.
 //!
 //! `dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0,…`. A `frame` row carries the
-//! codes as received; a `state` row has no seq and no codes. `gain` is the hold and ramp gain,
-//! `amp_sum` the sum of the output codes from then on.
+//! codes as received; a `state` row has no seq and no codes, nor has a row of an injected fault,
+//! whose event begins with `fault`. `gain` is the hold and ramp gain, `amp_sum` the sum of the
+//! output codes from then on.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use crate::bridge::BridgeError;
 use crate::bridge::device::{AppliedFrame, Moment};
+use crate::bridge::wire::Injection;
 
 /// A log being written. The first error is kept and given by [`finish`](Self::finish).
 #[derive(Debug)]
@@ -52,12 +54,19 @@ impl DeviceLog {
     /// The state changed. Changes are rare and matter: they reach the disk at once.
     pub fn change(&mut self, moment: &Moment) {
         self.moment("state", moment, None);
-        for _ in 0..self.n_channels {
-            self.text(format_args!(",,"));
-        }
-        self.end_line();
+        self.end_row_without_codes();
         let flushed = self.out.flush();
         self.keep(flushed);
+    }
+
+    /// A fault was injected: `event` says which and how much of it.
+    pub fn injected(&mut self, moment: &Moment, injection: &Injection) {
+        self.moment(&injection.to_string(), moment, None);
+        self.end_row_without_codes();
+        if injection.is_rare() {
+            let flushed = self.out.flush();
+            self.keep(flushed);
+        }
     }
 
     /// Writes what is left.
@@ -78,6 +87,7 @@ impl DeviceLog {
             age_ms,
             gain,
             amp_sum,
+            ..
         } = moment;
         let seq = seq.map(|seq| seq.to_string()).unwrap_or_default();
         self.text(format_args!(
@@ -87,6 +97,13 @@ impl DeviceLog {
 
     fn text(&mut self, text: std::fmt::Arguments<'_>) {
         self.line.push_str(&std::fmt::format(text));
+    }
+
+    fn end_row_without_codes(&mut self) {
+        for _ in 0..self.n_channels {
+            self.text(format_args!(",,"));
+        }
+        self.end_line();
     }
 
     fn end_line(&mut self) {

@@ -16,6 +16,7 @@ use super::BridgeError;
 use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment};
 use super::plant::PlantFeed;
 use super::port::{PairPort, Port, pair};
+use super::wire::{Faults, Injection, WiredDevice};
 pub use log::DeviceLog;
 #[cfg(unix)]
 pub use pty::PtyEmulator;
@@ -31,23 +32,23 @@ impl EmulatorThread {
     /// Boots a device and gives the host's end of its link; the thread ends when all copies of that
     /// end are gone.
     pub fn start(model: DeviceModel) -> Result<PairPort, BridgeError> {
-        Self::start_watched(model, None)
+        Self::start_with(model, &Faults::default(), None)
     }
 
-    /// The same with contactors that somebody may look at.
-    pub fn start_watched(
+    /// The same with a device and a link that have these faults, and with contactors that somebody
+    /// may look at. Within a process nothing can be plugged in again: a cable that is pulled ends
+    /// the link.
+    pub fn start_with(
         model: DeviceModel,
+        faults: &Faults,
         plant: Option<PlantFeed>,
     ) -> Result<PairPort, BridgeError> {
         let (host, mut device) = pair("emulator");
+        let wired = WiredDevice::new(model, faults);
         Builder::new()
             .name(String::from("bridge-emulator"))
             .spawn(move || {
-                let mut emulation = Emulation {
-                    core: DeviceCore::new(model),
-                    log: None,
-                    plant,
-                };
+                let mut emulation = Emulation::new(wired, None, plant);
                 // The end of the link is this thread's way to end.
                 drop(emulation.run(&mut device, &AtomicBool::new(false), || {}));
             })
@@ -56,48 +57,107 @@ impl EmulatorThread {
     }
 }
 
+/// Why an emulation no longer serves a port.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ended {
+    Told,
+    Unplugged,
+}
+
 /// A device, its log, and its contactors where somebody may look at them.
 struct Emulation {
-    core: DeviceCore,
+    device: WiredDevice,
     log: Option<DeviceLog>,
     plant: Option<PlantFeed>,
+    start: Instant,
 }
 
 impl Emulation {
-    /// Runs until `stop` or the end of the link. `housekeep` is called whenever the device wakes.
+    fn new(device: WiredDevice, log: Option<DeviceLog>, plant: Option<PlantFeed>) -> Self {
+        Self {
+            device,
+            log,
+            plant,
+            start: Instant::now(),
+        }
+    }
+
+    /// Runs until `stop`, the end of the link, or a pulled cable. `housekeep` is called whenever
+    /// the device wakes.
     fn run(
         &mut self,
         port: &mut dyn Port,
         stop: &AtomicBool,
         mut housekeep: impl FnMut(),
-    ) -> io::Result<()> {
-        let boot = Instant::now();
+    ) -> io::Result<Ended> {
         let mut buffer = [0; 1024];
         while !stop.load(Ordering::Acquire) {
-            let until = self.core.next_deadline_us().map(Duration::from_micros);
-            let patience = until.map_or(NAP, |until| until.saturating_sub(boot.elapsed()).min(NAP));
-            let count = port.read(&mut buffer, patience)?;
-            let now_us = u64::try_from(boot.elapsed().as_micros()).unwrap_or(u64::MAX);
+            let patience = self.patience();
+            let count = if self.device.is_reading(self.now_us()) {
+                port.read(&mut buffer, patience)?
+            } else {
+                // What the host writes piles up in the terminal, as with real hardware.
+                std::thread::sleep(patience);
+                0
+            };
+            let now_us = self.now_us();
+            self.device
+                .host_wrote(now_us, buffer.get(..count).unwrap_or(&[]));
             let mut sink = LiveSink {
-                port: &mut *port,
+                port: Some(&mut *port),
                 log: self.log.as_mut(),
                 plant: self.plant.as_mut(),
                 gone: None,
             };
-            self.core
-                .receive(now_us, buffer.get(..count).unwrap_or(&[]), &mut sink);
+            self.device.advance(now_us, &mut sink);
             if let Some(error) = sink.gone {
                 return Err(error);
             }
+            if !self.device.is_plugged() {
+                return Ok(Ended::Unplugged);
+            }
             housekeep();
         }
-        Ok(())
+        Ok(Ended::Told)
+    }
+
+    /// Runs without a port until the cable is in again; false when `stop` came first.
+    #[cfg(unix)]
+    fn wait_for_cable(&mut self, stop: &AtomicBool) -> bool {
+        while !self.device.is_plugged() {
+            if stop.load(Ordering::Acquire) {
+                return false;
+            }
+            std::thread::sleep(self.patience());
+            let now_us = self.now_us();
+            let mut sink = LiveSink {
+                port: None,
+                log: self.log.as_mut(),
+                plant: self.plant.as_mut(),
+                gone: None,
+            };
+            self.device.advance(now_us, &mut sink);
+        }
+        true
+    }
+
+    fn now_us(&self) -> u64 {
+        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
+    }
+
+    /// How long nothing happens by itself, at most a nap.
+    fn patience(&self) -> Duration {
+        let until = self.device.next_deadline_us().map(Duration::from_micros);
+        until.map_or(NAP, |until| {
+            until.saturating_sub(self.start.elapsed()).min(NAP)
+        })
     }
 }
 
 /// Writes packets to the link, dropping what does not fit: a device never waits for its host.
 struct LiveSink<'a> {
-    port: &'a mut dyn Port,
+    /// None while the cable is out.
+    port: Option<&'a mut dyn Port>,
     log: Option<&'a mut DeviceLog>,
     plant: Option<&'a mut PlantFeed>,
     gone: Option<io::Error>,
@@ -105,7 +165,8 @@ struct LiveSink<'a> {
 
 impl DeviceSink for LiveSink<'_> {
     fn packet(&mut self, bytes: &[u8]) {
-        if let Err(error) = self.port.write(bytes, Duration::ZERO)
+        if let Some(port) = &mut self.port
+            && let Err(error) = port.write(bytes, Duration::ZERO)
             && error.kind() != io::ErrorKind::TimedOut
         {
             self.gone = Some(error);
@@ -121,6 +182,12 @@ impl DeviceSink for LiveSink<'_> {
     fn changed(&mut self, moment: &Moment) {
         if let Some(log) = &mut self.log {
             log.change(moment);
+        }
+    }
+
+    fn injected(&mut self, moment: &Moment, injection: &Injection) {
+        if let Some(log) = &mut self.log {
+            log.injected(moment, injection);
         }
     }
 

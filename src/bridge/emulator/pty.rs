@@ -5,6 +5,7 @@
 //! run.
 
 use std::fs;
+use std::io;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -12,22 +13,21 @@ use std::time::{Duration, Instant};
 
 use serialport::{SerialPort as _, TTYPort};
 
-use super::{DeviceLog, Emulation};
+use super::{DeviceLog, Emulation, Ended};
 use crate::bridge::BridgeError;
-use crate::bridge::device::{DeviceCore, DeviceModel};
+use crate::bridge::device::DeviceModel;
 use crate::bridge::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
 use crate::bridge::port::SerialLink;
+use crate::bridge::wire::{Faults, WiredDevice};
 
 const RELEASE_EVERY: Duration = Duration::from_millis(250);
 
 /// An emulated device that waits to be run.
 #[derive(Debug)]
 pub struct PtyEmulator {
-    model: DeviceModel,
-    master: TTYPort,
-    slave: TTYPort,
-    device_path: String,
-    link: NamedLink,
+    device: WiredDevice,
+    terminal: Terminal,
+    name: PathBuf,
     log: Option<DeviceLog>,
     plant: Option<PlantFeed>,
 }
@@ -36,20 +36,25 @@ impl PtyEmulator {
     /// Makes a pseudo-terminal and the link to it. An older link to a terminal is replaced,
     /// anything else is refused.
     pub fn new(model: DeviceModel, link: &Path, log: Option<&Path>) -> Result<Self, BridgeError> {
-        let (master, slave) =
-            TTYPort::pair().map_err(|error| BridgeError::Pty(error.to_string()))?;
-        let device_path = slave.name().unwrap_or_default();
+        Self::with_faults(model, &Faults::default(), link, log)
+    }
+
+    /// The same for a device and a link that have these faults.
+    pub fn with_faults(
+        model: DeviceModel,
+        faults: &Faults,
+        link: &Path,
+        log: Option<&Path>,
+    ) -> Result<Self, BridgeError> {
+        let terminal = Terminal::new(link)?;
         let log = match log {
             Some(path) => Some(DeviceLog::create(path, model.n_channels())?),
             None => None,
         };
-        let link = NamedLink::new(link, Path::new(&device_path))?;
         Ok(Self {
-            model,
-            master,
-            slave,
-            device_path,
-            link,
+            device: WiredDevice::new(model, faults),
+            terminal,
+            name: link.to_path_buf(),
             log,
             plant: None,
         })
@@ -57,25 +62,87 @@ impl PtyEmulator {
 
     /// Gives the device contactors of this kind, and a way to look at them while it runs.
     pub fn watch(&mut self, model: ContactorModel) -> PlantWatch {
-        let (feed, watch) = plant_watch(model, self.model.n_channels());
+        let (feed, watch) = plant_watch(model, self.device.output().len());
         self.plant = Some(feed);
         watch
     }
 
     /// The terminal itself, `/dev/pts/7`.
     pub fn device_path(&self) -> &str {
-        &self.device_path
+        &self.terminal.path
     }
 
     /// Boots the device and runs it on this thread until `stop` is set; then the link is removed
     /// and the log complete.
     pub fn run(self, stop: &AtomicBool) -> Result<(), BridgeError> {
-        let mut port = SerialLink::from_port(Box::new(self.master), &self.device_path);
-        let mut emulation = Emulation {
-            core: DeviceCore::new(self.model),
-            log: self.log,
-            plant: self.plant,
+        self.run_telling(stop, |_, _| {})
+    }
+
+    /// The same. A pulled cable takes terminal and link away; when it is in again there is another
+    /// terminal under another name, `PATH-2` after `PATH`, and `moved` hears of it.
+    pub fn run_telling(
+        self,
+        stop: &AtomicBool,
+        mut moved: impl FnMut(&Path, &str),
+    ) -> Result<(), BridgeError> {
+        let mut emulation = Emulation::new(self.device, self.log, self.plant);
+        let mut terminal = self.terminal;
+        let mut n_names = 1;
+        let ended = loop {
+            let path = terminal.path.clone();
+            match terminal.serve(&mut emulation, stop) {
+                Ok(Ended::Told) => break Ok(()),
+                Ok(Ended::Unplugged) => {}
+                Err(error) => {
+                    break Err(BridgeError::Link {
+                        port: path,
+                        reason: format!("the terminal is gone: {error}"),
+                    });
+                }
+            }
+            if !emulation.wait_for_cable(stop) {
+                break Ok(());
+            }
+            n_names += 1;
+            let mut name = self.name.clone().into_os_string();
+            name.push(format!("-{n_names}"));
+            let name = PathBuf::from(name);
+            terminal = Terminal::new(&name)?;
+            moved(&name, &terminal.path);
         };
+        if let Some(log) = emulation.log {
+            log.finish()?;
+        }
+        ended
+    }
+}
+
+/// A pseudo-terminal with a name.
+#[derive(Debug)]
+struct Terminal {
+    master: TTYPort,
+    slave: TTYPort,
+    path: String,
+    link: NamedLink,
+}
+
+impl Terminal {
+    fn new(link: &Path) -> Result<Self, BridgeError> {
+        let (master, slave) =
+            TTYPort::pair().map_err(|error| BridgeError::Pty(error.to_string()))?;
+        let path = slave.name().unwrap_or_default();
+        let link = NamedLink::new(link, Path::new(&path))?;
+        Ok(Self {
+            master,
+            slave,
+            path,
+            link,
+        })
+    }
+
+    /// Serves hosts until there is no terminal any more.
+    fn serve(self, emulation: &mut Emulation, stop: &AtomicBool) -> io::Result<Ended> {
+        let mut port = SerialLink::from_port(Box::new(self.master), &self.path);
         let mut released = Instant::now();
         let slave = self.slave;
         let ended = emulation.run(&mut port, stop, || {
@@ -85,13 +152,7 @@ impl PtyEmulator {
             }
         });
         drop(self.link);
-        if let Some(log) = emulation.log {
-            log.finish()?;
-        }
-        ended.map_err(|error| BridgeError::Link {
-            port: self.device_path,
-            reason: format!("the terminal is gone: {error}"),
-        })
+        ended
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::bridge::framing::Decoder;
 use crate::bridge::message::{DeviceMessage, Hello, Message as _};
+use crate::bridge::wire::{OneOff, OneOffKind};
 
 /// Reads until a message satisfies `wanted`, for at most 20 s.
 fn wait_for(port: &mut dyn Port, wanted: impl Fn(&DeviceMessage) -> bool) -> DeviceMessage {
@@ -43,6 +44,28 @@ fn greet(port: &mut dyn Port, session: u32) {
 fn an_emulator_in_process_answers_and_ticks() {
     let mut port = EmulatorThread::start(DeviceModel::default()).unwrap();
     greet(&mut port, 7);
+}
+
+#[test]
+fn an_emulator_in_process_whose_cable_is_pulled_ends_its_link() {
+    let unplug = OneOff {
+        at_us: 200_000,
+        for_us: 50_000,
+        kind: OneOffKind::Unplug,
+    };
+    let faults = Faults {
+        once: vec![unplug],
+        ..Faults::default()
+    };
+    let mut port = EmulatorThread::start_with(DeviceModel::default(), &faults, None).unwrap();
+    let mut buffer = [0; 256];
+    let error = loop {
+        match port.read(&mut buffer, Duration::from_millis(50)) {
+            Ok(_) => {}
+            Err(error) => break error,
+        }
+    };
+    assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);
 }
 
 #[cfg(unix)]
@@ -90,6 +113,49 @@ mod behind_a_pty {
         let header = lines.next().unwrap();
         assert!(header.starts_with("dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0"));
         assert!(lines.next().unwrap().contains(",state,READY,,65535,1,0,"));
+        assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_pulled_cable_ends_the_port_and_the_device_comes_back_under_another_name() {
+        let folder = folder("replug");
+        let (link, log) = (folder.join("array"), folder.join("log.csv"));
+        let unplug = OneOff {
+            at_us: 400_000,
+            for_us: 300_000,
+            kind: OneOffKind::Unplug,
+        };
+        let faults = Faults {
+            once: vec![unplug],
+            ..Faults::default()
+        };
+        let model = DeviceModel::default();
+        let emulator = PtyEmulator::with_faults(model, &faults, &link, Some(&log)).unwrap();
+        let mut port = SerialLink::open(&link.display().to_string()).unwrap();
+        let (stop, thread) = run(emulator);
+        let mut buffer = [0; 256];
+        while port.read(&mut buffer, Duration::from_millis(50)).is_ok() {}
+        assert!(port.write(&[0], Duration::ZERO).is_err());
+        let again = folder.join("array-2");
+        while fs::symlink_metadata(&again).is_err() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        assert!(fs::symlink_metadata(&link).is_err(), "the old name is gone");
+        let mut port = SerialLink::open(&again.display().to_string()).unwrap();
+        greet(&mut port, 9);
+        stop.store(true, Ordering::Release);
+        thread.join().unwrap().unwrap();
+        assert!(fs::symlink_metadata(&again).is_err());
+        let log = fs::read_to_string(&log).unwrap();
+        let begins = log
+            .lines()
+            .find(|line| line.contains("fault unplug begins"));
+        assert!(
+            begins.unwrap().starts_with("400000,16,fault unplug"),
+            "{log}"
+        );
+        assert!(log.contains(",fault unplug ends 300000 us,"), "{log}");
         assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
         fs::remove_dir_all(&folder).unwrap();
     }

@@ -5,7 +5,7 @@
 //! silent by itself, as it should.
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -17,7 +17,8 @@ use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFra
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
 use super::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
-use super::port::SerialLink;
+use super::port::{SerialLink, holder_of};
+use super::wire::Faults;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -45,7 +46,7 @@ impl Target {
         match self {
             Self::Emulator => {
                 let model = DeviceModel::for_array(profile);
-                let port = EmulatorThread::start_watched(model, plant)?;
+                let port = EmulatorThread::start_with(model, &Faults::default(), plant)?;
                 Ok((Box::new(port.clone()), Box::new(port)))
             }
             Self::Port(path) => {
@@ -131,7 +132,18 @@ impl Bridge {
         if !self.session.state().is_open() {
             self.release();
         }
-        self.session.next_event()
+        self.session.next_event().map(|event| self.explained(event))
+    }
+
+    /// A device that was never heard of, on a port that says something, is another device.
+    fn explained(&self, event: BridgeEvent) -> BridgeEvent {
+        let is_stranger = self.session.caps().is_none() && self.counters().bad_received > 0;
+        match event {
+            BridgeEvent::Lost(reason) if is_stranger => {
+                BridgeEvent::Lost(format!("{reason}; what comes from it is not this protocol"))
+            }
+            event => event,
+        }
     }
 
     /// Asks for output; `Armed` or `Disarmed` follows. False when the device is not `Ready`.
@@ -316,6 +328,10 @@ fn open_patiently(path: &str) -> Result<SerialLink, BridgeError> {
         match SerialLink::open(path) {
             Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
                 std::thread::sleep(BUSY_NAP);
+            }
+            Err(BridgeError::Busy { port, .. }) => {
+                let holder = holder_of(Path::new(path));
+                return Err(BridgeError::Busy { port, holder });
             }
             result => return result,
         }

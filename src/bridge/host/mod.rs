@@ -266,6 +266,12 @@ impl HostSession {
         }
     }
 
+    /// How much it holds room for: events, packets, codes.
+    #[cfg(test)]
+    pub(in crate::bridge) fn held(&self) -> usize {
+        self.events.capacity() + self.packets.capacity() + self.codes.capacity()
+    }
+
     fn present_tick(&self, now: Instant) -> u32 {
         let tick = self.status.map_or(0, |status| status.tick);
         let since = self

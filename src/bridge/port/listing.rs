@@ -11,6 +11,19 @@ pub struct PortEntry {
     pub path: String,
     /// Maker, product and serial number of the adapter, as far as they are known.
     pub description: String,
+    /// What its USB adapter says of itself; `None` for ports without USB.
+    pub usb: Option<UsbIdentity>,
+}
+
+/// What a USB adapter says of itself, whatever its port is called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UsbIdentity {
+    /// Vendor number.
+    pub vid: u16,
+    /// Product number.
+    pub pid: u16,
+    /// Serial number, if it has one.
+    pub serial: Option<String>,
 }
 
 /// All serial ports, sorted by path.
@@ -28,6 +41,14 @@ fn is_shown(port: &SerialPortInfo) -> bool {
 }
 
 fn entry(port: SerialPortInfo) -> PortEntry {
+    let usb = match &port.port_type {
+        SerialPortType::UsbPort(usb) => Some(UsbIdentity {
+            vid: usb.vid,
+            pid: usb.pid,
+            serial: usb.serial_number.clone(),
+        }),
+        _ => None,
+    };
     let description = match port.port_type {
         SerialPortType::UsbPort(usb) => {
             let named = [usb.manufacturer, usb.product, usb.serial_number];
@@ -46,6 +67,7 @@ fn entry(port: SerialPortInfo) -> PortEntry {
     PortEntry {
         path: port.port_name,
         description,
+        usb,
     }
 }
 

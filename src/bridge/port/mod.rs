@@ -4,16 +4,25 @@
 //! Reading and writing wait at most as long as they are told. Nothing here knows what the bytes
 //! mean, and nothing ever flushes: a flush waits for the device.
 
+mod holder;
 mod listing;
 mod pair;
+mod refusal;
+mod replug;
 mod serial;
 
 use std::io;
 use std::time::Duration;
 
-pub use listing::{PortEntry, list_ports};
+pub(super) use holder::holder_of;
+pub use listing::{PortEntry, UsbIdentity, list_ports};
 pub use pair::{PairPort, pair};
+pub use replug::{FoundPort, PortIdentity, RecognisedBy};
 pub use serial::SerialLink;
+
+/// The udev rule that gives access to arrays, keeps modem managers away and names them; for
+/// `/etc/udev/rules.d/99-selvedge.rules`.
+pub const UDEV_RULE: &str = include_str!("../../../assets/bridge/99-selvedge.rules");
 
 /// One end of a byte link.
 pub trait Port: Send {

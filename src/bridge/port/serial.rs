@@ -1,19 +1,22 @@
 //! A serial port: opening it with a reason when that fails, reading and writing with time-outs.
 //!
-//! Write one packet per call: the operating system's write may block beyond any time-out when it is
-//! given much at once.
+//! Write one packet per call. The operating system's write may block beyond any time-out when it is
+//! given more than fits, so a packet goes out in pieces that fit whenever it takes any.
 
 use std::fmt;
 use std::io;
 use std::time::Duration;
 
-use serialport::{ClearBuffer, ErrorKind, SerialPort};
+use serialport::{ClearBuffer, SerialPort};
 
 use super::Port;
+use super::refusal::open_error;
 use crate::bridge::BridgeError;
 
 /// For bridges with a real UART; USB-CDC and ptys ignore it.
 const BAUD: u32 = 1_000_000;
+/// A terminal that takes anything has room for this much.
+const LARGEST_PIECE: usize = 128;
 const OPEN_PATIENCE: Duration = Duration::from_millis(50);
 
 /// An open serial port.
@@ -86,7 +89,8 @@ impl Port for SerialLink {
         self.set_patience(patience)?;
         let mut rest = packet;
         while !rest.is_empty() {
-            match self.port.write(rest) {
+            let piece = rest.get(..LARGEST_PIECE).unwrap_or(rest);
+            match self.port.write(piece) {
                 Ok(0) => return Err(io::ErrorKind::BrokenPipe.into()),
                 Ok(count) => rest = rest.get(count..).unwrap_or(&[]),
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
@@ -102,34 +106,6 @@ fn is_patience(error: &io::Error) -> bool {
         error.kind(),
         io::ErrorKind::TimedOut | io::ErrorKind::Interrupted | io::ErrorKind::WouldBlock
     )
-}
-
-/// Why a port did not open, and what to do.
-fn open_error(path: &str, error: &serialport::Error) -> BridgeError {
-    let text = error.to_string();
-    let port = String::from(path);
-    let reason = match error.kind {
-        ErrorKind::Io(io::ErrorKind::NotFound) => "no such port: see `selvedge bridge list`",
-        ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
-            "no permission: join the group that owns the port (often dialout)"
-        }
-        _ if text.contains("exclusive lock") || text.contains("busy") => {
-            return BridgeError::Busy { port };
-        }
-        _ if text.contains("typewriter") || text.contains("ioctl") => {
-            "not a serial port: see `selvedge bridge list`"
-        }
-        _ => {
-            return BridgeError::Open {
-                port,
-                reason: format!("cannot be opened: {text}"),
-            };
-        }
-    };
-    BridgeError::Open {
-        port,
-        reason: String::from(reason),
-    }
 }
 
 #[cfg(all(test, unix))]
@@ -164,6 +140,20 @@ mod tests {
         let _first = SerialLink::open(&path).unwrap();
         let message = SerialLink::open(&path).unwrap_err().to_string();
         assert!(message.contains("in use by another program"), "{message}");
+    }
+
+    #[test]
+    fn a_port_that_takes_nothing_times_out_for_packets_of_any_size() {
+        for length in [16, 111, 500, 1031] {
+            let (_master, slave) = serialport::TTYPort::pair().unwrap();
+            let mut link = SerialLink::open(&slave.name().unwrap()).unwrap();
+            let packet = vec![7; length];
+            let error = (0..10_000).find_map(|_| {
+                let patience = Duration::from_millis(5);
+                link.write(&packet, patience).err()
+            });
+            assert_eq!(error.unwrap().kind(), io::ErrorKind::TimedOut, "{length}");
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod tests;
 
 mod device;
 mod input;
+mod link_faults;
 mod motion;
 mod picture;
 mod pointer;
@@ -99,6 +100,7 @@ impl Study for Stability {
             shading::cases(),
             device::cases(),
             contactor::cases(),
+            link_faults::cases(),
         ];
         try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)
     }

@@ -114,3 +114,37 @@ fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
     harness.get_by_role_and_label(Role::Button, "Arm").click();
     wait(&mut harness, Workbench::is_armed);
 }
+
+#[test]
+fn a_device_that_comes_back_under_another_name_is_told_and_connects_with_one_click() {
+    let folder = Folder::new("replugged");
+    let (link, other) = (folder.0.join("array"), folder.0.join("array-2"));
+    let mut device = Device::start(&link);
+    let mut harness = window(&folder.scene());
+    harness.run();
+    connect(&mut harness, link.to_str().unwrap());
+    wait(&mut harness, Workbench::is_ready);
+    harness.get_by_role_and_label(Role::Button, "Arm").click();
+    wait(&mut harness, Workbench::is_armed);
+    device.vanish();
+    // A killed emulator leaves its link, which would lead to whatever terminal comes next.
+    fs::remove_file(&link).unwrap();
+    wait(&mut harness, |bench| {
+        bench.notices().iter().any(|notice| notice.contains("gone"))
+    });
+    let again = harness.query_by_role_and_label(Role::Button, "Connect again");
+    assert!(again.is_none(), "it is away");
+    let _back = Device::start(&other);
+    wait(&mut harness, |bench| {
+        let is_back = |notice: &String| notice.contains("The array is back as");
+        bench.notices().iter().any(is_back)
+    });
+    assert!(has_notice(&harness, &["array-2", "connect again"]));
+    assert!(!harness.state().is_ready(), "nothing connects by itself");
+    harness
+        .get_by_role_and_label(Role::Button, "Connect again")
+        .click();
+    wait(&mut harness, Workbench::is_ready);
+    harness.run_steps(20);
+    assert!(!harness.state().is_armed(), "and nothing arms by itself");
+}

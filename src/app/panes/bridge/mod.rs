@@ -1,5 +1,6 @@
 //! The device: where it is, how it is, arming, and the counters that tell whether to trust it.
 
+mod back;
 mod felt;
 
 use std::path::PathBuf;
@@ -17,6 +18,7 @@ use crate::app::view::{BridgePhase, BridgeView, Live};
 use crate::app::widgets::{button, choice, mark, quiet_pair, row};
 use crate::quantity;
 
+pub(crate) use back::{BACK, notice as back_notice};
 pub(crate) use felt::show as show_felt;
 
 /// How wide the menu of ports is, points.
@@ -34,6 +36,7 @@ pub(crate) fn show(
 ) {
     show_state(ui, live.bridge.as_ref(), target);
     show_arming(ui, live.bridge.as_ref(), live.is_stopped, wishes);
+    back::show(ui, ports.back.as_ref(), wishes);
     ui.add_space(STEP);
     show_port(ui, port, ports, wishes);
     show_connecting(ui, live.bridge.is_some(), port, wishes);

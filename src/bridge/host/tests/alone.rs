@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::bridge::framing::Decoder;
 
 #[test]
 fn a_silent_port_is_greeted_for_5_s() {

@@ -18,12 +18,13 @@ fn host_and_device_stream_without_a_miss() {
     // Every applied frame holds the codes of its amplitudes and soft-start gain, in apply order.
     let first = pair.log.frames[0].0;
     for (index, (tick, seq, codes)) in pair.log.frames.iter().enumerate() {
-        let (stamp, amplitudes) = &pair.sent[index];
+        let stamp = &pair.sent[index];
         assert_eq!((*tick, *seq), (stamp.apply_tick, stamp.seq));
         assert_eq!(*tick, first + u32::try_from(index).unwrap());
         let gain = (f64::from(tick - first + 1) / 20.0).min(1.0);
         assert!((stamp.gain - gain).abs() < 1e-12);
-        let expected = Coder::new(&ArrayProfile::default(), 24).encode(amplitudes, gain);
+        let expected =
+            Coder::new(&ArrayProfile::default(), 24).encode(&[pair.amplitude_um; 24], gain);
         assert_eq!(*codes, expected);
     }
     assert_eq!(pair.device.output(), vec![[13107, 26214]; 24]);
@@ -109,8 +110,8 @@ fn a_device_that_disarms_itself_is_not_armed_again() {
 #[test]
 fn a_fault_disarms_is_shown_and_can_be_cleared() {
     let mut pair = Pair::streaming(500);
-    pair.device
-        .raise_fault(fault_bit::OVER_TEMPERATURE, 3, 9000, &mut pair.log);
+    let device = pair.device.core_mut();
+    device.raise_fault(fault_bit::OVER_TEMPERATURE, 3, 9000, &mut pair.log);
     pair.run(100);
     assert_eq!(pair.host.state(), BridgeState::Faulted);
     assert!(pair.disarmed_by().unwrap().1.contains("over-temperature"));
@@ -126,7 +127,9 @@ fn a_fault_disarms_is_shown_and_can_be_cleared() {
     });
     assert!(told);
     assert!(!pair.host.arm(pair.now()));
-    pair.device.end_fault_cause(fault_bit::OVER_TEMPERATURE);
+    pair.device
+        .core_mut()
+        .end_fault_cause(fault_bit::OVER_TEMPERATURE);
     pair.host.clear_faults(pair.now());
     pair.run(100);
     assert_eq!(pair.host.state(), BridgeState::Ready);
@@ -168,9 +171,18 @@ fn clocks_that_drift_apart_miss_no_tick() {
 #[test]
 fn a_noisy_link_costs_frames_but_never_applies_a_wrong_one() {
     for seed in 0..8 {
-        let mut pair = Pair::streaming(500);
-        pair.noise = Some(Noise { seed, one_in: 400 });
-        pair.run(20_000);
+        let noisy = LaneFaults {
+            drop_rate: 1.0 / 1200.0,
+            flip_rate: 1.0 / 1200.0,
+            insert_rate: 1.0 / 1200.0,
+            ..LaneFaults::default()
+        };
+        let faults = Faults {
+            seed,
+            to_device: noisy,
+            ..Faults::default()
+        };
+        let mut pair = Pair::streaming_over(&faults, 20_000);
         let codes = Coder::new(&ArrayProfile::default(), 24).encode(&[[10.0, 20.0]; 24], 1.0);
         assert!(pair.host.counters().device.bad > 0);
         assert!(
@@ -180,9 +192,8 @@ fn a_noisy_link_costs_frames_but_never_applies_a_wrong_one() {
                 .skip(20)
                 .all(|(_, _, applied)| *applied == codes)
         );
-        pair.noise = None;
         pair.host.stop(pair.now(), StopHow::Ramp);
-        pair.run(200);
+        pair.run(1000);
         assert!(!pair.device.state().is_live());
     }
 }
