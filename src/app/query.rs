@@ -184,7 +184,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         phase: phase(link.state),
         depth: link.depth,
         frame_interval_s,
-        status_to_frame_s: Some(link.timings.status_to_write)
+        status_to_frame_s: Some(link.timings.due_to_write)
             .filter(|spread| spread.n > 0)
             .map(|spread| [spread.p99, spread.max].map(|span| span.as_secs_f64())),
         stamp_to_write_s: Some(link.timings.stamp_to_write)
@@ -261,7 +261,12 @@ fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
             fault.faults
         )),
         BridgeEvent::DepthRaised(depth) => Some(format!(
-            "Frames came late: they are now sent {depth} ticks ahead, so everything is felt later"
+            "Frames came late: they are now sent {depth} ticks ahead, so everything is felt more \
+             than 40 ms late"
+        )),
+        BridgeEvent::DepthLowered(depth) => Some(format!(
+            "No frame came late for a minute: they are now sent {depth} {} ahead again",
+            if *depth == 1 { "tick" } else { "ticks" }
         )),
         _ => None,
     }

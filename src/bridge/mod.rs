@@ -46,7 +46,7 @@ pub use error::BridgeError;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, Target};
 pub use host::{
-    BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
+    BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy, HostSession,
     SOFT_START_TICKS, SentFrame, Sequence,
 };
 pub use link::{Spread, StopHandle, Timings};

@@ -224,8 +224,8 @@ impl Bench {
             device.bad,
             device.clipped,
             counters.frames_rejected,
-            milliseconds(self.bridge.timings().status_to_write.median),
-            milliseconds(self.bridge.timings().status_to_write.p99)
+            milliseconds(self.bridge.timings().due_to_write.median),
+            milliseconds(self.bridge.timings().due_to_write.p99)
         );
         let amp_sum = self.bridge.status().map_or(0, |status| status.amp_sum);
         let broken = counters.frames_rejected > 0 || device.dup > 0 || device.bad > 0;

@@ -216,7 +216,10 @@ impl Player {
                 tell(&format!("the device reports a fault: {names}"));
             }
             BridgeEvent::DepthRaised(depth) => {
-                tell(&format!("frames came late: now sent {depth} ticks ahead"));
+                let what = "frames came late: now sent";
+                tell(&format!(
+                    "{what} {depth} ticks ahead, felt more than 40 ms late"
+                ));
             }
             BridgeEvent::Log(text) => tell(&format!("the device says: {text}")),
             BridgeEvent::Armed => self.started = Some(Instant::now()),

@@ -36,7 +36,7 @@ impl fmt::Display for PlayReport {
         writeln!(
             f,
             "STATUS to FRAME   {}",
-            spread(&self.timings.status_to_write)
+            spread(&self.timings.due_to_write)
         )?;
         if self.timings.stamp_to_write.n > 0 {
             writeln!(

@@ -13,7 +13,9 @@ use super::BridgeError;
 use super::codes::{ArrayProfile, Bite};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
-use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
+use super::host::{
+    BridgeCounters, BridgeEvent, BridgeState, ClockFit, HostSession, SentFrame, Sequence,
+};
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
 use super::port::SerialLink;
@@ -60,8 +62,6 @@ pub struct Bridge {
     target: String,
     session: HostSession,
     link: Option<Link>,
-    /// The STATUS that the last frame answered; only the first answer is timed.
-    answered: Option<Instant>,
 }
 
 impl Bridge {
@@ -92,7 +92,6 @@ impl Bridge {
             target: name,
             session,
             link,
-            answered: None,
         }
     }
 
@@ -163,12 +162,9 @@ impl Bridge {
     ) -> Option<SentFrame> {
         let link = self.link.as_mut()?;
         let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
-        let received = self.session.status_received();
-        let answers = received.filter(|_| self.answered != received);
-        self.answered = received;
         link.send_frame(&QueuedFrame {
             packet,
-            answers,
+            due: sent.due,
             stamp,
         });
         Some(sent)
@@ -202,6 +198,16 @@ impl Bridge {
     /// How many ticks ahead frames are sent, 1…3.
     pub fn depth(&self) -> u8 {
         self.session.depth()
+    }
+
+    /// How long before the tick in which it is felt a frame is due.
+    pub fn lead(&self) -> Duration {
+        self.session.lead()
+    }
+
+    /// What is known of the device's clock.
+    pub fn clock(&self) -> ClockFit {
+        self.session.clock()
     }
 
     /// What the last frame's amplitudes ran into, per contactor.

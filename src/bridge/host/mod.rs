@@ -7,6 +7,8 @@
 //! never arms on its own.
 
 mod checks;
+mod clock;
+mod latching;
 mod pending;
 mod replies;
 mod report;
@@ -23,16 +25,19 @@ use super::message::{
     Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message as _, Ping, Status,
     Stop, StopHow, frame, kind,
 };
+pub use clock::ClockFit;
+use clock::DeviceClock;
+use latching::Latching;
 use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
 
 const TICK: Duration = Duration::from_millis(25);
 /// Ticks of the linear soft start after ARM.
 pub const SOFT_START_TICKS: u32 = 20;
-const DEEPEST: u8 = 3;
-const DEPTH_PATIENCE: Duration = Duration::from_secs(10);
 const MOST_EVENTS: usize = 64;
 const MOST_PACKETS: usize = 16;
+/// Frames under way whose acceptance is still to be told.
+const UNCONFIRMED: usize = 4;
 
 /// The host's packet counter, shared by everything that may send on one link.
 #[derive(Clone, Debug, Default)]
@@ -68,9 +73,15 @@ pub struct HostSession {
     stop_ends_output: bool,
     /// Token and time of the last PING.
     ping: Option<(u32, Instant)>,
+    last_ping: Option<Instant>,
     first_apply_tick: Option<u32>,
-    depth: u8,
-    depth_raised: Option<Instant>,
+    clock: DeviceClock,
+    latching: Latching,
+    /// Start of the last STATUS's tick, by our clock.
+    tick_start: Option<Instant>,
+    /// When the answer to the last STATUS is due; taken by the frame that is it.
+    due: Option<Instant>,
+    unconfirmed: [Option<(u16, Instant)>; UNCONFIRMED],
     last_sent: Option<Instant>,
     last_time: Option<Instant>,
     silent_for: Duration,
@@ -101,9 +112,13 @@ impl HostSession {
             stop_how: StopHow::Ramp,
             stop_ends_output: false,
             ping: None,
+            last_ping: None,
             first_apply_tick: None,
-            depth: 1,
-            depth_raised: None,
+            clock: DeviceClock::new(),
+            latching: Latching::new(),
+            tick_start: None,
+            due: None,
+            unconfirmed: [None; UNCONFIRMED],
             last_sent: None,
             last_time: None,
             silent_for: Duration::ZERO,
@@ -172,6 +187,7 @@ impl HostSession {
         let seq = self.sequence.next();
         let token = u32::from(seq) | self.nonce << 16;
         self.ping = Some((token, now));
+        self.last_ping = Some(now);
         self.queue(Ping { token }.packet(seq).as_ref(), now);
     }
 
@@ -188,7 +204,8 @@ impl HostSession {
         if !self.state.takes_frames() || self.status.is_none() {
             return None;
         }
-        let apply_tick = self.present_tick(now).wrapping_add(u32::from(self.depth));
+        let ahead = u32::from(self.latching.depth());
+        let apply_tick = self.present_tick(now).wrapping_add(ahead);
         let first = *self.first_apply_tick.get_or_insert(apply_tick);
         let gain = soft_start_gain(first, apply_tick);
         self.coder.encode_into(amplitudes_um, gain, &mut self.codes);
@@ -196,14 +213,19 @@ impl HostSession {
         let packet = frame::packet(seq, apply_tick, &self.codes)?;
         self.state = BridgeState::Streaming;
         self.last_sent = Some(now);
-        Some((
-            SentFrame {
-                seq,
-                apply_tick,
-                gain,
-            },
-            packet,
-        ))
+        let due = self.due.take().map(|due| due.min(now));
+        if let Some(due) = due {
+            self.unconfirmed.rotate_right(1);
+            self.unconfirmed[0] = Some((seq, due));
+        }
+        let sent = SentFrame {
+            seq,
+            apply_tick,
+            gain,
+            due,
+            ahead: self.until_tick(now, apply_tick),
+        };
+        Some((sent, packet))
     }
 
     /// The next packet to write, STOP excepted.
@@ -248,7 +270,23 @@ impl HostSession {
 
     /// How many ticks ahead frames are sent, 1…3.
     pub fn depth(&self) -> u8 {
-        self.depth
+        self.latching.depth()
+    }
+
+    /// How long before the tick in which it is felt a frame is due.
+    pub fn lead(&self) -> Duration {
+        self.latching.lead()
+    }
+
+    /// What is known of the device's clock.
+    pub fn clock(&self) -> ClockFit {
+        self.clock.fit_view()
+    }
+
+    /// The 99.9th percentile of the times from when a frame was due until the device accepted it,
+    /// of the last two minutes; zero before the first.
+    pub fn delay(&self) -> Duration {
+        self.latching.delay().0
     }
 
     /// What the last frame's amplitudes ran into, per contactor.
@@ -266,13 +304,23 @@ impl HostSession {
         }
     }
 
+    /// The device's tick now: that of the last STATUS plus whole ticks since it began.
     fn present_tick(&self, now: Instant) -> u32 {
         let tick = self.status.map_or(0, |status| status.tick);
         let since = self
-            .status_received
+            .tick_start
             .map_or(Duration::ZERO, |at| now.saturating_duration_since(at));
         let whole = since.as_micros() / TICK.as_micros();
         tick.wrapping_add(u32::try_from(whole).unwrap_or(0))
+    }
+
+    /// From now to the start of a tick of the device that comes soon.
+    fn until_tick(&self, now: Instant, tick: u32) -> Duration {
+        let Some((status, start)) = self.status.zip(self.tick_start) else {
+            return Duration::ZERO;
+        };
+        let start = start + TICK * tick.wrapping_sub(status.tick).min(SOFT_START_TICKS);
+        start.saturating_duration_since(now)
     }
 
     fn request(&mut self, kind: u8, now: Instant) {

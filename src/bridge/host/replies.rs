@@ -1,12 +1,16 @@
 //! What the session makes of each message of the device.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::checks::refusal;
-use super::{BridgeEvent, BridgeState, DEEPEST, DEPTH_PATIENCE, DisarmedBy, HostSession};
+use super::latching::Deepened;
+use super::{BridgeEvent, BridgeState, DisarmedBy, HostSession, TICK};
 use crate::bridge::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
+
+/// A line of the device's clock that moved further than this makes what was measured by it void.
+const MOVED: Duration = Duration::from_millis(1);
 
 impl HostSession {
     /// Takes one message. Everything before CAPS with our own nonce is left over from another
@@ -38,6 +42,7 @@ impl HostSession {
             return;
         }
         self.caps = Some(*caps);
+        self.latching.set_queue(caps.queue);
         self.event(BridgeEvent::Connected(*caps));
         self.configure(received);
     }
@@ -107,22 +112,63 @@ impl HostSession {
     }
 
     fn on_status(&mut self, received: Instant, status: &Status) {
-        if let Some(before) = self.status.replace(*status) {
-            let late = self.counters.late;
+        let before = self.status.replace(*status);
+        let counted = self.counters;
+        if let Some(before) = before {
             self.counters.add(&before, status);
-            if self.counters.late > late {
-                self.deepen(received);
-            }
         }
         self.status_received = Some(received);
-        self.silent_for = std::time::Duration::ZERO;
+        self.silent_for = Duration::ZERO;
+        self.time(received, status);
+        let late = self.counters.late - counted.late;
+        let missing = self.counters.underrun - counted.underrun;
+        self.latch(received, [late, missing]);
         self.follow(received, status);
         if self.state.is_open() {
+            let start = self.tick_start.unwrap_or(received);
+            let due = self.latching.due(start, received);
+            self.due = Some(due);
             self.event(BridgeEvent::Tick {
                 tick: status.tick,
                 received,
+                due,
             });
         }
+    }
+
+    /// Places the tick that a STATUS announces on our clock, and learns how long the last frame
+    /// took until it was accepted.
+    fn time(&mut self, received: Instant, status: &Status) {
+        let device_us = self.clock.unwrapped(status.dev_us);
+        // No line through answers may say what cannot be: a tick after its STATUS arrived.
+        let start = self.clock.at(device_us).unwrap_or(received).min(received);
+        let earliest = received.checked_sub(TICK).unwrap_or(received);
+        let start = start.max(earliest);
+        self.tick_start = Some(start);
+        let age = Duration::from_millis(u64::from(status.age_ms));
+        let is_ours = |sent: &Option<(u16, Instant)>| {
+            sent.is_some_and(|(seq, _)| seq == status.last_seq) && status.age_ms < u16::MAX
+        };
+        let Some(place) = self.unconfirmed.iter().position(is_ours) else {
+            return;
+        };
+        // Older ones were replaced by this one and say nothing any more.
+        if let Some((_, due)) = self.unconfirmed[place] {
+            let accepted = start.checked_sub(age).unwrap_or(start);
+            self.latching
+                .accepted(accepted.saturating_duration_since(due));
+        }
+        self.unconfirmed[place..].fill(None);
+    }
+
+    fn latch(&mut self, now: Instant, lost: [u64; 2]) {
+        let news = self.tick_start.map(|at| now.saturating_duration_since(at));
+        let depth = match self.latching.tick(now, news.unwrap_or_default(), lost) {
+            Deepened::No => return,
+            Deepened::Raised => BridgeEvent::DepthRaised(self.latching.depth()),
+            Deepened::Lowered => BridgeEvent::DepthLowered(self.latching.depth()),
+        };
+        self.event(depth);
     }
 
     /// Compares the device's state with ours. It may leave output by itself; it never gets back
@@ -161,22 +207,15 @@ impl HostSession {
         {
             self.ping = None;
             let round_trip = received.saturating_duration_since(sent);
+            let moved = self.clock.answered(sent, received, pong.dev_us);
+            if moved > MOVED {
+                // What was measured by the old line is wrong by as much.
+                self.latching.forget();
+            }
             self.event(BridgeEvent::Pong {
                 round_trip,
                 phase_us: pong.phase_us,
             });
-        }
-    }
-
-    /// Late frames: aim further ahead, at most one tick more every 10 s and never beyond 3.
-    fn deepen(&mut self, now: Instant) {
-        let rested = self
-            .depth_raised
-            .is_none_or(|raised| now.saturating_duration_since(raised) >= DEPTH_PATIENCE);
-        if self.depth < DEEPEST && rested {
-            self.depth += 1;
-            self.depth_raised = Some(now);
-            self.event(BridgeEvent::DepthRaised(self.depth));
         }
     }
 }

@@ -58,8 +58,8 @@ pub(super) enum Incoming {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct QueuedFrame {
     pub(super) packet: Packet,
-    /// Arrival of the STATUS that it answers.
-    pub(super) answers: Option<Instant>,
+    /// When it was due, as the answer to a STATUS.
+    pub(super) due: Option<Instant>,
     /// Time of the input that it is made of.
     pub(super) stamp: Option<Instant>,
 }
@@ -77,7 +77,7 @@ struct Shared {
     running: AtomicU8,
     writer: OnceLock<Thread>,
     waker: Waker,
-    status_to_write: Histogram,
+    due_to_write: Histogram,
     stamp_to_write: Histogram,
     frames_sent: AtomicU64,
     frames_superseded: AtomicU64,
@@ -98,7 +98,7 @@ impl Shared {
             running: AtomicU8::new(0),
             writer: OnceLock::new(),
             waker,
-            status_to_write: Histogram::new(),
+            due_to_write: Histogram::new(),
             stamp_to_write: Histogram::new(),
             frames_sent: AtomicU64::new(0),
             frames_superseded: AtomicU64::new(0),
@@ -264,7 +264,7 @@ impl Link {
 
     pub(super) fn timings(&self) -> Timings {
         Timings {
-            status_to_write: self.shared.status_to_write.spread(),
+            due_to_write: self.shared.due_to_write.spread(),
             stamp_to_write: self.shared.stamp_to_write.spread(),
         }
     }

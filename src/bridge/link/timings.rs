@@ -44,8 +44,9 @@ impl Spread {
 /// Frame timings of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Timings {
-    /// From the arrival of a STATUS to the end of the write of the FRAME that answers it.
-    pub status_to_write: Spread,
+    /// From when the FRAME that answers a STATUS was due (never before that STATUS arrived) to the
+    /// end of its write.
+    pub due_to_write: Spread,
     /// From the stamp of the input that a frame is made of (a pointer event) to the end of its
     /// write.
     pub stamp_to_write: Spread,

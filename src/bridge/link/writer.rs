@@ -108,10 +108,10 @@ impl Writer {
 
     fn record(&self, frame: &QueuedFrame, written: Instant) {
         self.shared.frames_sent.fetch_add(1, Ordering::Relaxed);
-        if let Some(received) = frame.answers {
+        if let Some(due) = frame.due {
             self.shared
-                .status_to_write
-                .record(written.saturating_duration_since(received));
+                .due_to_write
+                .record(written.saturating_duration_since(due));
         }
         if let Some(stamp) = frame.stamp {
             self.shared
