@@ -35,6 +35,7 @@ mod link;
 pub mod message;
 mod port;
 mod self_test;
+mod session_log;
 mod wav;
 
 pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
@@ -49,7 +50,7 @@ pub use host::{
     BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy, HostSession,
     SOFT_START_TICKS, SentFrame, Sequence,
 };
-pub use link::{Spread, StopHandle, Timings};
+pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
     Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
@@ -57,4 +58,5 @@ pub use message::{
 };
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
+pub use session_log::{LogBound, LogFeed, SessionLog};
 pub use wav::{SampleFormat, WavSpec, WavWriter};

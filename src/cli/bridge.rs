@@ -1,11 +1,11 @@
 //! `selvedge bridge`: which ports there are, whether a device works, and a device to try without.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 
 use super::{CliError, output, play, terminal};
-use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
+use crate::bridge::{ArrayProfile, SessionLog, Target, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
@@ -21,6 +21,8 @@ pub(super) enum BridgeCommand {
         /// The array that the device drives: exeter-24, 5x5 or 10x10
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
         array: ArrayLayout,
+        #[arg(long, value_name = "F.csv", help = play::SESSION_LOG_HELP)]
+        session_log: Option<PathBuf>,
     },
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
     Emulate {
@@ -40,22 +42,35 @@ pub(super) enum BridgeCommand {
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
         BridgeCommand::List => list(),
-        BridgeCommand::Test { port, array } => {
-            play::check_port(port)?;
-            let report = self_test(Target::Port(port.clone()), profile_of(*array));
-            output::print(&format!("{report}\n"))?;
-            if report.passed() {
-                return Ok(());
-            }
-            let failed = report.steps.last().map_or("handshake", |step| step.name);
-            let what = format!(
-                "{}: the {failed} failed; check power and cable",
-                port.display()
-            );
-            Err(CliError::Failed(what))
-        }
+        BridgeCommand::Test {
+            port,
+            array,
+            session_log,
+        } => test(port, *array, session_log.as_deref()),
         BridgeCommand::Emulate { link, log, array } => emulate(link, log.as_deref(), *array),
     }
+}
+
+fn test(port: &Path, array: ArrayLayout, session_log: Option<&Path>) -> Result<(), CliError> {
+    play::check_port(port)?;
+    let log = session_log.map(|path| SessionLog::append(path, None));
+    let log = log.transpose()?;
+    let report = self_test(
+        Target::Port(port.to_owned()),
+        profile_of(array),
+        log.as_ref(),
+    );
+    output::print(&format!("{report}\n"))?;
+    log.map_or(Ok(()), SessionLog::finish)?;
+    if report.passed() {
+        return Ok(());
+    }
+    let failed = report.steps.last().map_or("handshake", |step| step.name);
+    let what = format!(
+        "{}: the {failed} failed; check power and cable",
+        port.display()
+    );
+    Err(CliError::Failed(what))
 }
 
 fn list() -> Result<(), CliError> {
@@ -72,11 +87,7 @@ fn list() -> Result<(), CliError> {
 }
 
 #[cfg(unix)]
-fn emulate(
-    link: &std::path::Path,
-    log: Option<&std::path::Path>,
-    array: ArrayLayout,
-) -> Result<(), CliError> {
+fn emulate(link: &Path, log: Option<&Path>, array: ArrayLayout) -> Result<(), CliError> {
     let stop = super::signals::stop_flag()?;
     let model = crate::bridge::DeviceModel::for_array(&profile_of(array));
     let emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
@@ -87,11 +98,7 @@ fn emulate(
 }
 
 #[cfg(not(unix))]
-fn emulate(
-    _link: &std::path::Path,
-    _log: Option<&std::path::Path>,
-    _array: ArrayLayout,
-) -> Result<(), CliError> {
+fn emulate(_link: &Path, _log: Option<&Path>, _array: ArrayLayout) -> Result<(), CliError> {
     let what = "there are no pseudo-terminals on this system; use the emulator in the workbench";
     Err(CliError::Input(what.to_owned()))
 }

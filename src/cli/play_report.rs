@@ -35,7 +35,7 @@ impl fmt::Display for PlayReport {
         )?;
         writeln!(
             f,
-            "STATUS to FRAME   {}",
+            "due to FRAME      {}",
             spread(&self.timings.due_to_write)
         )?;
         if self.timings.stamp_to_write.n > 0 {

@@ -20,7 +20,7 @@ use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayProfile, Bridge, Target};
+use crate::bridge::{ArrayProfile, Bridge, SessionLog, Target};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;
@@ -53,6 +53,7 @@ pub struct Engine {
     n_contactors: usize,
     n_felt: usize,
     profile: ArrayProfile,
+    session_log: Option<SessionLog>,
 }
 
 enum Body {
@@ -122,6 +123,7 @@ impl Engine {
             snapshots,
             coming: Vec::new(),
             switch,
+            session_log: None,
             pointer: Some(pointer),
             recording: None,
             news,
@@ -253,6 +255,16 @@ impl Engine {
         self.switch.clone()
     }
 
+    /// Writes what happens on every link that is opened from now on to a log.
+    pub fn log_links_to(&mut self, log: SessionLog) {
+        self.session_log = Some(log);
+    }
+
+    /// The log that links are written to.
+    pub fn session_log(&self) -> Option<&SessionLog> {
+        self.session_log.as_ref()
+    }
+
     /// The recording as far as it was collected. Call this or [`snapshot`](Self::snapshot) every
     /// few seconds while one runs: the engine has room for thirty.
     pub fn recording(&mut self) -> Option<&Recording> {
@@ -302,7 +314,12 @@ impl Engine {
     fn connect_order(&self, target: Target) -> Order {
         let switch = self.switch.clone();
         let wake = move || switch.wake_engine();
-        let bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
+        let log = self.session_log.as_ref();
+        let log = log.map(|log| log.feed(&target.name()));
+        let mut bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
+        if let Some(log) = log {
+            bridge.log_to(log);
+        }
         self.switch.set_device(bridge.stop_handle());
         Order::Connect(Box::new(bridge))
     }

@@ -219,7 +219,7 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
     assert_eq!(played.code, 0, "{played:?}");
     assert!(played.out.contains("61 frames"), "{}", played.out);
     assert!(
-        played.out.contains("STATUS to FRAME   median"),
+        played.out.contains("due to FRAME      median"),
         "{}",
         played.out
     );

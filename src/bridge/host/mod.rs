@@ -8,7 +8,9 @@
 
 mod checks;
 mod clock;
+mod frames;
 mod latching;
+mod notes;
 mod pending;
 mod replies;
 mod report;
@@ -23,17 +25,18 @@ use super::codes::{ArrayProfile, Bite, Coder};
 use super::framing::Packet;
 use super::message::{
     Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message as _, Ping, Status,
-    Stop, StopHow, frame, kind,
+    Stop, StopHow, kind,
 };
+use super::session_log::Note;
 pub use clock::ClockFit;
 use clock::DeviceClock;
+pub use frames::SOFT_START_TICKS;
 use latching::Latching;
+use notes::Notes;
 use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
 
 const TICK: Duration = Duration::from_millis(25);
-/// Ticks of the linear soft start after ARM.
-pub const SOFT_START_TICKS: u32 = 20;
 const MOST_EVENTS: usize = 64;
 const MOST_PACKETS: usize = 16;
 /// Frames under way whose acceptance is still to be told.
@@ -85,6 +88,7 @@ pub struct HostSession {
     last_sent: Option<Instant>,
     last_time: Option<Instant>,
     silent_for: Duration,
+    notes: Notes,
     events: VecDeque<BridgeEvent>,
     packets: VecDeque<Packet>,
     stop_packet: Option<Packet>,
@@ -122,6 +126,7 @@ impl HostSession {
             last_sent: None,
             last_time: None,
             silent_for: Duration::ZERO,
+            notes: Notes::default(),
             events: VecDeque::with_capacity(MOST_EVENTS),
             packets: VecDeque::with_capacity(MOST_PACKETS),
             stop_packet: None,
@@ -189,43 +194,6 @@ impl HostSession {
         self.ping = Some((token, now));
         self.last_ping = Some(now);
         self.queue(Ping { token }.packet(seq).as_ref(), now);
-    }
-
-    /// A FRAME for the tick `depth` after the present one, soft start applied; `None` unless armed
-    /// and a STATUS has come.
-    ///
-    /// The present tick is that of the last STATUS plus whole ticks since it arrived, so a lost
-    /// STATUS costs nothing.
-    pub fn frame(
-        &mut self,
-        now: Instant,
-        amplitudes_um: &[[f32; 2]],
-    ) -> Option<(SentFrame, Packet)> {
-        if !self.state.takes_frames() || self.status.is_none() {
-            return None;
-        }
-        let ahead = u32::from(self.latching.depth());
-        let apply_tick = self.present_tick(now).wrapping_add(ahead);
-        let first = *self.first_apply_tick.get_or_insert(apply_tick);
-        let gain = soft_start_gain(first, apply_tick);
-        self.coder.encode_into(amplitudes_um, gain, &mut self.codes);
-        let seq = self.sequence.next();
-        let packet = frame::packet(seq, apply_tick, &self.codes)?;
-        self.state = BridgeState::Streaming;
-        self.last_sent = Some(now);
-        let due = self.due.take().map(|due| due.min(now));
-        if let Some(due) = due {
-            self.unconfirmed.rotate_right(1);
-            self.unconfirmed[0] = Some((seq, due));
-        }
-        let sent = SentFrame {
-            seq,
-            apply_tick,
-            gain,
-            due,
-            ahead: self.until_tick(now, apply_tick),
-        };
-        Some((sent, packet))
     }
 
     /// The next packet to write, STOP excepted.
@@ -304,25 +272,6 @@ impl HostSession {
         }
     }
 
-    /// The device's tick now: that of the last STATUS plus whole ticks since it began.
-    fn present_tick(&self, now: Instant) -> u32 {
-        let tick = self.status.map_or(0, |status| status.tick);
-        let since = self
-            .tick_start
-            .map_or(Duration::ZERO, |at| now.saturating_duration_since(at));
-        let whole = since.as_micros() / TICK.as_micros();
-        tick.wrapping_add(u32::try_from(whole).unwrap_or(0))
-    }
-
-    /// From now to the start of a tick of the device that comes soon.
-    fn until_tick(&self, now: Instant, tick: u32) -> Duration {
-        let Some((status, start)) = self.status.zip(self.tick_start) else {
-            return Duration::ZERO;
-        };
-        let start = start + TICK * tick.wrapping_sub(status.tick).min(SOFT_START_TICKS);
-        start.saturating_duration_since(now)
-    }
-
     fn request(&mut self, kind: u8, now: Instant) {
         let mut request = Pending::new(kind, now);
         self.send_request(&mut request, now);
@@ -332,6 +281,7 @@ impl HostSession {
     fn send_request(&mut self, request: &mut Pending, now: Instant) {
         let seq = self.sequence.next();
         request.sent(seq, now);
+        self.note(now, self.note_of(request.kind()));
         let packet = match request.kind() {
             kind::HELLO => Hello::new(self.nonce).packet(seq),
             kind::CONFIG => self.wish().request(seq, self.n_contactors),
@@ -344,6 +294,7 @@ impl HostSession {
     fn send_stop(&mut self, stopping: &mut Pending, now: Instant) {
         let seq = self.sequence.next();
         stopping.sent(seq, now);
+        self.note(now, Note::Stop(self.stop_how));
         self.stop_packet = Stop {
             reason: 0,
             how: self.stop_how,
@@ -413,15 +364,6 @@ impl HostSession {
         }
         self.events.push_back(event);
     }
-}
-
-/// `min(1, (ticks since the first FRAME after ARM + 1) / 20)`.
-fn soft_start_gain(first_apply_tick: u32, apply_tick: u32) -> f64 {
-    let since = apply_tick.wrapping_sub(first_apply_tick);
-    // A depth or clock correction may step back behind the first frame.
-    let since = if since.cast_signed() < 0 { 0 } else { since };
-    let ticks = since.saturating_add(1).min(SOFT_START_TICKS);
-    f64::from(ticks) / f64::from(SOFT_START_TICKS)
 }
 
 #[cfg(test)]

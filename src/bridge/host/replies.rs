@@ -8,6 +8,7 @@ use super::{BridgeEvent, BridgeState, DisarmedBy, HostSession, TICK};
 use crate::bridge::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
+use crate::bridge::session_log::Note;
 
 /// A line of the device's clock that moved further than this makes what was measured by it void.
 const MOVED: Duration = Duration::from_millis(1);
@@ -22,10 +23,15 @@ impl HostSession {
         match message {
             DeviceMessage::Caps(caps) => self.on_caps(received, caps),
             _ if self.caps.is_none() => {}
-            DeviceMessage::Cfg(config) => self.on_config(config),
+            DeviceMessage::Cfg(config) => self.on_config(received, config),
             DeviceMessage::Ack(ack) => self.on_ack(received, *ack),
             DeviceMessage::Status(status) => self.on_status(received, status),
-            DeviceMessage::Fault(fault) => self.event(BridgeEvent::Fault(*fault)),
+            DeviceMessage::Fault(fault) => {
+                if self.is_news(fault.faults) {
+                    self.note(received, Note::Fault(*fault));
+                }
+                self.event(BridgeEvent::Fault(*fault));
+            }
             DeviceMessage::Pong(pong) => self.on_pong(received, *pong),
             DeviceMessage::Log(text) => self.event(BridgeEvent::Log(text.to_line())),
         }
@@ -36,6 +42,7 @@ impl HostSession {
         if self.state != BridgeState::Greeting || !ours {
             return;
         }
+        self.note(received, Note::Caps(*caps));
         if let Some(reason) = refusal(caps, self.n_contactors) {
             self.end(BridgeState::Refused);
             self.event(BridgeEvent::Refused(reason));
@@ -52,11 +59,12 @@ impl HostSession {
         self.request(kind::CONFIG, now);
     }
 
-    fn on_config(&mut self, config: &Config) {
+    fn on_config(&mut self, received: Instant, config: &Config) {
         if self.state != BridgeState::Configuring {
             return;
         }
         self.request = None;
+        self.note(received, Note::Effective(*config));
         self.coder.set_link_limit(config.comp_limit);
         self.config = Some(*config);
         self.state = BridgeState::Ready;
@@ -64,13 +72,15 @@ impl HostSession {
     }
 
     fn on_ack(&mut self, received: Instant, ack: Ack) {
-        if ack.kind == kind::FRAME && ack.code != AckCode::Ok {
-            self.frames_rejected += 1;
+        if ack.code != AckCode::Ok {
+            self.note(received, Note::Refused(ack.kind, ack.code));
+            self.frames_rejected += u64::from(ack.kind == kind::FRAME);
         }
         if self
             .stopping
             .is_some_and(|stopping| stopping.is_answered_by(ack.kind, ack.seq))
         {
+            self.note(received, Note::Stopped);
             self.on_stopped();
         }
         if !self
@@ -82,6 +92,7 @@ impl HostSession {
         self.request = None;
         match (ack.kind, ack.code) {
             (kind::ARM, AckCode::Ok) => {
+                self.note(received, Note::Armed);
                 self.state = BridgeState::Armed;
                 self.event(BridgeEvent::Armed);
             }
@@ -96,7 +107,10 @@ impl HostSession {
                 let reason = format!("the device refused its settings: {}", code.describe());
                 self.event(BridgeEvent::Refused(reason));
             }
-            (kind::CLEAR, AckCode::Ok) => self.configure(received),
+            (kind::CLEAR, AckCode::Ok) => {
+                self.note(received, Note::Cleared);
+                self.configure(received);
+            }
             _ => {}
         }
     }
@@ -120,6 +134,12 @@ impl HostSession {
         self.status_received = Some(received);
         self.silent_for = Duration::ZERO;
         self.time(received, status);
+        if before.is_none_or(|before| before.state != status.state) {
+            self.note(received, Note::State(status.state));
+        }
+        if self.counters != counted {
+            self.note(received, Note::DeviceCounters(self.counters));
+        }
         let late = self.counters.late - counted.late;
         let missing = self.counters.underrun - counted.underrun;
         self.latch(received, [late, missing]);
@@ -168,6 +188,8 @@ impl HostSession {
             Deepened::Raised => BridgeEvent::DepthRaised(self.latching.depth()),
             Deepened::Lowered => BridgeEvent::DepthLowered(self.latching.depth()),
         };
+        let (ticks, lead) = (self.latching.depth(), self.latching.lead());
+        self.note(now, Note::Depth(ticks, lead));
         self.event(depth);
     }
 

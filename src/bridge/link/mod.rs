@@ -26,7 +26,7 @@ use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use reader::Reader;
 use timings::Histogram;
-pub use timings::{Spread, Timings};
+pub use timings::{Distribution, DistributionBar, Spread, Timings};
 use writer::Writer;
 
 const INCOMING: usize = 256;
@@ -79,6 +79,8 @@ struct Shared {
     waker: Waker,
     due_to_write: Histogram,
     stamp_to_write: Histogram,
+    round_trip: Histogram,
+    frame_interval: Histogram,
     frames_sent: AtomicU64,
     frames_superseded: AtomicU64,
     bad_received: AtomicU64,
@@ -100,6 +102,8 @@ impl Shared {
             waker,
             due_to_write: Histogram::new(),
             stamp_to_write: Histogram::new(),
+            round_trip: Histogram::new(),
+            frame_interval: Histogram::new(),
             frames_sent: AtomicU64::new(0),
             frames_superseded: AtomicU64::new(0),
             bad_received: AtomicU64::new(0),
@@ -266,7 +270,14 @@ impl Link {
         Timings {
             due_to_write: self.shared.due_to_write.spread(),
             stamp_to_write: self.shared.stamp_to_write.spread(),
+            round_trip: self.shared.round_trip.distribution(),
+            frame_interval: self.shared.frame_interval.distribution(),
         }
+    }
+
+    /// A PING was answered after so long.
+    pub(super) fn record_round_trip(&self, round_trip: Duration) {
+        self.shared.round_trip.record(round_trip);
     }
 
     /// Lets the threads end once everything queued is written. Does not wait.

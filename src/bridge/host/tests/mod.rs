@@ -4,10 +4,11 @@ mod alone;
 mod latched;
 mod together;
 
+use super::frames::soft_start_gain;
 use super::*;
 use crate::bridge::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment};
 use crate::bridge::framing::Decoder;
-use crate::bridge::message::{Ack, AckCode, DeviceMessage, DeviceState, Fault, fault_bit};
+use crate::bridge::message::{Ack, AckCode, DeviceMessage, DeviceState, Fault, fault_bit, frame};
 
 const NONCE: u32 = 0x1234_5678;
 
