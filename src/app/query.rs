@@ -9,8 +9,8 @@ use super::document::Document;
 use super::sensation::Sensation;
 use super::shelf::Shelf;
 use super::view::{
-    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, Marks, PlayView, SceneView, ShelfItem,
-    Source, Status,
+    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, LinkTiming, Live, Marks, PlayView, SceneView,
+    ShelfItem, Source, Status,
 };
 use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
@@ -207,6 +207,13 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
             ("messages lost", link.counters.events_dropped),
             ("not finite", codes.non_finite),
         ],
+        timing: LinkTiming {
+            lead: Some(link.lead),
+            clock: Some(link.clock),
+            round_trip: link.timings.round_trip,
+            frame_interval: link.timings.frame_interval,
+            ..LinkTiming::default()
+        },
     }
 }
 

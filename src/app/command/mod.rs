@@ -158,6 +158,10 @@ pub(crate) enum DeviceCommand {
     Disconnect,
     /// Look anew which ports there are.
     ListPorts,
+    /// Put the path of the session log where it can be pasted.
+    CopyLogPath,
+    /// Whether an armed device stops when the window loses the keyboard.
+    StopOnFocusLoss(bool),
 }
 
 /// What can be done with files.

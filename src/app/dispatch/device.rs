@@ -25,6 +25,14 @@ impl Workbench {
                 self.send(engine::Command::Disconnect);
             }
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
+            DeviceCommand::CopyLogPath => {
+                let log = self.engine.session_log();
+                let path = log.map(|log| log.path().display().to_string());
+                ctx.copy_text(path.unwrap_or_default());
+            }
+            DeviceCommand::StopOnFocusLoss(is_wanted) => {
+                self.settings.kept.stops_on_focus_loss = is_wanted;
+            }
         }
     }
 

@@ -1,5 +1,7 @@
 //! The device: where it is, how it is, arming, and the counters that tell whether to trust it.
 
+mod timing;
+
 use std::path::PathBuf;
 
 use eframe::egui::{
@@ -14,6 +16,8 @@ use crate::app::theme::{self, Palette, ROW, STEP};
 use crate::app::view::{BridgePhase, BridgeView, Live};
 use crate::app::widgets::{button, choice, mark, quiet_pair, row};
 use crate::quantity;
+
+pub(crate) use timing::show as show_timing;
 
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;
