@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use super::command::FileCommand;
+use super::command::{Command, FileCommand};
 use super::dialogs::Answer;
 use super::job::{Job, Polled};
 use super::opening::Opening;
@@ -159,7 +159,7 @@ impl Workbench {
             && self.transient.live.is_armed()
             && ctx.input(|input| input.events.iter().any(is_left))
         {
-            self.dispatch(ctx, super::command::Command::AllOff);
+            self.dispatch(ctx, Command::AllOff);
         }
         for command in shortcuts::pressed(ctx) {
             self.dispatch(ctx, command);

@@ -150,7 +150,7 @@ fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
 
 fn show_focus(ui: &mut Ui, stops_on_focus_loss: bool, wishes: &mut Wishes) {
     let mut is_on = stops_on_focus_loss;
-    let words = "All off when another window comes to the front";
+    let words = "All off when the focus is lost";
     let tip = "Stops an armed device as Esc does, as soon as this window loses the keyboard";
     if ui.checkbox(&mut is_on, words).on_hover_text(tip).changed() {
         wishes.push(DeviceCommand::StopOnFocusLoss(is_on).into());
