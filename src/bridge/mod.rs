@@ -54,7 +54,7 @@ pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
     Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
-    frame, kind,
+    frame, kind, samples,
 };
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};

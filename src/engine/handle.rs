@@ -53,7 +53,7 @@ pub struct Engine {
     n_contactors: usize,
     n_felt: usize,
     profile: ArrayProfile,
-    session_log: Option<SessionLog>,
+    pub(super) session_log: Option<SessionLog>,
 }
 
 enum Body {
@@ -255,16 +255,6 @@ impl Engine {
         self.switch.clone()
     }
 
-    /// Writes what happens on every link that is opened from now on to a log.
-    pub fn log_links_to(&mut self, log: SessionLog) {
-        self.session_log = Some(log);
-    }
-
-    /// The log that links are written to.
-    pub fn session_log(&self) -> Option<&SessionLog> {
-        self.session_log.as_ref()
-    }
-
     /// The recording as far as it was collected. Call this or [`snapshot`](Self::snapshot) every
     /// few seconds while one runs: the engine has room for thirty.
     pub fn recording(&mut self) -> Option<&Recording> {
@@ -314,12 +304,8 @@ impl Engine {
     fn connect_order(&self, target: Target) -> Order {
         let switch = self.switch.clone();
         let wake = move || switch.wake_engine();
-        let log = self.session_log.as_ref();
-        let log = log.map(|log| log.feed(&target.name()));
         let mut bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
-        if let Some(log) = log {
-            bridge.log_to(log);
-        }
+        self.log(&mut bridge);
         self.switch.set_device(bridge.stop_handle());
         Order::Connect(Box::new(bridge))
     }

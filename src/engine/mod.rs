@@ -25,6 +25,7 @@ mod glimpse;
 mod handle;
 mod input;
 mod link;
+mod logged;
 mod meters;
 mod order;
 mod pacer;

@@ -4,6 +4,8 @@
 //! waiting for the port. An owner that hangs sends no frames and no pings: the device then goes
 //! silent by itself, as it should.
 
+mod notes;
+
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,13 +16,13 @@ use super::codes::{ArrayProfile, Bite};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
 use super::host::{
-    BridgeCounters, BridgeEvent, BridgeState, ClockFit, DisarmedBy, HostSession, SentFrame,
-    Sequence,
+    BridgeCounters, BridgeEvent, BridgeState, ClockFit, HostSession, SentFrame, Sequence,
 };
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
 use super::port::SerialLink;
-use super::session_log::{HostCounters, LogFeed, Note};
+use super::session_log::Note;
+use notes::Notes;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -64,9 +66,7 @@ pub struct Bridge {
     target: String,
     session: HostSession,
     link: Option<Link>,
-    log: Option<LogFeed>,
-    /// What the log knows of this side's counters.
-    logged: HostCounters,
+    notes: Notes,
 }
 
 impl Bridge {
@@ -97,31 +97,15 @@ impl Bridge {
             target: name,
             session,
             link,
-            log: None,
-            logged: HostCounters::default(),
+            notes: Notes::default(),
         }
-    }
-
-    /// Writes to a log what happens from now on: call it before the first [`poll`](Self::poll).
-    pub fn log_to(&mut self, log: LogFeed) {
-        self.session.keep_notes();
-        self.log = Some(log);
     }
 
     /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
         let event = self.next();
-        match &event {
-            Some(BridgeEvent::Pong { round_trip, .. }) => {
-                if let Some(link) = &self.link {
-                    link.record_round_trip(*round_trip);
-                }
-            }
-            Some(event) if self.log.is_some() => self.note(event),
-            _ => {}
-        }
-        self.write_notes();
+        self.heed(event.as_ref());
         event
     }
 
@@ -302,47 +286,6 @@ impl Bridge {
             });
         }
         Ok(())
-    }
-
-    /// Writes down what only an event tells.
-    fn note(&mut self, event: &BridgeEvent) {
-        let now = Instant::now();
-        let said = match event {
-            BridgeEvent::Refused(reason) => ("refused-device", reason),
-            BridgeEvent::Lost(reason) => ("lost", reason),
-            BridgeEvent::Log(text) => ("device-log", text),
-            BridgeEvent::Disarmed {
-                by: DisarmedBy::Device,
-                reason,
-            } => ("disarmed-itself", reason),
-            BridgeEvent::Disarmed { reason, .. } => ("disarmed", reason),
-            BridgeEvent::Tick { .. } => return self.note_counters(now),
-            _ => return,
-        };
-        self.session.note(now, Note::Said(said.0, said.1.clone()));
-    }
-
-    fn note_counters(&mut self, now: Instant) {
-        let counters = self.counters();
-        let counted = HostCounters {
-            rejected: counters.frames_rejected,
-            superseded: counters.frames_superseded,
-            bad_received: counters.bad_received,
-            events_dropped: counters.events_dropped,
-            write_timeouts: counters.write_timeouts,
-        };
-        if self.logged != counted {
-            self.logged = counted;
-            self.session.note(now, Note::HostCounters(counted));
-        }
-    }
-
-    fn write_notes(&mut self) {
-        if let Some(log) = &mut self.log {
-            while let Some(entry) = self.session.next_note() {
-                log.push(entry);
-            }
-        }
     }
 
     fn flush(&mut self) {
