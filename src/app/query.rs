@@ -264,7 +264,7 @@ fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
             reason,
         } => Some(format!("{device} disarmed itself: {reason}")),
         BridgeEvent::Fault(fault) => Some(format!(
-            "{device} reports fault {:#06x}; mend its cause, then connect again",
+            "{device} reports fault {:#06x}; mend its cause, then clear it in the Bridge pane",
             fault.faults
         )),
         BridgeEvent::DepthRaised(depth) => Some(format!(

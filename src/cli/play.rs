@@ -5,6 +5,7 @@
 //! happens, the device is told to stop, and its answer is waited for.
 
 use std::io::{self, BufReader};
+use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,8 +19,8 @@ use super::play_report::PlayReport;
 use super::{CliError, output, signals, terminal};
 use crate::app;
 use crate::bridge::{
-    Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog, StopHow, Target,
-    fault_bit,
+    Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog, StopHandle, StopHow,
+    Target, fault_bit,
 };
 use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
@@ -33,6 +34,9 @@ const STOP_PATIENCE: Duration = Duration::from_secs(4);
 /// What `--session-log` does.
 pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, refusal and change of a \
     counter of the link, as CSV; added to a file that is there";
+
+/// Longest wait for the STOP of a program that fails.
+const LAST_WORD: Duration = Duration::from_millis(250);
 
 const PATH_HELP: &str =
     "Exploration: a path file, or - for lines of x_mm,y_mm or t_s,x_mm,y_mm on standard input";
@@ -128,6 +132,16 @@ pub(super) fn check_port(port: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
+/// Lets a panic stop the device before it is reported as it was.
+fn stop_on_panic(handle: StopHandle) {
+    let report = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        handle.stop(StopHow::Now);
+        handle.wait_written(LAST_WORD);
+        report(info);
+    }));
+}
+
 /// A path on its way to a device.
 struct Player {
     core: EngineCore,
@@ -154,6 +168,9 @@ impl Player {
         let target = Target::Port(args.port.clone());
         let (profile, n_felt) = (scene.profile().clone(), scene.n_felt());
         let bridge = Bridge::open(target, profile, n_felt, move || waiting.unpark());
+        if let Some(handle) = bridge.stop_handle() {
+            stop_on_panic(handle);
+        }
         let (mut core, _pointer) = EngineCore::new(Box::new(scene));
         core.play(source, args.does_loop)?;
         Ok(Self {

@@ -209,6 +209,7 @@ impl Engine {
             Command::SetLoop(does_loop) => Order::control(Control::Loop(does_loop)),
             Command::StopRecording => Order::Core(CoreOrder::EndRecording),
             Command::Disarm => Order::Disarm,
+            Command::ClearFaults => Order::ClearFaults,
             Command::Glimpses(is_heard) => Order::Glimpses(is_heard),
             Command::Watch(contactor) => Order::Watch(contactor),
             Command::Shutdown => Order::Shutdown,

@@ -77,6 +77,13 @@ impl Link {
         self.bridge.as_mut().is_some_and(|bridge| bridge.arm())
     }
 
+    /// Asks the device to clear its faults.
+    pub(super) fn clear_faults(&mut self) {
+        if let Some(bridge) = &mut self.bridge {
+            bridge.clear_faults();
+        }
+    }
+
     /// Ends output.
     pub(super) fn stop(&mut self, how: StopHow) {
         if let Some(bridge) = &mut self.bridge {

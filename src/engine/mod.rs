@@ -35,6 +35,7 @@ mod runner;
 mod sample;
 mod snapshot;
 mod stop;
+mod synth;
 mod track;
 mod velocity;
 
@@ -54,6 +55,7 @@ pub use snapshot::{
     RecordingView, Snapshot, SourceKind,
 };
 pub use stop::StopSwitch;
+pub use synth::SampleSynth;
 pub use velocity::{Estimate, REST, VelocityEstimator};
 
 use std::time::Duration;

@@ -225,6 +225,7 @@ impl Runner {
                 Order::Disconnect => self.connect(None),
                 Order::Arm { presses } => self.arm(presses),
                 Order::Disarm => self.link.stop(StopHow::Ramp),
+                Order::ClearFaults => self.link.clear_faults(),
                 Order::Glimpses(is_heard) => self.channels.glimpser.listen(is_heard),
                 Order::Watch(contactor) => self.channels.glimpser.watch(contactor),
                 Order::Shutdown => {

@@ -158,6 +158,8 @@ pub(crate) enum DeviceCommand {
     Disconnect,
     /// Look anew which ports there are.
     ListPorts,
+    /// Clear its faults, whose cause is gone.
+    ClearFaults,
     /// Put the path of the session log where it can be pasted.
     CopyLogPath,
     /// Whether an armed device stops when the window loses the keyboard.

@@ -25,6 +25,7 @@ impl Workbench {
                 self.send(engine::Command::Disconnect);
             }
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
+            DeviceCommand::ClearFaults => self.send(engine::Command::ClearFaults),
             DeviceCommand::CopyLogPath => {
                 let log = self.engine.session_log();
                 let path = log.map(|log| log.path().display().to_string());

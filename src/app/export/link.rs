@@ -81,11 +81,35 @@ fn panel(name: &str, distribution: &Distribution) -> Panel {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     #[test]
     fn there_is_nothing_to_export_before_anything_was_measured() {
         let nothing = distributions(&LinkTiming::default(), Origin::default());
         assert_eq!(nothing, None);
+    }
+
+    #[test]
+    fn every_duration_is_in_a_row_of_the_table_and_a_stem_of_the_figure() {
+        let ms = Duration::from_millis;
+        let timing = LinkTiming {
+            round_trip: Distribution::of(&[ms(1), ms(1), ms(9)]),
+            frame_interval: Distribution::of(&[ms(25); 40]),
+            ..LinkTiming::default()
+        };
+        let exported = distributions(&timing, Origin::default()).unwrap();
+        let path = std::path::Path::new("link.csv");
+        let csv = exported.sheet.to_csv(&exported.origin, path).unwrap();
+        let csv = String::from_utf8(csv).unwrap();
+        let counts: u32 = csv
+            .lines()
+            .filter_map(|line| line.split(',').nth(3)?.parse::<u32>().ok())
+            .sum();
+        assert_eq!(counts, 43, "{csv}");
+        assert!(csv.contains("frame interval,") && csv.contains("round_trip_median"));
+        let stems = exported.figure.rows[0].panels[0].series[0].points.len();
+        assert_eq!(stems, 2, "two sizes of round trips");
     }
 }

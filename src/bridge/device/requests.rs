@@ -103,7 +103,6 @@ impl DeviceCore {
             .model
             .caps(hello.session, if common { VERSION } else { 0 });
         self.send(&caps, sink);
-        self.say("a new session began", sink);
         Some(Answer::Silence)
     }
 

@@ -45,6 +45,8 @@ pub(super) struct SampleRing {
     block: Vec<i16>,
     /// The next sample to be played.
     next: u64,
+    /// Whether a sample sounded since the ring was reset: before, none is missing.
+    has_begun: bool,
     missing: bool,
 }
 
@@ -61,6 +63,7 @@ impl SampleRing {
             now: vec![0; n_channels],
             block: Vec::with_capacity(places * n_channels),
             next: 0,
+            has_begun: false,
             missing: false,
         }
     }
@@ -70,6 +73,7 @@ impl SampleRing {
         self.numbers.fill(None);
         self.now.fill(0);
         self.next = sample_at(now_us);
+        self.has_begun = false;
         self.missing = false;
     }
 
@@ -133,7 +137,8 @@ impl SampleRing {
         while self.next < sample_at(now_us) && self.block.len() < self.block.capacity() {
             let place = usize::try_from(self.next % self.capacity).unwrap_or(0);
             let is_there = self.numbers[place] == Some(self.next);
-            self.missing |= !is_there;
+            self.has_begun |= is_there;
+            self.missing |= self.has_begun && !is_there;
             for channel in 0..self.n_channels {
                 let now = &mut self.now[channel];
                 if is_there {

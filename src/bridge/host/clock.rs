@@ -18,10 +18,10 @@ const WILDEST_RATE: f64 = 500e-6;
 /// One answered PING.
 #[derive(Clone, Copy, Debug, Default)]
 struct Echo {
-    /// The middle between request and answer, µs since the first.
+    /// The middle between request and answer, µs since the first, and the device's clock then.
     host_us: f64,
     device_us: f64,
-    round_trip_us: f64,
+    round_trip: Duration,
 }
 
 /// What a [`DeviceClock`] has learned.
@@ -104,7 +104,7 @@ impl DeviceClock {
         self.echoes[place] = Echo {
             host_us,
             device_us,
-            round_trip_us: (received_us - sent_us).max(0.0),
+            round_trip: received.saturating_duration_since(sent),
         };
         self.n_answers += 1;
         let before = self.line;
@@ -157,14 +157,17 @@ impl DeviceClock {
     }
 
     fn quickest_us(&self) -> f64 {
-        let round_trips = self.known().map(|echo| echo.round_trip_us);
-        round_trips.fold(f64::INFINITY, f64::min)
+        let quickest = self.known().map(|echo| echo.round_trip).min();
+        1e6 * quickest.unwrap_or_default().as_secs_f64()
     }
 
     /// Least squares, every answer by how quick it was.
     fn fit(&self) -> Line {
         let quickest_us = self.quickest_us();
-        let weight = |echo: &Echo| (echo.round_trip_us - quickest_us + DOUBT_US).powi(-2);
+        let weight = |echo: &Echo| {
+            let round_trip_us = 1e6 * echo.round_trip.as_secs_f64();
+            (round_trip_us - quickest_us + DOUBT_US).powi(-2)
+        };
         let sum = |pick: &dyn Fn(&Echo) -> f64| {
             let weighed = self.known().map(|echo| weight(echo) * pick(echo));
             weighed.sum::<f64>()

@@ -20,6 +20,22 @@ impl HostSession {
         now: Instant,
         amplitudes_um: &[[f32; 2]],
     ) -> Option<(SentFrame, Packet)> {
+        if self.plays_samples() {
+            return None;
+        }
+        let seq = self.sequence.next();
+        let sent = self.prepare(now, seq, amplitudes_um)?;
+        let packet = frame::packet(seq, sent.apply_tick, &self.codes)?;
+        Some((sent, packet))
+    }
+
+    /// Makes the codes of a frame and stamps it; `None` unless armed and a STATUS has come.
+    pub(super) fn prepare(
+        &mut self,
+        now: Instant,
+        seq: u16,
+        amplitudes_um: &[[f32; 2]],
+    ) -> Option<SentFrame> {
         if !self.state.takes_frames() || self.status.is_none() {
             return None;
         }
@@ -28,23 +44,20 @@ impl HostSession {
         let first = *self.first_apply_tick.get_or_insert(apply_tick);
         let gain = soft_start_gain(first, apply_tick);
         self.coder.encode_into(amplitudes_um, gain, &mut self.codes);
-        let seq = self.sequence.next();
-        let packet = frame::packet(seq, apply_tick, &self.codes)?;
         self.state = BridgeState::Streaming;
         self.last_sent = Some(now);
         let due = self.due.take().map(|due| due.min(now));
-        if let Some(due) = due {
+        if let Some(due) = due.filter(|_| !self.plays_samples()) {
             self.unconfirmed.rotate_right(1);
             self.unconfirmed[0] = Some((seq, due));
         }
-        let sent = SentFrame {
+        Some(SentFrame {
             seq,
             apply_tick,
             gain,
             due,
             ahead: self.until_tick(now, apply_tick),
-        };
-        Some((sent, packet))
+        })
     }
 
     /// The device's tick now: that of the last STATUS plus whole ticks since it began.

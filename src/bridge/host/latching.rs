@@ -192,7 +192,7 @@ impl Latching {
         if target >= self.lead {
             self.lead = target;
         } else if clean_since(self.last_trouble, CALM) {
-            self.lead = target.max(self.lead - STEP);
+            self.lead = target.max(self.lead.saturating_sub(STEP));
         }
         Deepened::No
     }

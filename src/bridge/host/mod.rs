@@ -14,6 +14,7 @@ mod notes;
 mod pending;
 mod replies;
 mod report;
+mod samples;
 mod timers;
 
 use std::collections::VecDeque;
@@ -24,8 +25,8 @@ use std::time::{Duration, Instant};
 use super::codes::{ArrayProfile, Bite, Coder};
 use super::framing::Packet;
 use super::message::{
-    Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message as _, Ping, Status,
-    Stop, StopHow, kind,
+    Arm, Caps, ChannelMask, Clear, Config, LARGEST_CHANNELS, Message as _, Ping, Status, Stop,
+    StopHow, kind,
 };
 use super::session_log::Note;
 pub use clock::ClockFit;
@@ -60,6 +61,8 @@ pub struct HostSession {
     profile: ArrayProfile,
     n_contactors: usize,
     sequence: Sequence,
+    /// Whether samples are sent where the device plays them.
+    prefers_samples: bool,
     coder: Coder,
     codes: Vec<[u16; 2]>,
     state: BridgeState,
@@ -102,6 +105,7 @@ impl HostSession {
             coder: Coder::new(&profile, n_contactors),
             codes: vec![[0; 2]; n_contactors.min(LARGEST_CHANNELS)],
             profile,
+            prefers_samples: false,
             n_contactors,
             sequence,
             state: BridgeState::Opening,
@@ -283,7 +287,7 @@ impl HostSession {
         request.sent(seq, now);
         self.note(now, self.note_of(request.kind()));
         let packet = match request.kind() {
-            kind::HELLO => Hello::new(self.nonce).packet(seq),
+            kind::HELLO => self.hello().packet(seq),
             kind::CONFIG => self.wish().request(seq, self.n_contactors),
             kind::CLEAR => Clear { bits: u16::MAX }.packet(seq),
             _ => Arm::new(self.nonce).packet(seq),
@@ -310,7 +314,7 @@ impl HostSession {
             .map_or((0, [0; 2]), |caps| (caps.hv_max_dv, caps.comp_limit));
         let wanted = self.coder.comp_limit();
         Config {
-            mode: 0,
+            mode: self.mode(),
             flags: 0,
             hold_ms: self.profile.hold_ms,
             ramp_ms: self.profile.ramp_ms,

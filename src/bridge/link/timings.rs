@@ -88,6 +88,15 @@ impl Default for Distribution {
 }
 
 impl Distribution {
+    /// The distribution of a list of durations.
+    pub fn of(durations: &[Duration]) -> Self {
+        let histogram = Histogram::new();
+        for duration in durations {
+            histogram.record(*duration);
+        }
+        histogram.distribution()
+    }
+
     /// From the first bar that is not empty to the last, with the empty ones between.
     pub fn bars(&self) -> impl Iterator<Item = DistributionBar> {
         let first = self.bars.iter().position(|count| *count > 0);

@@ -101,7 +101,7 @@ fn how_word(how: StopHow) -> &'static str {
 
 fn caps_words(caps: &Caps) -> String {
     let [major, minor, patch] = caps.firmware;
-    let uid: String = caps.uid.iter().map(|byte| format!("{byte:02x}")).collect();
+    let uid = caps.uid.map(|byte| format!("{byte:02x}")).concat();
     format!(
         "name={:?} firmware={major}.{minor}.{patch} uid={uid} version={} channels={} rows={} \
          cols={} queue={} modes={:#06x} fs_mv={} hv_max_dv={} slew_max={} max_body={} \

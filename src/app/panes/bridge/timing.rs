@@ -11,7 +11,7 @@ use crate::app::panes::spectrogram::paint_sentence;
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::view::{BridgeView, LinkTiming};
 use crate::app::widgets::{Axis, Side, Tick, button, paint_ticks, quiet_pair, row};
-use crate::bridge::{Distribution, Spread};
+use crate::bridge::{BridgeState, Distribution, Spread};
 use crate::quantity;
 
 /// Height of the bars, points.
@@ -31,6 +31,13 @@ pub(crate) fn show(
     let none = LinkTiming::default();
     let timing = bridge.map_or(&none, |bridge| &bridge.timing);
     ui.add_space(STEP);
+    if bridge.is_some_and(|bridge| bridge.state == BridgeState::Faulted.label()) {
+        let tip = "Ask the device to clear the fault; while its cause lasts it refuses. Arming is \
+                   a step of its own";
+        if button(ui, "Clear the fault", tip, None) {
+            wishes.push(DeviceCommand::ClearFaults.into());
+        }
+    }
     show_latching(ui, timing);
     ui.columns_const(|[left, right]: &mut [Ui; 2]| {
         let tip = "From a PING to its answer, asked once a second while frames are sent";
