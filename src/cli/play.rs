@@ -32,8 +32,8 @@ const NAP: Duration = Duration::from_millis(20);
 const STOP_PATIENCE: Duration = Duration::from_secs(4);
 
 /// What `--session-log` does.
-pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, refusal and change of a \
-    counter of the link, as CSV; added to a file that is there";
+pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, refusal and change \
+    of a counter of the link, as CSV; added to a file that is there";
 
 /// Longest wait for the STOP of a program that fails.
 const LAST_WORD: Duration = Duration::from_millis(250);

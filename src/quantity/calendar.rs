@@ -20,8 +20,8 @@ pub fn date_of(days: u64) -> (u64, u64, u64) {
     (year, month, day)
 }
 
-/// A moment as RFC 3339 with microseconds, UTC: `2026-03-01T14:05:06.000000Z`. Times before 1970 are
-/// shown as its first.
+/// A moment as RFC 3339 with microseconds, UTC: `2026-03-01T14:05:06.000000Z`. Times before 1970
+/// are shown as its first.
 pub fn rfc3339(at: SystemTime) -> String {
     let since = at.duration_since(UNIX_EPOCH).unwrap_or_default();
     let s = since.as_secs();

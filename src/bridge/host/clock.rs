@@ -1,8 +1,9 @@
 //! The device's clock as the host knows it: a straight line through the quickest answers to PINGs.
 //!
 //! An answer says what the device's clock was at some time between the request and its arrival; the
-//! quicker it came, the better that time is known, and the more it weighs. The line leaves a constant error of at most half a round trip, which
-//! cancels where delays and moments are measured with the same line. Pure: it is told the time.
+//! quicker it came, the better that time is known, and the more it weighs. The line leaves a
+//! constant error of at most half a round trip, which cancels where delays and moments are measured
+//! with the same line. Pure: it is told the time.
 
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,5 @@
-//! What the host sends: HELLO, ARM, FRAME, STOP, PING, CLEAR, SAMPLES, IDENT (CONFIG has its own file, being
-//! two messages).
+//! What the host sends: HELLO, ARM, FRAME, STOP, PING, CLEAR, SAMPLES, IDENT (CONFIG has its own
+//! file, being two messages).
 
 use super::{FieldReader, FieldWriter, MAGIC, kind, message};
 

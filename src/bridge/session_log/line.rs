@@ -128,7 +128,8 @@ fn config_words(config: &Config) -> String {
         .filter(|&channel| config.mask.contains(channel))
         .count();
     format!(
-        "mode={} flags={} hold_ms={} ramp_ms={} slew={} hv_dv={} comp_limit={}/{} channels_on={n_on}",
+        "mode={} flags={} hold_ms={} ramp_ms={} slew={} hv_dv={} comp_limit={}/{} \
+         channels_on={n_on}",
         config.mode,
         config.flags,
         config.hold_ms,
