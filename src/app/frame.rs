@@ -2,7 +2,9 @@
 
 use std::sync::PoisonError;
 
-use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, Rect, Ui};
+use eframe::egui::{
+    self, CentralPanel, Frame, Id, LayerId, Margin, Order, Panel, Rect, Stroke, StrokeKind, Ui,
+};
 use egui_tiles::Tree;
 
 use super::arrangement::{self, Pane};
@@ -19,6 +21,8 @@ use super::view::{Hovered, SceneView, Source};
 use super::window::Workbench;
 use super::workspace;
 
+/// Width of the frame around the window of an armed device, points.
+const ARMED_FRAME: f32 = 5.0;
 /// Height of the header, points.
 const HEADER: f32 = 44.0;
 
@@ -39,7 +43,20 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
     show_overlays(bench, ui, over, &mut wishes);
     feel(bench, ui.ctx(), &scene, shown);
     mark_hovered(bench, ui.ctx(), &mut wishes);
+    if bench.transient.live.is_armed() {
+        frame_as_armed(ui.ctx());
+    }
     wishes
+}
+
+/// Frames the whole window in red while high voltage is on: to be seen from across the room,
+/// whatever pane is in front.
+fn frame_as_armed(ctx: &egui::Context) {
+    let layer = LayerId::new(Order::Foreground, Id::unique("armed frame"));
+    let palette = Palette::of(ctx.theme());
+    let stroke = Stroke::new(ARMED_FRAME, palette.danger);
+    let painter = ctx.layer_painter(layer);
+    painter.rect_stroke(ctx.content_rect(), 0, stroke, StrokeKind::Inside);
 }
 
 /// Lets every view mark what the pointer rests on, from the next frame on if that has changed.
@@ -112,7 +129,7 @@ fn show_desk(
     wishes: &mut Wishes,
 ) -> Option<workspace::Shown> {
     bench.arrange(ui.max_rect().size());
-    let mut tree = std::mem::replace(&mut bench.tree, Tree::empty(egui::Id::NULL));
+    let mut tree = std::mem::replace(&mut bench.tree, Tree::empty(Id::NULL));
     let mut desk = Desk {
         bench,
         scene,

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use super::command::FileCommand;
+use super::command::{Command, FileCommand};
 use super::dialogs::Answer;
 use super::job::{Job, Polled};
 use super::opening::Opening;
@@ -118,11 +118,17 @@ impl Workbench {
             transient.notices.give(panes::back_notice(&found));
         }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
+        transient.reference_db = snapshot.compression_reference_db;
         let mut live = query::live_view(snapshot, interval_s, &transient.audition);
+        if let Some(bridge) = &mut live.bridge
+            && let Some(log) = self.engine.session_log()
+        {
+            bridge.timing.log = Some(log.path().display().to_string());
+            bridge.timing.log_failure = log.failure();
+        }
         if live.bridge.is_none() {
             live.bridge.clone_from(&transient.pictured_bridge);
         }
-        transient.reference_db = snapshot.compression_reference_db;
         let largest = live.dots.iter().flat_map(|dot| dot.amplitude_um);
         let largest_um = largest.fold(0.0, f64::max);
         self.workspace.scale = self.workspace.scale.following(largest_um);
@@ -159,6 +165,13 @@ impl Workbench {
             moment.is_down = input.pointer.any_down();
             moment.t_s = input.time;
         });
+        let is_left = |event: &egui::Event| matches!(event, egui::Event::WindowFocused(false));
+        if self.settings.kept.stops_on_focus_loss
+            && self.transient.live.is_armed()
+            && ctx.input(|input| input.events.iter().any(is_left))
+        {
+            self.dispatch(ctx, Command::AllOff);
+        }
         for command in shortcuts::pressed(ctx) {
             self.dispatch(ctx, command);
         }

@@ -9,8 +9,8 @@ use super::document::Document;
 use super::sensation::Sensation;
 use super::shelf::Shelf;
 use super::view::{
-    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, Live, Marks, PlayView, SceneView, ShelfItem,
-    Source, Status,
+    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, LinkTiming, Live, Marks, PlayView, SceneView,
+    ShelfItem, Source, Status,
 };
 use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
@@ -184,7 +184,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         phase: phase(link.state),
         depth: link.depth,
         frame_interval_s,
-        status_to_frame_s: Some(link.timings.status_to_write)
+        status_to_frame_s: Some(link.timings.due_to_write)
             .filter(|spread| spread.n > 0)
             .map(|spread| [spread.p99, spread.max].map(|span| span.as_secs_f64())),
         stamp_to_write_s: Some(link.timings.stamp_to_write)
@@ -207,6 +207,13 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
             ("messages lost", link.counters.events_dropped),
             ("not finite", codes.non_finite),
         ],
+        timing: LinkTiming {
+            lead: Some(link.lead),
+            clock: Some(link.clock),
+            round_trip: link.timings.round_trip,
+            frame_interval: link.timings.frame_interval,
+            ..LinkTiming::default()
+        },
     }
 }
 
@@ -257,11 +264,16 @@ fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
             reason,
         } => Some(format!("{device} disarmed itself: {reason}")),
         BridgeEvent::Fault(fault) => Some(format!(
-            "{device} reports fault {:#06x}; mend its cause, then connect again",
+            "{device} reports fault {:#06x}; mend its cause, then clear it in the Bridge pane",
             fault.faults
         )),
         BridgeEvent::DepthRaised(depth) => Some(format!(
-            "Frames came late: they are now sent {depth} ticks ahead, so everything is felt later"
+            "Frames came late: they are now sent {depth} ticks ahead, so everything is felt more \
+             than 40 ms late"
+        )),
+        BridgeEvent::DepthLowered(depth) => Some(format!(
+            "No frame came late for a minute: they are now sent {depth} {} ahead again",
+            if *depth == 1 { "tick" } else { "ticks" }
         )),
         _ => None,
     }

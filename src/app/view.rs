@@ -11,6 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use super::command::Part;
 use super::sensation::Sensation;
+use crate::bridge::{ClockFit, Distribution};
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -297,6 +298,25 @@ pub(crate) struct BridgeView {
     pub(crate) frames_sent: u64,
     /// Counters that ought to stay at zero, with their names.
     pub(crate) troubles: Vec<(&'static str, u64)>,
+    /// How long things take.
+    pub(crate) timing: LinkTiming,
+}
+
+/// How long things take on the link, and where it is written down what happens there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct LinkTiming {
+    /// How long before the tick in which it is felt a frame is made.
+    pub(crate) lead: Option<std::time::Duration>,
+    /// What is known of the device's clock.
+    pub(crate) clock: Option<ClockFit>,
+    /// From a PING to its answer.
+    pub(crate) round_trip: Distribution,
+    /// From frame to frame.
+    pub(crate) frame_interval: Distribution,
+    /// The path of the session log.
+    pub(crate) log: Option<String>,
+    /// Why nothing is written to it.
+    pub(crate) log_failure: Option<String>,
 }
 
 /// What may be done with a device.

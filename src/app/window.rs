@@ -19,13 +19,14 @@ use super::perspective::Perspective;
 use super::pointer::PointerTap;
 use super::preparing::Preparing;
 use super::rendering::Rendering;
-use super::settings::{Settings, own_libraries};
+use super::settings::{Settings, own_libraries, session_log};
 use super::shelf::Shelf;
 use super::state::Transient;
 use super::take::Take;
 use super::view::{LibraryDot, Marks, SceneView};
 use super::workspace::{Trail, WorkspaceState};
 use super::{frame, query, theme};
+use crate::bridge::{LogBound, SessionLog};
 use crate::engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
 use crate::render::RenderScene;
 use crate::render::array::ContactInspector;
@@ -33,6 +34,12 @@ use crate::scene::LoadedScene;
 
 /// The time between two frames while something moves: 30 frames a second.
 pub(crate) const FRAME: Duration = Duration::from_nanos(33_333_333);
+
+/// How much the log of links may take: five files of 1 MB.
+const LOG_BOUND: LogBound = LogBound {
+    bytes: 1_000_000,
+    n_older: 4,
+};
 
 /// How a workbench is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,6 +168,7 @@ impl Workbench {
         if !self.is_stepped {
             self.transient.dialogs = Dialogs::of_desktop();
             self.transient.keeping.own_folder = own_libraries();
+            self.log_links();
         }
         if let Some(complaint) = complaint {
             self.transient.notices.give(complaint);
@@ -179,6 +187,15 @@ impl Workbench {
         self.send(Command::Watch(FIRST_CONTACTOR));
         self.send(Command::Glimpses(true));
         self.show_document();
+    }
+
+    /// Lets every link to a device be logged in the user's own folder.
+    fn log_links(&mut self) {
+        let Some(path) = session_log() else { return };
+        match SessionLog::append(&path, Some(LOG_BOUND)) {
+            Ok(log) => self.engine.log_links_to(log),
+            Err(error) => self.transient.notices.give(error.to_string()),
+        }
     }
 
     /// Shows another scene, and lets it be felt.

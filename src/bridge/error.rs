@@ -57,6 +57,14 @@ pub enum BridgeError {
     /// The list of ports could not be read.
     #[error("cannot list serial ports: {0}")]
     List(String),
+    /// Lines of a session log were not written.
+    #[error("the session log is not whole: {reason}: {}", path.display())]
+    Log {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
     /// A WAV file has no room for more.
     #[error(
         "a WAV file holds less than 4 GiB: choose 16-bit samples, a lower rate or a shorter path"

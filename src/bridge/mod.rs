@@ -36,6 +36,7 @@ pub mod message;
 mod plant;
 mod port;
 mod self_test;
+mod session_log;
 mod wav;
 mod wire;
 
@@ -50,14 +51,14 @@ pub use error::BridgeError;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, Target};
 pub use host::{
-    BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
+    BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy, HostSession,
     SOFT_START_TICKS, SentFrame, Sequence,
 };
-pub use link::{Spread, StopHandle, Timings};
+pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
     Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
-    frame, kind,
+    frame, kind, samples,
 };
 pub use plant::{
     Amplifier, Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantFeed,
@@ -68,6 +69,7 @@ pub use port::{
     UsbIdentity, list_ports, pair,
 };
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
+pub use session_log::{LogBound, LogFeed, SessionLog};
 pub use wav::{SampleFormat, WavSpec, WavWriter};
 pub(crate) use wire::Simulation;
 pub use wire::{

@@ -11,6 +11,7 @@ use super::handle::{Bridge, Target};
 use super::host::{BridgeCounters, BridgeEvent, DisarmedBy};
 use super::link::{Spread, Timings};
 use super::message::{Caps, StopHow};
+use super::session_log::SessionLog;
 
 const N_PINGS: usize = 50;
 const N_FRAMES: u64 = 40;
@@ -67,8 +68,13 @@ impl fmt::Display for SelfTestReport {
     }
 }
 
-/// Tests `target`, which takes a few seconds. The device is stopped at the end whatever happens.
-pub fn self_test(target: Target, profile: ArrayProfile) -> SelfTestReport {
+/// Tests `target`, which takes a few seconds, and writes what happens to `log`. The device is
+/// stopped at the end whatever happens.
+pub fn self_test(
+    target: Target,
+    profile: ArrayProfile,
+    log: Option<&SessionLog>,
+) -> SelfTestReport {
     let n_contactors = profile.n_contactors();
     let faint = profile.full_scale_um.map(faint_um);
     let mut bench = Bench {
@@ -77,6 +83,10 @@ pub fn self_test(target: Target, profile: ArrayProfile) -> SelfTestReport {
         steps: Vec::new(),
         ping: None,
     };
+    if let Some(log) = log {
+        let feed = log.feed(bench.bridge.target());
+        bench.bridge.log_to(feed);
+    }
     // Each step needs the one before.
     let _all = bench.step("handshake", Bench::handshake)
         && bench.step("ping", Bench::pings)
@@ -216,7 +226,7 @@ impl Bench {
         let device = counters.device;
         let line = format!(
             "{} sent; underrun {}, late {}, repeated {}, bad {}, clipped {}, refused {}; \
-             STATUS to write {} median, {} p99",
+             due to written {} median, {} p99",
             counters.frames_sent,
             device.underrun,
             device.late,
@@ -224,8 +234,8 @@ impl Bench {
             device.bad,
             device.clipped,
             counters.frames_rejected,
-            milliseconds(self.bridge.timings().status_to_write.median),
-            milliseconds(self.bridge.timings().status_to_write.p99)
+            milliseconds(self.bridge.timings().due_to_write.median),
+            milliseconds(self.bridge.timings().due_to_write.p99)
         );
         let amp_sum = self.bridge.status().map_or(0, |status| status.amp_sum);
         let broken = counters.frames_rejected > 0 || device.dup > 0 || device.bad > 0;
@@ -271,7 +281,7 @@ mod tests {
     #[test]
     fn the_emulator_passes() {
         // A machine that starves the test for 100 ms disarms the device, as it should: try again.
-        let mut tries = (0..5).map(|_| self_test(Target::Emulator, ArrayProfile::default()));
+        let mut tries = (0..5).map(|_| self_test(Target::Emulator, ArrayProfile::default(), None));
         let report = tries.find(SelfTestReport::passed).unwrap();
         let names: Vec<&str> = report.steps.iter().map(|step| step.name).collect();
         assert_eq!(names, ["handshake", "ping", "arm", "frames", "stop"]);
@@ -283,7 +293,7 @@ mod tests {
     #[test]
     fn a_missing_port_fails_at_the_handshake() {
         let target = Target::Port(std::env::temp_dir().join("no-such-port"));
-        let report = self_test(target, ArrayProfile::default());
+        let report = self_test(target, ArrayProfile::default(), None);
         assert!(!report.passed());
         assert_eq!(report.steps.len(), 1);
         assert!(

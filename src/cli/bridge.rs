@@ -1,13 +1,13 @@
 //! `selvedge bridge`: which ports there are, whether a device works, and a device to try without.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
 use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::{CliError, output, play, terminal};
-use crate::bridge::{ArrayProfile, Target, UDEV_RULE, list_ports, self_test};
+use crate::bridge::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
 use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
@@ -27,6 +27,8 @@ pub(super) enum BridgeCommand {
         /// The array that the device drives: exeter-24, 5x5 or 10x10
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
         array: ArrayLayout,
+        #[arg(long, value_name = "F.csv", help = play::SESSION_LOG_HELP)]
+        session_log: Option<PathBuf>,
     },
     /// Write what a firmware engineer needs: protocol, golden vectors, a device core in C
     Kit {
@@ -62,22 +64,35 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::List { udev_rule: true } => output::print(UDEV_RULE),
         BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
-        BridgeCommand::Test { port, array } => {
-            play::check_port(port)?;
-            let report = self_test(Target::Port(port.clone()), profile_of(*array));
-            output::print(&format!("{report}\n"))?;
-            if report.passed() {
-                return Ok(());
-            }
-            let failed = report.steps.last().map_or("handshake", |step| step.name);
-            let what = format!(
-                "{}: the {failed} failed; check power and cable",
-                port.display()
-            );
-            Err(CliError::Failed(what))
-        }
+        BridgeCommand::Test {
+            port,
+            array,
+            session_log,
+        } => test(port, *array, session_log.as_deref()),
         BridgeCommand::Emulate(args) => emulate(args),
     }
+}
+
+fn test(port: &Path, array: ArrayLayout, session_log: Option<&Path>) -> Result<(), CliError> {
+    play::check_port(port)?;
+    let log = session_log.map(|path| SessionLog::append(path, None));
+    let log = log.transpose()?;
+    let report = self_test(
+        Target::Port(port.to_owned()),
+        profile_of(array),
+        log.as_ref(),
+    );
+    output::print(&format!("{report}\n"))?;
+    log.map_or(Ok(()), SessionLog::finish)?;
+    if report.passed() {
+        return Ok(());
+    }
+    let failed = report.steps.last().map_or("handshake", |step| step.name);
+    let what = format!(
+        "{}: the {failed} failed; check power and cable",
+        port.display()
+    );
+    Err(CliError::Failed(what))
 }
 
 fn list() -> Result<(), CliError> {
@@ -104,7 +119,7 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
     let n_columns = usize::from(model.cols);
     let mut emulator = crate::bridge::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
     // A reader that only wanted this line may be gone; the device runs on.
-    let tell = |link: &std::path::Path, path: &str| {
+    let tell = |link: &Path, path: &str| {
         drop(output::print(&format!("{} -> {path}\n", link.display())));
     };
     tell(&args.link, emulator.device_path());

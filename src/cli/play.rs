@@ -5,6 +5,7 @@
 //! happens, the device is told to stop, and its answer is waited for.
 
 use std::io::{self, BufReader};
+use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,7 +19,8 @@ use super::play_report::PlayReport;
 use super::{CliError, output, signals, terminal};
 use crate::app;
 use crate::bridge::{
-    Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target, fault_bit,
+    Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog, StopHandle, StopHow,
+    Target, fault_bit,
 };
 use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
@@ -28,6 +30,13 @@ use crate::scene::{ExplorationPath, LoadedScene};
 const NAP: Duration = Duration::from_millis(20);
 /// The last STOP is sent again every 250 ms, eight times; then the session itself gives up.
 const STOP_PATIENCE: Duration = Duration::from_secs(4);
+
+/// What `--session-log` does.
+pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, refusal and change \
+    of a counter of the link, as CSV; added to a file that is there";
+
+/// Longest wait for the STOP of a program that fails.
+const LAST_WORD: Duration = Duration::from_millis(250);
 
 const PATH_HELP: &str =
     "Exploration: a path file, or - for lines of x_mm,y_mm or t_s,x_mm,y_mm on standard input";
@@ -48,6 +57,8 @@ pub(super) struct PlayArgs {
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
     #[arg(long, value_name = "L.csv")]
     log: Option<PathBuf>,
+    #[arg(long, value_name = "F.csv", help = SESSION_LOG_HELP)]
+    session_log: Option<PathBuf>,
     /// How to render: reference, banded, table or auto
     #[arg(long, value_name = "METHOD", default_value = "auto")]
     method: Method,
@@ -73,11 +84,22 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         Some(place) => Some(PlayLog::create(place, scene.profile(), scene.n_felt())?),
         None => None,
     };
+    let session_log = args
+        .session_log
+        .as_deref()
+        .map(|path| SessionLog::append(path, None));
+    let session_log = session_log.transpose()?;
     let stop = signals::stop_flag()?;
     let mut player = Player::open(args, scene, source, log)?;
+    if let Some(session_log) = &session_log {
+        let feed = session_log.feed(player.bridge.target());
+        player.bridge.log_to(feed);
+    }
     let played = player.play(&stop);
     let stopped = player.stop();
-    let report = player.close()?;
+    let closed = player.close();
+    session_log.map_or(Ok(()), SessionLog::finish)?;
+    let report = closed?;
     played?;
     stopped?;
     output::print(&report.to_string())
@@ -110,6 +132,16 @@ pub(super) fn check_port(port: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
+/// Lets a panic stop the device before it is reported as it was.
+fn stop_on_panic(handle: StopHandle) {
+    let report = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        handle.stop(StopHow::Now);
+        handle.wait_written(LAST_WORD);
+        report(info);
+    }));
+}
+
 /// A path on its way to a device.
 struct Player {
     core: EngineCore,
@@ -117,6 +149,8 @@ struct Player {
     log: Option<PlayLog>,
     started: Option<Instant>,
     last_tick: Option<u32>,
+    /// The device tick that is to be answered, and when.
+    asked: Option<(u32, Instant)>,
     n_frames: u64,
     n_missed: u64,
     n_bad_lines: u64,
@@ -134,6 +168,9 @@ impl Player {
         let target = Target::Port(args.port.clone());
         let (profile, n_felt) = (scene.profile().clone(), scene.n_felt());
         let bridge = Bridge::open(target, profile, n_felt, move || waiting.unpark());
+        if let Some(handle) = bridge.stop_handle() {
+            stop_on_panic(handle);
+        }
         let (mut core, _pointer) = EngineCore::new(Box::new(scene));
         core.play(source, args.does_loop)?;
         Ok(Self {
@@ -142,6 +179,7 @@ impl Player {
             log,
             started: None,
             last_tick: None,
+            asked: None,
             n_frames: 0,
             n_missed: 0,
             n_bad_lines: 0,
@@ -152,9 +190,11 @@ impl Player {
     /// Handshake, arming, and the path to its end or until `stop` is set.
     fn play(&mut self, stop: &AtomicBool) -> Result<(), CliError> {
         while !self.has_ended && !stop.load(Ordering::Relaxed) {
-            match self.hear()? {
-                Some(tick) if self.bridge.state().takes_frames() => self.answer(tick)?,
-                _ => thread::park_timeout(NAP),
+            self.asked = self.hear()?.or(self.asked);
+            let now = Instant::now();
+            match self.asked.take_if(|(_, due)| *due <= now) {
+                Some((tick, _)) if self.bridge.state().takes_frames() => self.answer(tick)?,
+                _ => thread::park_timeout(self.asked.map_or(NAP, |(_, due)| (due - now).min(NAP))),
             }
             match self.bridge.state() {
                 BridgeState::Ready if self.started.is_none() => {
@@ -170,13 +210,14 @@ impl Player {
         Ok(())
     }
 
-    /// Takes all news, and gives the last device tick that began, if one did.
-    fn hear(&mut self) -> Result<Option<u32>, CliError> {
+    /// Takes all news, and gives the last device tick that began, if one did, and when its answer
+    /// is due.
+    fn hear(&mut self) -> Result<Option<(u32, Instant)>, CliError> {
         let mut newest = None;
         loop {
             let was_opening = self.bridge.state() == BridgeState::Opening;
             match self.bridge.poll() {
-                Some(BridgeEvent::Tick { tick, .. }) => newest = Some(tick),
+                Some(BridgeEvent::Tick { tick, due, .. }) => newest = Some((tick, due)),
                 // A port that cannot even be opened is the wrong one.
                 Some(BridgeEvent::Lost(reason)) if was_opening => {
                     return Err(CliError::Input(self.of_target(&reason)));
@@ -216,7 +257,10 @@ impl Player {
                 tell(&format!("the device reports a fault: {names}"));
             }
             BridgeEvent::DepthRaised(depth) => {
-                tell(&format!("frames came late: now sent {depth} ticks ahead"));
+                let what = "frames came late: now sent";
+                tell(&format!(
+                    "{what} {depth} ticks ahead, felt more than 40 ms late"
+                ));
             }
             BridgeEvent::Log(text) => tell(&format!("the device says: {text}")),
             BridgeEvent::Armed => self.started = Some(Instant::now()),

@@ -35,8 +35,8 @@ impl fmt::Display for PlayReport {
         )?;
         writeln!(
             f,
-            "STATUS to FRAME   {}",
-            spread(&self.timings.status_to_write)
+            "due to FRAME      {}",
+            spread(&self.timings.due_to_write)
         )?;
         if self.timings.stamp_to_write.n > 0 {
             writeln!(

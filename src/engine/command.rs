@@ -66,6 +66,8 @@ pub enum Command {
     Arm,
     /// Ramps the device to silence; the screen goes on.
     Disarm,
+    /// Asks a faulted device to clear its faults; it can be armed again when their cause is gone.
+    ClearFaults,
     /// Everything off: the device stops at once, the display is silent until armed again, a replay
     /// is held and a recording ended.
     StopAll,
@@ -239,6 +241,7 @@ impl fmt::Debug for Command {
             Self::Disconnect => "Disconnect",
             Self::Arm => "Arm",
             Self::Disarm => "Disarm",
+            Self::ClearFaults => "ClearFaults",
             Self::StopAll => "StopAll",
             Self::StartRecording => "StartRecording",
             Self::StopRecording => "StopRecording",

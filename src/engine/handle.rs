@@ -20,7 +20,7 @@ use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayProfile, Bridge, PlantWatch, Target};
+use crate::bridge::{ArrayProfile, Bridge, PlantWatch, SessionLog, Target};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;
@@ -54,6 +54,7 @@ pub struct Engine {
     n_felt: usize,
     profile: ArrayProfile,
     plant: Option<PlantWatch>,
+    pub(super) session_log: Option<SessionLog>,
 }
 
 enum Body {
@@ -123,6 +124,7 @@ impl Engine {
             snapshots,
             coming: Vec::new(),
             switch,
+            session_log: None,
             pointer: Some(pointer),
             recording: None,
             news,
@@ -210,6 +212,7 @@ impl Engine {
             Command::SetLoop(does_loop) => Order::control(Control::Loop(does_loop)),
             Command::StopRecording => Order::Core(CoreOrder::EndRecording),
             Command::Disarm => Order::Disarm,
+            Command::ClearFaults => Order::ClearFaults,
             Command::Glimpses(is_heard) => Order::Glimpses(is_heard),
             Command::Watch(contactor) => Order::Watch(contactor),
             Command::Shutdown => Order::Shutdown,
@@ -312,6 +315,7 @@ impl Engine {
         let wake = move || switch.wake_engine();
         let mut bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
         self.plant = bridge.take_plant();
+        self.log(&mut bridge);
         self.switch.set_device(bridge.stop_handle());
         Order::Connect(Box::new(bridge))
     }

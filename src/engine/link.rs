@@ -4,7 +4,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::{LinkView, Notice};
+use super::{LinkView, Notice, TICK};
 use crate::bridge::{Bridge, BridgeEvent, SentFrame, StopHow, Timings};
 
 /// Ticks between two looks at the timings of the link: one second.
@@ -25,8 +25,8 @@ pub(super) struct Link {
 /// What a link has to say that concerns the clock or the core.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum News {
-    /// A device tick began.
-    Tick(u32, Instant),
+    /// A device tick began; when its STATUS arrived, and when the answer is due.
+    Tick(u32, [Instant; 2]),
     /// A device with these limits is connected.
     Limits([u16; 2]),
     /// The device is gone.
@@ -55,7 +55,11 @@ impl Link {
         loop {
             let event = bridge.poll()?;
             let news = match &event {
-                BridgeEvent::Tick { tick, received } => return Some(News::Tick(*tick, *received)),
+                BridgeEvent::Tick {
+                    tick,
+                    received,
+                    due,
+                } => return Some(News::Tick(*tick, [*received, *due])),
                 BridgeEvent::Pong { .. } => continue,
                 BridgeEvent::Connected(caps) => Some(News::Limits(caps.comp_limit)),
                 BridgeEvent::Lost(_) | BridgeEvent::Refused(_) => Some(News::Gone),
@@ -71,6 +75,13 @@ impl Link {
     /// Arms; false if there is no device that is ready.
     pub(super) fn arm(&mut self) -> bool {
         self.bridge.as_mut().is_some_and(|bridge| bridge.arm())
+    }
+
+    /// Asks the device to clear its faults.
+    pub(super) fn clear_faults(&mut self) {
+        if let Some(bridge) = &mut self.bridge {
+            bridge.clear_faults();
+        }
     }
 
     /// Ends output.
@@ -99,13 +110,12 @@ impl Link {
         sent
     }
 
-    /// Ticks that a frame is sent ahead; `None` without an armed device.
-    pub(super) fn depth(&self) -> Option<u8> {
-        let armed = self
-            .bridge
-            .as_ref()
-            .filter(|bridge| bridge.state().takes_frames());
-        armed.map(|bridge| bridge.depth())
+    /// From the making of the last frame to the middle of the tick in which it is felt; `None`
+    /// without an armed device.
+    pub(super) fn until_felt(&self) -> Option<Duration> {
+        let bridge = self.bridge.as_ref()?;
+        let sent = self.sent.filter(|_| bridge.state().takes_frames())?;
+        Some(sent.ahead + TICK / 2)
     }
 
     /// The limits of the device, if one is connected.
@@ -131,6 +141,8 @@ impl Link {
             caps: bridge.caps().copied(),
             status: bridge.status().copied(),
             depth: bridge.depth(),
+            lead: bridge.lead(),
+            clock: bridge.clock(),
             counters: bridge.counters(),
             timings: self.timings,
             sent: self.sent,

@@ -25,6 +25,7 @@ mod glimpse;
 mod handle;
 mod input;
 mod link;
+mod logged;
 mod meters;
 mod order;
 mod pacer;
@@ -34,6 +35,7 @@ mod runner;
 mod sample;
 mod snapshot;
 mod stop;
+mod synth;
 mod track;
 mod velocity;
 
@@ -53,6 +55,7 @@ pub use snapshot::{
     RecordingView, Snapshot, SourceKind,
 };
 pub use stop::StopSwitch;
+pub use synth::SampleSynth;
 pub use velocity::{Estimate, REST, VelocityEstimator};
 
 use std::time::Duration;

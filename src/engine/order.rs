@@ -23,6 +23,8 @@ pub(super) enum Order {
         presses: u64,
     },
     Disarm,
+    /// Clear the device's faults.
+    ClearFaults,
     /// Whether somebody takes glimpses.
     Glimpses(bool),
     /// The contactor that glimpses watch.

@@ -114,9 +114,12 @@ impl Runner {
         self.heed_stop();
         self.obey();
         let device_tick = self.hear();
-        let due = match device_tick {
-            Some((number, received)) => self.pacer.device_tick(number, received),
-            None => self.pacer.own_tick(self.clock.now()),
+        let answered = device_tick.map_or(Due::Nothing, |(number, [received, due])| {
+            self.pacer.device_tick(number, received, due)
+        });
+        let due = match answered {
+            Due::Nothing => self.pacer.own_tick(self.clock.now()),
+            due => due,
         };
         match due {
             Due::Tick(due) => self.tick(due),
@@ -172,7 +175,7 @@ impl Runner {
     }
 
     /// The last device tick that began, if one did.
-    fn hear(&mut self) -> Option<(u32, Instant)> {
+    fn hear(&mut self) -> Option<(u32, [Instant; 2])> {
         let mut tick = None;
         let Self {
             link,
@@ -183,7 +186,7 @@ impl Runner {
         let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
         while let Some(news) = link.hear(&mut say) {
             match news {
-                News::Tick(number, received) => tick = Some((number, received)),
+                News::Tick(number, times) => tick = Some((number, times)),
                 News::Limits(comp_limit) => self.core.set_link_limit(comp_limit),
                 News::Gone => {
                     tick = None;
@@ -222,6 +225,7 @@ impl Runner {
                 Order::Disconnect => self.connect(None),
                 Order::Arm { presses } => self.arm(presses),
                 Order::Disarm => self.link.stop(StopHow::Ramp),
+                Order::ClearFaults => self.link.clear_faults(),
                 Order::Glimpses(is_heard) => self.channels.glimpser.listen(is_heard),
                 Order::Watch(contactor) => self.channels.glimpser.watch(contactor),
                 Order::Shutdown => {
@@ -280,10 +284,10 @@ impl Runner {
 
     /// Writes a snapshot and wakes the window if it shows something new.
     fn publish(&mut self) {
-        let depth = self.link.depth();
+        let until_felt = self.link.until_felt();
         let glimpses_lost = self.channels.glimpser.n_lost();
         let snapshot = self.channels.snapshots.input_buffer_mut();
-        self.core.fill(snapshot, depth);
+        self.core.fill(snapshot, until_felt);
         snapshot.counters.notices_lost = self.notices_lost;
         snapshot.counters.glimpses_lost = glimpses_lost;
         snapshot.counters.commands_obeyed = self.commands_obeyed;

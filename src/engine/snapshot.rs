@@ -6,7 +6,9 @@
 use std::time::Duration;
 
 use super::{DurationHistogram, PreparedScene, SampleCounters, VelocityMethod};
-use crate::bridge::{Bite, BridgeCounters, BridgeState, Caps, SentFrame, Spread, Status, Timings};
+use crate::bridge::{
+    Bite, BridgeCounters, BridgeState, Caps, ClockFit, SentFrame, Spread, Status, Timings,
+};
 use crate::geometry::Point;
 use crate::render::Counters;
 use crate::render::array::{ErrorBound, Method};
@@ -228,9 +230,13 @@ pub struct LinkView {
     pub status: Option<Status>,
     /// Ticks from a frame to its effect, 1…3.
     pub depth: u8,
+    /// From the moment a frame is due to the start of the tick in which it is felt.
+    pub lead: Duration,
+    /// What is known of the device's clock.
+    pub clock: ClockFit,
     /// Counters of device and host.
     pub counters: BridgeCounters,
-    /// STATUS to FRAME, pointer to FRAME; refreshed once a second.
+    /// Due to FRAME, pointer to FRAME; refreshed once a second.
     pub timings: Timings,
     /// The last frame sent.
     pub sent: Option<SentFrame>,

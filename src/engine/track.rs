@@ -102,16 +102,17 @@ impl Track {
         self.fresh
     }
 
-    /// What a snapshot shows. `depth` is how many ticks ahead a device plays.
-    pub(super) fn view(&self, losses: InputLosses, depth: Option<u8>) -> PointerView {
+    /// What a snapshot shows. `until_felt` is how long after a tick the middle of that comes in
+    /// which a device plays it; without a device that is half a tick.
+    pub(super) fn view(&self, losses: InputLosses, until_felt: Option<Duration>) -> PointerView {
         let mut samples = self.gate.counters();
         samples.overflowed = losses.overflowed;
         samples.bad_lines = losses.bad_lines;
-        let until_mid_tick = TICK * u32::from(depth.unwrap_or(0)) + TICK / 2;
+        let until_felt = until_felt.unwrap_or(TICK / 2);
         PointerView {
             is_known: self.newest.is_some(),
             age: self.age,
-            felt_age: self.age.map(|age| age + until_mid_tick),
+            felt_age: self.age.map(|age| age + until_felt),
             method: self.estimator.method(),
             velocity_lag_s: self.estimate.lag_s,
             samples,

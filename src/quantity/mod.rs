@@ -7,6 +7,10 @@
 //! - pure functions, no I/O
 //! - levels are dB re 1 µm peak, gains are dB of an amplitude ratio (20 log₁₀)
 
+mod calendar;
+
+pub use calendar::{date_of, rfc3339};
+
 /// Level of an amplitude, dB re 1 µm: `20 log₁₀ a`. Zero gives −∞.
 pub fn level_db(amplitude_um: f64) -> f64 {
     20.0 * amplitude_um.log10()

@@ -4,6 +4,8 @@ use std::fs;
 use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use crate::quantity;
+
 /// What times were measured on, and with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Machine {
@@ -57,7 +59,7 @@ pub(super) fn now_utc() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
     let s = since.map_or(0, |since| since.as_secs());
     let (days, minutes) = (s / 86_400, s / 60 % 1440);
-    let (year, month, day) = date_of(days);
+    let (year, month, day) = quantity::date_of(days);
     format!(
         "{year:04}-{month:02}-{day:02} {:02}:{:02} UTC",
         minutes / 60,
@@ -65,35 +67,9 @@ pub(super) fn now_utc() -> String {
     )
 }
 
-/// Year, month and day of a number of days since 1970-01-01, in the Gregorian calendar.
-fn date_of(days: u64) -> (u64, u64, u64) {
-    // Counted from 0000-03-01, so that a leap day is the last of its year.
-    let shifted = days + 719_468;
-    let (era, of_era) = (shifted / 146_097, shifted % 146_097);
-    let year_of_era = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
-    let of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let shifted_month = (5 * of_year + 2) / 153;
-    let day = of_year - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 {
-        shifted_month + 3
-    } else {
-        shifted_month - 9
-    };
-    let year = year_of_era + 400 * era + u64::from(month <= 2);
-    (year, month, day)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn days_become_dates() {
-        assert_eq!(date_of(0), (1970, 1, 1));
-        assert_eq!(date_of(11_016), (2000, 2, 29));
-        assert_eq!(date_of(11_017), (2000, 3, 1));
-        assert_eq!(date_of(20_453), (2025, 12, 31));
-    }
 
     #[test]
     fn a_machine_has_a_core_and_a_name() {

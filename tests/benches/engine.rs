@@ -1,7 +1,8 @@
 //! How punctual the engine is with a device: in process and over a pseudo-terminal.
 //!
 //! A pointer moves at 125 Hz for a minute (`--quick`: 5 s) while an emulated device paces. Prints
-//! how late frames were written after the STATUS that asked for them, how old the pointer's sample
+//! how late frames were written after they were due (a while after the STATUS that asked for them,
+//! so that they come just in time), how old the pointer's sample
 //! was by then, and what was missed.
 
 #![expect(clippy::print_stdout, reason = "a bench prints its figures")]
@@ -113,10 +114,7 @@ fn move_pointer(mut pointer: PointerSender, is_over: Arc<AtomicBool>) -> thread:
 fn report(what: &str, snapshot: &Snapshot) {
     let (clock, link) = (&snapshot.clock, snapshot.link.unwrap());
     println!("{what}");
-    print_spread(
-        "STATUS received to FRAME written",
-        link.timings.status_to_write,
-    );
+    print_spread("answer due to FRAME written", link.timings.due_to_write);
     print_spread(
         "pointer stamp to FRAME written",
         link.timings.stamp_to_write,
@@ -135,6 +133,12 @@ fn report(what: &str, snapshot: &Snapshot) {
         "age of a felt amplitude",
         time_span(felt),
         link.depth
+    );
+    println!(
+        "  {:<34} {} before the tick; clock {:+.1} ppm",
+        "frames are due",
+        time_span(link.lead.as_secs_f64()),
+        link.clock.rate_ppm
     );
     println!(
         "  ticks {}, late {}, missed {}, own-clock takeovers {}",

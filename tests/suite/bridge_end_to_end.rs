@@ -58,7 +58,7 @@ fn signal(name: &str, child: &Child) {
     assert!(sent.unwrap().success(), "kill -{name}");
 }
 
-const PLAY: [&str; 8] = [
+const PLAY: [&str; 10] = [
     "play",
     "a.scene.toml",
     "--path",
@@ -67,6 +67,8 @@ const PLAY: [&str; 8] = [
     "array",
     "--log",
     "host.csv",
+    "--session-log",
+    "link.csv",
 ];
 
 /// Codes of a frame as the design defines them, worked out here anew: full scale 50 µm, limit
@@ -219,10 +221,14 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
     assert_eq!(played.code, 0, "{played:?}");
     assert!(played.out.contains("61 frames"), "{}", played.out);
     assert!(
-        played.out.contains("STATUS to FRAME   median"),
+        played.out.contains("due to FRAME      median"),
         "{}",
         played.out
     );
+    let link = std::fs::read_to_string(lab.path("link.csv")).unwrap();
+    for event in ["hello", "caps", "cfg", "armed", "stop", "stopped"] {
+        assert!(link.contains(&format!(",{event},")), "{event}: {link}");
+    }
     let n_applied = check_frames(&host, &device);
     assert_eq!(host.len(), 61, "one frame a tick of the path");
     assert!(n_applied >= 40, "{n_applied} of 61 frames applied");

@@ -163,6 +163,12 @@ pub(crate) enum DeviceCommand {
     ShowContactors(bool),
     /// Lay another finger on the emulator's contactors.
     LoadContactors(Skin),
+    /// Clear its faults, whose cause is gone.
+    ClearFaults,
+    /// Put the path of the session log where it can be pasted.
+    CopyLogPath,
+    /// Whether an armed device stops when the window loses the keyboard.
+    StopOnFocusLoss(bool),
 }
 
 /// What can be done with files.

@@ -50,11 +50,14 @@ impl Desk<'_> {
                 panes::show_tuning(ui, self.scene, live, audition, self.wishes);
             }),
             Pane::Bridge => scrolled(ui, pane, |ui| {
+                let stops_on_focus_loss = self.bench.settings.kept.stops_on_focus_loss;
                 let transient = &mut self.bench.transient;
                 let target = transient.target.as_deref();
                 let ports = transient.ports.view();
                 let port = &mut transient.port;
                 panes::show_bridge(ui, &transient.live, target, port, ports, self.wishes);
+                let bridge = transient.live.bridge.as_ref();
+                panes::show_link_timing(ui, bridge, stops_on_focus_loss, self.wishes);
                 if let Some(view) = self.bench.peek_at_plant(ui.ctx()) {
                     panes::show_felt(ui, view, self.wishes);
                 }

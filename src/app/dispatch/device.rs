@@ -28,6 +28,15 @@ impl Workbench {
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
             DeviceCommand::ShowContactors(is_open) => self.transient.plant.is_open = is_open,
             DeviceCommand::LoadContactors(skin) => self.transient.plant.skin = skin,
+            DeviceCommand::ClearFaults => self.send(engine::Command::ClearFaults),
+            DeviceCommand::CopyLogPath => {
+                let log = self.engine.session_log();
+                let path = log.map(|log| log.path().display().to_string());
+                ctx.copy_text(path.unwrap_or_default());
+            }
+            DeviceCommand::StopOnFocusLoss(is_wanted) => {
+                self.settings.kept.stops_on_focus_loss = is_wanted;
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use eframe::egui::Theme;
 use super::write::ExportError;
 use super::{
     Exportable, Exported, Kind, Origin, accuracy, collection, comparison, compression, contactors,
-    drive, import, lab, map, picture, response, spatial, spectrograms, timeline, why,
+    drive, import, lab, link, map, picture, response, spatial, spectrograms, timeline, why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
@@ -47,7 +47,8 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Picture => Some(Workbench::gather_picture),
         Pane::Workspace => Some(Workbench::gather_maps),
         Pane::Collection => Some(Workbench::gather_collection),
-        Pane::Library | Pane::Bridge => None,
+        Pane::Bridge => Some(Workbench::gather_link),
+        Pane::Library => None,
     }
 }
 
@@ -256,6 +257,12 @@ impl Workbench {
             return Err(NOTHING_FELT);
         }
         Ok(accuracy::histograms(&view, origin))
+    }
+
+    fn gather_link(&mut self) -> Result<Exported, &'static str> {
+        let bridge = self.transient.live.bridge.as_ref();
+        let exported = bridge.and_then(|bridge| link::distributions(&bridge.timing, self.origin()));
+        exported.ok_or("There is nothing to export yet: connect a device")
     }
 
     fn gather_comparison(&mut self) -> Result<Exported, &'static str> {

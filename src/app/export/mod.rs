@@ -31,6 +31,7 @@ mod drive;
 mod gather;
 mod import;
 mod lab;
+mod link;
 mod map;
 mod origin;
 mod picture;
@@ -71,6 +72,7 @@ impl Exportable {
         match self {
             Self::Pane(Pane::Tuning) => "Compression curve",
             Self::Pane(Pane::Workspace) => "Map over the cloth",
+            Self::Pane(Pane::Bridge) => "Times on the link",
             Self::Pane(pane) => pane.title(),
             Self::Timeline => "Timeline",
         }

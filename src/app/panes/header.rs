@@ -1,6 +1,8 @@
 //! The line on top: the scene and what may be done with it, rendering, armed state, all off.
 
-use eframe::egui::{self, Align, Button, Layout, RichText, Stroke, Ui, WidgetInfo, vec2};
+use eframe::egui::{
+    self, Align, Align2, Button, Layout, RichText, Sense, Stroke, Ui, WidgetInfo, vec2,
+};
 
 use super::Wishes;
 use super::menu::{Appearance, show_scene_menu, show_view_menu};
@@ -14,6 +16,8 @@ use crate::quantity;
 
 /// A window narrower than this has no room for the status, points.
 const ROOM_FOR_STATUS: f32 = 1000.0;
+/// Width of the place that says whether the device is armed, points.
+const ARMED_TAG: f32 = 84.0;
 
 /// Shows the header.
 pub(crate) fn show(
@@ -125,34 +129,29 @@ fn show_all_off(ui: &mut Ui, wishes: &mut Wishes) {
     }
 }
 
+/// Whether high voltage is on: in red and large when it is, with the frame around the window.
 fn show_armed(ui: &mut Ui, live: &Live) {
     let palette = Palette::in_ui(ui);
     let is_armed = live.is_armed();
     let (word, ink) = match (is_armed, live.is_stopped) {
-        (true, _) => ("ARMED", palette.danger),
+        (true, _) => ("ARMED", palette.on_danger),
         (false, true) => ("all off", palette.text),
         (false, false) => ("disarmed", palette.dim),
     };
-    // The same width for every word: the rest of the line stands still.
-    ui.allocate_ui_with_layout(
-        vec2(76.0, ROW),
-        Layout::left_to_right(Align::Center),
-        |ui| {
-            ui.set_min_width(76.0);
-            mark(
-                ui,
-                if is_armed {
-                    palette.danger
-                } else {
-                    palette.line
-                },
-                word,
-            );
-            ui.label(RichText::new(word).color(ink));
-        },
-    )
-    .response
-    .on_hover_text("Whether the device's high voltage is on");
+    // The same place for every word: the rest of the line stands still.
+    let (rect, response) = ui.allocate_exact_size(vec2(ARMED_TAG, ROW + 4.0), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, word));
+    let painter = ui.painter();
+    let (middle, left) = (rect.center(), rect.left_center());
+    if is_armed {
+        painter.rect_filled(rect, 3, palette.danger);
+        painter.text(middle, Align2::CENTER_CENTER, word, theme::title(), ink);
+    } else {
+        painter.circle_filled(left + vec2(5.0, 0.0), 4.0, palette.line);
+        let at = left + vec2(16.0, 0.0);
+        painter.text(at, Align2::LEFT_CENTER, word, theme::body(), ink);
+    }
+    response.on_hover_text("Whether the device's high voltage is on");
 }
 
 fn show_status(ui: &mut Ui, status: &Status) {

@@ -39,6 +39,8 @@ pub(crate) struct Kept {
     pub(crate) has_numbers: bool,
     /// Whether what is below the threshold of detection is greyed.
     pub(crate) greys_below: bool,
+    /// Whether an armed device stops when the window loses the keyboard.
+    pub(crate) stops_on_focus_loss: bool,
     /// The scale of amplitudes.
     pub(crate) amplitude: AmplitudeScale,
     /// Pixels per millimetre of the screen, once it was calibrated.
@@ -65,6 +67,7 @@ impl Default for Kept {
             overlays: Overlays::default(),
             has_numbers: false,
             greys_below: true,
+            stops_on_focus_loss: false,
             amplitude: AmplitudeScale::default(),
             pixels_per_mm: None,
             rendering: Rendering::default(),

@@ -55,6 +55,12 @@ pub(crate) fn own_libraries() -> Option<PathBuf> {
     Some(folders.data_dir().to_owned())
 }
 
+/// Where links to devices are logged for this user. `None` on a system without such a place.
+pub(crate) fn session_log() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("logs").join("bridge.csv"))
+}
+
 impl Settings {
     /// Settings that are neither read nor written: for tests and pictures.
     pub(crate) fn in_memory() -> Self {

@@ -40,6 +40,7 @@ struct Keys {
     overlays: Value<Vec<String>>,
     numbers: Value<bool>,
     grey_below_threshold: Value<bool>,
+    all_off_on_focus_loss: Value<bool>,
     amplitude_top_um: Value<f64>,
     amplitude_locked: Value<bool>,
     #[serde(skip_serializing_if = "Value::is_missing")]
@@ -136,6 +137,8 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         has_numbers: taken("numbers", keys.numbers, odd).unwrap_or(first.has_numbers),
         greys_below: taken("grey_below_threshold", keys.grey_below_threshold, odd)
             .unwrap_or(first.greys_below),
+        stops_on_focus_loss: taken("all_off_on_focus_loss", keys.all_off_on_focus_loss, odd)
+            .unwrap_or(first.stops_on_focus_loss),
         amplitude: scale.with_lock(is_locked.unwrap_or_else(|| scale.is_locked())),
         pixels_per_mm: taken("pixels_per_mm", keys.pixels_per_mm, odd),
         rendering: Rendering {
@@ -202,6 +205,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         overlays: Value::Known(kept.overlays.words()),
         numbers: Value::Known(kept.has_numbers),
         grey_below_threshold: Value::Known(kept.greys_below),
+        all_off_on_focus_loss: Value::Known(kept.stops_on_focus_loss),
         amplitude_top_um: Value::Known(kept.amplitude.most_um()),
         amplitude_locked: Value::Known(kept.amplitude.is_locked()),
         pixels_per_mm: kept.pixels_per_mm.into(),
@@ -239,6 +243,7 @@ mod tests {
                 .toggled(Overlay::Map(Band::High)),
             has_numbers: true,
             greys_below: false,
+            stops_on_focus_loss: true,
             amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
             pixels_per_mm: Some(3.78),
             rendering: Rendering {

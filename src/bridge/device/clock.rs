@@ -8,7 +8,10 @@ use crate::bridge::message::DeviceState;
 impl DeviceCore {
     /// One step of the safety clock.
     pub(super) fn step_ms(&mut self, sink: &mut impl DeviceSink) {
-        self.check_lease();
+        self.check_lease(sink);
+        if self.state.is_live() && self.plays_samples() {
+            self.play_samples(sink);
+        }
         if self
             .output
             .ident
@@ -17,7 +20,7 @@ impl DeviceCore {
             self.output.ident = None;
         }
         if self.state.is_live() {
-            self.step_gain();
+            self.step_gain(sink);
         }
         // Without a session nobody is told, and the next one is told at once.
         let is_due = self.session.is_some() && self.now_us >= self.next_fault_us;
@@ -27,10 +30,13 @@ impl DeviceCore {
         self.report_change(sink);
     }
 
-    fn step_gain(&mut self) {
+    fn step_gain(&mut self, sink: &mut impl DeviceSink) {
         let hold_us = u64::from(self.config.hold_ms) * MS_US;
         let silent = self.age_us().is_some_and(|age_us| age_us > hold_us);
         if silent || self.descent.is_some() {
+            if self.state != DeviceState::Ramp {
+                self.say("the host fell silent: output ramps down", sink);
+            }
             self.state = DeviceState::Ramp;
             if self.output.fall(self.config.ramp_ms == 0) {
                 self.silence(self.descent.unwrap_or(DeviceState::Ready));
@@ -41,13 +47,16 @@ impl DeviceCore {
     }
 
     /// No valid packet for the lease: running output ramps down first, then the session ends.
-    fn check_lease(&mut self) {
+    fn check_lease(&mut self, sink: &mut impl DeviceSink) {
         let Some(session) = &self.session else { return };
         if self.now_us - session.last_valid_us <= session.lease_us {
             return;
         }
         match self.state {
             DeviceState::Run | DeviceState::Hold | DeviceState::Ramp => {
+                if self.descent != Some(DeviceState::Idle) {
+                    self.say("no sign of the host for its lease: the session ends", sink);
+                }
                 self.descent = Some(DeviceState::Idle);
                 self.queue.clear();
             }
@@ -59,6 +68,7 @@ impl DeviceCore {
     /// Zero output, empty queue, disarmed, high voltage off, and on to `state`.
     pub(super) fn silence(&mut self, state: DeviceState) {
         self.output.reset(self.config.ramp_ms);
+        self.samples.reset(self.now_us);
         self.queue.clear();
         self.descent = None;
         self.state = state;
@@ -72,8 +82,13 @@ impl DeviceCore {
 
     /// The start of a tick: its frame takes effect, then STATUS tells.
     pub(super) fn step_tick(&mut self, sink: &mut impl DeviceSink) {
+        self.output.settle();
         if self.state.is_live() && self.descent.is_none() {
-            self.apply_frame(sink);
+            if self.plays_samples() {
+                self.count_missing_samples();
+            } else {
+                self.apply_frame(sink);
+            }
         }
         self.report_change(sink);
         if self

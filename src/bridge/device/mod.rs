@@ -12,15 +12,17 @@ mod model;
 mod output;
 mod queue;
 mod requests;
+mod samples;
 mod sink;
 mod trouble;
 
 use super::framing::{Decoder, Packet};
-use super::message::{Config, DeviceState, Fault, Message, Status, TICK_US, fault_bit};
+use super::message::{Config, DeviceState, Fault, LogText, Message, Status, TICK_US, fault_bit};
 pub use lie::{Lie, Wiring};
 pub use model::DeviceModel;
 use output::OutputStage;
 use queue::FrameQueue;
+use samples::SampleRing;
 pub use sink::{AppliedFrame, DeviceSink, Moment};
 pub use trouble::Sense;
 
@@ -48,6 +50,7 @@ pub struct CoreCounters {
 struct Session {
     id: u32,
     wants_status: bool,
+    wants_log: bool,
     lease_us: u64,
     last_valid_us: u64,
     last_seq: Option<u16>,
@@ -66,6 +69,7 @@ pub struct DeviceCore {
     config: Config,
     output: OutputStage,
     queue: FrameQueue,
+    samples: SampleRing,
     scratch: Vec<[u16; 2]>,
     counters: CoreCounters,
     /// When the last FRAME was accepted; none since ARM or HELLO is `None`.
@@ -103,6 +107,7 @@ impl DeviceCore {
             config: nothing,
             output: OutputStage::new(n_channels),
             queue: FrameQueue::new(model.queue, n_channels),
+            samples: SampleRing::new(model.queue, n_channels),
             scratch: vec![[0; 2]; n_channels],
             counters: CoreCounters::default(),
             last_frame_us: None,
@@ -136,6 +141,7 @@ impl DeviceCore {
             step_us += MS_US;
         }
         self.now_us = end_us;
+        self.output.phase_us = end_us % TICK;
     }
 
     /// Takes bytes that arrive at `now_us`.
@@ -165,6 +171,7 @@ impl DeviceCore {
         let next_tick = (self.now_us / TICK + 1) * TICK;
         let moving = self.descent.is_some()
             || self.output.ident.is_some()
+            || (self.state.is_live() && self.plays_samples())
             || (self.state.is_live() && !self.output.is_gain_full());
         if moving {
             return Some(next_ms);
@@ -178,18 +185,24 @@ impl DeviceCore {
         Some(ramp_us.map_or(next_tick, |ramp_us| next_tick.min(ramp_us.max(next_ms))))
     }
 
-    /// Output codes at this moment, `[40 Hz, 320 Hz]` per contactor, everything applied, wiring
-    /// faults too.
+    /// Output codes at this moment, `[40 Hz, 320 Hz]` per channel, everything applied, wiring
+    /// faults too. In mode B twice the size of the present sample, as if it were all of the first.
     pub fn output(&self) -> Vec<[u16; 2]> {
         let mut codes = vec![[0; 2]; self.model.n_channels()];
-        self.write_output(&mut codes);
+        if self.state.is_live() && self.plays_samples() {
+            self.write_samples_to(&mut codes);
+            self.model.wiring.connect(&mut codes);
+        } else {
+            self.write_output(&mut codes);
+        }
         codes
     }
 
-    /// Writes [`output`](Self::output) to codes that are there already.
+    /// Writes [`output`](Self::output) to codes that are there already; silence in mode B, where
+    /// no amplitudes are.
     pub fn write_output(&self, codes: &mut [[u16; 2]]) {
         codes.fill([0; 2]);
-        if self.state.is_live() {
+        if self.state.is_live() && !self.plays_samples() {
             self.output.write_to(codes);
             self.model.wiring.connect(codes);
         }
@@ -248,7 +261,9 @@ impl DeviceCore {
     }
 
     fn amp_sum(&self) -> u32 {
-        if self.state.is_live() {
+        if self.state.is_live() && self.plays_samples() {
+            self.sample_sum()
+        } else if self.state.is_live() {
             self.output.amp_sum()
         } else {
             0
@@ -267,7 +282,7 @@ impl DeviceCore {
                 .and_then(|session| session.last_seq)
                 .unwrap_or(0),
             state: self.state.code(),
-            queued: self.queue.len(),
+            queued: self.queue.len() + self.samples.waiting_ticks(),
             underrun: self.counters.underrun,
             late: self.counters.late,
             dup: self.counters.dup,
@@ -296,6 +311,18 @@ impl DeviceCore {
     fn send(&mut self, message: &impl Message, sink: &mut impl DeviceSink) {
         let packet = message.packet(self.next_seq);
         self.send_packet(packet.as_ref(), sink);
+    }
+
+    /// Tells people something, if the host wants to hear it.
+    fn say(&mut self, text: &str, sink: &mut impl DeviceSink) {
+        if self
+            .session
+            .as_ref()
+            .is_some_and(|session| session.wants_log)
+        {
+            let packet = LogText::packet(self.next_seq, text);
+            self.send_packet(packet.as_ref(), sink);
+        }
     }
 
     fn send_packet(&mut self, packet: Option<&Packet>, sink: &mut impl DeviceSink) {

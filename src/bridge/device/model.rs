@@ -5,6 +5,9 @@ use crate::bridge::codes::ArrayProfile;
 use crate::bridge::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::bridge::message::{Caps, Config, MAGIC, TICK_US, frame};
 
+/// Samples a second of its converters, and of mode B.
+pub(super) const SAMPLE_HZ: u16 = 8000;
+
 /// Build-time properties of a device; the default is a 6 × 4 array with plain capabilities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceModel {
@@ -91,7 +94,7 @@ impl DeviceModel {
             hv_max_dv: self.hv_max_dv,
             slew_max: self.slew_max,
             max_body: self.max_body,
-            sample_hz: 8000,
+            sample_hz: SAMPLE_HZ,
             freq_mhz: [40_000, 320_000],
             comp_limit: self.comp_limit,
             uid: *b"selvedge-emu",
@@ -106,8 +109,16 @@ impl DeviceModel {
         let hold_ms = wish.hold_ms.min(100);
         let all = crate::bridge::message::ChannelMask::first(self.n_channels());
         Config {
-            mode: 0,
-            flags: 0,
+            mode: if self.modes & Caps::MODE_B != 0 && wish.mode == Config::SAMPLES {
+                Config::SAMPLES
+            } else {
+                Config::AMPLITUDES
+            },
+            flags: if self.modes & Caps::INTERPOLATES == 0 {
+                0
+            } else {
+                wish.flags & Config::INTERPOLATE
+            },
             hold_ms,
             ramp_ms: wish.ramp_ms.min(100 - hold_ms),
             slew: if wish.slew == 0 {

@@ -4,6 +4,7 @@
 //! The gain is a whole number of ramp steps, so that silence is reached exactly and never by
 //! rounding.
 
+use super::TICK;
 use crate::bridge::message::Config;
 
 /// One contactor driven on its own.
@@ -19,6 +20,11 @@ pub(super) struct IdentDrive {
 pub(super) struct OutputStage {
     target: Vec<[u16; 2]>,
     slewed: Vec<[u16; 2]>,
+    /// Where every component was at the start of the tick.
+    before: Vec<[u16; 2]>,
+    /// Whether components move linearly inside the tick, and how much of it is over, µs.
+    pub(super) is_interpolated: bool,
+    pub(super) phase_us: u64,
     /// Present gain in steps of `1 / steps_full`.
     steps: u16,
     steps_full: u16,
@@ -30,6 +36,9 @@ impl OutputStage {
         Self {
             target: vec![[0; 2]; n_channels],
             slewed: vec![[0; 2]; n_channels],
+            before: vec![[0; 2]; n_channels],
+            is_interpolated: false,
+            phase_us: 0,
             steps: 1,
             steps_full: 1,
             ident: None,
@@ -40,6 +49,7 @@ impl OutputStage {
     pub(super) fn reset(&mut self, ramp_ms: u16) {
         self.target.fill([0; 2]);
         self.slewed.fill([0; 2]);
+        self.before.fill([0; 2]);
         self.steps_full = ramp_ms.max(1);
         self.steps = self.steps_full;
         self.ident = None;
@@ -47,6 +57,12 @@ impl OutputStage {
 
     pub(super) fn set_target(&mut self, codes: &[[u16; 2]]) {
         self.target.copy_from_slice(codes);
+    }
+
+    /// A tick begins: what was reached is where the next movement starts.
+    pub(super) fn settle(&mut self) {
+        self.before.copy_from_slice(&self.slewed);
+        self.phase_us = 0;
     }
 
     /// One tick's movement of every component towards the target.
@@ -101,13 +117,27 @@ impl OutputStage {
 
     /// Output codes after gain, each rounded down.
     pub(super) fn write_to(&self, codes: &mut [[u16; 2]]) {
-        for (channel, (out, code)) in codes.iter_mut().zip(&self.slewed).enumerate() {
+        for (channel, out) in codes.iter_mut().enumerate().take(self.slewed.len()) {
+            let code = self.moved(channel);
             *out = match self.ident {
                 Some(ident) if ident.channel == channel => [0, ident.amp],
                 Some(_) => [0, 0],
                 None => code.map(|code| self.scaled(code)),
             };
         }
+    }
+
+    /// A channel's codes at this moment of the tick, before the gain.
+    fn moved(&self, channel: usize) -> [u16; 2] {
+        let (from, to) = (self.before[channel], self.slewed[channel]);
+        if !self.is_interpolated {
+            return to;
+        }
+        let over = self.phase_us.min(TICK);
+        [0, 1].map(|band| {
+            let [from, to] = [from, to].map(|codes| u64::from(codes[band]));
+            u16::try_from((from * (TICK - over) + to * over) / TICK).unwrap_or(u16::MAX)
+        })
     }
 
     fn scaled(&self, code: u16) -> u16 {

@@ -3,7 +3,7 @@
 
 use super::lie::caps_packet;
 use super::output::{IdentDrive, allow};
-use super::{DeviceCore, DeviceSink, MS_US, Session, wrapped_u32};
+use super::{DeviceCore, DeviceSink, MS_US, Session, samples, wrapped_u32};
 use crate::bridge::framing::Received;
 use crate::bridge::message::{
     ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC,
@@ -12,10 +12,9 @@ use crate::bridge::message::{
 
 const DEFAULT_LEASE_MS: u16 = 1000;
 const LONGEST_IDENT_MS: u16 = 1000;
-const SAMPLES_HEAD_LEN: usize = 8;
 
 /// What a packet leads to, beside its effect.
-enum Answer {
+pub(super) enum Answer {
     /// Not a valid packet.
     Bad,
     /// Valid; the reply, if there is one, is not an ACK.
@@ -60,7 +59,10 @@ impl DeviceCore {
             kind::STOP => Stop::decode(payload).map(|stop| Answer::Ack(self.stop(stop))),
             kind::PING => Ping::decode(payload).map(|ping| self.pong(ping, sink)),
             kind::CLEAR => Clear::decode(payload).map(|clear| Answer::Ack(self.clear(clear))),
-            kind::SAMPLES if payload.len() < SAMPLES_HEAD_LEN => None,
+            kind::SAMPLES if payload.len() < samples::HEAD_LEN => None,
+            kind::SAMPLES if self.model.modes & Caps::MODE_B != 0 => {
+                Some(self.take_samples(payload))
+            }
             kind::IDENT => Ident::decode(payload).map(|ident| Answer::Ack(self.ident(ident))),
             _ => Some(Answer::Ack(AckCode::UnknownType)),
         };
@@ -91,6 +93,7 @@ impl DeviceCore {
             self.session = Some(Session {
                 id: hello.session,
                 wants_status: hello.host_flags & Hello::WANT_STATUS != 0,
+                wants_log: hello.host_flags & Hello::WANT_LOG != 0,
                 lease_us: u64::from(lease_ms) * MS_US,
                 last_valid_us: self.now_us,
                 last_seq: None,
@@ -112,6 +115,7 @@ impl DeviceCore {
             _ => return Answer::Ack(AckCode::WrongState),
         }
         self.config = self.model.clamp(wish);
+        self.output.is_interpolated = self.config.flags & Config::INTERPOLATE != 0;
         if let Some(session) = &mut self.session {
             session.configured = true;
         }
@@ -148,6 +152,9 @@ impl DeviceCore {
         };
         if self.state == DeviceState::Fault {
             return Answer::Ack(AckCode::Faulted);
+        }
+        if self.plays_samples() {
+            return Answer::Ack(AckCode::WrongState);
         }
         let live = self.state.is_live() && self.descent.is_none();
         let Some(session) = self.session.as_mut().filter(|_| live) else {
@@ -191,6 +198,7 @@ impl DeviceCore {
     /// Disarms at once; a ramp only where there is output to ramp.
     fn stop(&mut self, stop: Stop) -> AckCode {
         self.queue.clear();
+        self.samples.clear();
         let after = self.descent.unwrap_or(DeviceState::Ready);
         match self.state {
             DeviceState::Idle | DeviceState::Fault => {}

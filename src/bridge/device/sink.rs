@@ -40,6 +40,8 @@ pub trait DeviceSink {
     fn packet(&mut self, bytes: &[u8]);
     /// A FRAME took effect.
     fn applied(&mut self, _frame: &AppliedFrame<'_>) {}
+    /// Mode B: these samples were played, interleaved, everything applied.
+    fn played(&mut self, _first: u64, _samples: &[i16]) {}
     /// The state changed.
     fn changed(&mut self, _moment: &Moment) {}
     /// A step of the 1 ms clock is done; what the device puts out now holds until the next.

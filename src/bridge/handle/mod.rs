@@ -4,6 +4,8 @@
 //! waiting for the port. An owner that hangs sends no frames and no pings: the device then goes
 //! silent by itself, as it should.
 
+mod notes;
+
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,12 +15,16 @@ use super::BridgeError;
 use super::codes::{ArrayProfile, Bite};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
-use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
+use super::host::{
+    BridgeCounters, BridgeEvent, BridgeState, ClockFit, HostSession, SentFrame, Sequence,
+};
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
 use super::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
 use super::port::{SerialLink, holder_of};
+use super::session_log::Note;
 use super::wire::Faults;
+use notes::Notes;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -64,8 +70,7 @@ pub struct Bridge {
     session: HostSession,
     link: Option<Link>,
     plant: Option<PlantWatch>,
-    /// The STATUS that the last frame answered; only the first answer is timed.
-    answered: Option<Instant>,
+    notes: Notes,
 }
 
 impl Bridge {
@@ -100,18 +105,25 @@ impl Bridge {
             session,
             link,
             plant,
-            answered: None,
+            notes: Notes::default(),
         }
     }
 
     /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
+        let event = self.next();
+        self.heed(event.as_ref());
+        event
+    }
+
+    fn next(&mut self) -> Option<BridgeEvent> {
         if let Some(event) = self.session.next_event() {
             return Some(event);
         }
         let now = Instant::now();
         if let Some(how) = self.link.as_ref().and_then(Link::take_stop_by_handle) {
+            self.session.note(now, Note::StopBySwitch(how));
             self.session.stop(now, how);
         }
         while let Some(incoming) = self.link.as_mut().and_then(Link::next) {
@@ -182,12 +194,9 @@ impl Bridge {
     ) -> Option<SentFrame> {
         let link = self.link.as_mut()?;
         let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
-        let received = self.session.status_received();
-        let answers = received.filter(|_| self.answered != received);
-        self.answered = received;
         link.send_frame(&QueuedFrame {
             packet,
-            answers,
+            due: sent.due,
             stamp,
         });
         Some(sent)
@@ -221,6 +230,16 @@ impl Bridge {
     /// How many ticks ahead frames are sent, 1…3.
     pub fn depth(&self) -> u8 {
         self.session.depth()
+    }
+
+    /// How long before the tick in which it is felt a frame is due.
+    pub fn lead(&self) -> Duration {
+        self.session.lead()
+    }
+
+    /// What is known of the device's clock.
+    pub fn clock(&self) -> ClockFit {
+        self.session.clock()
     }
 
     /// What the last frame's amplitudes ran into, per contactor.
@@ -294,6 +313,7 @@ impl Bridge {
     }
 
     fn flush(&mut self) {
+        self.write_notes();
         let Some(link) = &mut self.link else { return };
         if let Some(packet) = self.session.take_stop() {
             link.send_stop(&packet);

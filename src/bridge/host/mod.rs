@@ -7,9 +7,14 @@
 //! never arms on its own.
 
 mod checks;
+mod clock;
+mod frames;
+mod latching;
+mod notes;
 mod pending;
 mod replies;
 mod report;
+mod samples;
 mod timers;
 
 use std::collections::VecDeque;
@@ -20,19 +25,23 @@ use std::time::{Duration, Instant};
 use super::codes::{ArrayProfile, Bite, Coder};
 use super::framing::Packet;
 use super::message::{
-    Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message as _, Ping, Status,
-    Stop, StopHow, frame, kind,
+    Arm, Caps, ChannelMask, Clear, Config, LARGEST_CHANNELS, Message as _, Ping, Status, Stop,
+    StopHow, kind,
 };
+use super::session_log::Note;
+pub use clock::ClockFit;
+use clock::DeviceClock;
+pub use frames::SOFT_START_TICKS;
+use latching::Latching;
+use notes::Notes;
 use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
 
 const TICK: Duration = Duration::from_millis(25);
-/// Ticks of the linear soft start after ARM.
-pub const SOFT_START_TICKS: u32 = 20;
-const DEEPEST: u8 = 3;
-const DEPTH_PATIENCE: Duration = Duration::from_secs(10);
 const MOST_EVENTS: usize = 64;
 const MOST_PACKETS: usize = 16;
+/// Frames under way whose acceptance is still to be told.
+const UNCONFIRMED: usize = 4;
 
 /// The host's packet counter, shared by everything that may send on one link.
 #[derive(Clone, Debug, Default)]
@@ -52,6 +61,8 @@ pub struct HostSession {
     profile: ArrayProfile,
     n_contactors: usize,
     sequence: Sequence,
+    /// Whether samples are sent where the device plays them.
+    prefers_samples: bool,
     coder: Coder,
     codes: Vec<[u16; 2]>,
     state: BridgeState,
@@ -68,12 +79,19 @@ pub struct HostSession {
     stop_ends_output: bool,
     /// Token and time of the last PING.
     ping: Option<(u32, Instant)>,
+    last_ping: Option<Instant>,
     first_apply_tick: Option<u32>,
-    depth: u8,
-    depth_raised: Option<Instant>,
+    clock: DeviceClock,
+    latching: Latching,
+    /// Start of the last STATUS's tick, by our clock.
+    tick_start: Option<Instant>,
+    /// When the answer to the last STATUS is due; taken by the frame that is it.
+    due: Option<Instant>,
+    unconfirmed: [Option<(u16, Instant)>; UNCONFIRMED],
     last_sent: Option<Instant>,
     last_time: Option<Instant>,
     silent_for: Duration,
+    notes: Notes,
     events: VecDeque<BridgeEvent>,
     packets: VecDeque<Packet>,
     stop_packet: Option<Packet>,
@@ -87,6 +105,7 @@ impl HostSession {
             coder: Coder::new(&profile, n_contactors),
             codes: vec![[0; 2]; n_contactors.min(LARGEST_CHANNELS)],
             profile,
+            prefers_samples: false,
             n_contactors,
             sequence,
             state: BridgeState::Opening,
@@ -101,12 +120,17 @@ impl HostSession {
             stop_how: StopHow::Ramp,
             stop_ends_output: false,
             ping: None,
+            last_ping: None,
             first_apply_tick: None,
-            depth: 1,
-            depth_raised: None,
+            clock: DeviceClock::new(),
+            latching: Latching::new(),
+            tick_start: None,
+            due: None,
+            unconfirmed: [None; UNCONFIRMED],
             last_sent: None,
             last_time: None,
             silent_for: Duration::ZERO,
+            notes: Notes::default(),
             events: VecDeque::with_capacity(MOST_EVENTS),
             packets: VecDeque::with_capacity(MOST_PACKETS),
             stop_packet: None,
@@ -172,38 +196,8 @@ impl HostSession {
         let seq = self.sequence.next();
         let token = u32::from(seq) | self.nonce << 16;
         self.ping = Some((token, now));
+        self.last_ping = Some(now);
         self.queue(Ping { token }.packet(seq).as_ref(), now);
-    }
-
-    /// A FRAME for the tick `depth` after the present one, soft start applied; `None` unless armed
-    /// and a STATUS has come.
-    ///
-    /// The present tick is that of the last STATUS plus whole ticks since it arrived, so a lost
-    /// STATUS costs nothing.
-    pub fn frame(
-        &mut self,
-        now: Instant,
-        amplitudes_um: &[[f32; 2]],
-    ) -> Option<(SentFrame, Packet)> {
-        if !self.state.takes_frames() || self.status.is_none() {
-            return None;
-        }
-        let apply_tick = self.present_tick(now).wrapping_add(u32::from(self.depth));
-        let first = *self.first_apply_tick.get_or_insert(apply_tick);
-        let gain = soft_start_gain(first, apply_tick);
-        self.coder.encode_into(amplitudes_um, gain, &mut self.codes);
-        let seq = self.sequence.next();
-        let packet = frame::packet(seq, apply_tick, &self.codes)?;
-        self.state = BridgeState::Streaming;
-        self.last_sent = Some(now);
-        Some((
-            SentFrame {
-                seq,
-                apply_tick,
-                gain,
-            },
-            packet,
-        ))
     }
 
     /// The next packet to write, STOP excepted.
@@ -248,7 +242,23 @@ impl HostSession {
 
     /// How many ticks ahead frames are sent, 1…3.
     pub fn depth(&self) -> u8 {
-        self.depth
+        self.latching.depth()
+    }
+
+    /// How long before the tick in which it is felt a frame is due.
+    pub fn lead(&self) -> Duration {
+        self.latching.lead()
+    }
+
+    /// What is known of the device's clock.
+    pub fn clock(&self) -> ClockFit {
+        self.clock.fit_view()
+    }
+
+    /// The 99.9th percentile of the times from when a frame was due until the device accepted it,
+    /// of the last two minutes; zero before the first.
+    pub fn delay(&self) -> Duration {
+        self.latching.delay().0
     }
 
     /// What the last frame's amplitudes ran into, per contactor.
@@ -272,15 +282,6 @@ impl HostSession {
         self.events.capacity() + self.packets.capacity() + self.codes.capacity()
     }
 
-    fn present_tick(&self, now: Instant) -> u32 {
-        let tick = self.status.map_or(0, |status| status.tick);
-        let since = self
-            .status_received
-            .map_or(Duration::ZERO, |at| now.saturating_duration_since(at));
-        let whole = since.as_micros() / TICK.as_micros();
-        tick.wrapping_add(u32::try_from(whole).unwrap_or(0))
-    }
-
     fn request(&mut self, kind: u8, now: Instant) {
         let mut request = Pending::new(kind, now);
         self.send_request(&mut request, now);
@@ -290,8 +291,9 @@ impl HostSession {
     fn send_request(&mut self, request: &mut Pending, now: Instant) {
         let seq = self.sequence.next();
         request.sent(seq, now);
+        self.note(now, self.note_of(request.kind()));
         let packet = match request.kind() {
-            kind::HELLO => Hello::new(self.nonce).packet(seq),
+            kind::HELLO => self.hello().packet(seq),
             kind::CONFIG => self.wish().request(seq, self.n_contactors),
             kind::CLEAR => Clear { bits: u16::MAX }.packet(seq),
             _ => Arm::new(self.nonce).packet(seq),
@@ -302,6 +304,7 @@ impl HostSession {
     fn send_stop(&mut self, stopping: &mut Pending, now: Instant) {
         let seq = self.sequence.next();
         stopping.sent(seq, now);
+        self.note(now, Note::Stop(self.stop_how));
         self.stop_packet = Stop {
             reason: 0,
             how: self.stop_how,
@@ -317,7 +320,7 @@ impl HostSession {
             .map_or((0, [0; 2]), |caps| (caps.hv_max_dv, caps.comp_limit));
         let wanted = self.coder.comp_limit();
         Config {
-            mode: 0,
+            mode: self.mode(),
             flags: 0,
             hold_ms: self.profile.hold_ms,
             ramp_ms: self.profile.ramp_ms,
@@ -371,15 +374,6 @@ impl HostSession {
         }
         self.events.push_back(event);
     }
-}
-
-/// `min(1, (ticks since the first FRAME after ARM + 1) / 20)`.
-fn soft_start_gain(first_apply_tick: u32, apply_tick: u32) -> f64 {
-    let since = apply_tick.wrapping_sub(first_apply_tick);
-    // A depth or clock correction may step back behind the first frame.
-    let since = if since.cast_signed() < 0 { 0 } else { since };
-    let ticks = since.saturating_add(1).min(SOFT_START_TICKS);
-    f64::from(ticks) / f64::from(SOFT_START_TICKS)
 }
 
 #[cfg(test)]

@@ -1,12 +1,17 @@
 //! What the session makes of each message of the device.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::checks::refusal;
-use super::{BridgeEvent, BridgeState, DEEPEST, DEPTH_PATIENCE, DisarmedBy, HostSession};
+use super::latching::Deepened;
+use super::{BridgeEvent, BridgeState, DisarmedBy, HostSession, TICK};
 use crate::bridge::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
+use crate::bridge::session_log::Note;
+
+/// A line of the device's clock that moved further than this makes what was measured by it void.
+const MOVED: Duration = Duration::from_millis(1);
 
 impl HostSession {
     /// Takes one message. Everything before CAPS with our own nonce is left over from another
@@ -18,10 +23,15 @@ impl HostSession {
         match message {
             DeviceMessage::Caps(caps) => self.on_caps(received, caps),
             _ if self.caps.is_none() => {}
-            DeviceMessage::Cfg(config) => self.on_config(config),
+            DeviceMessage::Cfg(config) => self.on_config(received, config),
             DeviceMessage::Ack(ack) => self.on_ack(received, *ack),
             DeviceMessage::Status(status) => self.on_status(received, status),
-            DeviceMessage::Fault(fault) => self.event(BridgeEvent::Fault(*fault)),
+            DeviceMessage::Fault(fault) => {
+                if self.is_news(fault.faults) {
+                    self.note(received, Note::Fault(*fault));
+                }
+                self.event(BridgeEvent::Fault(*fault));
+            }
             DeviceMessage::Pong(pong) => self.on_pong(received, *pong),
             DeviceMessage::Log(text) => self.event(BridgeEvent::Log(text.to_line())),
         }
@@ -32,12 +42,14 @@ impl HostSession {
         if self.state != BridgeState::Greeting || !ours {
             return;
         }
+        self.note(received, Note::Caps(*caps));
         if let Some(reason) = refusal(caps, self.n_contactors) {
             self.end(BridgeState::Refused);
             self.event(BridgeEvent::Refused(reason));
             return;
         }
         self.caps = Some(*caps);
+        self.latching.set_queue(caps.queue);
         self.event(BridgeEvent::Connected(*caps));
         self.configure(received);
     }
@@ -47,11 +59,12 @@ impl HostSession {
         self.request(kind::CONFIG, now);
     }
 
-    fn on_config(&mut self, config: &Config) {
+    fn on_config(&mut self, received: Instant, config: &Config) {
         if self.state != BridgeState::Configuring {
             return;
         }
         self.request = None;
+        self.note(received, Note::Effective(*config));
         self.coder.set_link_limit(config.comp_limit);
         self.config = Some(*config);
         self.state = BridgeState::Ready;
@@ -59,13 +72,15 @@ impl HostSession {
     }
 
     fn on_ack(&mut self, received: Instant, ack: Ack) {
-        if ack.kind == kind::FRAME && ack.code != AckCode::Ok {
-            self.frames_rejected += 1;
+        if ack.code != AckCode::Ok {
+            self.note(received, Note::Refused(ack.kind, ack.code));
+            self.frames_rejected += u64::from(ack.kind == kind::FRAME);
         }
         if self
             .stopping
             .is_some_and(|stopping| stopping.is_answered_by(ack.kind, ack.seq))
         {
+            self.note(received, Note::Stopped);
             self.on_stopped();
         }
         if !self
@@ -77,6 +92,7 @@ impl HostSession {
         self.request = None;
         match (ack.kind, ack.code) {
             (kind::ARM, AckCode::Ok) => {
+                self.note(received, Note::Armed);
                 self.state = BridgeState::Armed;
                 self.event(BridgeEvent::Armed);
             }
@@ -91,7 +107,10 @@ impl HostSession {
                 let reason = format!("the device refused its settings: {}", code.describe());
                 self.event(BridgeEvent::Refused(reason));
             }
-            (kind::CLEAR, AckCode::Ok) => self.configure(received),
+            (kind::CLEAR, AckCode::Ok) => {
+                self.note(received, Note::Cleared);
+                self.configure(received);
+            }
             _ => {}
         }
     }
@@ -107,22 +126,71 @@ impl HostSession {
     }
 
     fn on_status(&mut self, received: Instant, status: &Status) {
-        if let Some(before) = self.status.replace(*status) {
-            let late = self.counters.late;
+        let before = self.status.replace(*status);
+        let counted = self.counters;
+        if let Some(before) = before {
             self.counters.add(&before, status);
-            if self.counters.late > late {
-                self.deepen(received);
-            }
         }
         self.status_received = Some(received);
-        self.silent_for = std::time::Duration::ZERO;
+        self.silent_for = Duration::ZERO;
+        self.time(received, status);
+        if before.is_none_or(|before| before.state != status.state) {
+            self.note(received, Note::State(status.state));
+        }
+        if self.counters != counted {
+            self.note(received, Note::DeviceCounters(self.counters));
+        }
+        let late = self.counters.late - counted.late;
+        let missing = self.counters.underrun - counted.underrun;
+        self.latch(received, [late, missing]);
         self.follow(received, status);
         if self.state.is_open() {
+            let start = self.tick_start.unwrap_or(received);
+            let due = self.latching.due(start, received);
+            self.due = Some(due);
             self.event(BridgeEvent::Tick {
                 tick: status.tick,
                 received,
+                due,
             });
         }
+    }
+
+    /// Places the tick that a STATUS announces on our clock, and learns how long the last frame
+    /// took until it was accepted.
+    fn time(&mut self, received: Instant, status: &Status) {
+        let device_us = self.clock.unwrapped(status.dev_us);
+        // No line through answers may say what cannot be: a tick after its STATUS arrived.
+        let start = self.clock.at(device_us).unwrap_or(received).min(received);
+        let earliest = received.checked_sub(TICK).unwrap_or(received);
+        let start = start.max(earliest);
+        self.tick_start = Some(start);
+        let age = Duration::from_millis(u64::from(status.age_ms));
+        let is_ours = |sent: &Option<(u16, Instant)>| {
+            sent.is_some_and(|(seq, _)| seq == status.last_seq) && status.age_ms < u16::MAX
+        };
+        let Some(place) = self.unconfirmed.iter().position(is_ours) else {
+            return;
+        };
+        // Older ones were replaced by this one and say nothing any more.
+        if let Some((_, due)) = self.unconfirmed[place] {
+            let accepted = start.checked_sub(age).unwrap_or(start);
+            self.latching
+                .accepted(accepted.saturating_duration_since(due));
+        }
+        self.unconfirmed[place..].fill(None);
+    }
+
+    fn latch(&mut self, now: Instant, lost: [u64; 2]) {
+        let news = self.tick_start.map(|at| now.saturating_duration_since(at));
+        let depth = match self.latching.tick(now, news.unwrap_or_default(), lost) {
+            Deepened::No => return,
+            Deepened::Raised => BridgeEvent::DepthRaised(self.latching.depth()),
+            Deepened::Lowered => BridgeEvent::DepthLowered(self.latching.depth()),
+        };
+        let (ticks, lead) = (self.latching.depth(), self.latching.lead());
+        self.note(now, Note::Depth(ticks, lead));
+        self.event(depth);
     }
 
     /// Compares the device's state with ours. It may leave output by itself; it never gets back
@@ -161,22 +229,15 @@ impl HostSession {
         {
             self.ping = None;
             let round_trip = received.saturating_duration_since(sent);
+            let moved = self.clock.answered(sent, received, pong.dev_us);
+            if moved > MOVED {
+                // What was measured by the old line is wrong by as much.
+                self.latching.forget();
+            }
             self.event(BridgeEvent::Pong {
                 round_trip,
                 phase_us: pong.phase_us,
             });
-        }
-    }
-
-    /// Late frames: aim further ahead, at most one tick more every 10 s and never beyond 3.
-    fn deepen(&mut self, now: Instant) {
-        let rested = self
-            .depth_raised
-            .is_none_or(|raised| now.saturating_duration_since(raised) >= DEPTH_PATIENCE);
-        if self.depth < DEEPEST && rested {
-            self.depth += 1;
-            self.depth_raised = Some(now);
-            self.event(BridgeEvent::DepthRaised(self.depth));
         }
     }
 }

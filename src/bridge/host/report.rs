@@ -100,6 +100,8 @@ pub enum BridgeEvent {
         tick: u32,
         /// When the STATUS arrived.
         received: Instant,
+        /// When to make the frame, so that it comes just in time; answering at once is safe too.
+        due: Instant,
     },
     /// Output is enabled.
     Armed,
@@ -116,6 +118,8 @@ pub enum BridgeEvent {
     Fault(Fault),
     /// Frames are now sent for this many ticks ahead, because some came late.
     DepthRaised(u8),
+    /// Frames are now sent for this many ticks ahead, fewer than before: none came late for long.
+    DepthLowered(u8),
     /// Answer to a ping.
     Pong {
         /// From the request to its answer.
@@ -136,6 +140,10 @@ pub struct SentFrame {
     pub apply_tick: u32,
     /// Soft-start gain that its codes contain, 0…1.
     pub gain: f64,
+    /// When it was due; `None` for one that answers no STATUS, or not as the first.
+    pub due: Option<Instant>,
+    /// From its making to the start of the tick at which it takes effect, by the device's clock.
+    pub ahead: Duration,
 }
 
 /// The device's counters since this session began; the wire's wrap at 65536 is undone.

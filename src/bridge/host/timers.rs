@@ -9,6 +9,10 @@ use crate::bridge::message::{StopHow, kind};
 
 /// A host that has nothing to send for this long sends a PING: below a quarter of the lease of 1 s.
 const PING_EVERY: Duration = Duration::from_millis(200);
+/// PINGs that measure the clock soon after connecting, and the pauses between them then and later.
+const FIRST_PINGS: u64 = 8;
+const FIRST_PAUSE: Duration = Duration::from_millis(40);
+const PAUSE: Duration = Duration::from_secs(1);
 /// STATUS missing for this long while armed means that the link is lost.
 const SILENCE_ARMED: Duration = Duration::from_millis(500);
 /// The same while nothing moves; longer, since nothing is at stake.
@@ -33,9 +37,22 @@ impl HostSession {
         let quiet = self
             .last_sent
             .is_none_or(|sent| now.duration_since(sent) >= PING_EVERY);
-        if self.state.is_open() && self.caps.is_some() && quiet {
+        if self.state.is_open() && self.caps.is_some() && (quiet || self.wants_time(now)) {
             self.ping(now);
         }
+    }
+
+    /// Whether the device's clock is to be asked for: often at first, then once a second.
+    fn wants_time(&self, now: Instant) -> bool {
+        let is_new = self.clock.fit_view().n_answers < FIRST_PINGS;
+        // One that is under way would not be recognised any more.
+        let pause = if is_new && self.ping.is_none() {
+            FIRST_PAUSE
+        } else {
+            PAUSE
+        };
+        self.last_ping
+            .is_none_or(|last| now.saturating_duration_since(last) >= pause)
     }
 
     fn check_request(&mut self, now: Instant) {

@@ -26,7 +26,7 @@ use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use reader::Reader;
 use timings::Histogram;
-pub use timings::{Spread, Timings};
+pub use timings::{Distribution, DistributionBar, Spread, Timings};
 use writer::Writer;
 
 const INCOMING: usize = 256;
@@ -58,8 +58,8 @@ pub(super) enum Incoming {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct QueuedFrame {
     pub(super) packet: Packet,
-    /// Arrival of the STATUS that it answers.
-    pub(super) answers: Option<Instant>,
+    /// When it was due, as the answer to a STATUS.
+    pub(super) due: Option<Instant>,
     /// Time of the input that it is made of.
     pub(super) stamp: Option<Instant>,
 }
@@ -77,8 +77,10 @@ struct Shared {
     running: AtomicU8,
     writer: OnceLock<Thread>,
     waker: Waker,
-    status_to_write: Histogram,
+    due_to_write: Histogram,
     stamp_to_write: Histogram,
+    round_trip: Histogram,
+    frame_interval: Histogram,
     frames_sent: AtomicU64,
     frames_superseded: AtomicU64,
     bad_received: AtomicU64,
@@ -98,8 +100,10 @@ impl Shared {
             running: AtomicU8::new(0),
             writer: OnceLock::new(),
             waker,
-            status_to_write: Histogram::new(),
+            due_to_write: Histogram::new(),
             stamp_to_write: Histogram::new(),
+            round_trip: Histogram::new(),
+            frame_interval: Histogram::new(),
             frames_sent: AtomicU64::new(0),
             frames_superseded: AtomicU64::new(0),
             bad_received: AtomicU64::new(0),
@@ -264,9 +268,16 @@ impl Link {
 
     pub(super) fn timings(&self) -> Timings {
         Timings {
-            status_to_write: self.shared.status_to_write.spread(),
+            due_to_write: self.shared.due_to_write.spread(),
             stamp_to_write: self.shared.stamp_to_write.spread(),
+            round_trip: self.shared.round_trip.distribution(),
+            frame_interval: self.shared.frame_interval.distribution(),
         }
+    }
+
+    /// A PING was answered after so long.
+    pub(super) fn record_round_trip(&self, round_trip: Duration) {
+        self.shared.round_trip.record(round_trip);
     }
 
     /// Lets the threads end once everything queued is written. Does not wait.

@@ -61,7 +61,7 @@ fn queued(tick: u32) -> QueuedFrame {
     let now = Instant::now();
     QueuedFrame {
         packet,
-        answers: Some(now),
+        due: Some(now),
         stamp: Some(now),
     }
 }

@@ -1,13 +1,16 @@
-//! How long frames take to reach the port, counted without locks by the writer and read by anyone.
+//! How long things take on a link, counted without locks where they happen and read by anyone.
 //!
-//! Durations fall into buckets of 1/16 octave from 1 µs, so a percentile is right within 4.5 %.
+//! Durations fall into buckets of 1/64 octave from 1 µs, so a percentile is right within 1.1 %.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-const PER_OCTAVE: f64 = 16.0;
+const PER_OCTAVE: f64 = 64.0;
 /// Up to 2²⁰ µs, about a second; longer ones share the last bucket.
-const BUCKETS: usize = 321;
+const BUCKETS: usize = 1281;
+/// Buckets to a bar of a [`Distribution`]: a quarter of an octave.
+const PER_BAR: usize = 16;
+const BARS: usize = BUCKETS.div_ceil(PER_BAR);
 
 /// Median, 99th percentile and largest of some durations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,11 +47,72 @@ impl Spread {
 /// Frame timings of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Timings {
-    /// From the arrival of a STATUS to the end of the write of the FRAME that answers it.
-    pub status_to_write: Spread,
+    /// From when the FRAME that answers a STATUS was due (never before that STATUS arrived) to the
+    /// end of its write.
+    pub due_to_write: Spread,
     /// From the stamp of the input that a frame is made of (a pointer event) to the end of its
     /// write.
     pub stamp_to_write: Spread,
+    /// From a PING to its answer.
+    pub round_trip: Distribution,
+    /// From the end of one FRAME's write to the end of the next, while frames are sent.
+    pub frame_interval: Distribution,
+}
+
+/// How often durations of each size were met: bars of a quarter of an octave, and their spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Distribution {
+    /// Median, 99th percentile and longest.
+    pub spread: Spread,
+    bars: [u32; BARS],
+}
+
+/// One bar of a [`Distribution`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DistributionBar {
+    /// Its lower edge; zero for the first.
+    pub from: Duration,
+    /// Its upper edge.
+    pub to: Duration,
+    /// How many durations fell into it.
+    pub count: u32,
+}
+
+impl Default for Distribution {
+    fn default() -> Self {
+        Self {
+            spread: Spread::default(),
+            bars: [0; BARS],
+        }
+    }
+}
+
+impl Distribution {
+    /// The distribution of a list of durations.
+    pub fn of(durations: &[Duration]) -> Self {
+        let histogram = Histogram::new();
+        for duration in durations {
+            histogram.record(*duration);
+        }
+        histogram.distribution()
+    }
+
+    /// From the first bar that is not empty to the last, with the empty ones between.
+    pub fn bars(&self) -> impl Iterator<Item = DistributionBar> {
+        let first = self.bars.iter().position(|count| *count > 0);
+        let last = self.bars.iter().rposition(|count| *count > 0);
+        let places = first
+            .zip(last)
+            .map_or(0..0, |(first, last)| first..last + 1);
+        places.map(|bar| DistributionBar {
+            from: match bar {
+                0 => Duration::ZERO,
+                bar => upper_edge(bar * PER_BAR - 1),
+            },
+            to: upper_edge((bar + 1) * PER_BAR - 1),
+            count: self.bars[bar],
+        })
+    }
 }
 
 /// A histogram that one thread fills and others read.
@@ -75,27 +139,38 @@ impl Histogram {
     }
 
     pub(super) fn spread(&self) -> Spread {
+        self.distribution().spread
+    }
+
+    pub(super) fn distribution(&self) -> Distribution {
         // On the stack: an engine asks between two ticks, where nothing may allocate.
         let mut counts = [0_u64; BUCKETS];
-        for (count, shared) in counts.iter_mut().zip(&self.counts) {
+        let mut bars = [0_u32; BARS];
+        for (bucket, (count, shared)) in counts.iter_mut().zip(&self.counts).enumerate() {
             *count = shared.load(Ordering::Relaxed);
+            let bar = &mut bars[bucket / PER_BAR];
+            *bar = bar.saturating_add(u32::try_from(*count).unwrap_or(u32::MAX));
         }
         let n = counts.iter().sum();
         let max = Duration::from_nanos(self.max_ns.load(Ordering::Relaxed));
         let at = |share| {
             let mut left = rank(n, share);
-            let found = counts.iter().position(|count| {
-                left = left.saturating_sub(*count);
-                left == 0
-            });
-            found.map_or(max, upper_edge).min(max)
+            for (bucket, count) in counts.iter().enumerate().filter(|(_, n)| **n > 0) {
+                if left <= *count {
+                    // As if the durations in a bucket lay evenly in it.
+                    return edge(bucket as f64 + left as f64 / *count as f64).min(max);
+                }
+                left -= count;
+            }
+            max
         };
-        Spread {
+        let spread = Spread {
             n,
             median: at(0.5),
             p99: at(0.99),
             max,
-        }
+        };
+        Distribution { spread, bars }
     }
 }
 
@@ -120,7 +195,12 @@ fn bucket(duration: Duration) -> usize {
 }
 
 fn upper_edge(bucket: usize) -> Duration {
-    Duration::from_secs_f64(((bucket + 1) as f64 / PER_OCTAVE).exp2() * 1e-6)
+    edge(bucket as f64 + 1.0)
+}
+
+/// The duration so many buckets above 1 µs.
+fn edge(buckets: f64) -> Duration {
+    Duration::from_secs_f64((buckets / PER_OCTAVE).exp2() * 1e-6)
 }
 
 #[cfg(test)]
@@ -140,7 +220,7 @@ mod tests {
         assert_eq!((seen.n, seen.max), (exact.n, exact.max));
         for (seen, exact) in [(seen.median, exact.median), (seen.p99, exact.p99)] {
             let ratio = seen.as_secs_f64() / exact.as_secs_f64();
-            assert!((1.0..1.05).contains(&ratio), "{ratio}");
+            assert!((0.999..1.011).contains(&ratio), "{ratio}");
         }
     }
 
@@ -154,5 +234,22 @@ mod tests {
         let spread = histogram.spread();
         assert_eq!((spread.n, spread.max), (2, Duration::from_secs(9999)));
         assert!(spread.median <= Duration::from_micros(2));
+    }
+
+    #[test]
+    fn bars_hold_every_duration_between_their_edges() {
+        let histogram = Histogram::new();
+        let durations = [3, 3, 24_990, 25_010, 25_400].map(Duration::from_micros);
+        durations.iter().for_each(|d| histogram.record(*d));
+        let distribution = histogram.distribution();
+        let bars: Vec<_> = distribution.bars().collect();
+        assert_eq!(bars.iter().map(|bar| bar.count).sum::<u32>(), 5);
+        for bar in bars.iter().filter(|bar| bar.count > 0) {
+            let within = |d: &&Duration| bar.from <= **d && **d < bar.to;
+            let n = u32::try_from(durations.iter().filter(within).count()).unwrap();
+            assert_eq!(n, bar.count, "{bar:?}");
+        }
+        assert!(bars.windows(2).all(|pair| pair[0].to == pair[1].from));
+        assert_eq!(Distribution::default().bars().count(), 0);
     }
 }

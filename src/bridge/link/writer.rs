@@ -33,6 +33,8 @@ pub(super) struct Writer {
     frames: Consumer<QueuedFrame>,
     failed: Producer<String>,
     timed_out: bool,
+    /// When the last frame was written, since the last STOP.
+    last_frame: Option<Instant>,
 }
 
 impl Writer {
@@ -48,6 +50,7 @@ impl Writer {
             frames,
             failed,
             timed_out: false,
+            last_frame: None,
         }
     }
 
@@ -87,6 +90,7 @@ impl Writer {
 
     /// Nothing queued before a STOP may follow it: an ARM would undo it.
     fn discard(&mut self) {
+        self.last_frame = None;
         while self.controls.pop().is_ok() {}
         if self.newest_frame().is_some() {
             self.shared
@@ -106,12 +110,16 @@ impl Writer {
         Some(newest)
     }
 
-    fn record(&self, frame: &QueuedFrame, written: Instant) {
+    fn record(&mut self, frame: &QueuedFrame, written: Instant) {
         self.shared.frames_sent.fetch_add(1, Ordering::Relaxed);
-        if let Some(received) = frame.answers {
+        if let Some(last) = self.last_frame.replace(written) {
+            let interval = written.saturating_duration_since(last);
+            self.shared.frame_interval.record(interval);
+        }
+        if let Some(due) = frame.due {
             self.shared
-                .status_to_write
-                .record(written.saturating_duration_since(received));
+                .due_to_write
+                .record(written.saturating_duration_since(due));
         }
         if let Some(stamp) = frame.stamp {
             self.shared

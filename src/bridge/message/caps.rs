@@ -70,6 +70,8 @@ impl Caps {
     pub const MODE_B: u16 = 1 << 1;
     /// Bit of `modes`: IDENT.
     pub const MODE_IDENT: u16 = 1 << 2;
+    /// Bit of `modes`: amplitudes may move linearly inside a tick.
+    pub const INTERPOLATES: u16 = 1 << 3;
 
     /// The name as text, without padding; bytes that are not UTF-8 end it.
     pub fn name(&self) -> &str {

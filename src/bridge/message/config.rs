@@ -55,7 +55,7 @@ impl ChannelMask {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
-    /// 0: amplitudes (mode A).
+    /// 0: amplitudes (mode A); 1: samples (mode B).
     pub mode: u8,
     /// Bit 0: interpolate inside the tick.
     pub flags: u8,
@@ -74,6 +74,13 @@ pub struct Config {
 }
 
 impl Config {
+    /// `mode`: the device makes the carriers, the host sends amplitudes.
+    pub const AMPLITUDES: u8 = 0;
+    /// `mode`: the host sends samples.
+    pub const SAMPLES: u8 = 1;
+    /// Bit of `flags`: amplitudes move linearly inside a tick.
+    pub const INTERPOLATE: u8 = 1;
+
     /// Reads a CONFIG or CFG payload of a device with `n_channels` channels.
     pub fn decode(payload: &[u8], n_channels: usize) -> Option<Self> {
         let mut fields = FieldReader::new(payload);

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{AckCode, Caps, Config, DeviceState, Message as _, kind, message};
-use crate::bridge::framing::Received;
+use crate::bridge::framing::{Packet, Received};
 
 /// Answers ARM, STOP, CLEAR, IDENT, and whatever was refused.
 ///
@@ -203,6 +203,12 @@ impl LogText {
         };
         text.bytes[..text.len].copy_from_slice(&payload[..text.len]);
         text
+    }
+
+    /// The framed LOG of a device; a text that is too long is cut.
+    pub fn packet(seq: u16, text: &str) -> Option<Packet> {
+        let bytes = text.as_bytes();
+        Packet::encode(kind::LOG, seq, &bytes[..bytes.len().min(120)])
     }
 
     /// The text in one line: control characters and what is no UTF-8 are replaced.

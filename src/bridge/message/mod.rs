@@ -13,7 +13,7 @@ mod state;
 pub use caps::Caps;
 pub use config::{ChannelMask, Config, LARGEST_CHANNELS};
 pub use device::{Ack, DeviceMessage, Fault, LogText, Pong, Status, Unreadable};
-pub use host::{ARM_KEY, Arm, Clear, Hello, Ident, NEXT_TICK, Ping, Stop, StopHow, frame};
+pub use host::{ARM_KEY, Arm, Clear, Hello, Ident, NEXT_TICK, Ping, Stop, StopHow, frame, samples};
 pub use state::{AckCode, DeviceState, fault_bit};
 
 use super::fields::{FieldReader, FieldWriter};

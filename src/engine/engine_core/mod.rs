@@ -4,7 +4,7 @@
 
 mod obey;
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::handle::playable;
 use super::input::{
@@ -214,8 +214,9 @@ impl EngineCore {
     }
 
     /// Writes the state into a snapshot that was made for this scene; clock and device are the
-    /// caller's. `depth` is how many ticks ahead a device plays.
-    pub(super) fn fill(&self, snapshot: &mut Snapshot, depth: Option<u8>) {
+    /// caller's. `until_felt` is how long after a tick the middle of that comes in which a device
+    /// plays it.
+    pub(super) fn fill(&self, snapshot: &mut Snapshot, until_felt: Option<Duration>) {
         let renderer = &self.scene.renderer;
         snapshot.scene_serial = self.scene.serial();
         snapshot.revision = self.revision;
@@ -233,7 +234,7 @@ impl EngineCore {
         snapshot.tuning = *renderer.tuning();
         snapshot.compression_is_pending = renderer.compression_is_pending();
         snapshot.compression_reference_db = renderer.compression_reference_db();
-        snapshot.pointer = self.track.view(self.losses(), depth);
+        snapshot.pointer = self.track.view(self.losses(), until_felt);
         snapshot.source = self
             .source()
             .map_or(SourceKind::Pointer, PointerInput::kind);

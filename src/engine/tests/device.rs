@@ -142,11 +142,12 @@ fn a_live_pointer_shows_the_age_of_what_is_felt() {
         });
         let snapshot = engine.snapshot();
         let is_felt = snapshot.source == SourceKind::Pointer && !is_silent(snapshot);
-        is_felt.then_some((snapshot.pointer, snapshot.link.unwrap().depth))
+        is_felt.then_some((snapshot.pointer, snapshot.link.unwrap()))
     });
-    let (view, depth) = view;
-    let until_mid_tick = TICK * u32::from(depth) + TICK / 2;
-    assert_eq!(view.felt_age, view.age.map(|age| age + until_mid_tick));
+    let (view, link) = view;
+    let ahead = view.felt_age.unwrap() - view.age.unwrap() - TICK / 2;
+    assert!(ahead <= TICK * u32::from(link.depth), "{ahead:?}");
+    assert_eq!(ahead, link.sent.unwrap().ahead);
 }
 
 #[test]

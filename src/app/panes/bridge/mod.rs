@@ -2,6 +2,7 @@
 
 mod back;
 mod felt;
+mod timing;
 
 use std::path::PathBuf;
 
@@ -20,6 +21,7 @@ use crate::quantity;
 
 pub(crate) use back::{BACK, notice as back_notice};
 pub(crate) use felt::show as show_felt;
+pub(crate) use timing::show as show_timing;
 
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;

@@ -3,6 +3,7 @@
 mod frames;
 mod random;
 mod requests;
+mod samples;
 mod silence;
 
 use super::*;

@@ -1,11 +1,13 @@
 //! The session in virtual time: alone against scripted messages, and end to end against the device.
 
 mod alone;
+mod latched;
 mod together;
 
+use super::frames::soft_start_gain;
 use super::*;
 use crate::bridge::device::DeviceModel;
-use crate::bridge::message::{Ack, AckCode, DeviceMessage, DeviceState, Fault, fault_bit};
+use crate::bridge::message::{Ack, AckCode, DeviceMessage, DeviceState, Fault, fault_bit, frame};
 use crate::bridge::wire::{Faults, LaneFaults, Simulation};
 
 const NONCE: u32 = 0x1234_5678;

@@ -1,0 +1,54 @@
+//! Dates and times of day, UTC, in the Gregorian calendar; leap seconds are nowhere.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Year, month and day of a number of days since 1970-01-01, in the Gregorian calendar.
+pub fn date_of(days: u64) -> (u64, u64, u64) {
+    // Counted from 0000-03-01, so that a leap day is the last of its year.
+    let shifted = days + 719_468;
+    let (era, of_era) = (shifted / 146_097, shifted % 146_097);
+    let year_of_era = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
+    let of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let shifted_month = (5 * of_year + 2) / 153;
+    let day = of_year - (153 * shifted_month + 2) / 5 + 1;
+    let month = if shifted_month < 10 {
+        shifted_month + 3
+    } else {
+        shifted_month - 9
+    };
+    let year = year_of_era + 400 * era + u64::from(month <= 2);
+    (year, month, day)
+}
+
+/// A moment as RFC 3339 with microseconds, UTC: `2026-03-01T14:05:06.000000Z`. Times before 1970
+/// are shown as its first.
+pub fn rfc3339(at: SystemTime) -> String {
+    let since = at.duration_since(UNIX_EPOCH).unwrap_or_default();
+    let s = since.as_secs();
+    let (year, month, day) = date_of(s / 86_400);
+    let (hour, minute, second) = (s / 3600 % 24, s / 60 % 60, s % 60);
+    let us = since.subsec_micros();
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{us:06}Z")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn days_become_dates() {
+        assert_eq!(date_of(0), (1970, 1, 1));
+        assert_eq!(date_of(11_016), (2000, 2, 29));
+        assert_eq!(date_of(11_017), (2000, 3, 1));
+        assert_eq!(date_of(20_453), (2025, 12, 31));
+    }
+
+    #[test]
+    fn moments_are_written_as_the_standard_says() {
+        let at = UNIX_EPOCH + Duration::from_micros(951_827_696_000_789);
+        assert_eq!(rfc3339(at), "2000-02-29T12:34:56.000789Z");
+        let before = UNIX_EPOCH - Duration::from_secs(5);
+        assert_eq!(rfc3339(before), "1970-01-01T00:00:00.000000Z");
+    }
+}
