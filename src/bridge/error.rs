@@ -52,6 +52,9 @@ pub enum BridgeError {
     /// The list of ports could not be read.
     #[error("cannot list serial ports: {0}")]
     List(String),
+    /// An array profile.
+    #[error(transparent)]
+    Profile(#[from] crate::files::FileError),
     /// A WAV file has no room for more.
     #[error(
         "a WAV file holds less than 4 GiB: choose 16-bit samples, a lower rate or a shorter path"

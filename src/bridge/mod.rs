@@ -23,6 +23,7 @@
 //! - Memory is bounded whatever arrives; no bytes make anything panic.
 //! - Callers never wait for a port: opening, reading and writing happen on named threads.
 
+mod array;
 mod codes;
 mod device;
 mod emulator;
@@ -37,7 +38,8 @@ mod port;
 mod self_test;
 mod wav;
 
-pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
+pub use array::{ArrayProfile, Calibration, DeviceUid, Wiring, wiring};
+pub use codes::{Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
@@ -46,7 +48,7 @@ pub use error::BridgeError;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, Target};
 pub use host::{
-    BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
     SOFT_START_TICKS, SentFrame, Sequence,
 };
 pub use link::{Spread, StopHandle, Timings};

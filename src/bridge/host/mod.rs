@@ -6,7 +6,9 @@
 //! falls silent. It owns no port, no thread and no clock (callers say what time it is), and it
 //! never arms on its own.
 
+mod array;
 mod checks;
+mod ident;
 mod pending;
 mod replies;
 mod report;
@@ -23,6 +25,8 @@ use super::message::{
     Arm, Caps, ChannelMask, Clear, Config, Hello, LARGEST_CHANNELS, Message as _, Ping, Status,
     Stop, StopHow, frame, kind,
 };
+pub use array::ArrayChange;
+use ident::Identifying;
 use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
 
@@ -68,6 +72,7 @@ pub struct HostSession {
     stop_ends_output: bool,
     /// Token and time of the last PING.
     ping: Option<(u32, Instant)>,
+    ident: Option<Identifying>,
     first_apply_tick: Option<u32>,
     depth: u8,
     depth_raised: Option<Instant>,
@@ -101,6 +106,7 @@ impl HostSession {
             stop_how: StopHow::Ramp,
             stop_ends_output: false,
             ping: None,
+            ident: None,
             first_apply_tick: None,
             depth: 1,
             depth_raised: None,

@@ -42,7 +42,7 @@ impl HostSession {
         self.configure(received);
     }
 
-    fn configure(&mut self, now: Instant) {
+    pub(super) fn configure(&mut self, now: Instant) {
         self.state = BridgeState::Configuring;
         self.request(kind::CONFIG, now);
     }
@@ -59,6 +59,7 @@ impl HostSession {
     }
 
     fn on_ack(&mut self, received: Instant, ack: Ack) {
+        self.on_ident_ack(ack);
         if ack.kind == kind::FRAME && ack.code != AckCode::Ok {
             self.frames_rejected += 1;
         }

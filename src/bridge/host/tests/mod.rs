@@ -1,6 +1,7 @@
 //! The session in virtual time: alone against scripted messages, and end to end against the device.
 
 mod alone;
+mod array;
 mod together;
 
 use super::*;
@@ -62,6 +63,8 @@ struct Pair {
     host_ppm: i64,
     /// Damages what the host writes.
     noise: Option<Noise>,
+    /// Whether ticks go unanswered.
+    is_unheard: bool,
 }
 
 #[derive(Default)]
@@ -105,6 +108,7 @@ impl Pair {
             cut: false,
             host_ppm: 0,
             noise: None,
+            is_unheard: false,
         }
     }
 
@@ -125,9 +129,19 @@ impl Pair {
         }
     }
 
+    /// As `run`, but ticks go unanswered.
+    fn run_without_frames(&mut self, ms: u64) {
+        self.is_unheard = true;
+        self.run(ms);
+        self.is_unheard = false;
+    }
+
     fn exchange(&mut self) {
         while let Some(event) = self.host.next_event() {
             if matches!(event, BridgeEvent::Tick { .. }) {
+                if self.is_unheard {
+                    continue;
+                }
                 let amplitudes = vec![self.amplitude_um; 24];
                 if let Some((stamp, packet)) = self.host.frame(self.now(), &amplitudes) {
                     self.sent.push((stamp, amplitudes));
