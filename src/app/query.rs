@@ -172,7 +172,7 @@ fn dot(contactor: &crate::engine::ContactorView, is_muted: bool) -> Dot {
         position: contactor.position,
         cloth: contactor.textile.map(usize::from),
         amplitude_um: contactor.amplitude_um.map(f64::from),
-        is_limited: contactor.bite.any(),
+        bite: contactor.bite,
         is_muted,
     }
 }
@@ -245,7 +245,7 @@ pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
              it again"
                 .to_owned(),
         ),
-        Notice::Stopped | Notice::SourceEnded => None,
+        Notice::Stopped | Notice::SourceEnded | Notice::ArrayWaits => None,
     }
 }
 

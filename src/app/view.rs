@@ -11,6 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use super::command::Part;
 use super::sensation::Sensation;
+use crate::bridge::Bite;
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -220,8 +221,8 @@ pub(crate) struct Dot {
     pub(crate) cloth: Option<usize>,
     /// Peak amplitudes of both bands after gains, before output limits, µm.
     pub(crate) amplitude_um: [f64; 2],
-    /// Whether an output limit bites.
-    pub(crate) is_limited: bool,
+    /// Which output limits bite.
+    pub(crate) bite: Bite,
     /// Whether it is silent because it was muted or another one is felt alone.
     pub(crate) is_muted: bool,
 }

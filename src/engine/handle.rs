@@ -13,14 +13,14 @@ use triple_buffer::Output;
 use super::gist::Waker;
 use super::glimpse::{Glimpser, MOST_GLIMPSES};
 use super::input::{Control, LineInput, PointerInput, ReplayInput, StrokeInput};
-use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
+use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, Runner};
 use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayProfile, Bridge, Target};
+use crate::bridge::{ArrayChange, ArrayProfile, Bridge, Coder, Target};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;
@@ -53,6 +53,10 @@ pub struct Engine {
     n_contactors: usize,
     n_felt: usize,
     profile: ArrayProfile,
+    /// The scene's own.
+    scene_profile: ArrayProfile,
+    /// The one that was chosen instead.
+    array: Option<Box<ArrayProfile>>,
 }
 
 enum Body {
@@ -127,7 +131,9 @@ impl Engine {
             news,
             n_contactors,
             n_felt,
+            scene_profile: profile.clone(),
             profile,
+            array: None,
         })
     }
 
@@ -176,6 +182,16 @@ impl Engine {
         let order = match command {
             Command::SetScene(scene) => self.scene_order(NextScene::Other(scene)),
             Command::UpdateScene(scene) => self.scene_order(NextScene::Edited(scene)),
+            Command::SetArray(array) => self.array_order(array),
+            Command::Identify(is_begun) => Order::Identify(is_begun),
+            Command::IdentifyChannel {
+                channel,
+                amplitude_um,
+                duration_ms,
+            } => Order::IdentifyChannel {
+                channel,
+                how: (amplitude_um, duration_ms),
+            },
             Command::SetSource(source) => Order::Core(CoreOrder::Source(playable(source)?)),
             Command::Connect(target) => self.connect_order(target),
             Command::Disconnect => {
@@ -266,7 +282,8 @@ impl Engine {
         self.recording.take_if(|recording| recording.has_ended())
     }
 
-    /// The device profile of the scene's first display.
+    /// The array profile in force for the scene's first display: the one that was set last, or the
+    /// scene's own.
     pub fn profile(&self) -> &ArrayProfile {
         &self.profile
     }
@@ -286,7 +303,11 @@ impl Engine {
         Ok(())
     }
 
-    fn scene_order(&mut self, next: NextScene) -> Order {
+    fn scene_order(&mut self, mut next: NextScene) -> Order {
+        self.scene_profile = next.scene().profile().clone();
+        if let Some(array) = &self.array {
+            next.scene_mut().drive_as(array);
+        }
         let scene = next.scene();
         let (input, output) = triple_buffer::triple_buffer(&Snapshot::of(scene));
         self.coming.push(output);
@@ -305,6 +326,18 @@ impl Engine {
         let bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
         self.switch.set_device(bridge.stop_handle());
         Order::Connect(Box::new(bridge))
+    }
+
+    fn array_order(&mut self, array: Option<Box<ArrayProfile>>) -> Order {
+        let fits = |array: &&ArrayProfile| array.n_contactors() == self.n_felt;
+        let chosen = array.as_deref().filter(fits);
+        let profile = chosen.unwrap_or(&self.scene_profile).clone();
+        self.array = array;
+        self.profile = profile.clone();
+        Order::Array(Box::new(ArrayOrder {
+            coder: Coder::new(&profile, self.n_felt),
+            change: ArrayChange::new(profile, self.n_felt),
+        }))
     }
 
     fn recording_order(&mut self) -> Order {
