@@ -11,7 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use super::command::Part;
 use super::sensation::Sensation;
-use crate::bridge::Bite;
+use crate::bridge::{Bite, DeviceUid};
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -284,6 +284,10 @@ pub(crate) struct BridgeView {
     pub(crate) state: &'static str,
     /// What may be done with it.
     pub(crate) phase: BridgePhase,
+    /// The device's own number.
+    pub(crate) uid: Option<DeviceUid>,
+    /// Whether it can drive one channel alone.
+    pub(crate) can_identify: bool,
     /// Ticks from a frame to its effect.
     pub(crate) depth: u8,
     /// From the last frame but one to the last, measured on the device's ticks, s.

@@ -38,7 +38,7 @@ mod port;
 mod self_test;
 mod wav;
 
-pub use array::{ArrayProfile, Calibration, DeviceUid, Wiring, wiring};
+pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
 #[cfg(unix)]
@@ -54,8 +54,8 @@ pub use host::{
 pub use link::{Spread, StopHandle, Timings};
 pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
-    Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
-    frame, kind,
+    Ident, LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US,
+    Unreadable, fault_bit, frame, kind,
 };
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};

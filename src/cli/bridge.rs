@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::{CliError, output, play, terminal};
+use super::identify::{self, IdentifyArgs};
+use super::{CliError, array, output, play, terminal};
 use crate::bridge::{ArrayProfile, Target, list_ports, self_test};
-use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
@@ -18,10 +18,12 @@ pub(super) enum BridgeCommand {
         /// Serial port of the device
         #[arg(long, value_name = "PORT")]
         port: PathBuf,
-        /// The array that the device drives: exeter-24, 5x5 or 10x10
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
-        array: ArrayLayout,
+        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
+              value_parser = array::profile)]
+        array: Box<ArrayProfile>,
     },
+    /// Find which channel drives which contactor, one at a time, and write an array profile
+    Identify(IdentifyArgs),
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
     Emulate {
         /// The link to the terminal: the port that a host opens
@@ -30,9 +32,9 @@ pub(super) enum BridgeCommand {
         /// Every frame applied and every change of state, as CSV
         #[arg(long, value_name = "L.csv")]
         log: Option<PathBuf>,
-        /// The array that the device drives: exeter-24, 5x5 or 10x10
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
-        array: ArrayLayout,
+        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
+              value_parser = array::profile)]
+        array: Box<ArrayProfile>,
     },
 }
 
@@ -42,7 +44,10 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::List => list(),
         BridgeCommand::Test { port, array } => {
             play::check_port(port)?;
-            let report = self_test(Target::Port(port.clone()), profile_of(*array));
+            let report = self_test(Target::Port(port.clone()), (**array).clone());
+            if let Some(doubt) = report.caps.and_then(|caps| array::doubt(array, &caps)) {
+                terminal::notice(&doubt);
+            }
             output::print(&format!("{report}\n"))?;
             if report.passed() {
                 return Ok(());
@@ -54,7 +59,8 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
             );
             Err(CliError::Failed(what))
         }
-        BridgeCommand::Emulate { link, log, array } => emulate(link, log.as_deref(), *array),
+        BridgeCommand::Emulate { link, log, array } => emulate(link, log.as_deref(), array),
+        BridgeCommand::Identify(args) => identify::run(args),
     }
 }
 
@@ -75,10 +81,10 @@ fn list() -> Result<(), CliError> {
 fn emulate(
     link: &std::path::Path,
     log: Option<&std::path::Path>,
-    array: ArrayLayout,
+    array: &ArrayProfile,
 ) -> Result<(), CliError> {
     let stop = super::signals::stop_flag()?;
-    let model = crate::bridge::DeviceModel::for_array(&profile_of(array));
+    let model = crate::bridge::DeviceModel::for_array(array);
     let emulator = crate::bridge::PtyEmulator::new(model, link, log)?;
     let ready = format!("{} -> {}\n", link.display(), emulator.device_path());
     // A reader that only wanted this line may be gone; the device runs on.
@@ -90,31 +96,8 @@ fn emulate(
 fn emulate(
     _link: &std::path::Path,
     _log: Option<&std::path::Path>,
-    _array: ArrayLayout,
+    _array: &ArrayProfile,
 ) -> Result<(), CliError> {
     let what = "there are no pseudo-terminals on this system; use the emulator in the workbench";
     Err(CliError::Input(what.to_owned()))
-}
-
-fn array(name: &str) -> Result<ArrayLayout, String> {
-    let names = ArrayLayout::ALL.map(ArrayLayout::name).join(", ");
-    ArrayLayout::named(name).ok_or_else(|| format!("the arrays are {names}"))
-}
-
-fn profile_of(array: ArrayLayout) -> ArrayProfile {
-    let geometry = Geometry::Array(array);
-    let (rows, cols) = array.grid();
-    let byte = |count: usize| u8::try_from(count).unwrap_or(u8::MAX);
-    let pitch = ArrayProfile::default().pitch_um;
-    ArrayProfile {
-        name: geometry.label(),
-        rows: byte(rows),
-        cols: byte(cols),
-        pitch_um: if array == ArrayLayout::Square10 {
-            pitch / 2
-        } else {
-            pitch
-        },
-        ..ArrayProfile::default()
-    }
 }

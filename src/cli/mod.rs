@@ -10,8 +10,10 @@
 //! - a result file appears when it is whole, or not at all
 //! - a reader that closes our output is no failure
 
+mod array;
 mod bridge;
 mod failure;
+mod identify;
 mod output;
 mod picture;
 mod picture_relief;

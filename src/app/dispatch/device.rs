@@ -24,6 +24,7 @@ impl Workbench {
                 self.transient.target = None;
                 self.send(engine::Command::Disconnect);
             }
+            DeviceCommand::Array(command) => self.dispatch_array(command),
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
         }
     }

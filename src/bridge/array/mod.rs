@@ -7,8 +7,11 @@
 
 mod check;
 mod file;
+mod folder;
 mod shipped;
 pub mod wiring;
+
+pub use folder::ProfileFolder;
 
 use std::fmt;
 
