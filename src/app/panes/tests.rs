@@ -8,11 +8,15 @@ use eframe::egui::{Key, Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
-use super::{Ask, Wishes, show_ask, show_bridge, show_help, show_question};
+use super::{
+    ArrayView, Ask, BridgePane, BridgeTyped, Wishes, show_ask, show_bridge, show_help,
+    show_question,
+};
 use crate::app::command::{Command, DeviceCommand, FileCommand, Purpose};
 use crate::app::ports::PortsView;
 use crate::app::theme;
 use crate::app::view::Live;
+use crate::bridge::ArrayProfile;
 
 /// A window with nothing in it but `content`, and what is wished for in it.
 fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
@@ -123,7 +127,27 @@ fn opening_the_menu_lists_ports_and_choosing_one_connects() {
     };
     let mut port = String::new();
     let mut harness = window(|ui, wishes| {
-        show_bridge(ui, &Live::default(), None, &mut port, &ports, wishes);
+        let profile = ArrayProfile::default();
+        let view = BridgePane {
+            live: &Live::default(),
+            target: None,
+            ports: &ports,
+            array: ArrayView {
+                profile: &profile,
+                places_mm: profile.places_mm(),
+                is_own: false,
+                choices: Vec::new(),
+                waits: false,
+                contactor: None,
+                wizard: None,
+                folder: None,
+            },
+        };
+        let mut typed = BridgeTyped {
+            port: &mut port,
+            copy_name: &mut String::new(),
+        };
+        show_bridge(ui, &view, &mut typed, wishes);
     });
     harness.run();
     let listed = click(&mut harness, "Choose a port");

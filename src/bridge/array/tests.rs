@@ -121,7 +121,7 @@ fn what_is_wrong_is_named_with_its_line_and_a_mend() {
             "2 gains for 3 contactors",
         ),
         ("off = [1]", "off = [3]", "there is no contactor 3"),
-        ("cols = 3", "cols = 2", "3 places for 2 contactors"),
+        ("cols = 3", "cols = 2", "for 2 contactors"),
         ("cols = 3", "cols = 3\npitch_mm = 2.0", "both given"),
         ("hv_v = 55.5", "hv_v = 55.55", "hv_v is 55.55"),
         ("hv_v = 55.5", "hv_v = 501.0", "a high voltage of 501 V"),

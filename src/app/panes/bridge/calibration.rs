@@ -226,6 +226,8 @@ fn show_moved(
             Layout::right_to_left(Align::Center),
             |ui| {
                 ui.style_mut().override_font_id = Some(theme::number());
+                ui.spacing_mut().interact_size.y = ROW - STEP;
+                ui.spacing_mut().button_padding.y = 0.0;
                 ui.visuals_mut().override_text_color = Some(palette.band(band));
                 let value = DragValue::new(&mut moved_um)
                     .range(full_um / most..=full_um / least)

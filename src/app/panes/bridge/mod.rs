@@ -62,21 +62,26 @@ pub(crate) fn show(
     ui.add_space(STEP);
     fold(ui, ("Array", false), &array::summary(view), |ui| {
         array::show(ui, view, typed.copy_name, wishes);
+        show_contactors(ui, view, wishes);
     });
-    if !view.array.places_mm.is_empty() {
-        fold(
-            ui,
-            ("Calibration", false),
-            &calibration::summary(view),
-            |ui| {
-                calibration::show(ui, &view.array, wishes);
-            },
-        );
-        fold(ui, ("Wiring", false), &wiring::summary(view), |ui| {
-            wiring::show(ui, view, wishes);
-        });
-    }
     fold(ui, ("Link", true), &counters::summary(bridge), |ui| {
         counters::show_counters(ui, bridge, view.live.status.felt_age_s);
     });
 }
+
+/// What is known of each contactor.
+fn show_contactors(ui: &mut Ui, view: &BridgePane<'_>, wishes: &mut Wishes) {
+    if view.array.places_mm.is_empty() {
+        return;
+    }
+    let summary = calibration::summary(view);
+    fold(ui, ("Calibration", false), &summary, |ui| {
+        calibration::show(ui, &view.array, wishes);
+    });
+    fold(ui, ("Wiring", false), &wiring::summary(view), |ui| {
+        wiring::show(ui, view, wishes);
+    });
+}
+
+#[cfg(test)]
+mod tests;

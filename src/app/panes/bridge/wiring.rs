@@ -8,11 +8,12 @@ use super::BridgePane;
 use crate::app::arrays::{Wizard, WizardCommand};
 use crate::app::command::{ArrayCommand, Part, ShowCommand};
 use crate::app::panes::Wishes;
+use crate::app::query;
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::view::BridgePhase;
 use crate::app::widgets::{button, row};
 use crate::bridge::DeviceUid;
-use crate::bridge::wiring::Answer;
+use crate::bridge::wiring::{Answer, WiringFound};
 
 /// Height of the picture of the array, points.
 const PICTURE: f32 = 190.0;
@@ -137,6 +138,7 @@ fn instructions(wizard: &Wizard, is_armed: bool) -> Vec<String> {
             conflict.contactor
         ));
     }
+    lines.extend(twice_named(wizard));
     lines.extend(wizard.trouble.clone());
     lines.push(match wizard.walk.channel() {
         None => "This was found:".to_owned(),
@@ -151,6 +153,21 @@ fn instructions(wizard: &Wizard, is_armed: bool) -> Vec<String> {
         Some(channel) => format!("Channel {channel} moved. Which contactor was it?"),
     });
     lines
+}
+
+/// Contactors that two channels were said to drive, while there are channels left to ask for.
+fn twice_named(wizard: &Wizard) -> Vec<String> {
+    let named = (0..wizard.walk.n_channels()).map(|contactor| {
+        let channels = wizard.walk.channels_of(contactor);
+        let numbers: Vec<String> = channels.iter().map(ToString::to_string).collect();
+        (contactor, numbers)
+    });
+    let twice = named.filter(|(_, channels)| channels.len() > 1);
+    let words = twice.map(|(contactor, channels)| {
+        let channels = channels.join(" and ");
+        format!("Channels {channels} are both on contactor {contactor}: they will be asked again.")
+    });
+    words.collect()
 }
 
 /// The array, whose contactors are the answers.
@@ -173,11 +190,12 @@ fn show_array(ui: &mut Ui, wizard: &Wizard, view: &BridgePane<'_>, wishes: &mut 
             radius,
             channels: &channels,
             is_pointed,
-            was_contradicted: wizard
-                .walk
-                .conflicts()
-                .iter()
-                .any(|c| c.contactor == contactor),
+            is_doubtful: channels.len() > 1
+                || wizard
+                    .walk
+                    .conflicts()
+                    .iter()
+                    .any(|conflict| conflict.contactor == contactor),
         };
         dot.paint(ui.painter(), palette);
         if response.clicked() && is_armed {
@@ -206,7 +224,7 @@ struct Dot<'a> {
     radius: f32,
     channels: &'a [usize],
     is_pointed: bool,
-    was_contradicted: bool,
+    is_doubtful: bool,
 }
 
 impl Dot<'_> {
@@ -222,7 +240,7 @@ impl Dot<'_> {
             let words = numbers.join(" ");
             painter.text(at, Align2::CENTER_CENTER, words, font, palette.panel);
         }
-        if self.is_pointed || self.was_contradicted {
+        if self.is_pointed || self.is_doubtful {
             let strength = if self.is_pointed { 1.0 } else { 0.6 };
             let edge = Stroke::new(1.5, palette.selection.gamma_multiply(strength));
             painter.circle_stroke(at, radius + 2.5, edge);
@@ -300,8 +318,10 @@ fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, wishes: &mut Wishe
 fn show_found(ui: &mut Ui, wizard: &Wizard, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let found = wizard.walk.found();
-    for line in found.iter().flat_map(|found| found.lines()) {
-        let words = RichText::new(line).font(theme::small()).color(palette.dim);
+    for line in found.iter().flat_map(WiringFound::lines) {
+        let words = RichText::new(query::capitalised(&line))
+            .font(theme::small())
+            .color(palette.dim);
         ui.add(Label::new(words).wrap());
     }
     let mut wish = |command| wishes.push(ArrayCommand::Identify(command).into());
