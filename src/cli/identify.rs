@@ -59,11 +59,7 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     let uid = uid.ok_or_else(|| CliError::Failed("the device has no number".to_owned()))?;
     let profile = found.in_profile(&args.array, uid);
     profile.write(&args.out)?;
-    let lines: String = found
-        .lines()
-        .iter()
-        .map(|line| format!("{line}\n"))
-        .collect();
+    let mut lines = found.lines();
     let place = args.out.display();
     output::print(&format!(
         "{lines}wiring of device {uid} written to {place}\n"

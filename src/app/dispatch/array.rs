@@ -19,7 +19,7 @@ impl Workbench {
             ArrayCommand::Identify(command) => self.identify(command),
             change => {
                 let mut profile = self.array();
-                apply(change, &mut profile);
+                apply(&change, &mut profile);
                 self.change_array(profile);
             }
         }
@@ -119,9 +119,9 @@ impl Workbench {
 }
 
 /// Changes a profile. Numbers are brought within what a file takes.
-fn apply(change: ArrayCommand, profile: &mut ArrayProfile) {
+fn apply(change: &ArrayCommand, profile: &mut ArrayProfile) {
     let most_ms = f64::from(ArrayProfile::LONGEST_SILENCING_MS);
-    match change {
+    match *change {
         ArrayCommand::Limit(band, limit_um) => {
             let band = band.index();
             let most_um = profile.full_scale_um[band];
@@ -198,7 +198,7 @@ mod tests {
     fn changed(changes: &[ArrayCommand]) -> ArrayProfile {
         let mut profile = ArrayProfile::default();
         for change in changes {
-            apply(change.clone(), &mut profile);
+            apply(change, &mut profile);
             assert!(profile.check().is_ok(), "{change:?}: {profile:?}");
         }
         profile

@@ -71,12 +71,19 @@ fn places_flaw(profile: &ArrayProfile) -> Option<Flaw> {
         return flaw(what, "give places within 1000 mm of the middle");
     }
     let is_taken = |(at, xy): (usize, &[f64; 2])| {
-        let other = places[..at].iter().position(|other| other == xy)?;
+        let other = places[..at]
+            .iter()
+            .position(|other| same(*other) == same(*xy))?;
         Some((other, at))
     };
     let (other, at) = places.iter().enumerate().find_map(is_taken)?;
     let what = format!("contactors {other} and {at} are at the same place");
     flaw(what, "give every contactor a place of its own")
+}
+
+/// A place as bits; adding zero makes −0 the same place as 0.
+fn same(place_mm: [f64; 2]) -> [u64; 2] {
+    place_mm.map(|mm| (mm + 0.0).to_bits())
 }
 
 fn scale_flaw(profile: &ArrayProfile) -> Option<Flaw> {

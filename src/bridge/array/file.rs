@@ -133,7 +133,7 @@ impl ArrayProfile {
             hv_dv: whole(("", "hv_v"), keys.hv_v, "V", 10.0)?,
             calibration: keys
                 .calibration
-                .map_or_else(|| Ok(Vec::new()), |keys| calibration_from(keys, n))?,
+                .map_or_else(|| Ok(Vec::new()), |keys| calibration_from(&keys, n))?,
             wiring: keys.wiring.map(wiring_from).transpose()?,
         })
     }
@@ -189,7 +189,7 @@ fn whole(
     Ok(parts as u16)
 }
 
-fn calibration_from(keys: CalibrationKeys, n: usize) -> Result<Vec<Calibration>, Flaw> {
+fn calibration_from(keys: &CalibrationKeys, n: usize) -> Result<Vec<Calibration>, Flaw> {
     let gains = [
         ("drive_gain_40", &keys.drive_gain_40),
         ("drive_gain_320", &keys.drive_gain_320),

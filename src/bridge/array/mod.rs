@@ -60,6 +60,13 @@ pub struct Calibration {
 impl Calibration {
     /// Smallest and largest gain: what differs by more than a factor of 4 is broken.
     pub const DRIVE_GAIN: [f64; 2] = [0.25, 4.0];
+
+    /// Whether the contactor answers its drive as full scale says, in both bands.
+    pub fn is_nominal(self) -> bool {
+        self.drive_gain
+            .iter()
+            .all(|gain| (gain - 1.0).abs() < 1e-12)
+    }
 }
 
 impl Default for Calibration {
@@ -170,7 +177,7 @@ impl ArrayProfile {
     pub fn only_lowers(&self, before: &Self) -> bool {
         let is_same_array = (self.rows, self.cols, &self.wiring)
             == (before.rows, before.cols, &before.wiring)
-            && self.full_scale_um == before.full_scale_um
+            && self.full_scale_um.map(f64::to_bits) == before.full_scale_um.map(f64::to_bits)
             && (self.hold_ms, self.ramp_ms, self.hv_dv)
                 == (before.hold_ms, before.ramp_ms, before.hv_dv);
         let at_most = |new: [f64; 2], old: [f64; 2]| new[0] <= old[0] && new[1] <= old[1];

@@ -95,7 +95,7 @@ impl WiringWalk {
 
     /// Back to the channel before, whose answer is asked again; nothing at the first.
     pub fn back(&mut self) {
-        let before = self.at.unwrap_or(self.n_channels()).checked_sub(1);
+        let before = self.at.unwrap_or(self.answers.len()).checked_sub(1);
         if let Some(before) = before {
             self.ask(before);
         }

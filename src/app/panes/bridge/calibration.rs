@@ -26,8 +26,7 @@ pub(super) fn summary(view: &BridgePane<'_>) -> String {
     let profile = view.array.profile;
     let each = || (0..profile.n_contactors()).map(|contactor| profile.calibration_of(contactor));
     let n_off = each().filter(|calibration| calibration.is_off).count();
-    let nominal = Calibration::default().drive_gain;
-    let is_set = |calibration: &Calibration| calibration.drive_gain != nominal;
+    let is_set = |calibration: &Calibration| !calibration.is_nominal();
     let n_set = each().filter(is_set).count();
     match (n_set, n_off) {
         (0, 0) => "none: all alike".to_owned(),
@@ -56,8 +55,7 @@ fn show_bands(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) -> Band {
     let mut band = ui.data(|data| data.get_temp(id)).unwrap_or(0_usize);
     row(ui, "Drive gain", |ui| {
         let profile = array.profile;
-        let nominal = Calibration::default().drive_gain;
-        let is_level = profile.calibration.iter().all(|c| c.drive_gain == nominal);
+        let is_level = profile.calibration.iter().all(|one| one.is_nominal());
         let refusal = is_level.then_some("Every gain is 1");
         if button(
             ui,

@@ -300,7 +300,7 @@ fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, wishes: &mut Wishe
             wish(WizardCommand::End);
         }
         let is_first = wizard.walk.channel() == Some(0);
-        let refusal = unarmed.or(is_first.then_some("This is the first channel"));
+        let refusal = unarmed.or_else(|| is_first.then_some("This is the first channel"));
         if button(ui, "Back", "Ask for the channel before again", refusal) {
             wish(WizardCommand::Back);
         }
