@@ -1,9 +1,9 @@
 //! Drive codes: the one place where amplitudes in µm become integers for a device.
 //!
-//! Every sink that speaks in codes (serial bridge, emulator, log) goes through [`Coder`], so limits,
-//! calibration, wiring and counters are the same everywhere. Amplitudes come in contactor order,
-//! codes leave in channel order. It knows nothing of ticks, sessions or packets, and it smooths
-//! nothing: slew belongs to the device.
+//! Every sink that speaks in codes (serial bridge, emulator, log) goes through [`Coder`], so
+//! limits, calibration, wiring and counters are the same everywhere. Amplitudes come in contactor
+//! order, codes leave in channel order. It knows nothing of ticks, sessions or packets, and it
+//! smooths nothing: slew belongs to the device.
 
 pub(super) use super::array::ArrayProfile;
 use super::array::Calibration;

@@ -61,9 +61,8 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     profile.write(&args.out)?;
     let mut lines = found.lines();
     let place = args.out.display();
-    output::print(&format!(
-        "{lines}wiring of device {uid} written to {place}\n"
-    ))
+    lines.push(format!("wiring of device {uid} written to {place}\n"));
+    output::print(&lines.join("\n"))
 }
 
 /// Where answers come from.

@@ -3,6 +3,8 @@
 //! It belongs to the window or to a command line. It prepares what commands need, and drops what
 //! they replaced; the engine's thread does neither.
 
+mod scene;
+
 use std::fmt;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -13,14 +15,14 @@ use triple_buffer::Output;
 use super::gist::Waker;
 use super::glimpse::{Glimpser, MOST_GLIMPSES};
 use super::input::{Control, LineInput, PointerInput, ReplayInput, StrokeInput};
-use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
+use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, Runner};
 use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayChange, ArrayProfile, Bridge, Coder, Target};
+use crate::bridge::{ArrayProfile, Bridge, Target};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;
@@ -303,41 +305,12 @@ impl Engine {
         Ok(())
     }
 
-    fn scene_order(&mut self, mut next: NextScene) -> Order {
-        self.scene_profile = next.scene().profile().clone();
-        if let Some(array) = &self.array {
-            next.scene_mut().drive_as(array);
-        }
-        let scene = next.scene();
-        let (input, output) = triple_buffer::triple_buffer(&Snapshot::of(scene));
-        self.coming.push(output);
-        if scene.n_felt() != self.n_felt {
-            self.switch.set_device(None);
-        }
-        self.n_contactors = scene.n_contactors();
-        self.n_felt = scene.n_felt();
-        self.profile = scene.profile().clone();
-        Order::Scene(next, input)
-    }
-
     fn connect_order(&self, target: Target) -> Order {
         let switch = self.switch.clone();
         let wake = move || switch.wake_engine();
         let bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
         self.switch.set_device(bridge.stop_handle());
         Order::Connect(Box::new(bridge))
-    }
-
-    fn array_order(&mut self, array: Option<Box<ArrayProfile>>) -> Order {
-        let fits = |array: &&ArrayProfile| array.n_contactors() == self.n_felt;
-        let chosen = array.as_deref().filter(fits);
-        let profile = chosen.unwrap_or(&self.scene_profile).clone();
-        self.array = array;
-        self.profile = profile.clone();
-        Order::Array(Box::new(ArrayOrder {
-            coder: Coder::new(&profile, self.n_felt),
-            change: ArrayChange::new(profile, self.n_felt),
-        }))
     }
 
     fn recording_order(&mut self) -> Order {

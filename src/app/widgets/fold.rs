@@ -1,4 +1,5 @@
-//! A part of a pane that folds away: a hairline, its name, and what matters of it while it is closed.
+//! A part of a pane that folds away: a hairline, its name, and what matters of it while it is
+//! closed.
 
 use eframe::egui::{
     self, Align2, Rect, Response, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,

@@ -160,8 +160,11 @@ impl ArrayProfile {
     }
 }
 
-const HEAD: &str = "# Array profile of Selvedge. Amplitudes in µm peak, [40 Hz, 320 Hz]; contactors \
-                    and channels count from 0,\n# contactors row by row from the fingertip's left.\n";
+/// The first lines of a file.
+const HEAD: &str = "\
+# Array profile of Selvedge. Amplitudes in µm peak, [40 Hz, 320 Hz]; contactors and channels
+# count from 0, contactors row by row from the fingertip's left.
+";
 
 /// A number of `unit` as a whole number of its `per_unit` parts.
 fn whole(

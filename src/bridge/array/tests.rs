@@ -45,6 +45,8 @@ fn shipped_profiles_are_the_arrays_that_scenes_name() {
         let profile = ArrayProfile::shipped(name).unwrap();
         assert_eq!(profile.name, name);
         assert_eq!((profile.n_contactors(), profile.pitch_um), (n, pitch_um));
+        let text = profile.to_toml().unwrap();
+        assert_eq!(Some(text.as_str()), shipped::text(name), "as it is written");
     }
     assert_eq!(ArrayProfile::shipped("3x3"), None);
     let places = exeter.places_mm();
@@ -68,71 +70,73 @@ fn a_profile_survives_writing_and_reading() {
     assert!(text.contains("hv_v = 55.5"), "{text}");
 }
 
+/// What stands in the text of `rich`, what stands there instead, and what is said of it.
+const WRONG: &[(&str, &str, &str)] = &[
+    (
+        "hold_ms = 60",
+        "hold_ms = 60\ncolour = 3",
+        "unknown field `colour`",
+    ),
+    ("hold_ms = 60", "hold_ms = 61", "hold and ramp take 101 ms"),
+    ("hold_ms = 60", "hold_ms = 200", "hold_ms is 200"),
+    ("[30.0, 0.1]", "[nan, 0.1]", "a limit of NaN µm"),
+    (
+        "[30.0, 0.1]",
+        "[49.0, 0.1]",
+        "a limit of 49 µm where full scale is 48.7 µm",
+    ),
+    ("[30.0, 0.1]", "[-1.0, 0.1]", "a limit of -1 µm"),
+    ("[48.7, 61.3]", "[inf, 61.3]", "a full scale of inf µm"),
+    ("[48.7, 61.3]", "[0.0, 61.3]", "a full scale of 0 µm"),
+    (
+        "channels = [2, 0, 1]",
+        "channels = [2, 0, 0]",
+        "contactors 1 and 2 are both on channel 0",
+    ),
+    (
+        "channels = [2, 0, 1]",
+        "channels = [2, 0, 3]",
+        "contactor 2 is on channel 3",
+    ),
+    (
+        "channels = [2, 0, 1]",
+        "channels = [0, 1]",
+        "2 channels for 3 contactors",
+    ),
+    ("09abff", "09abf", "is no device's number"),
+    (
+        "[1.0, 1.25, 1.0]",
+        "[1.0, 5.0, 1.0]",
+        "contactor 1 has a drive gain of 5",
+    ),
+    (
+        "[1.0, 1.25, 1.0]",
+        "[1.0, nan, 1.0]",
+        "contactor 1 has a drive gain of NaN",
+    ),
+    (
+        "[1.0, 1.25, 1.0]",
+        "[1.0, 1.25]",
+        "2 gains for 3 contactors",
+    ),
+    ("off = [1]", "off = [3]", "there is no contactor 3"),
+    ("cols = 3", "cols = 2", "for 2 contactors"),
+    ("cols = 3", "cols = 3\npitch_mm = 2.0", "both given"),
+    ("hv_v = 55.5", "hv_v = 55.55", "hv_v is 55.55"),
+    ("hv_v = 55.5", "hv_v = 501.0", "a high voltage of 501 V"),
+    (
+        "[3.0, -2.0]",
+        "[0.0, 0.5]",
+        "contactors 0 and 2 are at the same place",
+    ),
+    ("[3.0, -2.0]", "[inf, 0.5]", "contactor 2 is at"),
+];
+
 #[test]
 fn what_is_wrong_is_named_with_its_line_and_a_mend() {
     let good = rich().to_toml().unwrap();
     assert!(read(&good).is_ok());
-    let cases = [
-        (
-            "hold_ms = 60",
-            "hold_ms = 60\ncolour = 3",
-            "unknown field `colour`",
-        ),
-        ("hold_ms = 60", "hold_ms = 61", "hold and ramp take 101 ms"),
-        ("hold_ms = 60", "hold_ms = 200", "hold_ms is 200"),
-        ("[30.0, 0.1]", "[nan, 0.1]", "a limit of NaN µm"),
-        (
-            "[30.0, 0.1]",
-            "[49.0, 0.1]",
-            "a limit of 49 µm where full scale is 48.7 µm",
-        ),
-        ("[30.0, 0.1]", "[-1.0, 0.1]", "a limit of -1 µm"),
-        ("[48.7, 61.3]", "[inf, 61.3]", "a full scale of inf µm"),
-        ("[48.7, 61.3]", "[0.0, 61.3]", "a full scale of 0 µm"),
-        (
-            "channels = [2, 0, 1]",
-            "channels = [2, 0, 0]",
-            "contactors 1 and 2 are both on channel 0",
-        ),
-        (
-            "channels = [2, 0, 1]",
-            "channels = [2, 0, 3]",
-            "contactor 2 is on channel 3",
-        ),
-        (
-            "channels = [2, 0, 1]",
-            "channels = [0, 1]",
-            "2 channels for 3 contactors",
-        ),
-        ("09abff", "09abf", "is no device's number"),
-        (
-            "[1.0, 1.25, 1.0]",
-            "[1.0, 5.0, 1.0]",
-            "contactor 1 has a drive gain of 5",
-        ),
-        (
-            "[1.0, 1.25, 1.0]",
-            "[1.0, nan, 1.0]",
-            "contactor 1 has a drive gain of NaN",
-        ),
-        (
-            "[1.0, 1.25, 1.0]",
-            "[1.0, 1.25]",
-            "2 gains for 3 contactors",
-        ),
-        ("off = [1]", "off = [3]", "there is no contactor 3"),
-        ("cols = 3", "cols = 2", "for 2 contactors"),
-        ("cols = 3", "cols = 3\npitch_mm = 2.0", "both given"),
-        ("hv_v = 55.5", "hv_v = 55.55", "hv_v is 55.55"),
-        ("hv_v = 55.5", "hv_v = 501.0", "a high voltage of 501 V"),
-        (
-            "[3.0, -2.0]",
-            "[0.0, 0.5]",
-            "contactors 0 and 2 are at the same place",
-        ),
-        ("[3.0, -2.0]", "[inf, 0.5]", "contactor 2 is at"),
-    ];
-    for (from, to, what) in cases {
+    for &(from, to, what) in WRONG {
         assert!(good.contains(from), "{from} in {good}");
         let text = good.replace(from, to);
         let error = read(&text).unwrap_err();
