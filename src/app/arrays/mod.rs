@@ -5,6 +5,8 @@
 //! everything else waits until the device is disarmed.
 
 mod follow;
+#[cfg(test)]
+mod tests;
 mod wizard;
 
 pub(crate) use wizard::{PULSE_MS, Wizard, WizardCommand};
@@ -178,7 +180,7 @@ impl Arrays {
 }
 
 #[cfg(test)]
-mod tests {
+mod keeping_tests {
     use super::*;
     use crate::scene::{ArrayLayout, Geometry};
 

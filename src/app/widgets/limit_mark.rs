@@ -8,14 +8,14 @@ use crate::app::theme::Palette;
 use crate::bridge::Bite;
 
 /// Width and height of the mark, points.
-pub(crate) const LIMIT_MARK: f32 = 7.0;
+pub(crate) const LIMIT_MARK: f32 = 6.0;
 
 /// Paints the mark around `centre`: an arrow that meets a ceiling.
 pub(crate) fn paint_limit_mark(painter: &Painter, centre: Pos2) {
     let palette = Palette::of(painter.ctx().theme());
     let rect = Rect::from_center_size(centre, vec2(LIMIT_MARK, LIMIT_MARK));
     // Told apart from cloth and colours of any brightness, in both themes.
-    painter.rect_filled(rect.expand(1.5), 2, palette.tag);
+    painter.rect_filled(rect.expand(1.0), 1, palette.tag);
     let ceiling = [rect.left_top(), rect.right_top()].map(|at| at + vec2(0.0, 0.75));
     painter.line_segment(ceiling, Stroke::new(1.5, palette.selection));
     let corners = vec![
