@@ -11,7 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use super::command::Part;
 use super::sensation::Sensation;
-use crate::bridge::{Bite, DeviceUid};
+use crate::bridge::{Bite, BridgeState, DeviceUid};
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -319,6 +319,12 @@ pub(crate) enum BridgePhase {
 }
 
 impl Live {
+    /// Whether one channel can be driven alone now: armed, and nothing played yet.
+    pub(crate) fn takes_ident(&self) -> bool {
+        let bridge = self.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.state == BridgeState::Armed.label())
+    }
+
     /// Whether high voltage is on, or about to be.
     pub(crate) fn is_armed(&self) -> bool {
         self.bridge

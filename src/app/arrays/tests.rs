@@ -8,8 +8,8 @@ use super::WizardCommand;
 use crate::app::command::{ArrayCommand, DeviceCommand};
 use crate::app::headless::Headless;
 use crate::app::view::BridgePhase;
+use crate::bridge::DeviceUid;
 use crate::bridge::wiring::Answer;
-use crate::bridge::{BridgeState, DeviceUid};
 use crate::tactile::Band;
 
 /// Runs frames until the window shows what must come, for as long as a busy machine may take.
@@ -51,8 +51,7 @@ fn the_walk_over_a_connected_device_ends_in_a_profile() {
     window.dispatch(DeviceCommand::Arm);
     // From here on the device takes IDENT; while it is being armed it would be refused.
     wait(&mut window, "arming", |window| {
-        let bridge = window.bench.transient.live.bridge.as_ref();
-        bridge.is_some_and(|bridge| bridge.state == BridgeState::Armed.label())
+        window.bench.transient.live.takes_ident()
     });
     do_array(&mut window, WizardCommand::Drive(None));
     while let Some(channel) = walked(&window) {

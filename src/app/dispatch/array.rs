@@ -103,7 +103,7 @@ impl Workbench {
             .as_ref()
             .and_then(|wizard| wizard.walk.channel());
         let channel = channel.and_then(|channel| u16::try_from(channel).ok());
-        if let Some(channel) = channel.filter(|_| self.transient.live.is_armed()) {
+        if let Some(channel) = channel.filter(|_| self.transient.live.takes_ident()) {
             self.send(Command::IdentifyChannel {
                 channel,
                 amplitude_um: Wizard::amplitude_um(self.array().limit_um[1]),

@@ -31,7 +31,11 @@ pub(super) struct Stage {
 impl Stage {
     pub(super) fn new(phase: BridgePhase) -> Self {
         let bridge = BridgeView {
-            state: "ready",
+            state: if phase == BridgePhase::Armed {
+                "armed"
+            } else {
+                "ready"
+            },
             phase,
             uid: Some(UID),
             can_identify: true,

@@ -114,7 +114,7 @@ pub(super) fn show_wizard(
         let done = format!("{} of {n}", wizard.walk.n_answered());
         ui.label(RichText::new(done).font(theme::number()).color(palette.dim));
     });
-    let is_armed = view.live.is_armed();
+    let is_armed = view.live.takes_ident();
     for words in instructions(wizard, is_armed) {
         ui.add(Label::new(RichText::new(words).color(palette.text)).wrap());
     }
@@ -176,7 +176,7 @@ fn show_array(ui: &mut Ui, wizard: &Wizard, view: &BridgePane<'_>, wishes: &mut 
     let size = vec2(ui.available_width(), PICTURE);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let (places, radius) = fitted(&view.array.places_mm, rect.shrink(DOT + STEP));
-    let is_armed = view.live.is_armed();
+    let is_armed = view.live.takes_ident();
     for (contactor, at) in places.into_iter().enumerate() {
         let reach = Rect::from_center_size(at, vec2(2.0, 2.0) * (radius + 1.0));
         let id = ui.scope_id().with(("answer", contactor));
