@@ -31,6 +31,7 @@ impl Workbench {
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();
+        self.follow_array(ctx);
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
                          the program again";
@@ -88,6 +89,7 @@ impl Workbench {
             let Some(notice) = self.engine.next_notice() else {
                 break;
             };
+            self.hear_of_array(&notice);
             let n_expected = &mut self.transient.n_expected_refusals;
             if matches!(notice, Notice::Refused(_)) && *n_expected > 0 {
                 *n_expected -= 1;

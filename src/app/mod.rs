@@ -22,6 +22,7 @@
 mod accuracy;
 mod amplitude;
 mod arrangement;
+mod arrays;
 mod asked;
 mod audition;
 mod backlog;
@@ -88,6 +89,6 @@ pub use error::AppError;
 pub use native::{EndSwitch, run};
 pub use raster::{Picture, Rasteriser};
 pub use screenshot::{Screenshot, Theme, screenshot};
-pub use settings::build_cache;
+pub use settings::{build_cache, own_arrays};
 pub use study::studies;
 pub use window::{Drive, Workbench};

@@ -23,7 +23,8 @@ pub(crate) struct PlantPeek {
     pub(crate) skin: Skin,
     /// Whether its pane was drawn in this frame.
     is_drawn: bool,
-    view: PlantView,
+    /// What is shown of it.
+    pub(crate) view: PlantView,
 }
 
 impl Default for PlantPeek {

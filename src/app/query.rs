@@ -12,7 +12,7 @@ use super::view::{
     BridgePhase, BridgeView, Cloth, Dot, LibraryDot, LinkTiming, Live, Marks, PlayView, SceneView,
     ShelfItem, Source, Status,
 };
-use crate::bridge::{BridgeEvent, BridgeState, DisarmedBy, Target};
+use crate::bridge::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
 use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
 use crate::scene::LoadedScene;
 use crate::tactile::{Filters, Levels};
@@ -172,7 +172,7 @@ fn dot(contactor: &crate::engine::ContactorView, is_muted: bool) -> Dot {
         position: contactor.position,
         cloth: contactor.textile.map(usize::from),
         amplitude_um: contactor.amplitude_um.map(f64::from),
-        is_limited: contactor.bite.any(),
+        bite: contactor.bite,
         is_muted,
     }
 }
@@ -182,6 +182,10 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
     BridgeView {
         state: link.state.label(),
         phase: phase(link.state),
+        uid: link.caps.map(|caps| DeviceUid(caps.uid)),
+        can_identify: link
+            .caps
+            .is_some_and(|caps| caps.modes & Caps::MODE_IDENT != 0),
         depth: link.depth,
         frame_interval_s,
         status_to_frame_s: Some(link.timings.due_to_write)
@@ -252,7 +256,7 @@ pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
              it again"
                 .to_owned(),
         ),
-        Notice::Stopped | Notice::SourceEnded => None,
+        Notice::Stopped | Notice::SourceEnded | Notice::ArrayWaits => None,
     }
 }
 
@@ -279,7 +283,7 @@ fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
     }
 }
 
-fn capitalised(text: &str) -> String {
+pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters
         .next()

@@ -16,7 +16,7 @@ use super::query;
 use super::raster::{Picture, Rasteriser};
 use super::theme::Palette;
 use super::view::BridgeView;
-use crate::bridge::{ArrayProfile, Bridge, BridgeState, Target};
+use crate::bridge::{ArrayProfile, Bridge, BridgeState, DeviceUid, Target};
 
 /// Frames that are run before the picture is taken, 25 ms apart: 11 s.
 const N_FRAMES: u32 = 425;
@@ -119,6 +119,8 @@ fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
         state: state.label(),
         phase: query::phase(state),
         depth: bridge.depth(),
+        uid: bridge.caps().map(|caps| DeviceUid(caps.uid)),
+        can_identify: true,
         ..BridgeView::default()
     })
 }

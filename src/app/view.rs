@@ -11,7 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use super::command::Part;
 use super::sensation::Sensation;
-use crate::bridge::{ClockFit, Distribution};
+use crate::bridge::{Bite, BridgeState, ClockFit, DeviceUid, Distribution};
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -221,8 +221,8 @@ pub(crate) struct Dot {
     pub(crate) cloth: Option<usize>,
     /// Peak amplitudes of both bands after gains, before output limits, µm.
     pub(crate) amplitude_um: [f64; 2],
-    /// Whether an output limit bites.
-    pub(crate) is_limited: bool,
+    /// Which output limits bite.
+    pub(crate) bite: Bite,
     /// Whether it is silent because it was muted or another one is felt alone.
     pub(crate) is_muted: bool,
 }
@@ -284,6 +284,10 @@ pub(crate) struct BridgeView {
     pub(crate) state: &'static str,
     /// What may be done with it.
     pub(crate) phase: BridgePhase,
+    /// The device's own number.
+    pub(crate) uid: Option<DeviceUid>,
+    /// Whether it can drive one channel alone.
+    pub(crate) can_identify: bool,
     /// Ticks from a frame to its effect.
     pub(crate) depth: u8,
     /// From the last frame but one to the last, measured on the device's ticks, s.
@@ -334,6 +338,12 @@ pub(crate) enum BridgePhase {
 }
 
 impl Live {
+    /// Whether one channel can be driven alone now: armed, and nothing played yet.
+    pub(crate) fn takes_ident(&self) -> bool {
+        let bridge = self.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.state == BridgeState::Armed.label())
+    }
+
     /// Whether high voltage is on, or about to be.
     pub(crate) fn is_armed(&self) -> bool {
         self.bridge

@@ -10,6 +10,7 @@ use eframe::egui;
 use egui_tiles::Tree;
 
 use super::arrangement::{self, Pane};
+use super::arrays::Arrays;
 use super::dialogs::Dialogs;
 use super::document::Document;
 use super::error::AppError;
@@ -19,7 +20,7 @@ use super::perspective::Perspective;
 use super::pointer::PointerTap;
 use super::preparing::Preparing;
 use super::rendering::Rendering;
-use super::settings::{Settings, own_libraries, session_log};
+use super::settings::{Settings, own_arrays, own_libraries, session_log};
 use super::shelf::Shelf;
 use super::state::Transient;
 use super::take::Take;
@@ -56,6 +57,8 @@ pub struct Workbench {
     pub(crate) document: Document,
     /// What is kept per user.
     pub(crate) settings: Settings,
+    /// What devices are taken to drive.
+    pub(crate) arrays: Arrays,
     /// Which pane stands where.
     pub(crate) tree: Tree<Pane>,
     /// The arrangements of the other perspectives, as far as they were shown.
@@ -140,6 +143,7 @@ impl Workbench {
             document: document_of(&loaded, opened.path.as_deref()),
             tree: arrangement::default_tree(egui::Vec2::ZERO),
             resting: Default::default(),
+            arrays: Arrays::default(),
             workspace: WorkspaceState::default(),
             transient: Transient::default(),
             switch: engine.stop_switch(),
@@ -169,6 +173,7 @@ impl Workbench {
             self.transient.dialogs = Dialogs::of_desktop();
             self.transient.keeping.own_folder = own_libraries();
             self.log_links();
+            self.read_arrays();
         }
         if let Some(complaint) = complaint {
             self.transient.notices.give(complaint);
@@ -195,6 +200,15 @@ impl Workbench {
         match SessionLog::append(&path, Some(LOG_BOUND)) {
             Ok(log) => self.engine.log_links_to(log),
             Err(error) => self.transient.notices.give(error.to_string()),
+        }
+    }
+
+    fn read_arrays(&mut self) {
+        let Some(folder) = own_arrays() else { return };
+        let (arrays, flaws) = Arrays::in_folder(&folder);
+        self.arrays = arrays;
+        for flaw in flaws {
+            self.transient.notices.give(flaw);
         }
     }
 
@@ -319,6 +333,7 @@ impl eframe::App for Workbench {
         self.keep_settings();
         // The window is gone and nobody is left to tell; the file that was there is still whole.
         drop(self.settings.save_now());
+        drop(self.arrays.save_now());
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

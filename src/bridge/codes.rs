@@ -1,60 +1,15 @@
 //! Drive codes: the one place where amplitudes in µm become integers for a device.
 //!
-//! Every sink that speaks in codes (serial bridge, emulator, log) goes through [`Coder`], so limits
-//! and counters are the same everywhere. It knows nothing of ticks, sessions or packets, and it
+//! Every sink that speaks in codes (serial bridge, emulator, log) goes through [`Coder`], so
+//! limits, calibration, wiring and counters are the same everywhere. Amplitudes come in contactor
+//! order, codes leave in channel order. It knows nothing of ticks, sessions or packets, and it
 //! smooths nothing: slew belongs to the device.
+
+pub(super) use super::array::ArrayProfile;
+use super::array::Calibration;
 
 /// The largest drive code: a component's drive peak is `code / 65535` of the device's full scale.
 pub const FULL_CODE: u16 = u16::MAX;
-
-/// What the host assumes of an array: shape, scale and limits.
-///
-/// The scale is an assumption of this program (50 µm at full drive), not a property that a device
-/// reports.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ArrayProfile {
-    /// Name for people, `exeter-24`.
-    pub name: String,
-    /// Rows, the fingertip end first.
-    pub rows: u8,
-    /// Columns, left first.
-    pub cols: u8,
-    /// Distance of neighbouring contactors in µm.
-    pub pitch_um: u16,
-    /// `[F40, F320]`: peak displacement in µm that a code of 65535 stands for.
-    pub full_scale_um: [f64; 2],
-    /// Largest amplitude per band in µm.
-    pub limit_um: [f64; 2],
-    /// Time without an accepted frame before the device starts its ramp, in ms.
-    pub hold_ms: u16,
-    /// Duration of the device's ramp to silence, in ms.
-    pub ramp_ms: u16,
-    /// High voltage to ask for, in 0.1 V.
-    pub hv_dv: u16,
-}
-
-impl ArrayProfile {
-    /// `rows · cols`.
-    pub fn n_contactors(&self) -> usize {
-        usize::from(self.rows) * usize::from(self.cols)
-    }
-}
-
-impl Default for ArrayProfile {
-    fn default() -> Self {
-        Self {
-            name: String::from("exeter-24"),
-            rows: 6,
-            cols: 4,
-            pitch_um: 2000,
-            full_scale_um: [50.0, 50.0],
-            limit_um: [50.0, 50.0],
-            hold_ms: 60,
-            ramp_ms: 40,
-            hv_dv: 600,
-        }
-    }
-}
 
 /// How often each rule changed an amplitude, since the coder was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -65,6 +20,8 @@ pub struct CodeCounters {
     pub limited: [u64; 2],
     /// Contactors whose two components together exceeded full drive.
     pub guarded: u64,
+    /// Contactors with an amplitude that the profile switches off.
+    pub off: u64,
 }
 
 /// What happened to one contactor in the last call.
@@ -76,74 +33,131 @@ pub struct Bite {
     pub limited: [bool; 2],
     /// Both components were scaled down to share full drive.
     pub guarded: bool,
+    /// The profile switches the contactor off, and an amplitude was asked for.
+    pub off: bool,
 }
 
 impl Bite {
     /// Whether anything differs from what was asked for.
     pub fn any(self) -> bool {
-        self.non_finite || self.guarded || self.limited.contains(&true)
+        self.non_finite || self.guarded || self.off || self.limited.contains(&true)
     }
 }
 
-/// Full scale and limits, both in µm, made safe: no NaN, no negative limit, full scale above 0.
+/// Full scale and limits in µm, made safe: no NaN, no negative limit, full scale above 0.
+#[expect(clippy::struct_field_names, reason = "names carry their unit")]
 #[derive(Clone, Copy, Debug)]
 struct Scale {
     full_scale_um: [f64; 2],
+    /// Of what a contactor does.
     limit_um: [f64; 2],
+    /// Of its drive, as the amplitude that a contactor of nominal gain would have.
+    drive_limit_um: [f64; 2],
+}
+
+/// Where a contactor's codes go, and how strongly it is driven.
+#[derive(Clone, Copy, Debug)]
+struct Lead {
+    channel: usize,
+    calibration: Calibration,
 }
 
 /// Turns amplitudes into drive codes and counts what had to be changed.
 #[derive(Clone, Debug)]
 pub struct Coder {
-    profile: Scale,
-    effective: Scale,
+    scale: Scale,
+    /// The device's limits, once they are known.
+    link: Option<[u16; 2]>,
+    leads: Vec<Lead>,
     counters: CodeCounters,
     bites: Vec<Bite>,
 }
 
 impl Coder {
-    /// A coder with the limits of `profile` for `n_contactors` contactors.
+    /// A coder with the limits, the calibration and the wiring of `profile` for `n_contactors`
+    /// contactors.
     ///
-    /// A full scale or limit that is not a positive finite number silences its band.
+    /// A full scale or limit that is not a positive finite number silences its band, a drive gain
+    /// that is none its contactor; a wiring that is no permutation of the contactors is left out.
     pub fn new(profile: &ArrayProfile, n_contactors: usize) -> Self {
-        let mut scale = Scale {
-            full_scale_um: profile.full_scale_um,
-            limit_um: profile.limit_um,
+        let lead = |contactor: usize| Lead {
+            channel: contactor,
+            calibration: sound(profile.calibration_of(contactor)),
         };
-        for (full_scale_um, limit_um) in scale.full_scale_um.iter_mut().zip(&mut scale.limit_um) {
-            let usable = full_scale_um.is_finite() && *full_scale_um > 0.0 && *limit_um > 0.0;
-            *limit_um = if usable { *limit_um } else { 0.0 };
-            *full_scale_um = if usable { *full_scale_um } else { 1.0 };
+        let mut leads: Vec<Lead> = (0..n_contactors).map(lead).collect();
+        let wiring = profile.wiring.as_ref();
+        if let Some(wiring) = wiring.filter(|wiring| is_permutation(&wiring.channels, n_contactors))
+        {
+            for (lead, channel) in leads.iter_mut().zip(&wiring.channels) {
+                lead.channel = usize::from(*channel);
+            }
         }
         Self {
-            profile: scale,
-            effective: scale,
+            scale: Scale::of(profile),
+            link: None,
+            leads,
             counters: CodeCounters::default(),
             bites: vec![Bite::default(); n_contactors],
         }
     }
 
-    /// Lowers the limits to what the device accepts: `min(limit, comp_limit · F / 65535)` per band.
+    /// A coder for one contactor of the profile alone, whatever its channel: to explain it.
+    pub fn of_contactor(profile: &ArrayProfile, contactor: usize) -> Self {
+        let mut coder = Self::new(profile, 1);
+        for lead in &mut coder.leads {
+            lead.channel = 0;
+            lead.calibration = sound(profile.calibration_of(contactor));
+        }
+        coder
+    }
+
+    /// Goes on counting where another coder was, under the same limits of the device.
+    pub fn go_on_from(&mut self, before: &Self) {
+        self.counters = before.counters;
+        if let Some(comp_limit) = before.link {
+            self.set_link_limit(comp_limit);
+        }
+    }
+
+    /// Lowers the limits to what the device accepts: `comp_limit · F / 65535` per band.
     pub fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
+        self.link = Some(comp_limit);
         for (band, code) in comp_limit.into_iter().enumerate() {
-            let link_um = f64::from(code) * self.profile.full_scale_um[band] / f64::from(FULL_CODE);
-            self.effective.limit_um[band] = self.profile.limit_um[band].min(link_um);
+            let full_scale_um = self.scale.full_scale_um[band];
+            self.scale.drive_limit_um[band] =
+                f64::from(code) * full_scale_um / f64::from(FULL_CODE);
         }
     }
 
     /// The component limits to ask a device for: the smallest codes that no allowed amplitude
-    /// exceeds.
+    /// exceeds on any contactor.
     pub fn comp_limit(&self) -> [u16; 2] {
+        let driven = self.leads.iter().filter(|lead| !lead.calibration.is_off);
+        let gains = driven.map(|lead| lead.calibration.drive_gain);
+        let largest = gains.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        let largest = largest.unwrap_or([1.0; 2]);
         [0, 1].map(|band| {
-            let share = self.profile.limit_um[band] / self.profile.full_scale_um[band];
+            let share = self.scale.limit_um[band] * largest[band] / self.scale.full_scale_um[band];
             round_half_up((65535.0 * share).ceil().min(65535.0))
         })
     }
 
-    /// Codes `[40 Hz, 320 Hz]` of every contactor, without allocating.
+    /// The code for a channel whose contactor is not known: this amplitude at 320 Hz, µm, within
+    /// every limit, without calibration.
+    pub fn ident_code(&self, amplitude_um: f32) -> u16 {
+        let (code, _) = drive_code(
+            [0.0, amplitude_um],
+            1.0,
+            &self.scale,
+            Calibration::default(),
+        );
+        code[1]
+    }
+
+    /// Codes `[40 Hz, 320 Hz]` of every channel, without allocating.
     ///
-    /// `amplitudes_um` are peak amplitudes `[A40, A320]` in µm, `gain` the soft-start gain 0…1 (NaN
-    /// counts as 0). Contactors without an amplitude get 0.
+    /// `amplitudes_um` are peak amplitudes `[A40, A320]` in µm of every contactor, `gain` the
+    /// soft-start gain 0…1 (NaN counts as 0). Contactors without an amplitude get 0.
     pub fn encode_into(&mut self, amplitudes_um: &[[f32; 2]], gain: f64, codes: &mut [[u16; 2]]) {
         let gain = if gain.is_nan() {
             0.0
@@ -151,15 +165,20 @@ impl Coder {
             gain.clamp(0.0, 1.0)
         };
         self.bites.fill(Bite::default());
-        for (contactor_index, slot) in codes.iter_mut().enumerate() {
-            let Some(&amplitude_um) = amplitudes_um.get(contactor_index) else {
-                *slot = [0, 0];
-                continue;
+        codes.fill([0, 0]);
+        let asked = amplitudes_um.iter().take(codes.len()).enumerate();
+        for (contactor, &amplitude_um) in asked {
+            let straight = Lead {
+                channel: contactor,
+                calibration: Calibration::default(),
             };
-            let (code, bite) = drive_code(amplitude_um, gain, &self.effective);
-            *slot = code;
+            let lead = self.leads.get(contactor).copied().unwrap_or(straight);
+            let (code, bite) = drive_code(amplitude_um, gain, &self.scale, lead.calibration);
+            if let Some(slot) = codes.get_mut(lead.channel) {
+                *slot = code;
+            }
             self.counters.count(amplitude_um, bite);
-            if let Some(shown) = self.bites.get_mut(contactor_index) {
+            if let Some(shown) = self.bites.get_mut(contactor) {
                 *shown = bite;
             }
         }
@@ -196,6 +215,7 @@ impl CodeCounters {
             *total += u64::from(limited);
         }
         self.guarded += u64::from(bite.guarded);
+        self.off += u64::from(bite.off);
     }
 }
 
@@ -203,9 +223,14 @@ fn usable(amplitude_um: f32) -> bool {
     amplitude_um.is_finite() && amplitude_um >= 0.0
 }
 
-/// The code of one contactor: limit, share full drive, round half up, never
-/// more than 65535 in all.
-fn drive_code(amplitude_um: [f32; 2], gain: f64, scale: &Scale) -> ([u16; 2], Bite) {
+/// The code of one contactor: limit, calibrate, share full drive, round half up, never more than
+/// 65535 in all.
+fn drive_code(
+    amplitude_um: [f32; 2],
+    gain: f64,
+    scale: &Scale,
+    calibration: Calibration,
+) -> ([u16; 2], Bite) {
     let mut bite = Bite::default();
     let mut driven_um = [0.0; 2];
     for band in 0..2 {
@@ -214,8 +239,14 @@ fn drive_code(amplitude_um: [f32; 2], gain: f64, scale: &Scale) -> ([u16; 2], Bi
             continue;
         }
         let wanted_um = f64::from(amplitude_um[band]) * gain;
-        bite.limited[band] = wanted_um > scale.limit_um[band];
-        driven_um[band] = wanted_um.min(scale.limit_um[band]);
+        if calibration.is_off {
+            bite.off |= wanted_um > 0.0;
+            continue;
+        }
+        let needed_um = wanted_um.min(scale.limit_um[band]) * calibration.drive_gain[band];
+        bite.limited[band] =
+            wanted_um > scale.limit_um[band] || needed_um > scale.drive_limit_um[band];
+        driven_um[band] = needed_um.min(scale.drive_limit_um[band]);
     }
     let share = driven_um[0] / scale.full_scale_um[0] + driven_um[1] / scale.full_scale_um[1];
     if share > 1.0 {
@@ -228,6 +259,44 @@ fn drive_code(amplitude_um: [f32; 2], gain: f64, scale: &Scale) -> ([u16; 2], Bi
     ([code_40, code_320.min(FULL_CODE - code_40)], bite)
 }
 
+impl Scale {
+    fn of(profile: &ArrayProfile) -> Self {
+        let mut scale = Self {
+            full_scale_um: profile.full_scale_um,
+            limit_um: profile.limit_um,
+            drive_limit_um: [f64::INFINITY; 2],
+        };
+        for (full_scale_um, limit_um) in scale.full_scale_um.iter_mut().zip(&mut scale.limit_um) {
+            let usable = full_scale_um.is_finite() && *full_scale_um > 0.0 && *limit_um > 0.0;
+            *limit_um = if usable { *limit_um } else { 0.0 };
+            *full_scale_um = if usable { *full_scale_um } else { 1.0 };
+        }
+        scale
+    }
+}
+
+/// The same with a contactor whose gains make no sense switched off.
+fn sound(calibration: Calibration) -> Calibration {
+    let [least, most] = Calibration::DRIVE_GAIN;
+    let are_gains = calibration
+        .drive_gain
+        .iter()
+        .all(|gain| (least..=most).contains(gain));
+    Calibration {
+        is_off: calibration.is_off || !are_gains,
+        ..calibration
+    }
+}
+
+fn is_permutation(channels: &[u16], n: usize) -> bool {
+    let mut is_taken = vec![false; n];
+    let mut takes = |channel: &u16| {
+        let slot = is_taken.get_mut(usize::from(*channel));
+        slot.is_some_and(|slot| !std::mem::replace(slot, true))
+    };
+    channels.len() == n && channels.iter().all(&mut takes)
+}
+
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -238,117 +307,4 @@ fn round_half_up(code: f64) -> u16 {
 }
 
 #[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    fn coder() -> Coder {
-        Coder::new(&ArrayProfile::default(), 1)
-    }
-
-    fn code(a40: f32, a320: f32) -> [u16; 2] {
-        coder().encode(&[[a40, a320]], 1.0)[0]
-    }
-
-    #[test]
-    fn codes_follow_the_closed_form() {
-        assert_eq!(code(0.0, 0.0), [0, 0]);
-        assert_eq!(code(50.0, 0.0), [65535, 0]);
-        assert_eq!(code(0.0, 50.0), [0, 65535]);
-        assert_eq!(code(10.0, 20.0), [13107, 26214]);
-        // 65535 · 0.000381… rounds half up at exactly one half: 25 µm is 32767.5.
-        assert_eq!(code(25.0, 0.0), [32768, 0]);
-        assert_eq!(coder().encode(&[[20.0, 10.0]], 0.05)[0], [1311, 655]);
-    }
-
-    #[test]
-    fn two_halves_never_exceed_full_drive() {
-        let mut coder = coder();
-        assert_eq!(coder.encode(&[[25.0, 25.0]], 1.0)[0], [32768, 32767]);
-        assert_eq!(coder.counters().guarded, 0, "exactly full is not too much");
-        assert_eq!(coder.encode(&[[50.0, 50.0]], 1.0)[0], [32768, 32767]);
-        assert_eq!(coder.counters().guarded, 1);
-        assert!(coder.limited()[0].guarded);
-    }
-
-    #[test]
-    fn numbers_that_are_none_are_silent_and_counted() {
-        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0] {
-            let mut coder = coder();
-            assert_eq!(coder.encode(&[[bad, 10.0]], 1.0)[0], [0, 13107]);
-            assert_eq!(coder.encode(&[[bad, bad]], 1.0)[0], [0, 0]);
-            assert_eq!(coder.counters().non_finite, 3);
-            assert!(coder.limited()[0].any());
-        }
-        assert_eq!(coder().encode(&[[10.0, 10.0]], f64::NAN)[0], [0, 0]);
-        assert_eq!(coder().encode(&[[10.0, 0.0]], 7.0)[0], [13107, 0]);
-    }
-
-    #[test]
-    fn limits_are_counted_per_band_and_the_link_lowers_them() {
-        let profile = ArrayProfile {
-            limit_um: [5.0, 40.0],
-            ..ArrayProfile::default()
-        };
-        let mut coder = Coder::new(&profile, 2);
-        assert_eq!(
-            coder.encode(&[[6.0, 6.0], [5.0, 0.0]], 1.0),
-            [[6554, 7864], [6554, 0]]
-        );
-        assert_eq!(coder.counters().limited, [1, 0]);
-        assert_eq!(coder.limited()[0].limited, [true, false]);
-        assert!(!coder.limited()[1].any());
-        for limit in [0, 1, 999, 32768, 65535] {
-            coder.set_link_limit([65535, limit]);
-            let expected = limit.min(52428);
-            assert_eq!(coder.encode(&[[0.0, 50.0]], 1.0)[0], [0, expected]);
-        }
-    }
-
-    #[test]
-    fn a_profile_that_makes_no_sense_is_silent() {
-        for full_scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let profile = ArrayProfile {
-                full_scale_um: [full_scale, 50.0],
-                ..ArrayProfile::default()
-            };
-            assert_eq!(
-                Coder::new(&profile, 1).encode(&[[10.0, 10.0]], 1.0)[0],
-                [0, 13107]
-            );
-        }
-    }
-
-    #[test]
-    fn missing_amplitudes_are_silent() {
-        let mut codes = [[7, 7]; 3];
-        coder().encode_into(&[[50.0, 0.0]], 1.0, &mut codes);
-        assert_eq!(codes, [[65535, 0], [0, 0], [0, 0]]);
-    }
-
-    proptest! {
-        #[test]
-        fn the_sum_never_exceeds_full_drive(
-            a in any::<f32>(), b in any::<f32>(), g in any::<f64>(),
-        ) {
-            let [low, high] = coder().encode(&[[a, b]], g)[0];
-            prop_assert!(u32::from(low) + u32::from(high) <= 65535);
-        }
-
-        #[test]
-        fn more_amplitude_is_never_less_code(a in 0f32..60.0, more in 0f32..60.0, g in 0.0..1.0) {
-            let [low, _] = coder().encode(&[[a, 0.0]], g)[0];
-            let [high, _] = coder().encode(&[[a + more, 0.0]], g)[0];
-            prop_assert!(low <= high);
-        }
-
-        #[test]
-        fn sharing_full_drive_keeps_the_ratio(a in 25f32..50.0, b in 25f32..50.0) {
-            let [low, high] = coder().encode(&[[a, b]], 1.0)[0];
-            let share = f64::from(a) / (f64::from(a) + f64::from(b));
-            prop_assert!((f64::from(low) - 65535.0 * share).abs() <= 0.5 + 1e-6);
-            prop_assert!(u32::from(low) + u32::from(high) >= 65534);
-        }
-    }
-}
+mod tests;

@@ -65,6 +65,9 @@ pub enum BridgeError {
         /// Why not.
         reason: String,
     },
+    /// An array profile.
+    #[error(transparent)]
+    Profile(#[from] crate::files::FileError),
     /// A WAV file has no room for more.
     #[error(
         "a WAV file holds less than 4 GiB: choose 16-bit samples, a lower rate or a shorter path"

@@ -23,6 +23,7 @@
 //! - Memory is bounded whatever arrives; no bytes make anything panic.
 //! - Callers never wait for a port: opening, reading and writing happen on named threads.
 
+mod array;
 mod codes;
 mod device;
 mod emulator;
@@ -40,9 +41,10 @@ mod session_log;
 mod wav;
 mod wire;
 
-pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
+pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
+pub use codes::{Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Moment, Sense, Wiring,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Miswiring, Moment, Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
@@ -51,14 +53,14 @@ pub use error::BridgeError;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, Target};
 pub use host::{
-    BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy, HostSession,
-    SOFT_START_TICKS, SentFrame, Sequence,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
+    HostSession, SOFT_START_TICKS, SentFrame, Sequence,
 };
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
-    Ident, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable, fault_bit,
-    frame, kind, samples,
+    Ident, LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US,
+    Unreadable, fault_bit, frame, kind, samples,
 };
 pub use plant::{
     Amplifier, Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantFeed,

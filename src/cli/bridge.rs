@@ -6,9 +6,9 @@ use clap::{Args, Subcommand};
 
 use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
-use super::{CliError, output, play, terminal};
+use super::identify::{self, IdentifyArgs};
+use super::{CliError, array, output, play, terminal};
 use crate::bridge::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
-use crate::scene::{ArrayLayout, Geometry};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
@@ -24,9 +24,9 @@ pub(super) enum BridgeCommand {
         /// Serial port of the device
         #[arg(long, value_name = "PORT")]
         port: PathBuf,
-        /// The array that the device drives: exeter-24, 5x5 or 10x10
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
-        array: ArrayLayout,
+        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
+              value_parser = array::profile)]
+        array: Box<ArrayProfile>,
         #[arg(long, value_name = "F.csv", help = play::SESSION_LOG_HELP)]
         session_log: Option<PathBuf>,
     },
@@ -36,6 +36,8 @@ pub(super) enum BridgeCommand {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
+    /// Find which channel drives which contactor, one at a time, and write an array profile
+    Identify(IdentifyArgs),
     /// Be a device behind a pseudo-terminal until SIGINT or SIGTERM
     Emulate(Box<EmulateArgs>),
 }
@@ -49,9 +51,9 @@ pub(super) struct EmulateArgs {
     /// Every frame applied, every change of state and every injected fault, as CSV
     #[arg(long, value_name = "L.csv")]
     log: Option<PathBuf>,
-    /// The array that the device drives: exeter-24, 5x5 or 10x10
-    #[arg(long, value_name = "ARRAY", default_value = "exeter-24", value_parser = array)]
-    array: ArrayLayout,
+    #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
+          value_parser = array::profile)]
+    array: Box<ArrayProfile>,
     #[command(flatten)]
     plant: PlantArgs,
     #[command(flatten)]
@@ -68,20 +70,20 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
             port,
             array,
             session_log,
-        } => test(port, *array, session_log.as_deref()),
+        } => test(port, array, session_log.as_deref()),
         BridgeCommand::Emulate(args) => emulate(args),
+        BridgeCommand::Identify(args) => identify::run(args),
     }
 }
 
-fn test(port: &Path, array: ArrayLayout, session_log: Option<&Path>) -> Result<(), CliError> {
+fn test(port: &Path, array: &ArrayProfile, session_log: Option<&Path>) -> Result<(), CliError> {
     play::check_port(port)?;
     let log = session_log.map(|path| SessionLog::append(path, None));
     let log = log.transpose()?;
-    let report = self_test(
-        Target::Port(port.to_owned()),
-        profile_of(array),
-        log.as_ref(),
-    );
+    let report = self_test(Target::Port(port.to_owned()), array.clone(), log.as_ref());
+    if let Some(doubt) = report.caps.and_then(|caps| array::doubt(array, &caps)) {
+        terminal::notice(&doubt);
+    }
     output::print(&format!("{report}\n"))?;
     log.map_or(Ok(()), SessionLog::finish)?;
     if report.passed() {
@@ -110,7 +112,7 @@ fn list() -> Result<(), CliError> {
 
 #[cfg(unix)]
 fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
-    let model = crate::bridge::DeviceModel::for_array(&profile_of(args.array));
+    let model = crate::bridge::DeviceModel::for_array(&args.array);
     let faults = args.faults.faults();
     faults.check(model.n_channels()).map_err(CliError::Input)?;
     let contactors = args.plant.model()?;
@@ -137,27 +139,4 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
 fn emulate(_args: &EmulateArgs) -> Result<(), CliError> {
     let what = "there are no pseudo-terminals on this system; use the emulator in the workbench";
     Err(CliError::Input(what.to_owned()))
-}
-
-fn array(name: &str) -> Result<ArrayLayout, String> {
-    let names = ArrayLayout::ALL.map(ArrayLayout::name).join(", ");
-    ArrayLayout::named(name).ok_or_else(|| format!("the arrays are {names}"))
-}
-
-fn profile_of(array: ArrayLayout) -> ArrayProfile {
-    let geometry = Geometry::Array(array);
-    let (rows, cols) = array.grid();
-    let byte = |count: usize| u8::try_from(count).unwrap_or(u8::MAX);
-    let pitch = ArrayProfile::default().pitch_um;
-    ArrayProfile {
-        name: geometry.label(),
-        rows: byte(rows),
-        cols: byte(cols),
-        pitch_um: if array == ArrayLayout::Square10 {
-            pitch / 2
-        } else {
-            pitch
-        },
-        ..ArrayProfile::default()
-    }
 }

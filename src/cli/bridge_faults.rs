@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::bridge::{
-    Direction, Faults, LaneFaults, Latency, Lie, OneOff, OneOffKind, Wiring, parse_latency,
+    Direction, Faults, LaneFaults, Latency, Lie, Miswiring, OneOff, OneOffKind, parse_latency,
     parse_lie, parse_one_off, parse_rate, parse_rate_and_time, parse_swap, parse_time_us,
 };
 
@@ -132,7 +132,7 @@ impl FaultArgs {
             clock_ppm: self.clock_ppm,
             tick_jitter_us: u32::try_from(self.tick_jitter).unwrap_or(u32::MAX),
             lies: self.lie.clone(),
-            wiring: Wiring {
+            wiring: Miswiring {
                 dead: self.dead.clone(),
                 swapped: self.swap.clone(),
             },

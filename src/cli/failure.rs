@@ -129,6 +129,7 @@ fn code_of_scene(error: &SceneError) -> u8 {
 /// Ports and places that are not what was said are wrong input; a link that breaks is not.
 fn code_of_bridge(error: &BridgeError) -> u8 {
     match error {
+        BridgeError::Profile(error) => code_of_file(error),
         BridgeError::Open { .. }
         | BridgeError::LinkTaken(_)
         | BridgeError::Model(_)

@@ -10,11 +10,13 @@
 //! - a result file appears when it is whole, or not at all
 //! - a reader that closes our output is no failure
 
+mod array;
 mod bridge;
 mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
 mod failure;
+mod identify;
 mod output;
 mod picture;
 mod picture_relief;

@@ -16,11 +16,11 @@ use clap::Args;
 
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
-use super::{CliError, output, signals, terminal};
+use super::{CliError, array, output, signals, terminal};
 use crate::app;
 use crate::bridge::{
-    Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog, StopHandle, StopHow,
-    Target, fault_bit,
+    ArrayProfile, Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog,
+    StopHandle, StopHow, Target, fault_bit,
 };
 use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
@@ -51,6 +51,8 @@ pub(super) struct PlayArgs {
     /// Serial port of the device
     #[arg(long, value_name = "PORT")]
     port: PathBuf,
+    #[arg(long, value_name = "ARRAY", help = array::HELP, value_parser = array::profile)]
+    array: Option<Box<ArrayProfile>>,
     /// Begin again at the end of the path, until SIGINT or SIGTERM
     #[arg(long = "loop")]
     does_loop: bool,
@@ -79,7 +81,12 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     let loaded = LoadedScene::read(&args.scene, app::build_cache().as_ref())?;
     let source = source_of(args)?;
     check_port(&args.port)?;
-    let scene = PreparedScene::prepare(&loaded, args.method, &Accuracy::within_db(args.budget_db))?;
+    let accuracy = Accuracy::within_db(args.budget_db);
+    let mut scene = PreparedScene::prepare(&loaded, args.method, &accuracy)?;
+    if let Some(array) = &args.array {
+        array::fit(array, &loaded)?;
+        scene.drive_as(array);
+    }
     let log = match &args.log {
         Some(place) => Some(PlayLog::create(place, scene.profile(), scene.n_felt())?),
         None => None,
@@ -250,6 +257,9 @@ impl Player {
             BridgeEvent::Connected(caps) => {
                 if let Some(log) = &mut self.log {
                     log.set_link_limit(caps.comp_limit);
+                }
+                if let Some(doubt) = array::doubt(self.core.scene().profile(), &caps) {
+                    terminal::notice(&self.of_target(&doubt));
                 }
             }
             BridgeEvent::Fault(fault) => {

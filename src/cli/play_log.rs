@@ -16,7 +16,8 @@ pub(super) struct PlayLog {
 
 impl PlayLog {
     /// A log of frames for `n_contactors` contactors:
-    /// `seq,apply_tick,gain,t_s,x_mm,y_mm,a40_um_0,a320_um_0,…,code40_0,code320_0,…`.
+    /// `seq,apply_tick,gain,t_s,x_mm,y_mm,a40_um_0,a320_um_0,…,code40_0,code320_0,…`: amplitudes by
+    /// contactor, codes by channel.
     pub(super) fn create(
         path: &Path,
         profile: &ArrayProfile,

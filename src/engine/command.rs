@@ -8,7 +8,7 @@ use std::io::BufRead;
 use std::sync::Arc;
 
 use super::PreparedScene;
-use crate::bridge::{BridgeEvent, Target};
+use crate::bridge::{ArrayProfile, BridgeEvent, Target};
 use crate::render::{PlacedLevel, RenderError};
 use crate::scene::{ExplorationPath, Stroke};
 use crate::tactile::Tuning;
@@ -60,6 +60,22 @@ pub enum Command {
     SetLoop(bool),
     /// Opens a device; its shape is that of the scene's first display.
     Connect(Target),
+    /// The array that devices drive, from now on; `None`, or one with another number of contactors
+    /// than the scene's first display, is the scene's own. While a device may move, only what
+    /// lowers is taken; otherwise [`Notice::ArrayWaits`] comes and nothing changes.
+    SetArray(Option<Box<ArrayProfile>>),
+    /// Whether channels are being identified: an armed device then gets no frames. Beginning and
+    /// ending ramp it to silence.
+    Identify(bool),
+    /// Drives one channel alone, of a device that was armed while channels are identified.
+    IdentifyChannel {
+        /// Index of the channel.
+        channel: u16,
+        /// Peak amplitude at 320 Hz, within every limit, µm.
+        amplitude_um: f32,
+        /// How long, at most 1000 ms.
+        duration_ms: u16,
+    },
     /// Stops the device and lets go of it.
     Disconnect,
     /// Arms the device, and ends the silence that `StopAll` began.
@@ -206,6 +222,8 @@ pub enum Notice {
     Bridge(BridgeEvent),
     /// Something asked for was refused; the sentence says what and why.
     Refused(&'static str),
+    /// An array profile was not taken, since the device may move; the one before holds.
+    ArrayWaits,
     /// A tuning, gain or level that makes no sense was ignored.
     GainIgnored(RenderError),
     /// Everything was switched off.
@@ -238,6 +256,9 @@ impl fmt::Debug for Command {
             Self::Seek(_) => "Seek",
             Self::SetLoop(_) => "SetLoop",
             Self::Connect(_) => "Connect",
+            Self::SetArray(_) => "SetArray",
+            Self::Identify(_) => "Identify",
+            Self::IdentifyChannel { .. } => "IdentifyChannel",
             Self::Disconnect => "Disconnect",
             Self::Arm => "Arm",
             Self::Disarm => "Disarm",

@@ -3,6 +3,8 @@
 //! It belongs to the window or to a command line. It prepares what commands need, and drops what
 //! they replaced; the engine's thread does neither.
 
+mod scene;
+
 use std::fmt;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -55,6 +57,10 @@ pub struct Engine {
     profile: ArrayProfile,
     plant: Option<PlantWatch>,
     pub(super) session_log: Option<SessionLog>,
+    /// The scene's own.
+    scene_profile: ArrayProfile,
+    /// The one that was chosen instead.
+    array: Option<Box<ArrayProfile>>,
 }
 
 enum Body {
@@ -130,8 +136,10 @@ impl Engine {
             news,
             n_contactors,
             n_felt,
+            scene_profile: profile.clone(),
             profile,
             plant: None,
+            array: None,
         })
     }
 
@@ -180,6 +188,16 @@ impl Engine {
         let order = match command {
             Command::SetScene(scene) => self.scene_order(NextScene::Other(scene)),
             Command::UpdateScene(scene) => self.scene_order(NextScene::Edited(scene)),
+            Command::SetArray(array) => self.array_order(array),
+            Command::Identify(is_begun) => Order::Identify(is_begun),
+            Command::IdentifyChannel {
+                channel,
+                amplitude_um,
+                duration_ms,
+            } => Order::IdentifyChannel {
+                channel,
+                how: (amplitude_um, duration_ms),
+            },
             Command::SetSource(source) => Order::Core(CoreOrder::Source(playable(source)?)),
             Command::Connect(target) => self.connect_order(target),
             Command::Disconnect => {
@@ -272,7 +290,8 @@ impl Engine {
         self.recording.take_if(|recording| recording.has_ended())
     }
 
-    /// The device profile of the scene's first display.
+    /// The array profile in force for the scene's first display: the one that was set last, or the
+    /// scene's own.
     pub fn profile(&self) -> &ArrayProfile {
         &self.profile
     }
@@ -295,19 +314,6 @@ impl Engine {
         self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
-    }
-
-    fn scene_order(&mut self, next: NextScene) -> Order {
-        let scene = next.scene();
-        let (input, output) = triple_buffer::triple_buffer(&Snapshot::of(scene));
-        self.coming.push(output);
-        if scene.n_felt() != self.n_felt {
-            self.switch.set_device(None);
-        }
-        self.n_contactors = scene.n_contactors();
-        self.n_felt = scene.n_felt();
-        self.profile = scene.profile().clone();
-        Order::Scene(next, input)
     }
 
     fn connect_order(&mut self, target: Target) -> Order {

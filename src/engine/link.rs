@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use super::{LinkView, Notice, TICK};
-use crate::bridge::{Bridge, BridgeEvent, SentFrame, StopHow, Timings};
+use crate::bridge::{ArrayChange, Bridge, BridgeEvent, SentFrame, StopHow, Timings};
 
 /// Ticks between two looks at the timings of the link: one second.
 const TIMINGS_EVERY: u64 = 40;
@@ -17,6 +17,8 @@ const LAST_WORD: Duration = Duration::from_millis(250);
 pub(super) struct Link {
     bridge: Option<Box<Bridge>>,
     sent: Option<SentFrame>,
+    /// Whether channels are being identified, so that no frame may go out.
+    is_identifying: bool,
     timings: Timings,
     n_unheard: u64,
     n_views: u64,
@@ -100,7 +102,7 @@ impl Link {
         let listener = self
             .bridge
             .as_mut()
-            .filter(|bridge| bridge.state().takes_frames());
+            .filter(|bridge| bridge.state().takes_frames() && !self.is_identifying);
         let Some(bridge) = listener else {
             self.n_unheard += 1;
             return None;
@@ -116,6 +118,34 @@ impl Link {
         let bridge = self.bridge.as_ref()?;
         let sent = self.sent.filter(|_| bridge.state().takes_frames())?;
         Some(sent.ahead + TICK / 2)
+    }
+
+    /// Follows another array profile; false when the device may move and it does not only lower.
+    pub(super) fn set_array(&mut self, change: &mut ArrayChange) -> bool {
+        let bridge = self.bridge.as_mut();
+        bridge.is_none_or(|bridge| bridge.set_array(change).is_ok())
+    }
+
+    /// Begins or ends to identify channels, with a device at rest either way.
+    pub(super) fn identify(&mut self, is_begun: bool) {
+        if self.is_identifying != is_begun {
+            self.is_identifying = is_begun;
+            let live = self.bridge.as_mut();
+            if let Some(bridge) = live.filter(|bridge| bridge.state().is_live()) {
+                bridge.stop(StopHow::Ramp);
+            }
+        }
+    }
+
+    /// Drives one channel alone: amplitude in µm, time in ms.
+    pub(super) fn identify_channel(
+        &mut self,
+        channel: u16,
+        how: (f32, u16),
+    ) -> Result<(), &'static str> {
+        let bridge = self.bridge.as_mut().filter(|_| self.is_identifying);
+        let bridge = bridge.ok_or("no device is being identified")?;
+        bridge.identify(channel, how)
     }
 
     /// The limits of the device, if one is connected.

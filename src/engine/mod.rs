@@ -47,7 +47,7 @@ pub use handle::{Engine, EngineConfig};
 pub use input::{Control, InputLosses, PointerInput, PointerSender, Reading};
 pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::{Due, PATIENCE, Pacer};
-pub use prepared::PreparedScene;
+pub use prepared::{PreparedScene, array_of};
 pub use recording::{RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{

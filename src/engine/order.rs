@@ -5,7 +5,7 @@ use triple_buffer::Input;
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
 use super::{PreparedScene, Snapshot, VelocityMethod};
-use crate::bridge::Bridge;
+use crate::bridge::{ArrayChange, Bridge, Coder};
 use crate::render::PlacedLevel;
 use crate::tactile::Tuning;
 
@@ -18,6 +18,15 @@ pub(super) enum Order {
     /// A device that is being opened.
     Connect(Box<Bridge>),
     Disconnect,
+    /// Another array profile, made ready for screen and device.
+    Array(Box<ArrayOrder>),
+    /// Whether channels are being identified.
+    Identify(bool),
+    /// Drives one channel alone: amplitude in µm, time in ms.
+    IdentifyChannel {
+        channel: u16,
+        how: (f32, u16),
+    },
     /// Arm, unless the stop switch was pressed since it had been pressed this often.
     Arm {
         presses: u64,
@@ -30,6 +39,14 @@ pub(super) enum Order {
     /// The contactor that glimpses watch.
     Watch(usize),
     Shutdown,
+}
+
+/// An array profile for everybody who follows one; once obeyed, what they followed before.
+pub(super) struct ArrayOrder {
+    /// For what the screen shows of limits.
+    pub(super) coder: Coder,
+    /// For the device.
+    pub(super) change: ArrayChange,
 }
 
 /// The scene that is felt next.
@@ -93,6 +110,7 @@ pub(super) enum Retired {
     Levels(Vec<PlacedLevel>),
     Mask(Vec<bool>),
     Bridge(Box<Bridge>),
+    Array(Box<ArrayOrder>),
     Recorder(Box<Recorder>),
 }
 

@@ -151,6 +151,27 @@ impl PreparedScene {
         }
     }
 
+    /// Lets the first display be driven as this array, if it has as many contactors; otherwise
+    /// nothing changes. Allocates.
+    pub fn drive_as(&mut self, profile: &ArrayProfile) {
+        if profile.n_contactors() != self.n_felt() {
+            return;
+        }
+        if let Some(output) = self.outputs.first_mut() {
+            output.coder = Coder::new(profile, output.codes.len());
+            self.profile = profile.clone();
+        }
+    }
+
+    /// Exchanges what makes codes of the first display's amplitudes; counters and the device's
+    /// limits go on.
+    pub(super) fn exchange_coder(&mut self, coder: &mut Coder) {
+        if let Some(output) = self.outputs.first_mut() {
+            coder.go_on_from(&output.coder);
+            std::mem::swap(&mut output.coder, coder);
+        }
+    }
+
     /// The device's own limits, which lower those of the profile for the first display.
     pub(super) fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
         if let Some(output) = self.outputs.first_mut() {
@@ -204,13 +225,19 @@ impl PreparedScene {
 fn place_of(loaded: &LoadedScene) -> (ArrayProfile, Point) {
     let scene = loaded.scene();
     let start = Point::new(scene.size_mm[0] / 2.0, scene.size_mm[1] / 2.0);
-    let profile = scene.displays.first().map(profile_of).unwrap_or_default();
+    let profile = scene.displays.first().map(array_of).unwrap_or_default();
     (profile, start)
 }
 
-/// The array that a display is: its grid, or one row of its contactors.
-fn profile_of(display: &Display) -> ArrayProfile {
+/// The array that a display is, as at first: the program's profile of that name, or one row of its
+/// contactors.
+pub fn array_of(display: &Display) -> ArrayProfile {
     let geometry = &display.geometry;
+    if let Some(profile) = ArrayProfile::shipped(&geometry.label()) {
+        return profile;
+    }
+    let places = geometry.contactors();
+    let places = places.iter().map(|offset| [offset.x_mm, offset.y_mm]);
     let (rows, cols) = geometry
         .grid()
         .unwrap_or_else(|| (1, geometry.n_contactors()));
@@ -219,6 +246,7 @@ fn profile_of(display: &Display) -> ArrayProfile {
         name: geometry.label(),
         rows: byte(rows),
         cols: byte(cols),
+        contactors_mm: places.collect(),
         ..ArrayProfile::default()
     }
 }

@@ -13,7 +13,7 @@ use super::gist::{Gist, Waker};
 use super::glimpse::Glimpser;
 use super::link::{Link, News};
 use super::meters::{DurationHistogram, RecentMedian};
-use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
+use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch};
 use crate::bridge::StopHow;
@@ -223,6 +223,9 @@ impl Runner {
                 Order::Scene(next, snapshots) => self.set_scene(next, snapshots),
                 Order::Connect(bridge) => self.connect(Some(bridge)),
                 Order::Disconnect => self.connect(None),
+                Order::Array(array) => self.set_array(array),
+                Order::Identify(is_begun) => self.link.identify(is_begun),
+                Order::IdentifyChannel { channel, how } => self.identify_channel(channel, how),
                 Order::Arm { presses } => self.arm(presses),
                 Order::Disarm => self.link.stop(StopHow::Ramp),
                 Order::ClearFaults => self.link.clear_faults(),
@@ -261,6 +264,21 @@ impl Runner {
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));
         self.publish();
+    }
+
+    fn set_array(&mut self, mut array: Box<ArrayOrder>) {
+        if self.link.set_array(&mut array.change) {
+            self.core.exchange_coder(&mut array.coder);
+        } else {
+            self.say(Notice::ArrayWaits);
+        }
+        self.retire(Some(Retired::Array(array)));
+    }
+
+    fn identify_channel(&mut self, channel: u16, how: (f32, u16)) {
+        if let Err(why) = self.link.identify_channel(channel, how) {
+            self.say(Notice::Refused(why));
+        }
     }
 
     fn connect(&mut self, bridge: Option<Box<crate::bridge::Bridge>>) {

@@ -12,12 +12,12 @@ use std::time::{Duration, Instant};
 use crate::program::{Lab, Outcome, Rows};
 
 /// An emulated device that runs until it is told to end.
-struct Device {
+pub(crate) struct Device {
     child: Child,
 }
 
 impl Device {
-    fn start(lab: &Lab) -> Self {
+    pub(crate) fn start(lab: &Lab) -> Self {
         let args = [
             "bridge",
             "emulate",
@@ -36,7 +36,7 @@ impl Device {
     }
 
     /// SIGTERM: it must end cleanly and take its link away.
-    fn end(mut self, lab: &Lab) -> Rows {
+    pub(crate) fn end(mut self, lab: &Lab) -> Rows {
         signal("TERM", &self.child);
         assert_eq!(self.child.wait().unwrap().code(), Some(0), "a clean end");
         assert!(!lab.path("array").is_symlink(), "the link is gone");
@@ -191,7 +191,7 @@ fn is_undisturbed(outcome: &Outcome) -> bool {
     !outcome.err.contains("no frame reached it in time")
 }
 
-fn undisturbed<T>(attempt: impl Fn() -> Option<T>) -> T {
+pub(crate) fn undisturbed<T>(attempt: impl Fn() -> Option<T>) -> T {
     let found = (0..5).find_map(|_| attempt());
     found.expect("five attempts disturbed by a machine that is too busy")
 }

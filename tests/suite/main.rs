@@ -8,6 +8,7 @@
 )]
 
 mod bad_input;
+mod bridge_arrays;
 mod bridge_end_to_end;
 mod bridge_faults;
 mod commands;

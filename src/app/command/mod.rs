@@ -3,8 +3,10 @@
 //! Menus, shortcuts, buttons, sliders and tests all say what they want with a [`Command`];
 //! `dispatch.rs` is the one place that does it. Panes never change anything themselves.
 
+mod array;
 mod edit;
 
+pub(crate) use array::ArrayCommand;
 pub(crate) use edit::{Edit, Target};
 
 use std::path::PathBuf;
@@ -72,6 +74,12 @@ pub(crate) enum Command {
 impl From<DeviceCommand> for Command {
     fn from(command: DeviceCommand) -> Self {
         Self::Device(command)
+    }
+}
+
+impl From<ArrayCommand> for Command {
+    fn from(command: ArrayCommand) -> Self {
+        Self::Device(DeviceCommand::Array(command))
     }
 }
 
@@ -169,6 +177,8 @@ pub(crate) enum DeviceCommand {
     CopyLogPath,
     /// Whether an armed device stops when the window loses the keyboard.
     StopOnFocusLoss(bool),
+    /// Do something with array profiles.
+    Array(ArrayCommand),
 }
 
 /// What can be done with files.

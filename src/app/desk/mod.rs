@@ -2,6 +2,7 @@
 //!
 //! A pane that is hidden, or behind another, is not drawn, and nothing is computed for it.
 
+mod bridge;
 mod tiles;
 
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
@@ -50,17 +51,7 @@ impl Desk<'_> {
                 panes::show_tuning(ui, self.scene, live, audition, self.wishes);
             }),
             Pane::Bridge => scrolled(ui, pane, |ui| {
-                let stops_on_focus_loss = self.bench.settings.kept.stops_on_focus_loss;
-                let transient = &mut self.bench.transient;
-                let target = transient.target.as_deref();
-                let ports = transient.ports.view();
-                let port = &mut transient.port;
-                panes::show_bridge(ui, &transient.live, target, port, ports, self.wishes);
-                let bridge = transient.live.bridge.as_ref();
-                panes::show_link_timing(ui, bridge, stops_on_focus_loss, self.wishes);
-                if let Some(view) = self.bench.peek_at_plant(ui.ctx()) {
-                    panes::show_felt(ui, view, self.wishes);
-                }
+                self.bench.show_bridge(ui, self.wishes);
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),

@@ -25,6 +25,7 @@ impl Workbench {
                 self.transient.ports.hold(None);
                 self.send(engine::Command::Disconnect);
             }
+            DeviceCommand::Array(command) => self.dispatch_array(command),
             DeviceCommand::ListPorts => self.transient.ports.list(ctx),
             DeviceCommand::ShowContactors(is_open) => self.transient.plant.is_open = is_open,
             DeviceCommand::LoadContactors(skin) => self.transient.plant.skin = skin,

@@ -1,6 +1,7 @@
 //! The one place where something changes: commands in, document, engine and transient state out.
 
 mod accuracy;
+mod array;
 mod collection;
 mod compare;
 mod device;

@@ -12,7 +12,9 @@ use crate::app::command::{Part, ShowCommand};
 use crate::app::sensation::Sensation;
 use crate::app::theme::{self, ColourMap, Palette};
 use crate::app::view::{Dot, Live, SceneView};
-use crate::app::widgets::{amplitude_bar, toggle};
+use crate::app::widgets::{
+    LIMIT_MARK, amplitude_bar, bites_band, limit_words, paint_limit_mark, toggle,
+};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -232,10 +234,8 @@ fn paint_cell(
     } else {
         painter.rect_filled(rect, 2, style.map.colour(share));
     }
-    if dot.is_limited {
-        let corner = rect.right_top() + vec2(-5.0, 5.0);
-        let rim = Stroke::new(1.5, palette.panel);
-        painter.circle(corner, 2.0, palette.selection, rim);
+    if bites_band(dot.bite, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
+        paint_limit_mark(painter, rect.right_top() + vec2(-6.0, 6.0));
     }
     if style.has_numbers && rect.width() >= NUMBER_WIDTH {
         let digits = digits(amplitude_um);
@@ -322,11 +322,7 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> S
         None => "off every textile".to_owned(),
     };
     let bands = sensation.band_lines(dot.amplitude_um);
-    let limited = if dot.is_limited {
-        "\nan output limit bites"
-    } else {
-        ""
-    };
+    let limited = limit_words(dot.bite).map_or_else(String::new, |words| format!("\n{words}"));
     let muted = if dot.is_muted { "\nmuted" } else { "" };
     format!(
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \

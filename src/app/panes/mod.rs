@@ -34,7 +34,7 @@ mod why;
 pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::{
-    BACK, back_notice, show as show_bridge, show_felt, show_timing as show_link_timing,
+    ArrayView, BACK, BridgePane, BridgeTyped, back_notice, show as show_bridge,
 };
 pub(crate) use collection::{Typed as CollectionTyped, show as show_collection};
 pub(crate) use compare::{

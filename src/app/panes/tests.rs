@@ -8,12 +8,15 @@ use eframe::egui::{Key, Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
-use super::{Ask, Wishes, show_ask, show_bridge, show_help, show_question};
+use super::{
+    ArrayView, Ask, BridgePane, BridgeTyped, Wishes, show_ask, show_bridge, show_help,
+    show_question,
+};
 use crate::app::command::{Command, DeviceCommand, FileCommand, Purpose};
 use crate::app::ports::PortsView;
 use crate::app::theme;
 use crate::app::view::Live;
-use crate::bridge::{FoundPort, RecognisedBy};
+use crate::bridge::{ArrayProfile, FoundPort, RecognisedBy};
 
 /// A window with nothing in it but `content`, and what is wished for in it.
 fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
@@ -115,6 +118,35 @@ fn the_list_of_keys_names_a_key_and_can_be_put_away() {
     assert_eq!(click(&mut harness, "Close"), [Command::Dismiss]);
 }
 
+/// The pane of the device, with nothing connected.
+fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, Wishes> {
+    window(|ui, wishes| {
+        let profile = ArrayProfile::default();
+        let view = BridgePane {
+            live: &Live::default(),
+            target: None,
+            ports,
+            array: ArrayView {
+                profile: &profile,
+                places_mm: profile.places_mm(),
+                is_own: false,
+                choices: Vec::new(),
+                waits: false,
+                contactor: None,
+                wizard: None,
+                folder: None,
+            },
+            plant: None,
+            stops_on_focus_loss: false,
+        };
+        let mut typed = BridgeTyped {
+            port,
+            copy_name: &mut String::new(),
+        };
+        show_bridge(ui, &view, &mut typed, wishes);
+    })
+}
+
 #[test]
 fn opening_the_menu_lists_ports_and_choosing_one_connects() {
     let ports = PortsView {
@@ -123,9 +155,7 @@ fn opening_the_menu_lists_ports_and_choosing_one_connects() {
         ..PortsView::default()
     };
     let mut port = String::new();
-    let mut harness = window(|ui, wishes| {
-        show_bridge(ui, &Live::default(), None, &mut port, &ports, wishes);
-    });
+    let mut harness = bridge_window(&ports, &mut port);
     harness.run();
     let listed = click(&mut harness, "Choose a port");
     assert_eq!(listed, [DeviceCommand::ListPorts.into()]);
@@ -153,9 +183,7 @@ fn a_device_that_is_back_is_connected_with_one_click_and_not_armed() {
         ..PortsView::default()
     };
     let mut port = String::new();
-    let mut harness = window(|ui, wishes| {
-        show_bridge(ui, &Live::default(), None, &mut port, &ports, wishes);
-    });
+    let mut harness = bridge_window(&ports, &mut port);
     harness.run();
     harness.get_by_label("The array is back as /dev/ttyACM1");
     let asked = click(&mut harness, "Connect again");

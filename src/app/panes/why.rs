@@ -9,8 +9,10 @@ use super::Wishes;
 use crate::app::command::ShowCommand;
 use crate::app::sensation::SOURCE;
 use crate::app::theme::{self, Palette, STEP};
-use crate::app::why::{Why, lines};
-use crate::app::widgets::{Axis, Side, Tick, paint_ticks, toggle};
+use crate::app::why::{LIMITS, Why, lines};
+use crate::app::widgets::{
+    Axis, LIMIT_MARK, Side, Tick, limit_words, paint_limit_mark, paint_ticks, toggle,
+};
 use crate::quantity;
 use crate::tactile::{Band, Filters};
 
@@ -118,12 +120,14 @@ fn show_chain(ui: &mut Ui, why: &Why) {
             }
         });
         for (name, value) in lines {
-            show_line(ui, &name, &value);
+            let bite = why.output.bite;
+            let bites = (name == LIMITS).then(|| limit_words(bite)).flatten();
+            show_line(ui, &name, &value, bites);
         }
     });
 }
 
-fn show_line(ui: &mut Ui, name: &str, value: &str) {
+fn show_line(ui: &mut Ui, name: &str, value: &str, bites: Option<String>) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), LINE);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
@@ -139,6 +143,13 @@ fn show_line(ui: &mut Ui, name: &str, value: &str) {
             ui.set_min_width(NAMES);
             ui.label(name);
         });
+        if let Some(words) = bites {
+            let size = vec2(LIMIT_MARK + 6.0, LINE);
+            let (rect, mark) = ui.allocate_exact_size(size, Sense::hover());
+            paint_limit_mark(ui.painter(), rect.center() - vec2(3.0, 0.0));
+            mark.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, &words));
+            mark.on_hover_text(words);
+        }
         let value = RichText::new(value).font(theme::small_number());
         let is_model = value.text().ends_with("(model)");
         let label = egui::Label::new(value.color(palette.text)).truncate();

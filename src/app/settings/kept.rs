@@ -51,6 +51,8 @@ pub(crate) struct Kept {
     pub(crate) perspective: Perspective,
     /// Where each pane stands in each perspective, as text that whoever arranges them understands.
     pub(crate) arrangements: [Option<String>; Perspective::ALL.len()],
+    /// The array profile that was chosen; `None`: the one of the scene's display.
+    pub(crate) array: Option<String>,
     /// Size of the window, points.
     pub(crate) window_size: Option<[f32; 2]>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
@@ -73,6 +75,7 @@ impl Default for Kept {
             rendering: Rendering::default(),
             perspective: Perspective::default(),
             arrangements: Default::default(),
+            array: None,
             window_size: None,
             recent_scenes: Vec::new(),
         }

@@ -61,6 +61,12 @@ pub(crate) fn session_log() -> Option<PathBuf> {
     Some(folders.data_dir().join("logs").join("bridge.csv"))
 }
 
+/// The folder of the user's array profiles. `None` on a system without such a place.
+pub fn own_arrays() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("arrays"))
+}
+
 impl Settings {
     /// Settings that are neither read nor written: for tests and pictures.
     pub(crate) fn in_memory() -> Self {

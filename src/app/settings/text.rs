@@ -48,6 +48,8 @@ struct Keys {
     rendering_method: Value<String>,
     error_budget_db: Value<f64>,
     #[serde(skip_serializing_if = "Value::is_missing")]
+    array: Value<String>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
     window_size: Value<[f32; 2]>,
     recent_scenes: Value<Vec<PathBuf>>,
     perspective: Value<String>,
@@ -150,6 +152,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             taken("arrangement", keys.arrangement, odd),
             taken("arrangement_cloth", keys.arrangement_cloth, odd),
         ],
+        array: taken("array", keys.array, odd),
         window_size: taken("window_size", keys.window_size, odd),
         ..first
     }
@@ -211,6 +214,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         pixels_per_mm: kept.pixels_per_mm.into(),
         rendering_method: word(&kept.rendering.method, &methods()).into(),
         error_budget_db: Value::Known(kept.rendering.budget_db),
+        array: kept.array.clone().into(),
         window_size: kept.window_size.into(),
         recent_scenes: Value::Known(recent.filter(is_text).cloned().collect()),
         perspective: word(&kept.perspective, &perspectives()).into(),
@@ -255,6 +259,7 @@ mod tests {
                 Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),
                 Some("{}".to_owned()),
             ],
+            array: Some("rig \"2\"".to_owned()),
             window_size: Some([1600.0, 1000.5]),
             ..Kept::default()
         };

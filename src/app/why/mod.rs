@@ -8,13 +8,13 @@
 
 mod text;
 
-pub(crate) use text::{lines, sheet, to_text};
+pub(crate) use text::{LIMITS, lines, sheet, to_text};
 
 use super::command::Part;
 use super::sensation::Sensation;
 use super::view::Source;
 use super::window::Workbench;
-use crate::bridge::{ArrayProfile, Bite, Coder};
+use crate::bridge::{ArrayProfile, Bite, Calibration, Coder};
 use crate::render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
@@ -52,6 +52,10 @@ pub(crate) struct Output {
     pub(crate) gain: f64,
     /// Limits of both bands, µm.
     pub(crate) limit_um: [f64; 2],
+    /// How the contactor answers its drive.
+    pub(crate) calibration: Calibration,
+    /// The channel that drives it.
+    pub(crate) channel: usize,
     /// What the limits did.
     pub(crate) bite: Bite,
     /// Codes of both bands, 0…65535.
@@ -59,10 +63,10 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// What a device of this profile is told for these amplitudes, µm. `gain` is the soft-start
+    /// What a contactor of this array is told for these amplitudes, µm. `gain` is the soft-start
     /// gain of an armed device.
     pub(crate) fn of(
-        profile: &ArrayProfile,
+        (profile, contactor): (&ArrayProfile, usize),
         amplitudes_um: [f64; 2],
         gain: Option<f64>,
         is_silent: bool,
@@ -73,13 +77,15 @@ impl Output {
         )]
         let single = amplitudes_um.map(|um| um as f32);
         let felt = if is_silent { [0.0; 2] } else { single };
-        let mut coder = Coder::new(profile, 1);
+        let mut coder = Coder::of_contactor(profile, contactor);
         let codes = coder.encode(&[felt], gain.unwrap_or(1.0));
         Self {
             is_sent: gain.is_some(),
             is_silent,
             gain: gain.unwrap_or(1.0),
             limit_um: profile.limit_um,
+            calibration: profile.calibration_of(contactor),
+            channel: profile.channel_of(contactor),
             bite: coder.limited().first().copied().unwrap_or_default(),
             codes: codes.first().copied().unwrap_or_default(),
         }
@@ -157,7 +163,12 @@ impl Workbench {
         let gain = live.bridge.as_ref().and_then(|bridge| bridge.gain);
         let is_silent = live.is_silent || is_muted;
         let amplitudes_um = trace.amplitudes_um;
-        let output = Output::of(self.engine.profile(), amplitudes_um, gain, is_silent);
+        let output = Output::of(
+            (self.engine.profile(), contactor),
+            amplitudes_um,
+            gain,
+            is_silent,
+        );
         Some(Why {
             contactor,
             cell,

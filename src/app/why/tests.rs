@@ -52,7 +52,12 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Why {
         ..Pose::default()
     };
     let trace = ContactInspector::new(&scene()).trace(0, 0, &pose).unwrap();
-    let output = Output::of(&ArrayProfile::default(), trace.amplitudes_um, None, false);
+    let output = Output::of(
+        (&ArrayProfile::default(), 0),
+        trace.amplitudes_um,
+        None,
+        false,
+    );
     Why {
         contactor: 0,
         cell: Some((0, 0)),
@@ -129,7 +134,7 @@ fn outside_at_rest_and_silent_are_said() {
     assert!(to_text(&why([5.0, 5.0], [0.0, 0.0])).contains("below 0.01 mm/s"));
     let mut held = why([5.0, 5.0], [40.0, 0.0]);
     let amplitudes = held.trace.amplitudes_um;
-    held.output = Output::of(&ArrayProfile::default(), amplitudes, Some(1.0), true);
+    held.output = Output::of((&ArrayProfile::default(), 0), amplitudes, Some(1.0), true);
     assert_eq!(held.output.codes, [0, 0]);
     assert!(to_text(&held).contains("silent now"));
 }
@@ -161,7 +166,7 @@ fn the_table_holds_every_bin_and_its_powers_add_up() {
 
 #[test]
 fn limits_that_hold_are_named() {
-    let loud = Output::of(&ArrayProfile::default(), [80.0, 1.0], Some(1.0), false);
+    let loud = Output::of((&ArrayProfile::default(), 0), [80.0, 1.0], Some(1.0), false);
     assert!(loud.bite.limited[0] && loud.is_sent, "{loud:?}");
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     explained.output = loud;

@@ -3,9 +3,13 @@
 use super::{FULL_CODE, Why};
 use crate::app::export::Sheet;
 use crate::app::sensation::felt_words;
+use crate::bridge::Calibration;
 use crate::quantity::{fixed, with_unit};
 use crate::render::GainTerms;
 use crate::render::array::DirectionTrace;
+
+/// The line of the output limits: views mark it when one bites.
+pub(crate) const LIMITS: &str = "Limits";
 
 /// The terms of a gain with their names, dB.
 pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
@@ -52,7 +56,8 @@ pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
     let amplitudes = both(why.trace.amplitudes_um, 3, "µm");
     lines.push(("Amplitudes".to_owned(), amplitudes));
     lines.extend(felt(why));
-    lines.push(("Limits".to_owned(), limits(why)));
+    lines.push((LIMITS.to_owned(), limits(why)));
+    lines.extend(calibration(why));
     lines.push(("Drive codes".to_owned(), codes(why)));
     lines
 }
@@ -90,6 +95,7 @@ fn limits(why: &Why) -> String {
     let [low, high] = why.output.limit_um.map(|um| fixed(um, 1));
     let bite = why.output.bite;
     let words = match (bite.limited, bite.guarded) {
+        _ if bite.off => "switched off in the array profile",
         ([false, false], false) => "not met",
         ([false, false], true) => "both scaled down to share full drive",
         ([true, false], _) => "40 Hz is held",
@@ -97,6 +103,18 @@ fn limits(why: &Why) -> String {
         ([true, true], _) => "both are held",
     };
     format!("{low} / {high} µm, {words}")
+}
+
+/// What the array profile says of the contactor, where it differs from the nominal.
+fn calibration(why: &Why) -> Option<(String, String)> {
+    let output = &why.output;
+    let is_nominal = output.calibration == Calibration::default();
+    if is_nominal && output.channel == why.contactor {
+        return None;
+    }
+    let [low, high] = output.calibration.drive_gain.map(|gain| fixed(gain, 2));
+    let words = format!("{low} / {high} × drive, on channel {}", output.channel);
+    Some(("Calibration".to_owned(), words))
 }
 
 fn codes(why: &Why) -> String {

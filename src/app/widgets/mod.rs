@@ -6,6 +6,8 @@
 mod axis;
 mod bar;
 mod card;
+mod fold;
+mod limit_mark;
 mod list;
 mod polyline;
 mod relief;
@@ -19,6 +21,8 @@ pub(crate) use axis::{
 };
 pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
+pub(crate) use fold::fold;
+pub(crate) use limit_mark::{LIMIT_MARK, bites_band, limit_words, paint_limit_mark};
 pub(crate) use list::list;
 pub(crate) use polyline::corners;
 pub(crate) use relief::{BAR_ROOM, Relief, ReliefPicture, paint_height_bar};

@@ -12,6 +12,7 @@ use crate::app::command::DotStyle;
 use crate::app::sensation::Sensation;
 use crate::app::theme::Palette;
 use crate::app::view::{Dot, Live};
+use crate::app::widgets::paint_limit_mark;
 use crate::geometry::Point;
 
 /// How long the trail is, s.
@@ -19,6 +20,8 @@ pub(crate) const TRAIL_S: f64 = 0.8;
 
 /// Dots closer together than this have no room for a ring, points per mm.
 const LEAST_FOR_RING: f32 = 4.0;
+/// Dots closer together than this have no room for the mark of a limit, points per mm.
+const LEAST_FOR_LIMIT: f32 = 6.0;
 /// Corners of a glow.
 const GLOW_CORNERS: u32 = 20;
 /// Half of what a contactor has for itself: their pitch is 2 mm.
@@ -52,6 +55,9 @@ pub(super) fn paint(
     }
     for dot in dots.iter().filter(in_sight) {
         brush.dot(view.screen(dot.position), dot);
+    }
+    for dot in dots.iter().filter(in_sight) {
+        brush.limit(view.screen(dot.position), dot);
     }
     if let Some(dot) = pointed.and_then(|index| dots.get(index)) {
         brush.pointed(view.screen(dot.position));
@@ -134,6 +140,15 @@ impl Brush<'_> {
             self.muted(at);
         } else {
             self.felt(at, self.strengths(dot), self.is_below(dot));
+        }
+    }
+
+    /// Where the dots have room, the mark of an output limit that bites stands beside them.
+    fn limit(&self, at: Pos2, dot: &Dot) {
+        let has_room = self.points_per_mm >= LEAST_FOR_LIMIT;
+        if has_room && dot.bite.any() && dot.cloth.is_some() && !dot.is_muted {
+            let beside = 0.7 * self.points_per_mm;
+            paint_limit_mark(self.painter, at + vec2(beside, -beside));
         }
     }
 

@@ -7,6 +7,7 @@ use eframe::egui::{Label, Pos2, Response, Ui};
 use super::{Stage, arrange, drag, overlay};
 use crate::app::sensation::Sensation;
 use crate::app::view::{Cloth, Dot, SceneView};
+use crate::app::widgets::limit_words;
 use crate::quantity;
 
 /// Tells what is under the resting pointer; `tag` is the textile whose tag is.
@@ -82,10 +83,10 @@ fn of_dot(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> 
     };
     let [x, y] = [dot.position.x_mm, dot.position.y_mm].map(|mm| quantity::fixed(mm, 2));
     let bands = sensation.band_lines(dot.amplitude_um);
-    let state = match (dot.is_muted, dot.is_limited) {
-        (true, _) => "\nMuted",
-        (false, true) => "\nAn output limit bites",
-        (false, false) => "",
+    let state = match limit_words(dot.bite) {
+        _ if dot.is_muted => "\nMuted".to_owned(),
+        Some(words) => format!("\n{words}"),
+        None => String::new(),
     };
     format!(
         "Contactor {index}{grid}\n{on}, at {x}, {y} mm\n{bands}\nPeak, after gains, before output \

@@ -70,14 +70,14 @@ pub(super) fn caps_packet(mut caps: Caps, lies: &[Lie], seq: u16) -> Option<Pack
 
 /// How contactors are connected. The default: each to its own channel.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Wiring {
+pub struct Miswiring {
     /// Channels that move nothing.
     pub dead: Vec<u16>,
     /// Pairs of channels that move each other's contactor.
     pub swapped: Vec<[u16; 2]>,
 }
 
-impl Wiring {
+impl Miswiring {
     /// The largest channel that is named.
     pub fn largest(&self) -> Option<usize> {
         let named = self.dead.iter().chain(self.swapped.iter().flatten());

@@ -18,7 +18,7 @@ mod trouble;
 
 use super::framing::{Decoder, Packet};
 use super::message::{Config, DeviceState, Fault, LogText, Message, Status, TICK_US, fault_bit};
-pub use lie::{Lie, Wiring};
+pub use lie::{Lie, Miswiring};
 pub use model::DeviceModel;
 use output::OutputStage;
 use queue::FrameQueue;
@@ -211,7 +211,7 @@ impl DeviceCore {
     /// The voltage of the amplifiers' rails, V: 0 while high voltage is off.
     pub fn rail_v(&self) -> f64 {
         if self.state.is_live() {
-            0.1 * f64::from(self.config.hv_dv)
+            0.1 * f64::from(self.measured_hv_dv())
         } else {
             0.0
         }

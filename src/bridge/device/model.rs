@@ -1,6 +1,6 @@
 //! What an emulated device says of itself in CAPS.
 
-use super::lie::{Lie, Wiring};
+use super::lie::{Lie, Miswiring};
 use crate::bridge::codes::ArrayProfile;
 use crate::bridge::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::bridge::message::{Caps, Config, MAGIC, TICK_US, frame};
@@ -34,7 +34,7 @@ pub struct DeviceModel {
     /// What CAPS say although it is not so.
     pub lies: Vec<Lie>,
     /// How its contactors are connected.
-    pub wiring: Wiring,
+    pub wiring: Miswiring,
 }
 
 impl Default for DeviceModel {
@@ -51,7 +51,7 @@ impl Default for DeviceModel {
             hv_max_dv: 600,
             name: String::from("emulated array"),
             lies: Vec::new(),
-            wiring: Wiring::default(),
+            wiring: Miswiring::default(),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! waiting for the port. An owner that hangs sends no frames and no pings: the device then goes
 //! silent by itself, as it should.
 
+mod array;
 mod notes;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};

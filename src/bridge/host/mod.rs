@@ -6,9 +6,11 @@
 //! falls silent. It owns no port, no thread and no clock (callers say what time it is), and it
 //! never arms on its own.
 
+mod array;
 mod checks;
 mod clock;
 mod frames;
+mod ident;
 mod latching;
 mod notes;
 mod pending;
@@ -29,9 +31,11 @@ use super::message::{
     StopHow, kind,
 };
 use super::session_log::Note;
+pub use array::ArrayChange;
 pub use clock::ClockFit;
 use clock::DeviceClock;
 pub use frames::SOFT_START_TICKS;
+use ident::Identifying;
 use latching::Latching;
 use notes::Notes;
 use pending::Pending;
@@ -80,6 +84,7 @@ pub struct HostSession {
     /// Token and time of the last PING.
     ping: Option<(u32, Instant)>,
     last_ping: Option<Instant>,
+    ident: Option<Identifying>,
     first_apply_tick: Option<u32>,
     clock: DeviceClock,
     latching: Latching,
@@ -121,6 +126,7 @@ impl HostSession {
             stop_ends_output: false,
             ping: None,
             last_ping: None,
+            ident: None,
             first_apply_tick: None,
             clock: DeviceClock::new(),
             latching: Latching::new(),

@@ -54,7 +54,7 @@ impl HostSession {
         self.configure(received);
     }
 
-    fn configure(&mut self, now: Instant) {
+    pub(super) fn configure(&mut self, now: Instant) {
         self.state = BridgeState::Configuring;
         self.request(kind::CONFIG, now);
     }
@@ -72,6 +72,7 @@ impl HostSession {
     }
 
     fn on_ack(&mut self, received: Instant, ack: Ack) {
+        self.on_ident_ack(ack);
         if ack.code != AckCode::Ok {
             self.note(received, Note::Refused(ack.kind, ack.code));
             self.frames_rejected += u64::from(ack.kind == kind::FRAME);

@@ -129,6 +129,18 @@ pub enum BridgeEvent {
     },
     /// A line of text from the device.
     Log(String),
+    /// The device drives this channel alone.
+    Identified {
+        /// Index of the channel.
+        channel: u16,
+    },
+    /// It does not.
+    NotIdentified {
+        /// Index of the channel.
+        channel: u16,
+        /// Why not.
+        reason: String,
+    },
 }
 
 /// The stamp of a frame that went to the link.

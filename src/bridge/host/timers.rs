@@ -33,6 +33,7 @@ impl HostSession {
         }
         self.check_request(now);
         self.check_stop(now);
+        self.check_ident(now);
         self.check_silence(step.min(LONGEST_STEP));
         let quiet = self
             .last_sent

@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use crate::bridge::device::{Lie, Wiring};
+use crate::bridge::device::{Lie, Miswiring};
 
 /// Everything that is to go wrong with one emulated device and its link. The default: nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Faults {
     /// What the device says in CAPS although it is not so.
     pub lies: Vec<Lie>,
     /// Contactors that do not move, or move in place of another.
-    pub wiring: Wiring,
+    pub wiring: Miswiring,
     /// What happens at told times, in any order.
     pub once: Vec<OneOff>,
 }

@@ -38,6 +38,8 @@ pub(crate) struct Simulation {
     pub(crate) amplitude_um: [f32; 2],
     /// Whether nothing arrives, either way.
     pub(crate) cut: bool,
+    /// Whether ticks go unanswered.
+    is_unheard: bool,
     /// How much faster the host's clock runs, in parts per million.
     pub(crate) host_ppm: i64,
     /// The longest time from an accepted frame to a moment with output, µs of device time.
@@ -103,6 +105,7 @@ impl Simulation {
             sent: Vec::new(),
             amplitude_um: [10.0, 20.0],
             cut: false,
+            is_unheard: false,
             host_ppm: 0,
             loudest_age_us: 0,
             bad_received: 0,
@@ -148,6 +151,14 @@ impl Simulation {
                 self.exchange();
             }
         }
+    }
+
+    /// As `run`, but ticks go unanswered.
+    #[cfg(test)]
+    pub(crate) fn run_without_frames(&mut self, ms: u64) {
+        self.is_unheard = true;
+        self.run(ms);
+        self.is_unheard = false;
     }
 
     /// Runs until `is_so`, at most `ms`; whether it became so.
@@ -252,6 +263,7 @@ impl Simulation {
 
     fn hear(&mut self, event: BridgeEvent) {
         match event {
+            BridgeEvent::Tick { .. } if self.is_unheard => {}
             BridgeEvent::Tick { .. } => {
                 let amplitudes = [self.amplitude_um; N_CONTACTORS];
                 if let Some((stamp, packet)) = self.host.frame(self.now(), &amplitudes) {

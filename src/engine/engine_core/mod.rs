@@ -17,7 +17,7 @@ use super::{
     EngineError, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot, SourceKind,
     TICKS_PER_S, VelocityMethod,
 };
-use crate::bridge::SentFrame;
+use crate::bridge::{Coder, SentFrame};
 use crate::geometry::Velocity;
 use crate::scene::Pose;
 
@@ -206,6 +206,13 @@ impl EngineCore {
     /// Ends the silence of [`stop`](Self::stop).
     pub(super) fn resume(&mut self) {
         self.is_stopped = false;
+    }
+
+    /// Other limits and calibration from now on; what there was before comes back in `coder`.
+    pub(super) fn exchange_coder(&mut self, coder: &mut Coder) {
+        self.scene.exchange_coder(coder);
+        self.scene.render(self.rendered, &self.mask);
+        self.revision += 1;
     }
 
     /// A device with these limits is connected.

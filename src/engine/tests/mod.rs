@@ -1,5 +1,6 @@
 //! The engine as its owner sees it, in told time: replays, recordings, stops, limits.
 
+mod array;
 mod commands;
 mod device;
 mod exact;

@@ -1,6 +1,7 @@
 //! The session in virtual time: alone against scripted messages, and end to end against the device.
 
 mod alone;
+mod array;
 mod latched;
 mod together;
 

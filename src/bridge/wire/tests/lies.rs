@@ -1,7 +1,7 @@
 //! Devices that are not what they say: refused with a line, and never armed.
 
 use super::*;
-use crate::bridge::device::{Lie, Wiring};
+use crate::bridge::device::{Lie, Miswiring};
 use crate::bridge::message::{Ident, Message as _};
 
 fn liar(lies: &[Lie]) -> Simulation {
@@ -67,7 +67,7 @@ fn caps_that_are_cut_short_at_any_byte_are_no_answer() {
 #[test]
 fn a_dead_channel_moves_nothing_and_swapped_ones_move_each_other() {
     let faults = Faults {
-        wiring: Wiring {
+        wiring: Miswiring {
             dead: vec![3],
             swapped: vec![[5, 6]],
         },

@@ -1,0 +1,81 @@
+//! The mark of an output limit that bites: one look and one meaning in every view.
+//!
+//! What carries it is played weaker than it is shown. Its words say why.
+
+use eframe::egui::{Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+
+use crate::app::theme::Palette;
+use crate::bridge::Bite;
+
+/// Width and height of the mark, points.
+pub(crate) const LIMIT_MARK: f32 = 6.0;
+
+/// Paints the mark around `centre`: an arrow that meets a ceiling.
+pub(crate) fn paint_limit_mark(painter: &Painter, centre: Pos2) {
+    let palette = Palette::of(painter.ctx().theme());
+    let rect = Rect::from_center_size(centre, vec2(LIMIT_MARK, LIMIT_MARK));
+    // Told apart from cloth and colours of any brightness, in both themes.
+    painter.rect_filled(rect.expand(1.0), 1, palette.tag);
+    let ceiling = [rect.left_top(), rect.right_top()].map(|at| at + vec2(0.0, 0.75));
+    painter.line_segment(ceiling, Stroke::new(1.5, palette.selection));
+    let corners = vec![
+        pos2(rect.center().x, rect.top() + 2.5),
+        rect.right_bottom() + vec2(-0.25, 0.0),
+        rect.left_bottom() + vec2(0.25, 0.0),
+    ];
+    painter.add(Shape::convex_polygon(
+        corners,
+        palette.selection,
+        Stroke::NONE,
+    ));
+}
+
+/// What bites a contactor, in words behind the mark; `None` when nothing does.
+pub(crate) fn limit_words(bite: Bite) -> Option<String> {
+    let held = match bite.limited {
+        [true, true] => Some("both bands are held at their limits"),
+        [true, false] => Some("40 Hz is held at its limit"),
+        [false, true] => Some("320 Hz is held at its limit"),
+        [false, false] => None,
+    };
+    let shared = bite
+        .guarded
+        .then_some("both bands are scaled down to share full drive");
+    let off = bite.off.then_some("switched off in the array profile");
+    let none = bite.non_finite.then_some("not a number, so silent");
+    let words: Vec<&str> = [held, shared, off, none].into_iter().flatten().collect();
+    (!words.is_empty()).then(|| format!("Played weaker than shown: {}", words.join("; ")))
+}
+
+/// Whether what bites concerns a band.
+pub(crate) fn bites_band(bite: Bite, band: usize) -> bool {
+    bite.guarded || bite.off || bite.non_finite || bite.limited.get(band) == Some(&true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_that_bites_has_its_words_and_its_bands() {
+        assert_eq!(limit_words(Bite::default()), None);
+        let held = Bite {
+            limited: [false, true],
+            ..Bite::default()
+        };
+        let words = limit_words(held).unwrap();
+        assert_eq!(
+            words,
+            "Played weaker than shown: 320 Hz is held at its limit"
+        );
+        assert_eq!([0, 1].map(|band| bites_band(held, band)), [false, true]);
+        let off = Bite {
+            off: true,
+            guarded: true,
+            ..held
+        };
+        let words = limit_words(off).unwrap();
+        assert!(words.contains("share full drive; switched off"), "{words}");
+        assert_eq!([0, 1].map(|band| bites_band(off, band)), [true, true]);
+    }
+}
