@@ -9,6 +9,7 @@
 //! amplitudes ─ codes ─ host ─ message ─ framing ─ port     (µm → u16, then the session)
 //!                                                  ║       (serial, pty or in process)
 //! output ─ device ─ message ─ framing ─────────── port     (hold, ramp, STOP)
+//!      └── plant                                            (what contactors would do, if looked at)
 //! ```
 //!
 //! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in
