@@ -132,6 +132,11 @@ impl WiredDevice {
         &mut self.core
     }
 
+    /// Channels of the device.
+    pub fn n_channels(&self) -> usize {
+        self.model.n_channels()
+    }
+
     /// Where the device is.
     pub fn state(&self) -> DeviceState {
         self.core.state()
