@@ -108,12 +108,8 @@ impl WiredDevice {
     /// bytes can change anything.
     pub fn next_deadline_us(&self) -> Option<u64> {
         let scheduled = self.schedule.last().map(|&(at_us, ..)| at_us);
-        let core = self.core_deadline_us();
-        let lanes = [&self.to_device, &self.to_host].map(Lane::next_due_us);
-        [scheduled, core, lanes[0], lanes[1]]
-            .into_iter()
-            .flatten()
-            .min()
+        let lanes = earlier(self.to_device.next_due_us(), self.to_host.next_due_us());
+        earlier(earlier(scheduled, self.core_deadline_us()), lanes)
     }
 
     /// Whether the cable is in.
@@ -134,6 +130,11 @@ impl WiredDevice {
     /// The same, to change what it senses or to break it.
     pub fn core_mut(&mut self) -> &mut DeviceCore {
         &mut self.core
+    }
+
+    /// Channels of the device.
+    pub fn n_channels(&self) -> usize {
+        self.model.n_channels()
     }
 
     /// Where the device is.
@@ -319,6 +320,14 @@ impl WiredDevice {
     fn tell(&self, kind: InjectionKind, once: OneOff, sink: &mut impl DeviceSink) {
         let amount = once.for_us;
         sink.injected(&self.core.moment(), &Injection { kind, amount });
+    }
+}
+
+/// The earlier of two times that may not come.
+fn earlier(a: Option<u64>, b: Option<u64>) -> Option<u64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
     }
 }
 
