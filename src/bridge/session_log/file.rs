@@ -1,5 +1,7 @@
-//! The file of a log: lines are added at its end, and never changed. A bounded one makes way for
-//! the next when it is full: `log.csv` becomes `log-1.csv`, that becomes `log-2.csv`, the last goes.
+//! The file of a log: lines are added at its end, and never changed.
+//!
+//! A bounded one makes way for the next when it is full: `log.csv` becomes `log-1.csv`, that
+//! becomes `log-2.csv`, the last goes.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
