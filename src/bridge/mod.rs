@@ -28,14 +28,18 @@ mod device;
 mod emulator;
 mod error;
 mod fields;
+mod frames;
 pub mod framing;
 mod handle;
+mod hjif;
 mod host;
 mod link;
 pub mod message;
 mod port;
 mod self_test;
+mod sink;
 mod wav;
+mod wav_parts;
 
 pub use codes::{ArrayProfile, Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment};
@@ -43,8 +47,10 @@ pub use device::{AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink
 pub use emulator::PtyEmulator;
 pub use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
+pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, Target};
+pub use hjif::{HjifSpec, HjifWriter};
 pub use host::{
     BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, HostSession,
     SOFT_START_TICKS, SentFrame, Sequence,
@@ -57,4 +63,6 @@ pub use message::{
 };
 pub use port::{PairPort, Port, PortEntry, SerialLink, list_ports, pair};
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
+pub use sink::SinkError;
 pub use wav::{SampleFormat, WavSpec, WavWriter};
+pub use wav_parts::WavParts;

@@ -1,5 +1,6 @@
 //! What can go wrong with an engine.
 
+use crate::bridge::SinkError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
 
@@ -18,4 +19,7 @@ pub enum EngineError {
     /// A stroke or path makes no sense.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A file for other programs.
+    #[error(transparent)]
+    Sink(#[from] SinkError),
 }

@@ -15,8 +15,10 @@
 //!   sent, and what it replaces rides back to be dropped by whoever owns the [`Engine`]
 //! - nothing here waits for the window; a full ring loses something that is counted
 //! - STOP overtakes every queue ([`StopSwitch`]) and a thread that panics stops the device
-//! - no GUI, no files: recordings are handed over as data
+//! - no GUI, no files in the thread: recordings are handed over as data, and `clip` writes what
+//!   others render of them
 
+mod clip;
 mod command;
 mod engine_core;
 mod error;
@@ -37,6 +39,7 @@ mod stop;
 mod track;
 mod velocity;
 
+pub use clip::{ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, InputSource, Notice, VelocityMethod};
 pub use engine_core::EngineCore;
 pub use error::EngineError;

@@ -16,6 +16,7 @@
 mod areal;
 mod bench;
 mod chart;
+mod clips;
 mod columns;
 mod drive_updates;
 mod error;
@@ -43,6 +44,7 @@ mod write;
 
 pub use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
+pub use clips::ClipsStudy;
 pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
@@ -67,6 +69,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(SpectralModelStudy),
         Box::new(ArealStudy),
         Box::new(DriveUpdatesStudy),
+        Box::new(ClipsStudy),
         Box::new(VelocityStudy),
         Box::new(GrowthStudy),
         Box::new(BrownianStudy),
