@@ -88,7 +88,7 @@ pub(crate) fn transport_view<'a>(
     let live = &transient.live;
     panes::TransportView {
         source: match live.play.source {
-            Source::Pointer | Source::Lines => PlaySource::Pointer,
+            Source::Pointer | Source::Lines | Source::Device => PlaySource::Pointer,
             Source::Stroke => PlaySource::Stroke,
             Source::Recording => PlaySource::Recording,
         },

@@ -236,8 +236,10 @@ pub(crate) enum Source {
     Stroke,
     /// A recorded exploration.
     Recording,
-    /// A stream of lines.
+    /// A stream of lines, of another program for one.
     Lines,
+    /// A tablet or touch frame that is read directly.
+    Device,
 }
 
 /// How far a stroke, a recording or its replay is.

@@ -140,7 +140,7 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
 
 fn code_of_engine(error: &EngineError) -> u8 {
     match error {
-        EngineError::Render(_) => 2,
+        EngineError::Render(_) | EngineError::Input(_) => 2,
         EngineError::Scene(error) => code_of_scene(error),
         EngineError::Sink(error) => code_of_sink(error),
         EngineError::Busy | EngineError::Thread(_) => 1,

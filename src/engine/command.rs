@@ -7,7 +7,7 @@ use std::fmt;
 use std::io::BufRead;
 use std::sync::Arc;
 
-use super::PreparedScene;
+use super::{PointerInput, PreparedScene};
 use crate::bridge::{BridgeEvent, Target};
 use crate::render::{PlacedLevel, RenderError};
 use crate::scene::{ExplorationPath, Stroke};
@@ -92,6 +92,8 @@ pub enum InputSource {
     /// Lines of text, `x_mm,y_mm` (stamped on arrival) or `t_s,x_mm,y_mm`, read on a thread of
     /// their own.
     Lines(Box<dyn BufRead + Send>),
+    /// Whatever yields positions: a device, a connection.
+    Live(Box<dyn PointerInput>),
 }
 
 /// How velocity is estimated from samples.
@@ -256,6 +258,7 @@ impl fmt::Debug for InputSource {
             Self::Replay(_) => "Replay",
             Self::Stroke(_) => "Stroke",
             Self::Lines(_) => "Lines",
+            Self::Live(_) => "Live",
         })
     }
 }

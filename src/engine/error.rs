@@ -1,5 +1,6 @@
 //! What can go wrong with an engine.
 
+use super::InputError;
 use crate::bridge::SinkError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
@@ -19,6 +20,9 @@ pub enum EngineError {
     /// A stroke or path makes no sense.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A source of positions.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// A file for other programs.
     #[error(transparent)]
     Sink(#[from] SinkError),

@@ -12,7 +12,7 @@ use triple_buffer::Output;
 
 use super::gist::Waker;
 use super::glimpse::{Glimpser, MOST_GLIMPSES};
-use super::input::{Control, LineInput, PointerInput, ReplayInput, StrokeInput};
+use super::input::{Control, PointerInput, ReplayInput, StrokeInput, start_lines};
 use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, Runner};
@@ -378,6 +378,7 @@ pub(super) fn playable(source: InputSource) -> Result<Option<Box<dyn PointerInpu
             stroke.check()?;
             Some(Box::new(StrokeInput::new(stroke)))
         }
-        InputSource::Lines(lines) => Some(Box::new(LineInput::start(lines)?)),
+        InputSource::Lines(lines) => Some(Box::new(start_lines(lines)?)),
+        InputSource::Live(input) => Some(input),
     })
 }

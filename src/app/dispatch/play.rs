@@ -43,7 +43,7 @@ impl Workbench {
     /// What can be played plays or is held; the pointer gives way to a stroke.
     fn toggle_play(&mut self) {
         match self.transient.live.play.source {
-            Source::Pointer | Source::Lines => self.explore_alone(),
+            Source::Pointer | Source::Lines | Source::Device => self.explore_alone(),
             Source::Stroke | Source::Recording => {
                 let play = if self.transient.live.play.is_playing {
                     engine::Command::Pause

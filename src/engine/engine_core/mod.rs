@@ -119,6 +119,10 @@ impl EngineCore {
                     self.last_angle_deg = Some(self.angle_deg);
                 }
             }
+            Reading::Lifted => {
+                self.follow();
+                self.pose = at_rest(self.pose);
+            }
             Reading::Ended => {
                 if !self.has_ended {
                     say(Notice::SourceEnded);
@@ -257,6 +261,12 @@ impl EngineCore {
         self.live.poll(now, &mut |_| {});
         let reading = playable.poll(now, &mut |sample| restarted |= track.take(sample, now));
         track.look(now, restarted);
+        if reading == Reading::Lifted {
+            track.lift();
+        }
+        if let Some(angle_deg) = playable.angle_deg() {
+            self.angle_deg = angle_deg;
+        }
         reading
     }
 
