@@ -7,7 +7,7 @@ use std::io;
 
 use crate::app::AppError;
 use crate::bridge::{BridgeError, SinkError};
-use crate::engine::EngineError;
+use crate::engine::{AudioError, EngineError};
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::render::RenderError;
@@ -140,7 +140,8 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
 
 fn code_of_engine(error: &EngineError) -> u8 {
     match error {
-        EngineError::Render(_) | EngineError::Input(_) => 2,
+        EngineError::Audio(AudioError::System { .. }) => 1,
+        EngineError::Render(_) | EngineError::Input(_) | EngineError::Audio(_) => 2,
         EngineError::Scene(error) => code_of_scene(error),
         EngineError::Sink(error) => code_of_sink(error),
         EngineError::Busy | EngineError::Thread(_) => 1,

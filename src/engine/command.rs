@@ -7,7 +7,7 @@ use std::fmt;
 use std::io::BufRead;
 use std::sync::Arc;
 
-use super::{PointerInput, PreparedScene};
+use super::{PointerInput, PreparedScene, Tap};
 use crate::bridge::{BridgeEvent, Target};
 use crate::render::{PlacedLevel, RenderError};
 use crate::scene::{ExplorationPath, Stroke};
@@ -77,6 +77,8 @@ pub enum Command {
     Glimpses(bool),
     /// The contactor of the first display whose amplitudes glimpses tell, the first one at first.
     Watch(usize),
+    /// Tell other programs what is felt at every tick, or no longer.
+    SetTap(Option<Box<Tap>>),
     /// Ends the thread.
     Shutdown,
 }
@@ -246,6 +248,7 @@ impl fmt::Debug for Command {
             Self::StopRecording => "StopRecording",
             Self::Glimpses(_) => "Glimpses",
             Self::Watch(_) => "Watch",
+            Self::SetTap(_) => "SetTap",
             Self::Shutdown => "Shutdown",
         })
     }

@@ -1,6 +1,6 @@
 //! What can go wrong with an engine.
 
-use super::InputError;
+use super::{AudioError, InputError};
 use crate::bridge::SinkError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
@@ -20,6 +20,9 @@ pub enum EngineError {
     /// A stroke or path makes no sense.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A sound card.
+    #[error(transparent)]
+    Audio(#[from] AudioError),
     /// A source of positions.
     #[error(transparent)]
     Input(#[from] InputError),

@@ -101,6 +101,7 @@ impl Engine {
             notices: notices_in,
             snapshots: snapshots_in,
             glimpser: Glimpser::new(glimpses_in),
+            tap: None,
         };
         let (waker, news) = match config.on_news {
             Some(listener) => {
@@ -209,6 +210,7 @@ impl Engine {
             Command::Disarm => Order::Disarm,
             Command::Glimpses(is_heard) => Order::Glimpses(is_heard),
             Command::Watch(contactor) => Order::Watch(contactor),
+            Command::SetTap(tap) => Order::Tap(tap),
             Command::Shutdown => Order::Shutdown,
         };
         self.push(order)

@@ -18,6 +18,7 @@
 //! - no GUI, no files in the thread: recordings are handed over as data, and `clip` writes what
 //!   others render of them
 
+mod audio;
 mod clip;
 mod command;
 mod engine_core;
@@ -31,14 +32,17 @@ mod meters;
 mod order;
 mod pacer;
 mod prepared;
+mod programs;
 mod recording;
 mod runner;
 mod sample;
 mod snapshot;
 mod stop;
+mod tap;
 mod track;
 mod velocity;
 
+pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
 pub use clip::{ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, InputSource, Notice, VelocityMethod};
 pub use engine_core::EngineCore;
@@ -52,6 +56,7 @@ pub use input::{
 pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::{Due, PATIENCE, Pacer};
 pub use prepared::PreparedScene;
+pub use programs::{ProgramCounts, ProgramLink, loopback};
 pub use recording::{RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
@@ -59,6 +64,7 @@ pub use snapshot::{
     RecordingView, Snapshot, SourceKind,
 };
 pub use stop::StopSwitch;
+pub use tap::Tap;
 pub use velocity::{Estimate, REST, VelocityEstimator};
 
 use std::time::Duration;

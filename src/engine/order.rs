@@ -4,7 +4,7 @@ use triple_buffer::Input;
 
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
-use super::{PreparedScene, Snapshot, VelocityMethod};
+use super::{PreparedScene, Snapshot, Tap, VelocityMethod};
 use crate::bridge::Bridge;
 use crate::render::PlacedLevel;
 use crate::tactile::Tuning;
@@ -27,6 +27,8 @@ pub(super) enum Order {
     Glimpses(bool),
     /// The contactor that glimpses watch.
     Watch(usize),
+    /// Tell other programs what is felt, or no longer.
+    Tap(Option<Box<Tap>>),
     Shutdown,
 }
 
@@ -91,6 +93,7 @@ pub(super) enum Retired {
     Levels(Vec<PlacedLevel>),
     Mask(Vec<bool>),
     Bridge(Box<Bridge>),
+    Tap(Box<Tap>),
     Recorder(Box<Recorder>),
 }
 

@@ -18,7 +18,7 @@ pub(super) const CAPACITY: usize = 1024;
 
 /// What a reader found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum FeedItem {
+pub(in crate::engine) enum FeedItem {
     /// The finger is here; the angle of the display where the source tells it, degrees.
     Sample(PointerSample, Option<f64>),
     /// The finger left the surface.
@@ -35,7 +35,7 @@ struct Shared {
 
 /// The reader's end.
 #[derive(Debug)]
-pub(super) struct FeedSender {
+pub(in crate::engine) struct FeedSender {
     ring: Producer<FeedItem>,
     shared: Arc<Shared>,
 }
@@ -51,7 +51,7 @@ pub(in crate::engine) struct FeedInput {
 }
 
 /// Both ends of a feed of this kind.
-pub(super) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
+pub(in crate::engine) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
     let (sender, ring) = RingBuffer::new(CAPACITY);
     let shared = Arc::new(Shared::default());
     let input = FeedInput {
@@ -70,35 +70,35 @@ pub(super) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
 
 impl FeedSender {
     /// Hands over an item; it comes back when there is no room.
-    pub(super) fn offer(&mut self, item: FeedItem) -> Result<(), FeedItem> {
+    pub(in crate::engine) fn offer(&mut self, item: FeedItem) -> Result<(), FeedItem> {
         self.ring.push(item).map_err(|PushError::Full(item)| item)
     }
 
     /// Hands over an item, or drops and counts it when there is no room.
-    pub(super) fn push(&mut self, item: FeedItem) {
+    pub(in crate::engine) fn push(&mut self, item: FeedItem) {
         if self.offer(item).is_err() {
             self.shared.overflowed.fetch_add(1, Ordering::Relaxed);
         }
     }
 
     /// Counts a line that was no position.
-    pub(super) fn count_bad_line(&self) {
+    pub(in crate::engine) fn count_bad_line(&self) {
         self.shared.bad_lines.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Counts reports that the system dropped before they could be read.
     #[cfg(target_os = "linux")]
-    pub(super) fn count_lost_in_system(&self) {
+    pub(in crate::engine) fn count_lost_in_system(&self) {
         self.shared.lost_in_system.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Whether nobody listens any more.
-    pub(super) fn is_abandoned(&self) -> bool {
+    pub(in crate::engine) fn is_abandoned(&self) -> bool {
         self.ring.is_abandoned()
     }
 
     /// Nothing will follow.
-    pub(super) fn end(&self) {
+    pub(in crate::engine) fn end(&self) {
         self.shared.has_ended.store(true, Ordering::Release);
     }
 }

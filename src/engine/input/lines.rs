@@ -61,14 +61,14 @@ fn push_patiently(sender: &mut FeedSender, mut item: FeedItem) {
 
 /// What a line says.
 #[derive(Debug, PartialEq)]
-pub(super) enum Said {
+pub(in crate::engine) enum Said {
     Item(FeedItem),
     Aside,
     Bad,
 }
 
 /// A stream of lines with its clock.
-pub(super) struct Lines<R> {
+pub(in crate::engine) struct Lines<R> {
     lines: R,
     text: Vec<u8>,
     /// The stream's first time, s, and when it arrived.
@@ -89,7 +89,7 @@ enum Line {
 }
 
 impl<R: BufRead> Lines<R> {
-    pub(super) fn new(lines: R) -> Self {
+    pub(in crate::engine) fn new(lines: R) -> Self {
         Self {
             lines,
             text: Vec::new(),
@@ -99,7 +99,7 @@ impl<R: BufRead> Lines<R> {
 
     /// What the next line says, with its time on the engine's clock, waited for if that is a
     /// little ahead; `None` at the end.
-    pub(super) fn next(&mut self) -> Option<Said> {
+    pub(in crate::engine) fn next(&mut self) -> Option<Said> {
         if !self.read_line().unwrap_or(false) {
             return None;
         }

@@ -13,7 +13,8 @@ mod rate;
 
 pub use error::InputError;
 pub use evdev::{Area, AxisRange, InputDevice, list_input_devices, open_input_device};
-pub(super) use lines::start_lines;
+pub(super) use feed::{FeedItem, FeedSender, feed};
+pub(super) use lines::{Lines, Said, start_lines};
 pub use live::PointerSender;
 pub(super) use live::{LiveInput, live_ring};
 pub(super) use path::{ReplayInput, StrokeInput};
