@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::input::{InputLosses, RateMeter};
 use super::sample::{SampleGate, Verdict};
 use super::velocity::{Estimate, REST, VelocityEstimator};
-use super::{PointerSample, PointerView, TICK, VelocityMethod};
+use super::{InputRate, PointerSample, PointerView, TICK, VelocityMethod};
 use crate::geometry::Point;
 
 /// The samples of a source and what follows from them.
@@ -119,6 +119,11 @@ impl Track {
     /// The stamp of the newest sample, if it came for the last tick.
     pub(super) fn fresh_stamp(&self) -> Option<Instant> {
         self.fresh
+    }
+
+    /// How steadily samples come.
+    pub(super) fn rate(&self) -> InputRate {
+        self.rate.rate()
     }
 
     /// What a snapshot shows. `depth` is how many ticks ahead a device plays.

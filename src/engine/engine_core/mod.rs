@@ -14,7 +14,7 @@ use super::order::Retired;
 use super::recording::{RecordedTick, Recorder};
 use super::track::Track;
 use super::{
-    EngineError, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot, SourceKind,
+    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot, SourceKind,
     TICKS_PER_S, VelocityMethod,
 };
 use crate::bridge::SentFrame;
@@ -102,6 +102,11 @@ impl EngineCore {
     pub fn losses(&self) -> InputLosses {
         self.source()
             .map_or_else(|| self.live.losses(), PointerInput::losses)
+    }
+
+    /// How steadily the source reports.
+    pub fn input_rate(&self) -> InputRate {
+        self.track.rate()
     }
 
     /// Does one tick. Allocates nothing.
