@@ -210,9 +210,8 @@ fn every_third_party_crate_stays_at_home() {
                     // `crate::app::…::image::` and `self.image` are ours.
                     !before.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_' || c == ':')
                 });
-                let is_home = |(known, home): &&(&str, &str)| {
-                    known == name && source.path.starts_with(home)
-                };
+                let is_home =
+                    |(known, home): &&(&str, &str)| known == name && source.path.starts_with(home);
                 if is_used && !HOMES.iter().any(|entry| is_home(&entry)) {
                     faults.push(format!("{}:{number}: {name} lives in {home}", source.path));
                 }

@@ -11,6 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use super::command::Part;
 use super::sensation::Sensation;
+use crate::engine::InputRate;
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -207,8 +208,21 @@ pub(crate) struct Live {
     pub(crate) turn_deg: f64,
     /// Rendering: method and cost.
     pub(crate) status: Status,
+    /// How steadily positions come.
+    pub(crate) input: InputView,
     /// The device.
     pub(crate) bridge: Option<BridgeView>,
+}
+
+/// Positions as they come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct InputView {
+    /// Rate, jitter and gaps.
+    pub(crate) rate: InputRate,
+    /// Whether the finger is off the surface.
+    pub(crate) is_lifted: bool,
+    /// Positions and lines that were lost or were none.
+    pub(crate) n_lost: u64,
 }
 
 /// A contactor.

@@ -47,7 +47,9 @@ impl FrameTable {
         if with_apply_tick {
             header.push("apply_tick".to_owned());
         }
-        header.extend((0..n_contactors).flat_map(|n| [format!("code40_{n}"), format!("code320_{n}")]));
+        header.extend(
+            (0..n_contactors).flat_map(|n| [format!("code40_{n}"), format!("code320_{n}")]),
+        );
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         Ok(Self {
             table: TableWriter::new(out, path, &header)?,
@@ -123,8 +125,12 @@ mod tests {
         let path = std::env::temp_dir().join(name);
         let profile = ArrayProfile::default();
         let mut frames = FrameTable::create(&path, (&profile, 2), true).unwrap();
-        frames.take(0, None, &[[50.0, 0.0], [f32::NAN, 25.0]]).unwrap();
-        frames.take(1, Some(77), &[[60.0, 60.0], [0.0, 0.0]]).unwrap();
+        frames
+            .take(0, None, &[[50.0, 0.0], [f32::NAN, 25.0]])
+            .unwrap();
+        frames
+            .take(1, Some(77), &[[60.0, 60.0], [0.0, 0.0]])
+            .unwrap();
         frames.finish().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::remove_file(&path).unwrap();

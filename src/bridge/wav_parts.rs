@@ -170,7 +170,10 @@ mod tests {
         }
         let n_first = samples(&paths[0]).len() / 2;
         let text = String::from_utf8_lossy(&fs::read(&paths[1]).unwrap()).into_owned();
-        assert!(text.contains(&format!("part 2, from frame {n_first}")), "{text}");
+        assert!(
+            text.contains(&format!("part 2, from frame {n_first}")),
+            "{text}"
+        );
         assert_eq!(fs::read_dir(&folder).unwrap().count(), paths.len());
         fs::remove_dir_all(&folder).unwrap();
     }

@@ -23,7 +23,9 @@ pub(super) fn run(command: &InputCommand) -> Result<(), CliError> {
 fn list() -> Result<(), CliError> {
     let devices = list_input_devices().map_err(EngineError::from)?;
     if devices.is_empty() {
-        terminal::notice("no tablet or touch frame; connect one, or try the mouse in the workbench");
+        terminal::notice(
+            "no tablet or touch frame; connect one, or try the mouse in the workbench",
+        );
     }
     let mut text = String::new();
     for device in devices {

@@ -17,7 +17,8 @@ use super::play_source::{Moving, SourceArgs};
 use super::{CliError, output, play_audio, signals, terminal};
 use crate::app;
 use crate::bridge::{
-    ArrayProfile, Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target, fault_bit,
+    ArrayProfile, Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, StopHow, Target,
+    fault_bit,
 };
 use crate::engine::{Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
@@ -117,7 +118,9 @@ impl Player {
     fn open(port: PathBuf, profile: ArrayProfile, moving: Moving, log: Option<PlayLog>) -> Self {
         let waiting = thread::current();
         let n_felt = moving.core.felt_um().len();
-        let bridge = Bridge::open(Target::Port(port), profile, n_felt, move || waiting.unpark());
+        let bridge = Bridge::open(Target::Port(port), profile, n_felt, move || {
+            waiting.unpark()
+        });
         Self {
             moving,
             bridge,

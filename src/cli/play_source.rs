@@ -33,7 +33,12 @@ pub(super) struct SourceArgs {
     input: Option<PathBuf>,
     /// Where the device's surface lies in the workspace, mm (as large as its driver says and in the
     /// middle, if it says so; else over all of it)
-    #[arg(long, value_name = "X,Y,W,H", requires = "input", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "X,Y,W,H",
+        requires = "input",
+        allow_hyphen_values = true
+    )]
     area_mm: Option<Area>,
     /// Let other programs of this machine join: amplitudes out as lines, one a tick, and positions
     /// in where neither a path nor a device is named
@@ -47,8 +52,9 @@ pub(super) struct SourceArgs {
 /// A device as it is named on the command line.
 fn device(text: &str) -> Result<PathBuf, String> {
     let path = text.strip_prefix("evdev:").filter(|path| !path.is_empty());
-    path.map(PathBuf::from)
-        .ok_or_else(|| "write evdev:/dev/input/eventN; \"selvedge input list\" names them".to_owned())
+    path.map(PathBuf::from).ok_or_else(|| {
+        "write evdev:/dev/input/eventN; \"selvedge input list\" names them".to_owned()
+    })
 }
 
 /// A display that moves.

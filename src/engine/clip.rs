@@ -245,10 +245,16 @@ mod tests {
             }
             let written = unheard(|progress| writer.finish(progress)).unwrap();
             assert_eq!(written.paths, [path.clone()]);
-            assert!(written.peak.is_some_and(|peak| (0.6..0.71).contains(&peak)), "{written:?}");
+            assert!(
+                written.peak.is_some_and(|peak| (0.6..0.71).contains(&peak)),
+                "{written:?}"
+            );
             let reader = hound::WavReader::open(&path).unwrap();
             let spec = reader.spec();
-            assert_eq!((spec.channels, spec.sample_rate, spec.bits_per_sample), (24, rate_hz, bits));
+            assert_eq!(
+                (spec.channels, spec.sample_rate, spec.bits_per_sample),
+                (24, rate_hz, bits)
+            );
             assert_eq!(reader.duration(), rate_hz);
             std::fs::remove_file(&path).unwrap();
         }

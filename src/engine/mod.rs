@@ -50,8 +50,8 @@ pub use error::EngineError;
 pub use glimpse::Glimpse;
 pub use handle::{Engine, EngineConfig};
 pub use input::{
-    Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, PointerInput, PointerSender, Reading,
-    list_input_devices, open_input_device,
+    Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, PointerInput,
+    PointerSender, Reading, list_input_devices, open_input_device,
 };
 pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::{Due, PATIENCE, Pacer};

@@ -104,7 +104,10 @@ mod tests {
         staged.finish(out).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"whole");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "nothing beside");
-        assert!(Staged::new(&folder).create().is_err(), "a folder is no file");
+        assert!(
+            Staged::new(&folder).create().is_err(),
+            "a folder is no file"
+        );
         fs::remove_dir_all(&folder).unwrap();
     }
 }

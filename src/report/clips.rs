@@ -62,7 +62,9 @@ impl Study for ClipsStudy {
                 ..Series::default()
             });
         }
-        findings.plots.push(("clips-length".to_owned(), plot(series)));
+        findings
+            .plots
+            .push(("clips-length".to_owned(), plot(series)));
         Ok(findings)
     }
 }
@@ -199,7 +201,10 @@ mod tests {
     #[test]
     fn the_note_sets_late_seconds_beside_early_ones() {
         let note = note(&FILES[0], &[[1.0, 0.5], [10.0, 5.0], [100.0, 95.0]]).unwrap();
-        assert!(note.contains("1000.000 ms") && note.contains(" 2.00 times"), "{note}");
+        assert!(
+            note.contains("1000.000 ms") && note.contains(" 2.00 times"),
+            "{note}"
+        );
         assert_eq!(super::note(&FILES[0], &[]), None);
     }
 

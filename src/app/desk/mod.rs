@@ -55,6 +55,8 @@ impl Desk<'_> {
                 let ports = transient.ports.view();
                 let port = &mut transient.port;
                 panes::show_bridge(ui, &transient.live, target, port, ports, self.wishes);
+                let sources = transient.sources.view();
+                panes::show_inputs(ui, &transient.live, &sources, self.wishes);
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),

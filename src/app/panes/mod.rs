@@ -33,7 +33,7 @@ mod why;
 
 pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
-pub(crate) use bridge::show as show_bridge;
+pub(crate) use bridge::{show as show_bridge, show_inputs};
 pub(crate) use collection::{Typed as CollectionTyped, show as show_collection};
 pub(crate) use compare::{
     CompareView, scale_db as scale_of_differences_db, show as show_compare,

@@ -169,7 +169,11 @@ impl Text<'_> {
     }
 
     fn open(&mut self, spec: &HjifSpec) {
-        let level = if spec.n_channels > MOST_AT_LEVEL_1 { 2 } else { 1 };
+        let level = if spec.n_channels > MOST_AT_LEVEL_1 {
+            2
+        } else {
+            1
+        };
         let [full_40, full_320] = spec.full_scale_um;
         self.push("{\"version\":\"2023\",\"profile\":\"Main\",\"level\":");
         self.number(level);
@@ -186,7 +190,11 @@ impl Text<'_> {
     }
 
     fn begin_channel(&mut self, channel: usize, gain: f64) {
-        self.push(if channel == 0 { "\n{\"id\":" } else { ",\n{\"id\":" });
+        self.push(if channel == 0 {
+            "\n{\"id\":"
+        } else {
+            ",\n{\"id\":"
+        });
         self.number(channel);
         self.push(",\"description\":");
         self.quoted(&format!("contactor {channel}"));

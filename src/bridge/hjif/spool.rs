@@ -147,9 +147,16 @@ mod tests {
         }
         let beside = |spool: &Spool| {
             let folder = spool.place.parent().unwrap();
-            let name = spool.place.file_name().unwrap().to_string_lossy().into_owned();
+            let name = spool
+                .place
+                .file_name()
+                .unwrap()
+                .to_string_lossy()
+                .into_owned();
             let entries = folder.read_dir().unwrap().flatten();
-            entries.filter(|e| e.file_name().to_string_lossy().starts_with(&name)).count()
+            entries
+                .filter(|e| e.file_name().to_string_lossy().starts_with(&name))
+                .count()
         };
         assert_eq!(beside(&spool), 1);
         let place = Spool::beside(&path, 3);

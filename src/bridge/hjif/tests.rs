@@ -103,9 +103,16 @@ fn written(name: &str, n_channels: usize, ticks: &[Vec<[f32; 2]>]) -> Experience
 
 /// What a reader may rely on, whatever was written.
 fn check(read: Experience) -> Experience {
-    assert_eq!((read.version.as_str(), read.profile.as_str()), ("2023", "Main"));
+    assert_eq!(
+        (read.version.as_str(), read.profile.as_str()),
+        ("2023", "Main")
+    );
     assert_eq!((read.timescale, read.date.len()), (1000, 10));
-    assert!(read.description.starts_with("A \"scene\" "), "{}", read.description);
+    assert!(
+        read.description.starts_with("A \"scene\" "),
+        "{}",
+        read.description
+    );
     assert!(read.syncs.is_empty(), "nothing to be in step with");
     let [avatar] = &read.avatars[..] else {
         panic!("one avatar");
@@ -115,7 +122,10 @@ fn check(read: Experience) -> Experience {
         panic!("one perception");
     };
     assert_eq!((perception.id, perception.avatar_id), (1, avatar.id));
-    assert!(perception.description.contains("50 um"), "the scale is told");
+    assert!(
+        perception.description.contains("50 um"),
+        "the scale is told"
+    );
     assert_eq!(perception.perception_modality, "Vibrotactile");
     assert!(perception.reference_devices.is_empty() && perception.effect_library.is_empty());
     let n_channels = perception.channels.len();
@@ -123,7 +133,10 @@ fn check(read: Experience) -> Experience {
     for (number, channel) in perception.channels.iter().enumerate() {
         assert_eq!(usize::try_from(channel.id).unwrap(), number);
         assert_eq!(channel.description, format!("contactor {number}"));
-        assert_eq!((channel.mixing_coefficient, channel.body_part_mask), (1.0, 0));
+        assert_eq!(
+            (channel.mixing_coefficient, channel.body_part_mask),
+            (1.0, 0)
+        );
         assert_eq!(channel.bands.len(), 2);
         for (band, carrier_hz) in channel.bands.iter().zip([40, 320]) {
             assert_eq!(band.band_type, "VectorialWave");
@@ -153,9 +166,7 @@ fn amplitude_um(read: &Experience, [channel, band, tick]: [usize; 3]) -> f64 {
 
 #[test]
 fn every_amplitude_of_24_contactors_comes_back() {
-    let of = |tick: u16, contactor: u16| {
-        [f32::from(tick % 40) / 7.0, f32::from(contactor) / 3.0]
-    };
+    let of = |tick: u16, contactor: u16| [f32::from(tick % 40) / 7.0, f32::from(contactor) / 3.0];
     // More than a block of the spool.
     let ticks: Vec<Vec<[f32; 2]>> = (0..1500)
         .map(|tick| (0..24).map(|contactor| of(tick, contactor)).collect())
@@ -204,6 +215,9 @@ fn a_file_that_is_stopped_is_not_there() {
     let flag = CancelFlag::new();
     flag.cancel();
     let stopped = writer.finish(&mut Progress::new(&mut |_, _| {}, flag));
-    assert!(matches!(stopped, Err(SinkError::Cancelled(_))), "{stopped:?}");
+    assert!(
+        matches!(stopped, Err(SinkError::Cancelled(_))),
+        "{stopped:?}"
+    );
     assert!(!path.exists());
 }

@@ -174,7 +174,9 @@ fn config_of(
     };
     let configs = device.supported_output_configs().map_err(|_| refused())?;
     let usable = configs.filter_map(|config| {
-        let rank = FORMATS.iter().position(|format| *format == config.sample_format())?;
+        let rank = FORMATS
+            .iter()
+            .position(|format| *format == config.sample_format())?;
         let rate_hz = BEST_RATE_HZ.clamp(config.min_sample_rate(), config.max_sample_rate());
         let is_usable = usize::from(config.channels()) >= n_contactors
             && (SLOWEST_HZ..=FASTEST_HZ).contains(&rate_hz);
@@ -225,7 +227,10 @@ mod tests {
         let profile = ArrayProfile::default();
         let opened = AudioOutput::open("no card of this name", &profile, 24);
         let text = opened.unwrap_err().to_string();
-        assert!(text.contains("no card of this name") || text.contains("audio"), "{text}");
+        assert!(
+            text.contains("no card of this name") || text.contains("audio"),
+            "{text}"
+        );
         assert_eq!(text.lines().count(), 1, "{text}");
     }
 }

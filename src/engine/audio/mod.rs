@@ -10,10 +10,10 @@
 
 #[cfg(feature = "audio")]
 mod device;
-#[cfg(not(feature = "audio"))]
-mod without;
 #[cfg(any(test, feature = "audio"))]
 mod wave;
+#[cfg(not(feature = "audio"))]
+mod without;
 
 #[cfg(feature = "audio")]
 pub use device::{AudioOutput, audio_outputs};

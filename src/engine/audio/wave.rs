@@ -195,9 +195,9 @@ impl Wave {
     /// The gain of the next sample.
     fn next_gain(&mut self) -> f32 {
         let is_stopped = self.shared.is_stopped.load(Ordering::Relaxed);
-        let held = self.age.filter(|&age| {
-            !is_stopped && age as f64 <= HOLD_S * self.rate_hz
-        });
+        let held = self
+            .age
+            .filter(|&age| !is_stopped && age as f64 <= HOLD_S * self.rate_hz);
         self.age = self.age.map(|age| age.saturating_add(1));
         let step = 1.0 / (RAMP_S * self.rate_hz);
         if held.is_some() {
@@ -253,7 +253,9 @@ mod tests {
     }
 
     fn peak(samples: &[f32]) -> f32 {
-        samples.iter().fold(0.0, |peak, sample| peak.max(sample.abs()))
+        samples
+            .iter()
+            .fold(0.0, |peak, sample| peak.max(sample.abs()))
     }
 
     #[test]
@@ -303,9 +305,17 @@ mod tests {
     #[test]
     fn nothing_is_louder_than_full_scale_or_no_number() {
         let mut ends = both(1);
-        for um in [[500.0, 500.0], [f32::NAN, 50.0], [f32::INFINITY, -3.0], [50.0, 50.0]] {
+        for um in [
+            [500.0, 500.0],
+            [f32::NAN, 50.0],
+            [f32::INFINITY, -3.0],
+            [50.0, 50.0],
+        ] {
             let samples = play(&mut ends, Some(um), 30);
-            assert!(samples.iter().all(|s| s.is_finite() && s.abs() <= 1.0), "{um:?}");
+            assert!(
+                samples.iter().all(|s| s.is_finite() && s.abs() <= 1.0),
+                "{um:?}"
+            );
         }
     }
 
@@ -323,7 +333,11 @@ mod tests {
             assert_eq!(frame[2..], [0.0, 0.0]);
         }
         assert_eq!(out[3 * TICK * 4..], [0.0; 3], "no whole frame");
-        let of = |channel: usize| out.chunks_exact(4).map(|f| f[channel].abs()).fold(0.0, f32::max);
+        let of = |channel: usize| {
+            out.chunks_exact(4)
+                .map(|f| f[channel].abs())
+                .fold(0.0, f32::max)
+        };
         assert!(of(0) > 0.05 && of(1) > 0.05);
         let mut few = [1.0; 8];
         wave.fill(&mut few, 1);

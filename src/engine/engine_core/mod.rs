@@ -14,8 +14,8 @@ use super::order::Retired;
 use super::recording::{RecordedTick, Recorder};
 use super::track::Track;
 use super::{
-    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot, SourceKind,
-    TICKS_PER_S, VelocityMethod,
+    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot,
+    SourceKind, TICKS_PER_S, VelocityMethod,
 };
 use crate::bridge::SentFrame;
 use crate::geometry::Velocity;

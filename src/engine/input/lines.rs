@@ -113,7 +113,10 @@ impl<R: BufRead> Lines<R> {
                 angle_deg,
             } => {
                 let stamp = t_s.map_or_else(Instant::now, |t_s| self.stamp_of(t_s));
-                Said::Item(FeedItem::Sample(PointerSample { stamp, position }, angle_deg))
+                Said::Item(FeedItem::Sample(
+                    PointerSample { stamp, position },
+                    angle_deg,
+                ))
             }
         })
     }
@@ -253,7 +256,10 @@ mod tests {
         let Some(Said::Item(FeedItem::Sample(sample, angle_deg))) = sample else {
             panic!("{sample:?}");
         };
-        assert_eq!((sample.position, angle_deg), (Point::new(1.0, 2.0), Some(30.0)));
+        assert_eq!(
+            (sample.position, angle_deg),
+            (Point::new(1.0, 2.0), Some(30.0))
+        );
         assert_eq!(lines.next(), Some(Said::Item(FeedItem::Lift)));
         assert_eq!(lines.next(), None);
     }

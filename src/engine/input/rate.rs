@@ -122,7 +122,11 @@ mod tests {
         let rate = after((0..200).map(|n| f64::from(n) * 5.0));
         assert!((rate.rate_hz - 200.0).abs() < 0.01, "{rate:?}");
         assert!(rate.jitter_ms < 1e-3 && rate.dropouts == 0, "{rate:?}");
-        assert_eq!(after([0.0, 5.0, 10.0]), InputRate::default(), "too few to tell");
+        assert_eq!(
+            after([0.0, 5.0, 10.0]),
+            InputRate::default(),
+            "too few to tell"
+        );
     }
 
     #[test]

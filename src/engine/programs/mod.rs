@@ -73,6 +73,7 @@ struct State {
     /// What the teller reads next.
     tap: Option<TapReader>,
     header: String,
+    n_contactors: usize,
     let_go: u64,
     lost_ticks: u64,
 }
@@ -152,6 +153,7 @@ impl ProgramLink {
         let mut state = self.shared.state();
         state.tap = Some(reader);
         state.header = header(n_contactors);
+        state.n_contactors = n_contactors;
         Some(tap)
     }
 
@@ -219,6 +221,7 @@ fn tell(shared: &Arc<Shared>) {
         }
         let is_there = state.tap.as_mut().is_some_and(|tap| tap.next(&mut felt));
         if is_there {
+            state.tell_header(felt.amplitudes_um.len() / 2);
             write_line(&felt, &mut text);
             state.tell(&Arc::from(text.as_str()));
             continue;
@@ -230,6 +233,16 @@ fn tell(shared: &Arc<Shared>) {
 }
 
 impl State {
+    /// Tells everybody of another array.
+    fn tell_header(&mut self, n_contactors: usize) {
+        if n_contactors != self.n_contactors {
+            self.n_contactors = n_contactors;
+            self.header = header(n_contactors);
+            let line = Arc::from(self.header.as_str());
+            self.tell(&line);
+        }
+    }
+
     /// Tells everybody; whoever has not read the last hundred lines is let go.
     fn tell(&mut self, line: &Arc<str>) {
         let before = self.clients.len();

@@ -13,7 +13,9 @@ fn link() -> ProgramLink {
 
 fn connect(link: &ProgramLink) -> TcpStream {
     let stream = TcpStream::connect(link.address()).unwrap();
-    stream.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    stream
+        .set_read_timeout(Some(Duration::from_secs(10)))
+        .unwrap();
     stream
 }
 
@@ -37,7 +39,9 @@ fn eventually(what: &str, mut holds: impl FnMut() -> bool) {
 fn places(input: &mut dyn PointerInput, n: usize) -> Vec<f64> {
     let mut x_mm = Vec::new();
     eventually("places", || {
-        input.poll(Instant::now(), &mut |sample| x_mm.push(sample.position.x_mm));
+        input.poll(Instant::now(), &mut |sample| {
+            x_mm.push(sample.position.x_mm)
+        });
         x_mm.len() >= n
     });
     x_mm
@@ -56,18 +60,31 @@ fn tell(link: &ProgramLink, tick: f64) {
 
 #[test]
 fn only_this_machine_is_listened_to() {
-    assert_eq!(loopback("localhost:7240").unwrap().to_string(), "127.0.0.1:7240");
+    assert_eq!(
+        loopback("localhost:7240").unwrap().to_string(),
+        "127.0.0.1:7240"
+    );
     assert!(loopback("[::1]:7240").is_ok(), "the other loopback");
     for wrong in ["0.0.0.0:7240", "192.168.1.2:7240", "[::]:1"] {
         let error = loopback(wrong).unwrap_err().to_string();
         assert!(error.contains("other machines"), "{error}");
-        assert!(ProgramLink::listen(wrong.parse().unwrap()).is_err(), "{wrong}");
+        assert!(
+            ProgramLink::listen(wrong.parse().unwrap()).is_err(),
+            "{wrong}"
+        );
     }
     for wrong in ["", "7240", "127.0.0.1", "host:x", "example.org:80"] {
-        assert!(loopback(wrong).unwrap_err().to_string().contains("is no address"));
+        assert!(
+            loopback(wrong)
+                .unwrap_err()
+                .to_string()
+                .contains("is no address")
+        );
     }
     let first = link();
-    let taken = ProgramLink::listen(first.address()).unwrap_err().to_string();
+    let taken = ProgramLink::listen(first.address())
+        .unwrap_err()
+        .to_string();
     assert!(taken.contains("choose another port"), "{taken}");
 }
 
@@ -81,7 +98,11 @@ fn every_reader_hears_the_header_and_every_tick() {
         tell(&link, f64::from(tick));
     }
     for reader in readers {
-        let lines: Vec<String> = BufReader::new(reader).lines().take(4).map(Result::unwrap).collect();
+        let lines: Vec<String> = BufReader::new(reader)
+            .lines()
+            .take(4)
+            .map(Result::unwrap)
+            .collect();
         assert_eq!(lines[0], "tick,t_s,x_mm,y_mm,angle_deg,a40_um_0,a320_um_0");
         assert_eq!(lines[1], "40,1,1.5,2,0,0.25,3");
         assert_eq!(lines[3], "42,1.05,1.5,2,0,0.25,3");
@@ -94,9 +115,14 @@ fn the_first_who_says_a_position_moves_the_display_until_it_goes() {
     let mut input = source(&link);
     let mut first = connect(&link);
     let mut second = connect(&link);
-    first.write_all(b"t_s,x_mm,y_mm\n0,1,2\n0.01,3,4,30\nnonsense\n").unwrap();
+    first
+        .write_all(b"t_s,x_mm,y_mm\n0,1,2\n0.01,3,4,30\nnonsense\n")
+        .unwrap();
     assert_eq!(places(&mut *input, 2), [1.0, 3.0]);
-    assert_eq!((input.angle_deg(), input.kind()), (Some(30.0), SourceKind::Program));
+    assert_eq!(
+        (input.angle_deg(), input.kind()),
+        (Some(30.0), SourceKind::Program)
+    );
     eventually("bad", || input.losses().bad_lines == 1);
     second.write_all(b"5,6\n7,8\n").unwrap();
     let mut told = String::new();
@@ -110,7 +136,11 @@ fn the_first_who_says_a_position_moves_the_display_until_it_goes() {
     drop(first);
     eventually("the first is gone", || !link.counts().has_writer);
     let lifted = input.poll(Instant::now(), &mut |sample| panic!("{sample:?}"));
-    assert_eq!(lifted, Reading::Lifted, "a program that goes lets go of the finger");
+    assert_eq!(
+        lifted,
+        Reading::Lifted,
+        "a program that goes lets go of the finger"
+    );
     second.write_all(b"9,6\n").unwrap();
     assert_eq!(places(&mut *input, 1), [9.0]);
 }
@@ -126,7 +156,10 @@ fn a_reader_that_does_not_read_is_let_go_and_nobody_waits() {
     while link.counts().connected == 1 {
         tick += 1.0;
         tell(&link, tick);
-        assert!(begun.elapsed() < Duration::from_secs(20), "after {tick} lines");
+        assert!(
+            begun.elapsed() < Duration::from_secs(20),
+            "after {tick} lines"
+        );
     }
     assert_eq!(link.counts().let_go, 1);
     drop(slow);

@@ -1,5 +1,9 @@
 //! The device: where it is, how it is, arming, and the counters that tell whether to trust it.
 
+mod inputs;
+
+pub(crate) use inputs::show as show_inputs;
+
 use std::path::PathBuf;
 
 use eframe::egui::{

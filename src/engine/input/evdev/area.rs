@@ -79,7 +79,9 @@ impl FromStr for Area {
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         match numbers.as_deref() {
             Ok(&[x_mm, y_mm, width_mm, height_mm])
-                if [x_mm, y_mm, width_mm, height_mm].iter().all(|n| n.is_finite())
+                if [x_mm, y_mm, width_mm, height_mm]
+                    .iter()
+                    .all(|n| n.is_finite())
                     && width_mm > 0.0
                     && height_mm > 0.0 =>
             {
@@ -113,11 +115,17 @@ mod tests {
     #[test]
     fn a_stated_resolution_keeps_millimetres_and_y_points_up() {
         let area = Area::usual(STATED, [260.0, 260.0]);
-        assert_eq!((area.size_mm, area.corner), ([160.0, 100.0], Point::new(50.0, 80.0)));
+        assert_eq!(
+            (area.size_mm, area.corner),
+            ([160.0, 100.0], Point::new(50.0, 80.0))
+        );
         assert_eq!(area.place(&STATED, [8000, 5000]), Point::new(130.0, 130.0));
         assert_eq!(area.place(&STATED, [0, 0]), Point::new(50.0, 180.0));
         let [a, b] = [[0, 10_000], [100, 10_000]].map(|at| area.place(&STATED, at));
-        assert!((b.x_mm - a.x_mm - 1.0).abs() < 1e-12, "a millimetre is a millimetre");
+        assert!(
+            (b.x_mm - a.x_mm - 1.0).abs() < 1e-12,
+            "a millimetre is a millimetre"
+        );
     }
 
     #[test]
@@ -137,7 +145,10 @@ mod tests {
         assert_eq!(area.place(&STATED, [0, 10_000]), Point::new(10.0, 20.0));
         for wrong in ["", "1,2,3", "1,2,3,0", "1,2,nan,4", "1,2,3,4,5", "a,b,c,d"] {
             let error = wrong.parse::<Area>().unwrap_err().to_string();
-            assert!(error.contains(wrong) && error.contains("X,Y,WIDTH"), "{error}");
+            assert!(
+                error.contains(wrong) && error.contains("X,Y,WIDTH"),
+                "{error}"
+            );
         }
     }
 }

@@ -216,7 +216,9 @@ impl Decoder {
             return Some(Report::Lost);
         }
         let at = match self.contact {
-            Contact::Slots => self.followed.and_then(|slot| Some(self.state.slots.get(slot)?.at)),
+            Contact::Slots => self
+                .followed
+                .and_then(|slot| Some(self.state.slots.get(slot)?.at)),
             Contact::Button => self.state.is_touching.then_some(self.state.at),
             Contact::Pressure => (self.state.pressure > 0).then_some(self.state.at),
             Contact::Always => Some(self.state.at),

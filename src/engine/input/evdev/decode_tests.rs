@@ -1,8 +1,8 @@
 //! Reports as devices make them, event by event.
 
 use super::code::{
-    ABS, ABS_PRESSURE, ABS_X, ABS_Y, KEY, MT_ID, MT_SLOT, MT_X, MT_Y, SYN, SYN_DROPPED,
-    SYN_REPORT, TOUCH,
+    ABS, ABS_PRESSURE, ABS_X, ABS_Y, KEY, MT_ID, MT_SLOT, MT_X, MT_Y, SYN, SYN_DROPPED, SYN_REPORT,
+    TOUCH,
 };
 use super::*;
 
@@ -21,14 +21,21 @@ fn said(contact: Contact, events: &[(u16, u16, i32)]) -> Vec<Report> {
             code,
             value,
         };
-        time_us += if (kind, code) == (SYN, SYN_REPORT) { 8000 } else { 0 };
+        time_us += if (kind, code) == (SYN, SYN_REPORT) {
+            8000
+        } else {
+            0
+        };
         reports.extend(decoder.take(event));
     }
     reports
 }
 
 fn at(time_us: i64, x: i32, y: i32) -> Report {
-    Report::At { time_us, at: [x, y] }
+    Report::At {
+        time_us,
+        at: [x, y],
+    }
 }
 
 #[test]
@@ -56,7 +63,10 @@ fn a_pen_is_heard_while_it_touches_and_its_lift_is_told_once() {
 #[test]
 fn a_tool_out_of_range_is_a_lift_whatever_the_button_says() {
     let events = [(KEY, PEN, 1), (KEY, TOUCH, 1), END, (KEY, PEN, 0), END, END];
-    assert_eq!(said(Contact::Button, &events), [at(0, 0, 0), Report::Lifted]);
+    assert_eq!(
+        said(Contact::Button, &events),
+        [at(0, 0, 0), Report::Lifted]
+    );
 }
 
 #[test]
@@ -69,7 +79,10 @@ fn pressure_above_nothing_is_contact_where_there_is_no_button() {
         (ABS, ABS_PRESSURE, 0),
         END,
     ];
-    assert_eq!(said(Contact::Pressure, &events), [at(8000, 5, 0), Report::Lifted]);
+    assert_eq!(
+        said(Contact::Pressure, &events),
+        [at(8000, 5, 0), Report::Lifted]
+    );
     assert_eq!(said(Contact::Always, &events).len(), 3);
 }
 

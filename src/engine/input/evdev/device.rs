@@ -45,8 +45,9 @@ pub fn list_input_devices() -> Result<Vec<Result<InputDevice, InputError>>, Inpu
         name.strip_prefix("event")?.parse().ok()
     };
     let paths = entries.flatten().map(|entry| entry.path());
-    let mut numbered: Vec<(u32, PathBuf)> =
-        paths.filter_map(|path| Some((number(&path)?, path))).collect();
+    let mut numbered: Vec<(u32, PathBuf)> = paths
+        .filter_map(|path| Some((number(&path)?, path)))
+        .collect();
     numbered.sort();
     let look = |(_, path): (u32, PathBuf)| match look_at(&path) {
         Ok(found) => found.map(|(_, device, _)| Ok(device)),
@@ -132,7 +133,10 @@ fn look_at(path: &Path) -> Result<Option<(Handle, InputDevice, Contact)>, InputE
 
 fn places(has_slots: bool) -> [AbsoluteAxis; 2] {
     if has_slots {
-        [AbsoluteAxis::MultitouchPositionX, AbsoluteAxis::MultitouchPositionY]
+        [
+            AbsoluteAxis::MultitouchPositionX,
+            AbsoluteAxis::MultitouchPositionY,
+        ]
     } else {
         [AbsoluteAxis::X, AbsoluteAxis::Y]
     }
@@ -284,7 +288,10 @@ mod tests {
 
     #[test]
     fn what_is_no_device_is_refused_by_name() {
-        for (path, what) in [("/dev/null", "no input device"), ("/nowhere/event1", "No such")] {
+        for (path, what) in [
+            ("/dev/null", "no input device"),
+            ("/nowhere/event1", "No such"),
+        ] {
             let error = open_input_device(Path::new(path), None, [260.0, 260.0]).unwrap_err();
             let text = error.to_string();
             assert!(text.starts_with(path) && text.contains(what), "{text}");
