@@ -176,6 +176,8 @@ mod tests {
             ..PathRow::default()
         };
         let path = ExplorationPath::new(vec![row(0.0, 40.0), row(1.0, 120.0)]).unwrap();
+        // Tables would take longer than the file.
+        bench.rendering.method = crate::render::array::Method::Banded;
         bench.take = Some(Take::from_path(folder.join("slow stroke.csv"), path));
         for (kind, _) in CLIPS {
             let path = write(&mut bench, kind);

@@ -152,7 +152,8 @@ impl Workbench {
         let at = |port| ProgramLink::listen(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
         match at(PORT).or_else(|_taken| at(0)) {
             Ok(link) => {
-                let n_contactors = self.transient.live.dots.len();
+                let display = self.eye.scene.displays.first();
+                let n_contactors = display.map_or(0, |display| display.offsets.len());
                 let tap = link.tap(n_contactors).map(Box::new);
                 self.transient.sources.link = Some(link);
                 self.send(engine::Command::SetTap(tap));

@@ -15,8 +15,12 @@ const STDOUT: &str = "standard output";
 /// # Errors
 /// The place is wrong: its folder is missing or closed to us. That is wrong input.
 fn created(staged: &Staged) -> Result<BufWriter<File>, CliError> {
+    let path = staged.path().display();
+    if staged.path().is_dir() {
+        let what = format!("{path} is a folder; name a file in it");
+        return Err(CliError::Input(what));
+    }
     let wrong = |error: io::Error| {
-        let path = staged.path().display();
         CliError::Input(format!("cannot write {path}: {error}; check the folder"))
     };
     staged.create().map_err(wrong)

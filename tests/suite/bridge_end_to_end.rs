@@ -12,12 +12,12 @@ use std::time::{Duration, Instant};
 use crate::program::{Lab, Outcome, Rows};
 
 /// An emulated device that runs until it is told to end.
-struct Device {
+pub(crate) struct Device {
     child: Child,
 }
 
 impl Device {
-    fn start(lab: &Lab) -> Self {
+    pub(crate) fn start(lab: &Lab) -> Self {
         let args = [
             "bridge",
             "emulate",
@@ -36,7 +36,7 @@ impl Device {
     }
 
     /// SIGTERM: it must end cleanly and take its link away.
-    fn end(mut self, lab: &Lab) -> Rows {
+    pub(crate) fn end(mut self, lab: &Lab) -> Rows {
         signal("TERM", &self.child);
         assert_eq!(self.child.wait().unwrap().code(), Some(0), "a clean end");
         assert!(!lab.path("array").is_symlink(), "the link is gone");
@@ -51,7 +51,7 @@ impl Drop for Device {
     }
 }
 
-fn signal(name: &str, child: &Child) {
+pub(crate) fn signal(name: &str, child: &Child) {
     let sent = Command::new("kill")
         .args([&format!("-{name}"), &child.id().to_string()])
         .status();

@@ -4,6 +4,7 @@ mod commands;
 mod device;
 mod exact;
 mod glimpses;
+mod lift;
 mod mask;
 mod seek;
 mod shown;
