@@ -67,7 +67,7 @@ impl Workbench {
             _ => name.to_owned(),
         };
         let file = format!("{}.{}", stem.to_lowercase().replace(' ', "-"), ending(kind));
-        folder.unwrap_or(Path::new("")).join(file)
+        folder.map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file))
     }
 
     /// Renders the recording into a file; one at a time.

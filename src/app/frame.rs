@@ -93,7 +93,7 @@ pub(crate) fn transport_view<'a>(
             Source::Stroke => PlaySource::Stroke,
             Source::Recording => PlaySource::Recording,
         },
-        has_input: transient.sources.chosen().is_some(),
+        input: transient.sources.chosen_name(),
         is_playing: live.play.is_playing,
         does_loop: transient.does_loop,
         is_stopped: live.is_stopped,

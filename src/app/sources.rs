@@ -60,7 +60,7 @@ pub(crate) struct Sources {
     opening: Option<Job<Opened>>,
     link: Option<ProgramLink>,
     /// What was chosen last.
-    chosen: Option<SourceCommand>,
+    chosen: Option<(SourceCommand, String)>,
 }
 
 impl Sources {
@@ -76,7 +76,12 @@ impl Sources {
 
     /// What was chosen last, to be chosen again.
     pub(crate) fn chosen(&self) -> Option<&SourceCommand> {
-        self.chosen.as_ref()
+        self.chosen.as_ref().map(|(chosen, _)| chosen)
+    }
+
+    /// What people call it.
+    pub(crate) fn chosen_name(&self) -> Option<&str> {
+        self.chosen.as_ref().map(|(_, name)| name.as_str())
     }
 
     fn take_listed(&mut self, listed: Listed) {
@@ -134,7 +139,8 @@ impl Workbench {
         let size_mm = self.document.scene().size_mm;
         let device = path.to_owned();
         let open = move || open_input_device(&device, None, size_mm);
-        self.transient.sources.chosen = Some(SourceCommand::Device(path.to_owned()));
+        let chosen = SourceCommand::Device(path.to_owned());
+        self.transient.sources.chosen = Some((chosen, path.display().to_string()));
         if self.is_stepped {
             return self.take_device(open());
         }
@@ -173,7 +179,8 @@ impl Workbench {
             return self.transient.notices.give(words);
         };
         let source = link.source();
-        self.transient.sources.chosen = Some(SourceCommand::Program);
+        let name = "the program that joined".to_owned();
+        self.transient.sources.chosen = Some((SourceCommand::Program, name));
         self.send(engine::Command::SetSource(source));
     }
 

@@ -11,7 +11,7 @@
 //! asked for, empty where nothing was sent. Codes are those of full soft-start gain, limits held.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Write as _};
 use std::path::Path;
 
 use super::codes::{ArrayProfile, Coder};

@@ -140,11 +140,12 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
 
 fn code_of_engine(error: &EngineError) -> u8 {
     match error {
-        EngineError::Audio(AudioError::System { .. }) => 1,
+        EngineError::Busy
+        | EngineError::Thread(_)
+        | EngineError::Audio(AudioError::System { .. }) => 1,
         EngineError::Render(_) | EngineError::Input(_) | EngineError::Audio(_) => 2,
         EngineError::Scene(error) => code_of_scene(error),
         EngineError::Sink(error) => code_of_sink(error),
-        EngineError::Busy | EngineError::Thread(_) => 1,
     }
 }
 

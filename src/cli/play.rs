@@ -119,7 +119,7 @@ impl Player {
         let waiting = thread::current();
         let n_felt = moving.core.felt_um().len();
         let bridge = Bridge::open(Target::Port(port), profile, n_felt, move || {
-            waiting.unpark()
+            waiting.unpark();
         });
         Self {
             moving,

@@ -17,6 +17,8 @@ use crate::scene::ExplorationPath;
 const PATH_HELP: &str = "Exploration: a path file, or - for lines of x_mm,y_mm or \
                          t_s,x_mm,y_mm[,angle_deg] on standard input";
 
+const INPUT_HELP: &str = "A tablet or touch frame that is read directly: evdev:/dev/input/eventN";
+
 /// Where positions come from.
 #[derive(Debug, Args)]
 pub(super) struct SourceArgs {
@@ -28,8 +30,7 @@ pub(super) struct SourceArgs {
         conflicts_with = "input"
     )]
     path: Option<PathBuf>,
-    /// A tablet or touch frame that is read directly: evdev:/dev/input/eventN
-    #[arg(long, value_name = "DEVICE", value_parser = device)]
+    #[arg(long, value_name = "DEVICE", help = INPUT_HELP, value_parser = device)]
     input: Option<PathBuf>,
     /// Where the device's surface lies in the workspace, mm (as large as its driver says and in the
     /// middle, if it says so; else over all of it)

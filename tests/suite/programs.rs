@@ -36,9 +36,12 @@ fn a_program_says_positions_and_hears_amplitudes_while_the_device_plays_them() {
 
     // Back and forth over the textile until something is felt where we are.
     let mover = thread::spawn(move || {
-        for n in 0..2000_u32 {
-            let x_mm = 30.0 + 20.0 * (f64::from(n) * 0.05).sin();
-            let sent = writeln!(program, "{},{x_mm},40", f64::from(n) * 0.005);
+        let start = Instant::now();
+        for _ in 0..8000 {
+            // A clock that runs slower than ours would make every position old.
+            let t_s = start.elapsed().as_secs_f64();
+            let x_mm = 30.0 + 20.0 * (10.0 * t_s).sin();
+            let sent = writeln!(program, "{t_s},{x_mm},40");
             if sent.is_err() {
                 return;
             }

@@ -15,7 +15,7 @@ mod spool;
 mod tests;
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::sink::SinkError;
@@ -27,13 +27,11 @@ use spool::Spool;
 const BANDS: [Band; 2] = [
     Band {
         carrier_hz: 40,
-        lower_hz: 20,
-        upper_hz: 80,
+        limits_hz: [20, 80],
     },
     Band {
         carrier_hz: 320,
-        lower_hz: 160,
-        upper_hz: 640,
+        limits_hz: [160, 640],
     },
 ];
 /// From keyframe to keyframe, in ticks of the format's scale of 1 ms.
@@ -45,8 +43,8 @@ const CHUNK: usize = 1 << 16;
 
 struct Band {
     carrier_hz: u32,
-    lower_hz: u32,
-    upper_hz: u32,
+    /// Where the band begins and ends, Hz.
+    limits_hz: [u32; 2],
 }
 
 /// What a file says of itself.
@@ -108,7 +106,7 @@ impl HjifWriter {
         let mut text = Text {
             out: &mut self.out,
             path: &path,
-            text: String::with_capacity(CHUNK + 4096),
+            gathered: String::with_capacity(CHUNK + 4096),
         };
         text.open(&self.spec);
         let n_channels = self.spec.n_channels;
@@ -143,29 +141,29 @@ impl HjifWriter {
 struct Text<'a> {
     out: &'a mut BufWriter<File>,
     path: &'a Path,
-    text: String,
+    gathered: String,
 }
 
 impl Text<'_> {
     fn push(&mut self, text: &str) {
-        self.text.push_str(text);
+        self.gathered.push_str(text);
     }
 
     fn number(&mut self, value: impl std::fmt::Display) {
-        push_number(&mut self.text, value);
+        push_number(&mut self.gathered, value);
     }
 
     /// Text in quotes. Control characters do not stand in names of ours.
     fn quoted(&mut self, text: &str) {
-        self.text.push('"');
+        self.gathered.push('"');
         for character in text.chars() {
             match character {
-                '"' | '\\' => self.text.extend(['\\', character]),
-                character if character.is_control() => self.text.push(' '),
-                character => self.text.push(character),
+                '"' | '\\' => self.gathered.extend(['\\', character]),
+                character if character.is_control() => self.gathered.push(' '),
+                character => self.gathered.push(character),
             }
         }
-        self.text.push('"');
+        self.gathered.push('"');
     }
 
     fn open(&mut self, spec: &HjifSpec) {
@@ -206,9 +204,10 @@ impl Text<'_> {
     fn begin_band(&mut self, number: usize, band: &Band) {
         self.push(if number == 0 { "" } else { "," });
         self.push("{\"band_type\":\"VectorialWave\",\"lower_frequency_limit\":");
-        self.number(band.lower_hz);
+        let [lower_hz, upper_hz] = band.limits_hz;
+        self.number(lower_hz);
         self.push(",\"upper_frequency_limit\":");
-        self.number(band.upper_hz);
+        self.number(upper_hz);
         self.push(",\"effects\":[{\"effect_type\":\"Basis\",\"position\":0,\"phase\":0,");
         self.push("\"base_signal\":\"Sine\",\"keyframes\":[");
     }
@@ -222,15 +221,15 @@ impl Text<'_> {
         self.push(",\"frequency_modulation\":");
         self.number(hz);
         self.push("}");
-        if self.text.len() >= CHUNK {
+        if self.gathered.len() >= CHUNK {
             self.write()?;
         }
         Ok(())
     }
 
     fn write(&mut self) -> Result<(), SinkError> {
-        let written = self.out.write_all(self.text.as_bytes());
-        self.text.clear();
+        let written = self.out.write_all(self.gathered.as_bytes());
+        self.gathered.clear();
         written.map_err(SinkError::write(self.path))
     }
 }

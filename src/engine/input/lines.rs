@@ -69,7 +69,7 @@ pub(in crate::engine) enum Said {
 
 /// A stream of lines with its clock.
 pub(in crate::engine) struct Lines<R> {
-    lines: R,
+    stream: R,
     text: Vec<u8>,
     /// The stream's first time, s, and when it arrived.
     origin: Option<(f64, Instant)>,
@@ -91,7 +91,7 @@ enum Line {
 impl<R: BufRead> Lines<R> {
     pub(in crate::engine) fn new(lines: R) -> Self {
         Self {
-            lines,
+            stream: lines,
             text: Vec::new(),
             origin: None,
         }
@@ -124,7 +124,7 @@ impl<R: BufRead> Lines<R> {
     /// Reads one line, or the first bytes of one that is too long; false at the end.
     fn read_line(&mut self) -> io::Result<bool> {
         self.text.clear();
-        let n_read = (&mut self.lines)
+        let n_read = (&mut self.stream)
             .take(LONGEST_LINE)
             .read_until(b'\n', &mut self.text)?;
         if n_read as u64 == LONGEST_LINE && !self.text.ends_with(b"\n") {
@@ -135,10 +135,10 @@ impl<R: BufRead> Lines<R> {
 
     fn skip_line(&mut self) -> io::Result<()> {
         loop {
-            let buffer = self.lines.fill_buf()?;
+            let buffer = self.stream.fill_buf()?;
             let end = buffer.iter().position(|&byte| byte == b'\n');
             let n_skipped = end.map_or(buffer.len(), |end| end + 1);
-            self.lines.consume(n_skipped);
+            self.stream.consume(n_skipped);
             if end.is_some() || n_skipped == 0 {
                 return Ok(());
             }

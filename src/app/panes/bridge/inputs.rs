@@ -42,6 +42,11 @@ fn show_menu(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
     if !sources.is_known && !sources.is_busy {
         wishes.push(SourceCommand::List.into());
     }
+    show_devices(ui, sources, wishes);
+    show_acts(ui, sources, wishes);
+}
+
+fn show_devices(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
     for (path, described) in &sources.devices {
         let place = path.display().to_string();
         let tip = format!("Read {place} directly");
@@ -63,6 +68,9 @@ fn show_menu(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
             ui.add(Label::new(RichText::new(words).color(ink)).wrap());
         });
     }
+}
+
+fn show_acts(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
     let mut act = |ui: &mut Ui, words: &str, tip: &str, act: SourceCommand, refusal| {
         if button(ui, words, tip, refusal) {
             let is_last = act != SourceCommand::List;

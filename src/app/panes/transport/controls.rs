@@ -110,8 +110,12 @@ fn show_sources(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     });
     let pointer = "The display follows the pointer".to_owned();
     let stroke = "The display explores by itself, in a circle".to_owned();
-    let input = "The tablet or program that was chosen in the Bridge pane".to_owned();
-    let unchosen = (!view.has_input).then_some("Choose a tablet or program in the Bridge pane");
+    let input = view.input.unwrap_or_default();
+    let input = format!("The display follows {input}");
+    let unchosen = view
+        .input
+        .is_none()
+        .then_some("Choose a tablet or program in the Bridge pane");
     let parts = [
         ("Pointer", pointer, None),
         ("By itself", stroke, None),

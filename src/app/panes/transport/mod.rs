@@ -44,8 +44,8 @@ const TICK_MS: u64 = 25;
 pub(crate) struct TransportView<'a> {
     /// What moves the display.
     pub(crate) source: PlaySource,
-    /// Whether a tablet or program was chosen.
-    pub(crate) has_input: bool,
+    /// The tablet or program that was chosen.
+    pub(crate) input: Option<&'a str>,
     /// Whether a recording or stroke moves on at the next tick.
     pub(crate) is_playing: bool,
     /// Whether a recording or stroke begins again at its end.

@@ -28,7 +28,7 @@ static NOTHING: LazyLock<History> = LazyLock::new(History::default);
 fn view(take: Option<&Take>) -> TransportView<'_> {
     TransportView {
         source: PlaySource::Pointer,
-        has_input: false,
+        input: None,
         is_playing: true,
         does_loop: false,
         is_stopped: false,

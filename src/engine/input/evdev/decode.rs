@@ -1,7 +1,7 @@
 //! Reports of a tablet or touch frame as positions and lifts: no device, no clock.
 //!
 //! A report is a run of events that ends in SYN. A pen or single touch is in contact while
-//! BTN_TOUCH says so, or by its pressure where it has no such button; several fingers come in
+//! `BTN_TOUCH` says so, or by its pressure where it has no such button; several fingers come in
 //! slots, and the first that touches is followed until it lifts. When the kernel had to drop events
 //! nothing more is believed until the state was asked for anew.
 

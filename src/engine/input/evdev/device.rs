@@ -21,7 +21,7 @@ use super::{Area, AxisRange, InputDevice};
 use crate::engine::{PointerSample, SourceKind};
 
 const FOLDER: &str = "/dev/input";
-/// CLOCK_MONOTONIC, which the engine's clock is.
+/// `CLOCK_MONOTONIC`, which the engine's clock is.
 const MONOTONIC: i32 = 1;
 /// Events that are read at once.
 const MOST_EVENTS: usize = 64;
