@@ -1,10 +1,10 @@
 //! Positions as lines of text from any stream, read on a thread of its own.
 //!
 //! A line is `x_mm,y_mm`, stamped when it arrives, or `t_s,x_mm,y_mm` or `t_s,x_mm,y_mm,angle_deg`
-//! by the stream's own clock, whose first time is taken to be its arrival; the word `lift` says that
-//! the finger left the surface. A header and lines that begin with `#` are passed over; anything
-//! else is counted as bad. When the ring is full the reader waits, so that a pipe pushes back on
-//! whoever writes it; a file of lines with times is thereby played at its own speed.
+//! by the stream's own clock, whose first time is taken to be its arrival; the word `lift` says
+//! that the finger left the surface. A header and lines that begin with `#` are passed over;
+//! anything else is counted as bad. When the ring is full the reader waits, so that a pipe pushes
+//! back on whoever writes it; a file of lines with times is thereby played at its own speed.
 
 use std::io::{self, BufRead, Read as _};
 use std::thread;
