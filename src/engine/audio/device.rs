@@ -172,7 +172,9 @@ fn config_of(
         name: name.to_owned(),
         n_channels: n_contactors,
     };
-    let configs = device.supported_output_configs().map_err(|_| refused())?;
+    let configs = device
+        .supported_output_configs()
+        .map_err(|_closed| refused())?;
     let usable = configs.filter_map(|config| {
         let rank = FORMATS
             .iter()
