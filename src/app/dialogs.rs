@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use super::clips::ending;
 use super::command::Purpose;
 use super::panes::AskWords;
 
@@ -187,7 +188,7 @@ fn has_desktop(
 fn is_save(purpose: Purpose) -> bool {
     matches!(
         purpose,
-        Purpose::SaveScene | Purpose::SaveRecording | Purpose::Export(_)
+        Purpose::SaveScene | Purpose::SaveRecording | Purpose::Export(_) | Purpose::Clip(_)
     )
 }
 
@@ -206,6 +207,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
             .add_filter("Pictures", &["png"])
             .add_filter("Drawings", &["svg"])
             .add_filter("Tables", &["csv"]),
+        Purpose::Clip(kind) => dialog.add_filter(words.title, &[ending(kind)]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
         Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
     };
@@ -233,6 +235,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
     };
     let mut name = name.to_owned();
     name.push(match purpose {
+        Purpose::Clip(_) => AskWords::of(purpose).ending,
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
         Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
         Purpose::Export(_) => ".png",

@@ -106,10 +106,12 @@ pub(crate) fn transport_view<'a>(
     let live = &transient.live;
     panes::TransportView {
         source: match live.play.source {
-            Source::Pointer | Source::Lines => PlaySource::Pointer,
+            Source::Pointer => PlaySource::Pointer,
+            Source::Lines | Source::Device => PlaySource::Input,
             Source::Stroke => PlaySource::Stroke,
             Source::Recording => PlaySource::Recording,
         },
+        input: transient.sources.chosen_name(),
         is_playing: live.play.is_playing,
         does_loop: transient.does_loop,
         is_stopped: live.is_stopped,
@@ -177,6 +179,7 @@ impl Workbench {
         let kept = &self.settings.kept;
         let shown = Pane::ALL.map(|pane| (pane, arrangement::is_shown(&self.tree, pane)));
         panes::Appearance {
+            clips: self.clips_view(),
             map: kept.colour_map,
             zoom: kept.zoom,
             perspective: kept.perspective,

@@ -71,6 +71,8 @@ impl Workbench {
         }
         self.poll_kept(ctx);
         self.poll_exports(ctx);
+        self.poll_clips();
+        self.poll_sources();
         self.poll_lab(ctx);
         self.transient.ports.poll();
         self.poll_measuring();

@@ -9,11 +9,11 @@ use super::document::Document;
 use super::sensation::Sensation;
 use super::shelf::Shelf;
 use super::view::{
-    BridgePhase, BridgeView, Cloth, Dot, LibraryDot, LinkTiming, Live, Marks, PlayView, SceneView,
-    ShelfItem, Source, Status,
+    BridgePhase, BridgeView, Cloth, Dot, InputView, LibraryDot, LinkTiming, Live, Marks, PlayView,
+    SceneView, ShelfItem, Source, Status,
 };
 use crate::bridge::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
-use crate::engine::{LinkView, Notice, Snapshot, SourceKind};
+use crate::engine::{LinkView, Notice, PointerView, Snapshot, SourceKind};
 use crate::scene::LoadedScene;
 use crate::tactile::{Filters, Levels};
 
@@ -143,10 +143,20 @@ pub(crate) fn live_view(
             late: snapshot.clock.late,
             felt_age_s: snapshot.pointer.felt_age.map(|age| age.as_secs_f64()),
         },
+        input: input_view(&snapshot.pointer),
         bridge: snapshot
             .link
             .as_ref()
             .map(|link| bridge_view(link, frame_interval_s)),
+    }
+}
+
+fn input_view(pointer: &PointerView) -> InputView {
+    let samples = &pointer.samples;
+    InputView {
+        rate: pointer.rate,
+        is_lifted: pointer.is_lifted,
+        n_lost: samples.overflowed + samples.bad_lines + samples.lost_in_system,
     }
 }
 
@@ -156,7 +166,8 @@ fn play_view(snapshot: &Snapshot) -> PlayView {
             SourceKind::Pointer => Source::Pointer,
             SourceKind::Stroke => Source::Stroke,
             SourceKind::Replay => Source::Recording,
-            SourceKind::Lines => Source::Lines,
+            SourceKind::Lines | SourceKind::Program => Source::Lines,
+            SourceKind::Device => Source::Device,
         },
         is_playing: snapshot.playback.is_playing,
         does_loop: snapshot.playback.does_loop,

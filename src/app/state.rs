@@ -4,6 +4,7 @@ use eframe::egui::{Rect, Vec2};
 
 use super::accuracy::AccuracyWatch;
 use super::audition::Audition;
+use super::clips::Clips;
 use super::collection::Collection;
 use super::compare::Comparison;
 use super::curves::Curves;
@@ -26,6 +27,7 @@ use super::plant::PlantPeek;
 use super::ports::Ports;
 use super::query::IntervalMeter;
 use super::signals::History;
+use super::sources::Sources;
 use super::take::Take;
 use super::view::{BridgeView, Hovered, Live};
 use super::why::Why;
@@ -66,6 +68,10 @@ pub(crate) struct Transient {
     pub(crate) keeping: Keeping,
     /// What is being exported.
     pub(crate) exports: Exports,
+    /// A file for other programs on its way.
+    pub(crate) clips: Clips,
+    /// Tablets, and other programs that joined.
+    pub(crate) sources: Sources,
     /// The engine as it was seen last.
     pub(crate) live: Live,
     /// Where the display was.

@@ -12,6 +12,7 @@ use eframe::egui::{TextureId, Vec2};
 use super::command::Part;
 use super::sensation::Sensation;
 use crate::bridge::{Bite, BridgeState, ClockFit, DeviceUid, Distribution};
+use crate::engine::InputRate;
 use crate::geometry::{Frame, Point};
 use crate::scene::Pose;
 use crate::tactile::{Filters, Tuning};
@@ -208,8 +209,21 @@ pub(crate) struct Live {
     pub(crate) turn_deg: f64,
     /// Rendering: method and cost.
     pub(crate) status: Status,
+    /// How steadily positions come.
+    pub(crate) input: InputView,
     /// The device.
     pub(crate) bridge: Option<BridgeView>,
+}
+
+/// Positions as they come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct InputView {
+    /// Rate, jitter and gaps.
+    pub(crate) rate: InputRate,
+    /// Whether the finger is off the surface.
+    pub(crate) is_lifted: bool,
+    /// Positions and lines that were lost or were none.
+    pub(crate) n_lost: u64,
 }
 
 /// A contactor.
@@ -237,8 +251,10 @@ pub(crate) enum Source {
     Stroke,
     /// A recorded exploration.
     Recording,
-    /// A stream of lines.
+    /// A stream of lines, of another program for one.
     Lines,
+    /// A tablet or touch frame that is read directly.
+    Device,
 }
 
 /// How far a stroke, a recording or its replay is.

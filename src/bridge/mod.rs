@@ -30,8 +30,10 @@ mod device;
 mod emulator;
 mod error;
 mod fields;
+mod frames;
 pub mod framing;
 mod handle;
+mod hjif;
 mod host;
 mod link;
 pub mod message;
@@ -39,7 +41,9 @@ mod plant;
 mod port;
 mod self_test;
 mod session_log;
+mod sink;
 mod wav;
+mod wav_parts;
 mod wire;
 
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
@@ -51,8 +55,10 @@ pub use device::{
 pub use emulator::PtyEmulator;
 pub use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
+pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, Target};
+pub use hjif::{HjifSpec, HjifWriter};
 pub use host::{
     ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
     HostSession, SOFT_START_TICKS, SentFrame, Sequence,
@@ -73,7 +79,9 @@ pub use port::{
 };
 pub use self_test::{SelfTestReport, SelfTestStep, self_test};
 pub use session_log::{LogBound, LogFeed, SessionLog};
+pub use sink::SinkError;
 pub use wav::{SampleFormat, WavSpec, WavWriter};
+pub use wav_parts::WavParts;
 pub(crate) use wire::Simulation;
 pub use wire::{
     Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,

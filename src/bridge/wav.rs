@@ -11,9 +11,7 @@
 //! "LIST" size "INFO" "ICMT" size text
 //! ```
 
-use std::fs::File;
-use std::io::{BufWriter, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::io::{Seek, SeekFrom, Write};
 
 use super::BridgeError;
 
@@ -28,7 +26,7 @@ const SUBFORMAT_TAIL: [u8; 12] = [
 ];
 
 /// How samples are stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SampleFormat {
     /// 32-bit float; 1.0 is full scale, larger values are kept.
     F32,
@@ -63,6 +61,8 @@ pub struct WavSpec {
     pub format: SampleFormat,
     /// Displacement in µm that full scale stands for (F40 of the array profile).
     pub full_scale_um: f64,
+    /// The part of a longer recording that this file is, from 1, and its first frame.
+    pub part: Option<(u32, u64)>,
 }
 
 impl WavSpec {
@@ -76,8 +76,11 @@ impl WavSpec {
             SampleFormat::F32 => "1.0",
             SampleFormat::I16 => "32767",
         };
+        let part = self.part.map_or_else(String::new, |(number, first)| {
+            format!("; part {number}, from frame {first}")
+        });
         format!(
-            "sample {full} = {} um displacement; one channel per contactor, row by row",
+            "sample {full} = {} um displacement; one channel per contactor, row by row{part}",
             self.full_scale_um
         )
     }
@@ -145,14 +148,6 @@ pub struct WavWriter<W: Write + Seek> {
     buffer: Vec<u8>,
 }
 
-impl WavWriter<BufWriter<File>> {
-    /// Creates a file.
-    pub fn create(path: &Path, spec: WavSpec) -> Result<Self, BridgeError> {
-        let file = File::create(path).map_err(BridgeError::file("create", path))?;
-        Self::new(BufWriter::new(file), spec)
-    }
-}
-
 impl<W: Write + Seek> WavWriter<W> {
     /// Writes the header to `out`, which must be at its start.
     pub fn new(mut out: W, spec: WavSpec) -> Result<Self, BridgeError> {
@@ -178,6 +173,25 @@ impl<W: Write + Seek> WavWriter<W> {
             most_data_bytes,
             buffer: Vec::new(),
         })
+    }
+
+    /// The same for a file of at most so many bytes.
+    pub fn with_limit(out: W, spec: WavSpec, most_bytes: u32) -> Result<Self, BridgeError> {
+        let mut writer = Self::new(out, spec)?;
+        let around = HEADER_LEN + spec.info().len() as u64;
+        let most = u64::from(most_bytes).saturating_sub(around);
+        writer.most_data_bytes = writer.most_data_bytes.min(most);
+        Ok(writer)
+    }
+
+    /// Frames that still fit.
+    pub fn n_free_frames(&self) -> u64 {
+        (self.most_data_bytes - self.data_bytes) / u64::from(self.spec.frame_bytes())
+    }
+
+    /// Frames written.
+    pub fn n_frames(&self) -> u64 {
+        self.data_bytes / u64::from(self.spec.frame_bytes())
     }
 
     /// Appends whole frames of interleaved samples, 1.0 = full scale. NaN becomes 0.
@@ -248,6 +262,7 @@ mod tests {
         sample_rate_hz: 48_000,
         format: SampleFormat::F32,
         full_scale_um: 50.0,
+        part: None,
     };
 
     fn file(spec: WavSpec, samples: &[f32]) -> Vec<u8> {

@@ -9,11 +9,12 @@ use super::bridge_show::{PlantArgs, PlantView};
 use super::identify::{self, IdentifyArgs};
 use super::{CliError, array, output, play, terminal};
 use crate::bridge::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
+use crate::engine::{AudioEntry, AudioError, audio_outputs};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
 pub(super) enum BridgeCommand {
-    /// List the serial ports
+    /// List the serial ports, and the sound cards where the program is built with audio
     List {
         /// Print the udev rule that lets everybody at this machine use the array
         #[arg(long)]
@@ -107,7 +108,17 @@ fn list() -> Result<(), CliError> {
     let widest = ports.iter().map(|port| port.path.len()).max().unwrap_or(0);
     let line =
         |port: &crate::bridge::PortEntry| format!("{:widest$}  {}\n", port.path, port.description);
-    output::print(&ports.iter().map(line).collect::<String>())
+    let mut text: String = ports.iter().map(line).collect();
+    match audio_outputs() {
+        Ok(cards) => text.extend(cards.iter().map(card_line)),
+        Err(AudioError::Absent) => {}
+        Err(error) => terminal::notice(&error.to_string()),
+    }
+    output::print(&text)
+}
+
+fn card_line(AudioEntry { name, n_channels }: &AudioEntry) -> String {
+    format!("audio: {name}, {n_channels} channels\n")
 }
 
 #[cfg(unix)]

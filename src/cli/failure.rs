@@ -6,8 +6,8 @@
 use std::io;
 
 use crate::app::AppError;
-use crate::bridge::BridgeError;
-use crate::engine::EngineError;
+use crate::bridge::{BridgeError, SinkError};
+use crate::engine::{AudioError, EngineError};
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::render::RenderError;
@@ -49,6 +49,9 @@ pub enum CliError {
     /// The real-time work.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// A file for other programs.
+    #[error(transparent)]
+    Sink(#[from] SinkError),
     /// A report.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -70,6 +73,7 @@ impl CliError {
             Self::Scene(error) => code_of_scene(error),
             Self::Bridge(error) => code_of_bridge(error),
             Self::Engine(error) => code_of_engine(error),
+            Self::Sink(error) => code_of_sink(error),
             Self::Report(error) => code_of_report(error),
             Self::App(error) => code_of_app(error),
         }
@@ -140,9 +144,22 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
 
 fn code_of_engine(error: &EngineError) -> u8 {
     match error {
-        EngineError::Render(_) => 2,
+        EngineError::Busy
+        | EngineError::Thread(_)
+        | EngineError::Audio(AudioError::System { .. }) => 1,
+        EngineError::Render(_) | EngineError::Input(_) | EngineError::Audio(_) => 2,
         EngineError::Scene(error) => code_of_scene(error),
-        EngineError::Busy | EngineError::Thread(_) => 1,
+        EngineError::Sink(error) => code_of_sink(error),
+    }
+}
+
+/// A place that is wrong is wrong input; a disk that fills up is not.
+fn code_of_sink(error: &SinkError) -> u8 {
+    match error {
+        SinkError::Place { .. } => 2,
+        SinkError::File(error) => code_of_file(error),
+        SinkError::Bridge(error) => code_of_bridge(error),
+        SinkError::Cancelled(_) => 1,
     }
 }
 

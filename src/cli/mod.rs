@@ -17,12 +17,15 @@ mod bridge_kit;
 mod bridge_show;
 mod failure;
 mod identify;
+mod input;
 mod output;
 mod picture;
 mod picture_relief;
 mod play;
+mod play_audio;
 mod play_log;
 mod play_report;
+mod play_source;
 mod render;
 mod render_out;
 mod report;
@@ -76,6 +79,9 @@ enum Command {
     Textile(textile::TextileCommand),
     /// The repeats of a cloth from a picture, and the cell that repeats
     Picture(picture::PictureArgs),
+    /// Tablets and touch frames
+    #[command(subcommand)]
+    Input(input::InputCommand),
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
@@ -110,6 +116,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),
+        Some(Command::Input(command)) => input::run(&command),
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

@@ -1,102 +1,72 @@
 //! Where results go: standard output, or a file that appears only when it is whole.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::CliError;
-use crate::files::{FileError, TableWriter};
+use crate::files::{FileError, Staged, TableWriter};
 
 /// What standard output is called in errors.
 const STDOUT: &str = "standard output";
 
-/// A file that is written beside its place and moved there when it is whole. What is no ordinary
-/// file (a device, a pipe) is written directly.
-#[derive(Debug)]
-pub(super) struct Staged {
-    path: PathBuf,
-    staged: Option<PathBuf>,
+/// Creates what a staged file is written to.
+///
+/// # Errors
+/// The place is wrong: its folder is missing or closed to us. That is wrong input.
+fn created(staged: &Staged) -> Result<BufWriter<File>, CliError> {
+    let path = staged.path().display();
+    if staged.path().is_dir() {
+        let what = format!("{path} is a folder; name a file in it");
+        return Err(CliError::Input(what));
+    }
+    let wrong = |error: io::Error| {
+        CliError::Input(format!("cannot write {path}: {error}; check the folder"))
+    };
+    staged.create().map_err(wrong)
 }
 
-impl Staged {
-    /// A file that will be at `path`.
-    pub(super) fn new(path: &Path) -> Self {
-        let is_special = fs::metadata(path).is_ok_and(|meta| !meta.is_file() && !meta.is_dir());
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.part", std::process::id()));
-        let staged = (!is_special).then(|| path.with_file_name(name));
-        Self {
-            path: path.to_owned(),
-            staged,
+/// Where rows go.
+pub(super) enum Out {
+    /// Standard output.
+    Stdout(BufWriter<io::Stdout>),
+    /// A file.
+    File(BufWriter<File>),
+}
+
+impl Write for Out {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Stdout(out) => out.write(bytes),
+            Self::File(out) => out.write(bytes),
         }
     }
 
-    /// Where to write.
-    pub(super) fn place(&self) -> &Path {
-        self.staged.as_deref().unwrap_or(&self.path)
-    }
-
-    /// Creates the file to write.
-    ///
-    /// # Errors
-    /// The place is wrong: its folder is missing or closed to us. That is wrong input.
-    pub(super) fn create(&self) -> Result<BufWriter<File>, CliError> {
-        if self.path.is_dir() {
-            let path = self.path.display();
-            return Err(CliError::Input(format!(
-                "{path} is a folder; name a file in it"
-            )));
-        }
-        let wrong = |error: io::Error| {
-            let path = self.path.display();
-            CliError::Input(format!("cannot write {path}: {error}; check the folder"))
-        };
-        File::create(self.place())
-            .map(BufWriter::new)
-            .map_err(wrong)
-    }
-
-    /// The file is whole: puts it in its place.
-    pub(super) fn finish(mut self) -> Result<(), CliError> {
-        let Some(staged) = &self.staged else {
-            return Ok(());
-        };
-        fs::rename(staged, &self.path).map_err(|source| FileError::Write {
-            path: self.path.clone(),
-            source,
-        })?;
-        self.staged = None;
-        Ok(())
-    }
-}
-
-impl Drop for Staged {
-    /// What was not finished is of no use to anybody.
-    fn drop(&mut self) {
-        if let Some(staged) = &self.staged {
-            drop(fs::remove_file(staged));
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Stdout(out) => out.flush(),
+            Self::File(out) => out.flush(),
         }
     }
 }
 
 /// A table on its way to a file, or to standard output when no file or `-` is named.
 pub(super) struct TableOut {
-    table: TableWriter<Box<dyn Write>>,
+    table: TableWriter<Out>,
     staged: Option<Staged>,
 }
 
 impl TableOut {
     /// A table with this header.
     pub(super) fn new(path: Option<&Path>, header: &[&str]) -> Result<Self, CliError> {
-        let (out, staged, name): (Box<dyn Write>, _, _) = match named_file(path) {
-            None => (
-                Box::new(BufWriter::new(io::stdout())),
-                None,
-                Path::new(STDOUT),
-            ),
+        let (out, staged, name) = match named_file(path) {
+            None => {
+                let out = Out::Stdout(BufWriter::new(io::stdout()));
+                (out, None, Path::new(STDOUT))
+            }
             Some(path) => {
                 let staged = Staged::new(path);
-                (Box::new(staged.create()?), Some(staged), path)
+                (Out::File(created(&staged)?), Some(staged), path)
             }
         };
         Ok(Self {
@@ -106,14 +76,16 @@ impl TableOut {
     }
 
     /// The table, to add cells and end rows.
-    pub(super) fn rows(&mut self) -> &mut TableWriter<Box<dyn Write>> {
+    pub(super) fn rows(&mut self) -> &mut TableWriter<Out> {
         &mut self.table
     }
 
     /// Writes what is buffered and puts the file in its place.
     pub(super) fn finish(self) -> Result<(), CliError> {
-        self.table.finish()?;
-        self.staged.map_or(Ok(()), Staged::finish)
+        match (self.table.finish()?, self.staged) {
+            (Out::File(out), Some(staged)) => Ok(staged.finish(out)?),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -140,11 +112,10 @@ pub(super) fn write_text(path: Option<&Path>, text: &str) -> Result<(), CliError
 /// Writes a whole file.
 pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     let staged = Staged::new(path);
-    let mut file = staged.create()?;
-    let written = file.write_all(bytes).and_then(|()| file.flush());
-    written.map_err(|source| FileError::Write {
+    let mut out = created(&staged)?;
+    out.write_all(bytes).map_err(|source| FileError::Write {
         path: path.to_owned(),
         source,
     })?;
-    staged.finish()
+    Ok(staged.finish(out)?)
 }

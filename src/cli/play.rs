@@ -4,10 +4,8 @@
 //! of the path, so that what is felt is what `selvedge render` computes, tick for tick. Whatever
 //! happens, the device is told to stop, and its answer is waited for.
 
-use std::io::{self, BufReader};
 use std::panic;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -16,15 +14,16 @@ use clap::Args;
 
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
-use super::{CliError, array, output, signals, terminal};
+use super::play_source::{Moving, SourceArgs};
+use super::{CliError, array, output, play_audio, signals, terminal};
 use crate::app;
 use crate::bridge::{
     ArrayProfile, Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog,
     StopHandle, StopHow, Target, fault_bit,
 };
-use crate::engine::{EngineCore, InputSource, Notice, PreparedScene};
+use crate::engine::{Notice, PreparedScene};
 use crate::render::array::{Accuracy, Method};
-use crate::scene::{ExplorationPath, LoadedScene};
+use crate::scene::LoadedScene;
 
 /// How long to wait for the device before something is said of it: it is polled this often.
 const NAP: Duration = Duration::from_millis(20);
@@ -38,24 +37,21 @@ pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, r
 /// Longest wait for the STOP of a program that fails.
 const LAST_WORD: Duration = Duration::from_millis(250);
 
-const PATH_HELP: &str =
-    "Exploration: a path file, or - for lines of x_mm,y_mm or t_s,x_mm,y_mm on standard input";
-
 /// What to play, and where.
 #[derive(Debug, Args)]
 pub(super) struct PlayArgs {
     /// Scene file
     scene: PathBuf,
-    #[arg(long, value_name = "PATH.csv", help = PATH_HELP)]
-    path: PathBuf,
+    #[command(flatten)]
+    source: SourceArgs,
     /// Serial port of the device
-    #[arg(long, value_name = "PORT")]
-    port: PathBuf,
+    #[arg(long, value_name = "PORT", required_unless_present = "audio")]
+    port: Option<PathBuf>,
+    /// Sound card to play on instead, one channel a contactor: its name or a part of it
+    #[arg(long, value_name = "DEVICE", conflicts_with_all = ["port", "log", "session_log"])]
+    audio: Option<String>,
     #[arg(long, value_name = "ARRAY", help = array::HELP, value_parser = array::profile)]
     array: Option<Box<ArrayProfile>>,
-    /// Begin again at the end of the path, until SIGINT or SIGTERM
-    #[arg(long = "loop")]
-    does_loop: bool,
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
     #[arg(long, value_name = "L.csv")]
     log: Option<PathBuf>,
@@ -79,8 +75,9 @@ pub(super) struct PlayArgs {
 /// Plays, and says how punctual it was.
 pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     let loaded = LoadedScene::read(&args.scene, app::build_cache().as_ref())?;
-    let source = source_of(args)?;
-    check_port(&args.port)?;
+    if let Some(port) = &args.port {
+        check_port(port)?;
+    }
     let accuracy = Accuracy::within_db(args.budget_db);
     let mut scene = PreparedScene::prepare(&loaded, args.method, &accuracy)?;
     if let Some(array) = &args.array {
@@ -97,7 +94,13 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         .map(|path| SessionLog::append(path, None));
     let session_log = session_log.transpose()?;
     let stop = signals::stop_flag()?;
-    let mut player = Player::open(args, scene, source, log)?;
+    let profile = scene.profile().clone();
+    let moving = Moving::begin(&args.source, scene, loaded.scene.size_mm)?;
+    let port = match (&args.port, &args.audio) {
+        (_, Some(card)) => return play_audio::play(card, moving, &profile, &stop),
+        (port, None) => port.clone().unwrap_or_default(),
+    };
+    let mut player = Player::open(port, profile, moving, log);
     if let Some(session_log) = &session_log {
         let feed = session_log.feed(player.bridge.target());
         player.bridge.log_to(feed);
@@ -110,19 +113,6 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     played?;
     stopped?;
     output::print(&report.to_string())
-}
-
-fn source_of(args: &PlayArgs) -> Result<InputSource, CliError> {
-    if args.path != Path::new("-") {
-        return Ok(InputSource::Replay(Arc::new(ExplorationPath::read(
-            &args.path,
-        )?)));
-    }
-    if args.does_loop {
-        let what = "a stream on standard input cannot begin again; leave out --loop";
-        return Err(CliError::Input(what.to_owned()));
-    }
-    Ok(InputSource::Lines(Box::new(BufReader::new(io::stdin()))))
 }
 
 /// Refuses what is no port before anything is prepared.
@@ -151,7 +141,7 @@ fn stop_on_panic(handle: StopHandle) {
 
 /// A path on its way to a device.
 struct Player {
-    core: EngineCore,
+    moving: Moving,
     bridge: Bridge,
     log: Option<PlayLog>,
     started: Option<Instant>,
@@ -165,23 +155,16 @@ struct Player {
 }
 
 impl Player {
-    fn open(
-        args: &PlayArgs,
-        scene: PreparedScene,
-        source: InputSource,
-        log: Option<PlayLog>,
-    ) -> Result<Self, CliError> {
+    fn open(port: PathBuf, profile: ArrayProfile, moving: Moving, log: Option<PlayLog>) -> Self {
         let waiting = thread::current();
-        let target = Target::Port(args.port.clone());
-        let (profile, n_felt) = (scene.profile().clone(), scene.n_felt());
+        let n_felt = moving.core.felt_um().len();
+        let target = Target::Port(port);
         let bridge = Bridge::open(target, profile, n_felt, move || waiting.unpark());
         if let Some(handle) = bridge.stop_handle() {
             stop_on_panic(handle);
         }
-        let (mut core, _pointer) = EngineCore::new(Box::new(scene));
-        core.play(source, args.does_loop)?;
-        Ok(Self {
-            core,
+        Self {
+            moving,
             bridge,
             log,
             started: None,
@@ -191,7 +174,7 @@ impl Player {
             n_missed: 0,
             n_bad_lines: 0,
             has_ended: false,
-        })
+        }
     }
 
     /// Handshake, arming, and the path to its end or until `stop` is set.
@@ -258,7 +241,7 @@ impl Player {
                 if let Some(log) = &mut self.log {
                     log.set_link_limit(caps.comp_limit);
                 }
-                if let Some(doubt) = array::doubt(self.core.scene().profile(), &caps) {
+                if let Some(doubt) = array::doubt(self.moving.core.scene().profile(), &caps) {
                     terminal::notice(&self.of_target(&doubt));
                 }
             }
@@ -285,26 +268,27 @@ impl Player {
         self.last_tick = Some(tick);
         self.n_missed += u64::from(since.saturating_sub(1));
         let has_ended = &mut self.has_ended;
-        self.core.tick(Instant::now(), &mut |notice| {
+        self.moving.core.tick(Instant::now(), &mut |notice| {
             *has_ended |= matches!(notice, Notice::SourceEnded);
         });
         if self.has_ended {
             return Ok(());
         }
-        let felt_um = self.core.felt_um();
-        if let Some(sent) = self.bridge.send(felt_um, self.core.fresh_stamp()) {
+        let felt_um = self.moving.core.felt_um();
+        if let Some(sent) = self.bridge.send(felt_um, self.moving.core.fresh_stamp()) {
             self.n_frames += 1;
             if let Some(log) = &mut self.log {
-                log.frame(&sent, &self.core.pose(), felt_um)?;
+                log.frame(&sent, &self.moving.core.pose(), felt_um)?;
             }
         }
+        self.moving.tell();
         self.tell_bad_lines();
         Ok(())
     }
 
     /// Lines that were no position are dropped; the first is told at once, all at the end.
     fn tell_bad_lines(&mut self) {
-        let n_bad = self.core.losses().bad_lines;
+        let n_bad = self.moving.core.losses().bad_lines;
         if n_bad > 0 && self.n_bad_lines == 0 {
             terminal::notice(
                 "a line is no position and was dropped; write x_mm,y_mm or t_s,x_mm,y_mm",
@@ -342,6 +326,7 @@ impl Player {
             n_frames: self.n_frames,
             n_missed: self.n_missed,
             n_bad_lines: self.n_bad_lines,
+            input: (self.moving.core.input_rate(), self.moving.core.losses()),
             counters: self.bridge.counters(),
             timings: self.bridge.timings(),
         };

@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use crate::bridge::{BridgeCounters, Spread, Timings};
+use crate::engine::{InputLosses, InputRate};
 use crate::quantity::{fixed, time_span};
 
 /// Figures of one run.
@@ -19,6 +20,8 @@ pub(super) struct PlayReport {
     pub(super) n_missed: u64,
     /// Lines of the stream that were no position.
     pub(super) n_bad_lines: u64,
+    /// How steadily positions came, and what was lost of them.
+    pub(super) input: (InputRate, InputLosses),
     /// Counters of device and host.
     pub(super) counters: BridgeCounters,
     /// How long frames took.
@@ -58,6 +61,16 @@ impl fmt::Display for PlayReport {
             "amplitudes        limited {limited}, scaled down {}, not finite {}",
             codes.guarded, codes.non_finite
         )?;
+        let (rate, losses) = &self.input;
+        if rate.rate_hz > 0.0 {
+            let [hz, ms] = [rate.rate_hz, rate.jitter_ms].map(|number| fixed(number, 1));
+            writeln!(
+                f,
+                "positions         {hz} Hz, jitter {ms} ms, gaps {}, dropped {}",
+                rate.dropouts,
+                losses.overflowed + losses.lost_in_system
+            )?;
+        }
         if self.n_bad_lines > 0 {
             writeln!(f, "lines dropped     {}", self.n_bad_lines)?;
         }
@@ -83,12 +96,25 @@ mod tests {
             n_frames: 81,
             n_missed: 1,
             n_bad_lines: 2,
+            input: (
+                InputRate {
+                    rate_hz: 199.96,
+                    jitter_ms: 0.42,
+                    dropouts: 3,
+                },
+                InputLosses {
+                    lost_in_system: 4,
+                    ..InputLosses::default()
+                },
+            ),
             counters: BridgeCounters::default(),
             timings: Timings::default(),
         };
         let text = report.to_string();
         assert!(text.starts_with("./array: 81 frames in 2.0"), "{text}");
         assert!(text.contains("missed 1, late 0, underruns 0"), "{text}");
+        let positions = "positions         200.0 Hz, jitter 0.4 ms, gaps 3, dropped 4";
+        assert!(text.contains(positions), "{text}");
         assert!(text.contains("lines dropped     2"), "{text}");
     }
 }

@@ -2,16 +2,18 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
 
-use super::render_out::{AmplitudeTable, DriveFile, SampleKind};
+use super::render_out::{AmplitudeTable, Clips, WavKind};
 use super::terminal::Meter;
 use super::{CliError, output, signals};
 use crate::app;
+use crate::engine::ClipKind;
 use crate::files::to_json_string;
 use crate::progress::Cancelled;
 use crate::render::array::{Accuracy, Method};
@@ -47,15 +49,37 @@ pub(super) struct RenderArgs {
     /// The drive waveform, one channel a contactor; full scale is 50 µm
     #[arg(long, value_name = "W.wav")]
     wav: Option<PathBuf>,
-    /// Sample rate of the waveform, Hz
-    #[arg(long, value_name = "HZ", default_value_t = 48_000, requires = "wav")]
-    wav_rate: u32,
-    /// Sample format of the waveform
-    #[arg(long, value_enum, default_value_t = SampleKind::F32, requires = "wav")]
-    wav_format: SampleKind,
+    /// What the waveform is for: float is 48 kHz and f32, archive 8 kHz and i16
+    #[arg(long, value_enum, default_value_t = WavKind::Float, requires = "wav")]
+    wav_format: WavKind,
+    /// Another sample rate of the waveform, Hz
+    #[arg(long, value_name = "HZ", requires = "wav")]
+    wav_rate: Option<u32>,
+    /// MPEG haptics: a channel a contactor, a keyframe a tick in each band
+    #[arg(long, value_name = "H.hjif")]
+    hjif: Option<PathBuf>,
+    /// Drive codes of every contactor, one row a tick
+    #[arg(long, value_name = "F.csv")]
+    frames: Option<PathBuf>,
     /// Cost, work left out and level error of every method on this path, as JSON
     #[arg(long, value_name = "S.json")]
     stats: Option<PathBuf>,
+}
+
+impl RenderArgs {
+    /// The files for other programs that were asked for.
+    fn clips(&self) -> Vec<(&Path, ClipKind)> {
+        let wav = self.wav_format.clip(self.wav_rate);
+        let kinds = [
+            (&self.wav, wav),
+            (&self.hjif, ClipKind::Hjif),
+            (&self.frames, ClipKind::Frames),
+        ];
+        let asked = kinds.into_iter();
+        asked
+            .filter_map(|(path, kind)| Some((path.as_deref()?, kind)))
+            .collect()
+    }
 }
 
 /// An error budget as it is typed, dB.
@@ -94,7 +118,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         &path,
         &mut |tick, pose, frames| sinks.take(tick, pose.t_s, frames, &stop),
     )?;
-    sinks.finish()?;
+    sinks.finish(&stop)?;
     if let Some(place) = &args.stats {
         write_stats(args, place, &scene, &path, &first, &stop)?;
     }
@@ -170,7 +194,7 @@ fn write_stats(
 /// The files of a run.
 struct Sinks<'a> {
     table: Option<AmplitudeTable<'a>>,
-    drive: Option<DriveFile>,
+    clips: Clips,
 }
 
 impl<'a> Sinks<'a> {
@@ -179,19 +203,15 @@ impl<'a> Sinks<'a> {
         loaded: &'a LoadedScene,
         scene: &RenderScene,
     ) -> Result<Self, CliError> {
-        let is_asked = args.out.is_some() || (args.wav.is_none() && args.stats.is_none());
+        let clips = args.clips();
+        let is_asked = args.out.is_some() || (clips.is_empty() && args.stats.is_none());
         let table = is_asked
             .then(|| AmplitudeTable::new(args.out.as_deref(), loaded))
             .transpose()?;
-        let n_contactors = scene
-            .displays
-            .iter()
-            .map(|display| display.offsets.len())
-            .sum();
-        let open =
-            |place: &PathBuf| DriveFile::new(place, n_contactors, (args.wav_rate, args.wav_format));
-        let drive = args.wav.as_ref().map(open).transpose()?;
-        Ok(Self { table, drive })
+        let displays = scene.displays.iter();
+        let n_contactors = displays.map(|display| display.offsets.len()).sum();
+        let clips = Clips::create(&clips, n_contactors, &loaded.scene.name)?;
+        Ok(Self { table, clips })
     }
 
     fn take(
@@ -205,14 +225,12 @@ impl<'a> Sinks<'a> {
         if let Some(table) = &mut self.table {
             table.take(tick, t_s, frames)?;
         }
-        self.drive
-            .as_mut()
-            .map_or(Ok(()), |drive| drive.take(tick, frames))
+        self.clips.take(tick, frames)
     }
 
-    fn finish(self) -> Result<(), CliError> {
+    fn finish(self, stop: &Arc<AtomicBool>) -> Result<(), CliError> {
         self.table.map_or(Ok(()), AmplitudeTable::finish)?;
-        self.drive.map_or(Ok(()), DriveFile::finish)
+        self.clips.finish(stop)
     }
 }
 

@@ -1,15 +1,19 @@
-//! The files that `selvedge render` writes tick by tick: amplitudes as CSV, the drive as WAV.
+//! The files that `selvedge render` writes tick by tick: amplitudes as CSV, and what is for other
+//! programs.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
 
-use super::output::{Staged, TableOut};
+use super::output::TableOut;
+use super::terminal::Meter;
 use super::{CliError, terminal};
-use crate::bridge::{ArrayProfile, SampleFormat, WavSpec, WavWriter};
-use crate::render::array::{DisplayFrame, DriveSynth};
+use crate::bridge::ArrayProfile;
+use crate::engine::{ClipKind, ClipWriter, side_by_side};
+use crate::progress::{CancelFlag, Progress};
+use crate::render::array::DisplayFrame;
 use crate::scene::LoadedScene;
 
 const HEADER: [&str; 9] = [
@@ -81,88 +85,82 @@ impl<'a> AmplitudeTable<'a> {
     }
 }
 
-/// How samples are written.
+/// What the waveform is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum SampleKind {
-    /// 32-bit floating point: louder than full scale stays what it is
-    F32,
-    /// 16-bit integers: louder than full scale is clipped
-    I16,
+pub(super) enum WavKind {
+    /// 48 kHz, 32-bit floating point: louder than full scale stays what it is
+    #[value(alias = "f32")]
+    Float,
+    /// 8 kHz, 16-bit integers: a twelfth of the size; louder than full scale is clipped
+    #[value(alias = "i16")]
+    Archive,
 }
 
-/// The drive waveform of all contactors of all displays, one channel each.
-pub(super) struct DriveFile {
-    synth: DriveSynth,
-    wav: WavWriter<BufWriter<File>>,
-    staged: Staged,
+impl WavKind {
+    /// The file, at another rate if one is named.
+    pub(super) fn clip(self, rate_hz: Option<u32>) -> ClipKind {
+        let usual = match self {
+            Self::Float => ClipKind::FLOAT,
+            Self::Archive => ClipKind::ARCHIVE,
+        };
+        match (usual, rate_hz) {
+            (ClipKind::Wav { format, .. }, Some(rate_hz)) => ClipKind::Wav { rate_hz, format },
+            (usual, _) => usual,
+        }
+    }
+}
+
+/// The files for other programs that a run writes.
+pub(super) struct Clips {
+    clips: Vec<ClipWriter>,
     amplitudes_um: Vec<[f32; 2]>,
-    samples: Vec<f32>,
-    peak: f32,
 }
 
-impl DriveFile {
-    /// A waveform at `rate_hz` samples a second; full scale is that of the array profile.
-    pub(super) fn new(
-        path: &Path,
+impl Clips {
+    /// Files for the contactors of all displays.
+    pub(super) fn create(
+        files: &[(&Path, ClipKind)],
         n_contactors: usize,
-        (rate_hz, kind): (u32, SampleKind),
+        title: &str,
     ) -> Result<Self, CliError> {
-        let full_scale_um = ArrayProfile::default().full_scale_um[0];
-        let too_many = |_| {
-            CliError::Input(format!(
-                "{n_contactors} channels are too many for a WAV file; use --out"
-            ))
+        let profile = ArrayProfile::default();
+        let create = |(path, kind): &(&Path, ClipKind)| {
+            ClipWriter::create(path, *kind, (&profile, n_contactors), title)
         };
-        let spec = WavSpec {
-            n_channels: u16::try_from(n_contactors).map_err(too_many)?,
-            sample_rate_hz: rate_hz,
-            format: match kind {
-                SampleKind::F32 => SampleFormat::F32,
-                SampleKind::I16 => SampleFormat::I16,
-            },
-            full_scale_um,
-        };
-        let synth = DriveSynth::prepare(rate_hz, n_contactors, full_scale_um)?;
-        let staged = Staged::new(path);
-        let wav = WavWriter::new(staged.create()?, spec)?;
         Ok(Self {
-            synth,
-            wav,
-            staged,
+            clips: files.iter().map(create).collect::<Result<_, _>>()?,
             amplitudes_um: Vec::with_capacity(n_contactors),
-            samples: Vec::new(),
-            peak: 0.0,
         })
     }
 
-    /// Writes the samples of a tick.
+    /// Writes a tick to all of them.
     pub(super) fn take(&mut self, tick: u64, frames: &[DisplayFrame]) -> Result<(), CliError> {
-        self.amplitudes_um.clear();
-        for frame in frames {
-            self.amplitudes_um.extend_from_slice(frame.amplitudes_um());
+        side_by_side(frames, &mut self.amplitudes_um);
+        for clip in &mut self.clips {
+            clip.take(tick, &self.amplitudes_um)?;
         }
-        self.synth.set_amplitudes(&self.amplitudes_um);
-        let samples = self.synth.samples_of_tick(tick);
-        let n_frames = usize::try_from(samples.end - samples.start).unwrap_or(0);
-        self.samples.resize(n_frames * self.synth.n_channels(), 0.0);
-        self.synth.fill(&mut self.samples);
-        self.peak = self
-            .samples
-            .iter()
-            .fold(self.peak, |peak, sample| peak.max(sample.abs()));
-        Ok(self.wav.write(&self.samples)?)
+        Ok(())
     }
 
-    /// The file is whole.
-    pub(super) fn finish(self) -> Result<(), CliError> {
-        if self.peak > 1.0 {
-            let peak = self.peak;
-            terminal::notice(&format!(
-                "the waveform reaches {peak:.2} of full scale (50 µm)"
-            ));
+    /// The files are whole; says what a listener should know.
+    pub(super) fn finish(self, stop: &Arc<AtomicBool>) -> Result<(), CliError> {
+        for clip in self.clips {
+            let mut meter = Meter::new("writing");
+            let mut report = |share: f64, _: &str| meter.show(share, "");
+            let flag = CancelFlag::shared(Arc::clone(stop));
+            let written = clip.finish(&mut Progress::new(&mut report, flag))?;
+            drop(meter);
+            if let [first, .., last] = &written.paths[..] {
+                let (first, last) = (first.display(), last.display());
+                let n = written.paths.len();
+                terminal::notice(&format!("the waveform is in {n} files, {first} to {last}"));
+            }
+            if let Some(peak) = written.peak.filter(|peak| *peak > 1.0) {
+                terminal::notice(&format!(
+                    "the waveform reaches {peak:.2} of full scale (50 µm)"
+                ));
+            }
         }
-        // Dropping the buffer before the file moves: everything is on its way to the disk.
-        drop(self.wav.finish()?);
-        self.staged.finish()
+        Ok(())
     }
 }

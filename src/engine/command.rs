@@ -7,7 +7,7 @@ use std::fmt;
 use std::io::BufRead;
 use std::sync::Arc;
 
-use super::PreparedScene;
+use super::{PointerInput, PreparedScene, Tap};
 use crate::bridge::{ArrayProfile, BridgeEvent, Target};
 use crate::render::{PlacedLevel, RenderError};
 use crate::scene::{ExplorationPath, Stroke};
@@ -95,6 +95,8 @@ pub enum Command {
     Glimpses(bool),
     /// The contactor of the first display whose amplitudes glimpses tell, the first one at first.
     Watch(usize),
+    /// Tell other programs what is felt at every tick, or no longer.
+    SetTap(Option<Box<Tap>>),
     /// Ends the thread.
     Shutdown,
 }
@@ -110,6 +112,8 @@ pub enum InputSource {
     /// Lines of text, `x_mm,y_mm` (stamped on arrival) or `t_s,x_mm,y_mm`, read on a thread of
     /// their own.
     Lines(Box<dyn BufRead + Send>),
+    /// Whatever yields positions: a device, a connection.
+    Live(Box<dyn PointerInput>),
 }
 
 /// How velocity is estimated from samples.
@@ -268,6 +272,7 @@ impl fmt::Debug for Command {
             Self::StopRecording => "StopRecording",
             Self::Glimpses(_) => "Glimpses",
             Self::Watch(_) => "Watch",
+            Self::SetTap(_) => "SetTap",
             Self::Shutdown => "Shutdown",
         })
     }
@@ -280,6 +285,7 @@ impl fmt::Debug for InputSource {
             Self::Replay(_) => "Replay",
             Self::Stroke(_) => "Stroke",
             Self::Lines(_) => "Lines",
+            Self::Live(_) => "Live",
         })
     }
 }

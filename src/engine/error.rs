@@ -1,5 +1,7 @@
 //! What can go wrong with an engine.
 
+use super::{AudioError, InputError};
+use crate::bridge::SinkError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
 
@@ -18,4 +20,13 @@ pub enum EngineError {
     /// A stroke or path makes no sense.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A sound card.
+    #[error(transparent)]
+    Audio(#[from] AudioError),
+    /// A source of positions.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A file for other programs.
+    #[error(transparent)]
+    Sink(#[from] SinkError),
 }

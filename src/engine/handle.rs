@@ -14,7 +14,7 @@ use triple_buffer::Output;
 
 use super::gist::Waker;
 use super::glimpse::{Glimpser, MOST_GLIMPSES};
-use super::input::{Control, LineInput, PointerInput, ReplayInput, StrokeInput};
+use super::input::{Control, PointerInput, ReplayInput, StrokeInput, start_lines};
 use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, Runner};
@@ -109,6 +109,7 @@ impl Engine {
             notices: notices_in,
             snapshots: snapshots_in,
             glimpser: Glimpser::new(glimpses_in),
+            tap: None,
         };
         let (waker, news) = match config.on_news {
             Some(listener) => {
@@ -233,6 +234,7 @@ impl Engine {
             Command::ClearFaults => Order::ClearFaults,
             Command::Glimpses(is_heard) => Order::Glimpses(is_heard),
             Command::Watch(contactor) => Order::Watch(contactor),
+            Command::SetTap(tap) => Order::Tap(tap),
             Command::Shutdown => Order::Shutdown,
         };
         self.push(order)
@@ -397,6 +399,7 @@ pub(super) fn playable(source: InputSource) -> Result<Option<Box<dyn PointerInpu
             stroke.check()?;
             Some(Box::new(StrokeInput::new(stroke)))
         }
-        InputSource::Lines(lines) => Some(Box::new(LineInput::start(lines)?)),
+        InputSource::Lines(lines) => Some(Box::new(start_lines(lines)?)),
+        InputSource::Live(input) => Some(input),
     })
 }

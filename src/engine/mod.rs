@@ -15,8 +15,11 @@
 //!   sent, and what it replaces rides back to be dropped by whoever owns the [`Engine`]
 //! - nothing here waits for the window; a full ring loses something that is counted
 //! - STOP overtakes every queue ([`StopSwitch`]) and a thread that panics stops the device
-//! - no GUI, no files: recordings are handed over as data
+//! - no GUI, no files in the thread: recordings are handed over as data, and `clip` writes what
+//!   others render of them
 
+mod audio;
+mod clip;
 mod command;
 mod engine_core;
 mod error;
@@ -30,24 +33,32 @@ mod meters;
 mod order;
 mod pacer;
 mod prepared;
+mod programs;
 mod recording;
 mod runner;
 mod sample;
 mod snapshot;
 mod stop;
 mod synth;
+mod tap;
 mod track;
 mod velocity;
 
+pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
+pub use clip::{ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, InputSource, Notice, VelocityMethod};
 pub use engine_core::EngineCore;
 pub use error::EngineError;
 pub use glimpse::Glimpse;
 pub use handle::{Engine, EngineConfig};
-pub use input::{Control, InputLosses, PointerInput, PointerSender, Reading};
+pub use input::{
+    Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, PointerInput,
+    PointerSender, Reading, list_input_devices, open_input_device,
+};
 pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::{Due, PATIENCE, Pacer};
 pub use prepared::{PreparedScene, array_of};
+pub use programs::{ProgramCounts, ProgramLink, loopback};
 pub use recording::{RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
@@ -56,6 +67,7 @@ pub use snapshot::{
 };
 pub use stop::StopSwitch;
 pub use synth::SampleSynth;
+pub use tap::Tap;
 pub use velocity::{Estimate, REST, VelocityEstimator};
 
 use std::time::Duration;

@@ -4,7 +4,7 @@ use triple_buffer::Input;
 
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
-use super::{PreparedScene, Snapshot, VelocityMethod};
+use super::{PreparedScene, Snapshot, Tap, VelocityMethod};
 use crate::bridge::{ArrayChange, Bridge, Coder};
 use crate::render::PlacedLevel;
 use crate::tactile::Tuning;
@@ -38,6 +38,8 @@ pub(super) enum Order {
     Glimpses(bool),
     /// The contactor that glimpses watch.
     Watch(usize),
+    /// Tell other programs what is felt, or no longer.
+    Tap(Option<Box<Tap>>),
     Shutdown,
 }
 
@@ -111,6 +113,7 @@ pub(super) enum Retired {
     Mask(Vec<bool>),
     Bridge(Box<Bridge>),
     Array(Box<ArrayOrder>),
+    Tap(Box<Tap>),
     Recorder(Box<Recorder>),
 }
 

@@ -15,7 +15,7 @@ use super::link::{Link, News};
 use super::meters::{DurationHistogram, RecentMedian};
 use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
-use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch};
+use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch, Tap};
 use crate::bridge::StopHow;
 
 /// A tick that begins later than this after it was due is late.
@@ -48,6 +48,8 @@ pub(super) struct Channels {
     pub(super) notices: Producer<Notice>,
     pub(super) snapshots: Input<Snapshot>,
     pub(super) glimpser: Glimpser,
+    /// Whom to tell what is felt.
+    pub(super) tap: Option<Box<Tap>>,
 }
 
 /// Everything that the engine's thread owns.
@@ -160,6 +162,9 @@ impl Runner {
         let ended = core.record(sent, &mut say);
         self.retire(ended);
         self.channels.glimpser.look(&self.core);
+        if let Some(tap) = &mut self.channels.tap {
+            tap.tell(&self.core);
+        }
         let done = self.clock.now();
         self.late += u64::from(started.saturating_duration_since(due) > LATE);
         self.lateness.add(done.saturating_duration_since(due));
@@ -231,6 +236,10 @@ impl Runner {
                 Order::ClearFaults => self.link.clear_faults(),
                 Order::Glimpses(is_heard) => self.channels.glimpser.listen(is_heard),
                 Order::Watch(contactor) => self.channels.glimpser.watch(contactor),
+                Order::Tap(tap) => {
+                    let last = std::mem::replace(&mut self.channels.tap, tap);
+                    self.retire(last.map(Retired::Tap));
+                }
                 Order::Shutdown => {
                     self.link.stop(StopHow::Now);
                     self.is_over = true;

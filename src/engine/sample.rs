@@ -32,6 +32,8 @@ pub struct SampleCounters {
     pub overflowed: u64,
     /// Lines of a stream that were not `x,y` or `t,x,y`.
     pub bad_lines: u64,
+    /// Times that the system dropped reports of a device before they were read.
+    pub lost_in_system: u64,
 }
 
 /// How far a clock may go back, or run ahead, before it counts as having jumped.
@@ -87,6 +89,11 @@ impl SampleGate {
         self.last_raw = Some(raw);
         self.counters.accepted += 1;
         Verdict::Append(shifted)
+    }
+
+    /// Whatever comes next begins a new series.
+    pub(super) fn lift(&mut self) {
+        self.last_raw = None;
     }
 
     /// What became of the samples so far.

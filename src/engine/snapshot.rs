@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use super::{DurationHistogram, PreparedScene, SampleCounters, VelocityMethod};
+use super::{DurationHistogram, InputRate, PreparedScene, SampleCounters, VelocityMethod};
 use crate::bridge::{
     Bite, BridgeCounters, BridgeState, Caps, ClockFit, SentFrame, Spread, Status, Timings,
 };
@@ -140,6 +140,10 @@ pub enum SourceKind {
     Stroke,
     /// A stream of lines.
     Lines,
+    /// A tablet or touch frame that is read directly.
+    Device,
+    /// Another program, by a connection.
+    Program,
 }
 
 /// How far a replay or stroke is. A live source is at 0 of 0, playing.
@@ -171,6 +175,10 @@ pub struct PointerView {
     pub method: VelocityMethod,
     /// The lag of that estimate at this tick, s; 0 when a path carries its own velocity.
     pub velocity_lag_s: f64,
+    /// Whether the finger is off the surface, for sources that tell.
+    pub is_lifted: bool,
+    /// How steadily the source reports.
+    pub rate: InputRate,
     /// What became of the samples.
     pub samples: SampleCounters,
 }

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use super::input::InputLosses;
+use super::input::{InputLosses, RateMeter};
 use super::sample::{SampleGate, Verdict};
 use super::velocity::{Estimate, REST, VelocityEstimator};
-use super::{PointerSample, PointerView, TICK, VelocityMethod};
+use super::{InputRate, PointerSample, PointerView, TICK, VelocityMethod};
 use crate::geometry::Point;
 
 /// The samples of a source and what follows from them.
@@ -18,6 +18,8 @@ pub(super) struct Track {
     fresh: Option<Instant>,
     estimate: Estimate,
     age: Option<Duration>,
+    rate: RateMeter,
+    is_lifted: bool,
 }
 
 impl Track {
@@ -30,6 +32,8 @@ impl Track {
             fresh: None,
             estimate: Estimate::REST,
             age: None,
+            rate: RateMeter::default(),
+            is_lifted: false,
         }
     }
 
@@ -41,6 +45,18 @@ impl Track {
         self.fresh = None;
         self.estimate = Estimate::REST;
         self.age = None;
+        self.rate = RateMeter::default();
+        self.is_lifted = false;
+    }
+
+    /// The finger left the surface: at rest, and what comes next is a new series.
+    pub(super) fn lift(&mut self) {
+        self.gate.lift();
+        self.estimator.reset();
+        self.estimate = Estimate::REST;
+        self.age = None;
+        self.rate.pause();
+        self.is_lifted = true;
     }
 
     /// What comes from here on is fresh.
@@ -56,13 +72,16 @@ impl Track {
             Verdict::Append(sample) | Verdict::Replace(sample) => (sample, false),
             Verdict::Restart(sample) => (sample, true),
         };
+        self.is_lifted = false;
         if restarted {
             self.estimator.reset();
+            self.rate.pause();
         }
         if matches!(verdict, Verdict::Replace(_)) {
             self.estimator.replace(sample);
         } else {
             self.estimator.push(sample);
+            self.rate.add(sample.stamp, sample.position);
         }
         self.newest = Some(sample);
         self.fresh = Some(sample.stamp);
@@ -102,12 +121,18 @@ impl Track {
         self.fresh
     }
 
+    /// How steadily samples come.
+    pub(super) fn rate(&self) -> InputRate {
+        self.rate.rate()
+    }
+
     /// What a snapshot shows. `until_felt` is how long after a tick the middle of that comes in
     /// which a device plays it; without a device that is half a tick.
     pub(super) fn view(&self, losses: InputLosses, until_felt: Option<Duration>) -> PointerView {
         let mut samples = self.gate.counters();
         samples.overflowed = losses.overflowed;
         samples.bad_lines = losses.bad_lines;
+        samples.lost_in_system = losses.lost_in_system;
         let until_felt = until_felt.unwrap_or(TICK / 2);
         PointerView {
             is_known: self.newest.is_some(),
@@ -115,6 +140,8 @@ impl Track {
             felt_age: self.age.map(|age| age + until_felt),
             method: self.estimator.method(),
             velocity_lag_s: self.estimate.lag_s,
+            is_lifted: self.is_lifted,
+            rate: self.rate.rate(),
             samples,
         }
     }

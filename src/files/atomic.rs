@@ -63,7 +63,7 @@ pub fn create(path: &Path) -> Result<BufWriter<File>, FileError> {
 }
 
 /// A name that no other process and no other thread of this one stages under.
-fn staged_path(path: &Path) -> PathBuf {
+pub(super) fn staged_path(path: &Path) -> PathBuf {
     static STAGED: AtomicU64 = AtomicU64::new(0);
     let nth = STAGED.fetch_add(1, Ordering::Relaxed);
     let mut name = path.file_name().unwrap_or_default().to_owned();

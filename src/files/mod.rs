@@ -23,6 +23,7 @@ mod keys;
 mod npy;
 mod picture;
 mod rgb16;
+mod staged;
 mod table;
 mod xml;
 
@@ -43,6 +44,7 @@ pub use keys::{
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use rgb16::{Rgb16Image, decode_picture};
+pub use staged::Staged;
 pub use table::{Table, TableWriter};
 pub use xml::{visit_elements, xml_text};
 

@@ -17,6 +17,7 @@ mod areal;
 mod bench;
 mod bimorph;
 mod chart;
+mod clips;
 mod columns;
 mod drive_updates;
 mod error;
@@ -45,6 +46,7 @@ mod write;
 pub use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
 pub use bimorph::BimorphStudy;
+pub use clips::ClipsStudy;
 pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
@@ -69,6 +71,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(SpectralModelStudy),
         Box::new(ArealStudy),
         Box::new(DriveUpdatesStudy),
+        Box::new(ClipsStudy),
         Box::new(VelocityStudy),
         Box::new(GrowthStudy),
         Box::new(BrownianStudy),

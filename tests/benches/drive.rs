@@ -1,4 +1,5 @@
-//! What the drive waveform costs: a sample of a channel, and the slowest blocks of 48 frames.
+//! What the drive waveform costs: a sample of a channel, the slowest blocks of 48 frames, and
+//! whole clips of 1, 10 and 100 s as files.
 
 #![expect(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -6,7 +7,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use selvedge::numerics::{median, quantile};
+use selvedge::progress::{CancelFlag, Progress};
 use selvedge::render::array::DriveSynth;
+use selvedge::report::{Bench, ClipsStudy, Effort, Study as _};
 
 const ROUNDS: usize = 15;
 
@@ -29,6 +32,32 @@ fn main() {
              48 frames: median {:.2} µs, p99 {p99:.2} µs",
             median(&mut blocks_us)
         );
+    }
+    print_clips();
+}
+
+/// What the study of clips finds, without its plots.
+fn print_clips() {
+    let mut report = |_: f64, _: &str| {};
+    let mut progress = Progress::new(&mut report, CancelFlag::new());
+    let mut bench = Bench::new(Effort::Full, 1, &mut progress);
+    let findings = match ClipsStudy.run(&mut bench) {
+        Ok(findings) => findings,
+        Err(error) => return println!("clips: {error}"),
+    };
+    for row in &findings.rows {
+        let (Some(length_s), Some(cost)) = (row.size, row.cost) else {
+            continue;
+        };
+        println!(
+            "{:<16} {length_s:>4} s: {:>9.3} ms CPU, {:>9.3} ms wall",
+            row.method,
+            1e3 * cost.cpu_s,
+            1e3 * cost.wall_s
+        );
+    }
+    for note in &findings.notes {
+        println!("{note}");
     }
 }
 

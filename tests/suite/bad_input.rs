@@ -139,7 +139,7 @@ fn wrong_profiles_are_refused_with_the_file() {
 
 /// A command line, and what the line must name.
 #[rustfmt::skip]
-const MISSING: [(&str, &str); 10] = [
+const MISSING: [(&str, &str); 16] = [
     ("render none.toml --path a.csv", "none.toml"),
     ("render a.scene.toml --path none.csv", "none.csv"),
     ("none.scene.toml", "none.scene.toml"),
@@ -150,6 +150,12 @@ const MISSING: [(&str, &str); 10] = [
     ("render a.scene.toml --path a.csv --out none/a.csv", "none/a.csv"),
     ("render a.scene.toml --path a.csv --wav none/a.wav", "none/a.wav"),
     ("render a.scene.toml --path a.csv --out textiles", "textiles is a folder"),
+    ("render a.scene.toml --path a.csv --hjif none/a.hjif", "none/a.hjif"),
+    ("render a.scene.toml --path a.csv --frames none/f.csv", "none/f.csv"),
+    ("play a.scene.toml --input evdev:/dev/none --port /dev/null", "/dev/none"),
+    ("play a.scene.toml --path a.csv --audio none", "audio"),
+    ("play a.scene.toml --listen 0.0.0.0:7240 --port /dev/null", "127.0.0.1:PORT"),
+    ("play a.scene.toml --input mouse --port /dev/null", "evdev:/dev/input/eventN"),
 ];
 
 #[test]
@@ -208,13 +214,16 @@ fn wrong_ports_are_refused_before_anything_moves() {
     }
 }
 
-const USAGE: [&str; 15] = [
+const USAGE: [&str; 18] = [
     "render",
     "render a.scene.toml",
     "render a.scene.toml --path a.csv --speed 3",
     "render a.scene.toml --path a.csv --method fast",
     "render a.scene.toml --path a.csv --wav-rate 8000",
     "play a.scene.toml --path - --loop --port /dev/none",
+    "play a.scene.toml --path a.csv --port /dev/none --audio card",
+    "play a.scene.toml --path a.csv --input evdev:/dev/none --port /dev/none",
+    "input",
     "textile",
     "bridge",
     "bridge test",

@@ -20,7 +20,9 @@ mod no_allocation;
 mod no_allocation_engine;
 mod picture;
 mod program;
+mod programs;
 mod report;
+mod sinks;
 mod window;
 
 /// Aborts when something allocates inside `assert_no_alloc`.

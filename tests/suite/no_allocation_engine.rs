@@ -1,6 +1,8 @@
 //! Proof that the engine's tick allocates nothing: the suite's global allocator aborts inside a
 //! guard.
 
+use std::io::Write as _;
+use std::net::TcpStream;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -8,7 +10,8 @@ use assert_no_alloc::assert_no_alloc;
 
 use selvedge::bridge::{ArrayProfile, BridgeState, Target};
 use selvedge::engine::{
-    Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene, TICK,
+    Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene,
+    ProgramLink, TICK, loopback,
 };
 use selvedge::geometry::{Displacement, Frame, Point, Rotation};
 use selvedge::render::array::{Accuracy, Method};
@@ -127,6 +130,27 @@ fn a_replay_that_loops_allocates_nothing() {
             engine.advance_ticks(3);
         });
     }
+}
+
+#[test]
+fn a_program_that_moves_the_display_and_listens_costs_no_allocation() {
+    let (mut engine, _) = engine(Instant::now());
+    let link = ProgramLink::listen(loopback("127.0.0.1:0").unwrap()).unwrap();
+    engine.send(Command::SetSource(link.source())).unwrap();
+    let tap = link.tap(24).map(Box::new);
+    engine.send(Command::SetTap(tap)).unwrap();
+    engine.advance_ticks(1);
+    let mut program = TcpStream::connect(link.address()).unwrap();
+    let mut n_accepted = 0;
+    for n in 0..200 {
+        writeln!(program, "{},40", 30 + n % 20).unwrap();
+        std::thread::sleep(Duration::from_millis(1));
+        assert_no_alloc(|| {
+            engine.advance_ticks(1);
+        });
+        n_accepted = engine.snapshot().pointer.samples.accepted;
+    }
+    assert!(n_accepted > 10, "{n_accepted}");
 }
 
 #[test]

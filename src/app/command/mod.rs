@@ -24,9 +24,11 @@ use super::lab::LabCommand;
 use super::perspective::Perspective;
 use super::picturing::PictureCommand;
 use super::probe::Probe;
+use super::sources::SourceCommand;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
 use crate::bridge::Skin;
+use crate::engine::ClipKind;
 use crate::geometry::Point;
 use crate::tactile::Band;
 
@@ -47,6 +49,8 @@ pub(crate) enum Command {
     File(FileCommand),
     /// Move, record and replay.
     Play(PlayCommand),
+    /// Choose what else moves the display, or hears of it.
+    Source(SourceCommand),
     /// Compare tunings, textiles or methods.
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
@@ -116,6 +120,12 @@ impl From<Keep> for Command {
 impl From<PlayCommand> for Command {
     fn from(command: PlayCommand) -> Self {
         Self::Play(command)
+    }
+}
+
+impl From<SourceCommand> for Command {
+    fn from(command: SourceCommand) -> Self {
+        Self::Source(command)
     }
 }
 
@@ -198,6 +208,8 @@ pub(crate) enum FileCommand {
     CopyTable(Exportable),
     /// Close the window; asks first when the scene is not saved.
     Close,
+    /// Stop the file for other programs that is written.
+    StopClip,
     /// Go on with what was asked for and let the changes go.
     LetGo,
 }
@@ -215,6 +227,8 @@ pub(crate) enum Purpose {
     SaveRecording,
     /// Save what a pane shows as a picture or a table.
     Export(Exportable),
+    /// Save the recording for other programs.
+    Clip(ClipKind),
     /// Take files of measurements to those that are imported.
     ImportFiles,
     /// Make a textile of a picture.
@@ -255,6 +269,8 @@ pub(crate) enum PlaySource {
     Stroke,
     /// The recording at hand.
     Recording,
+    /// The tablet or program that was chosen last.
+    Input,
 }
 
 /// What is compared. Never undoable.

@@ -34,6 +34,7 @@ impl Workbench {
             target: self.transient.target.as_deref(),
             ports: self.transient.ports.view(),
             array,
+            sources: &self.transient.sources.view(),
             plant: has_plant.then_some(&self.transient.plant.view),
             stops_on_focus_loss: self.settings.kept.stops_on_focus_loss,
         };

@@ -31,6 +31,8 @@ impl Workbench {
             FileCommand::Use(Purpose::SaveScene, path) => self.save_scene(ctx, &path),
             FileCommand::Use(Purpose::OpenRecording, path) => self.open_recording(ctx, path),
             FileCommand::Use(Purpose::SaveRecording, path) => self.save_recording(ctx, path),
+            FileCommand::Use(Purpose::Clip(kind), path) => self.write_clip_to(ctx, kind, &path),
+            FileCommand::StopClip => self.stop_clip(),
             FileCommand::Use(Purpose::Export(what), path) => self.export_to(ctx, what, path),
             FileCommand::Use(Purpose::ImportFiles, path) => {
                 self.transient.ask = None;
@@ -70,6 +72,7 @@ impl Workbench {
         match purpose {
             Purpose::OpenScene | Purpose::SaveScene => self.document.path().cloned(),
             Purpose::Export(what) => Some(self.export_path(what)),
+            Purpose::Clip(kind) => Some(self.clip_path(kind)),
             Purpose::ImportFiles => {
                 let files = &self.transient.importing.draft.told.files;
                 files.last().map(|file| file.source.path().to_owned())

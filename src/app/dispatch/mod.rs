@@ -19,7 +19,7 @@ pub(crate) use play::resting_stroke;
 
 use eframe::egui;
 
-use super::command::{Chosen, Command, Edit, Part, ShowCommand};
+use super::command::{Chosen, Command, Edit, Part, PlayCommand, PlaySource, ShowCommand};
 use super::document::Document;
 use super::window::Workbench;
 use crate::engine;
@@ -34,7 +34,9 @@ impl Workbench {
             Command::Redo => self.step_history(ctx, Document::redo),
             Command::Device(command) => self.dispatch_device(ctx, command),
             Command::File(command) => self.dispatch_file(ctx, command),
+            Command::Play(PlayCommand::Source(PlaySource::Input)) => self.choose_input(ctx),
             Command::Play(command) => self.dispatch_play(command),
+            Command::Source(command) => self.dispatch_source(ctx, command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
             Command::Collection(command) => self.dispatch_collection(ctx, command),

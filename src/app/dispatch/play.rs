@@ -1,5 +1,7 @@
 //! What moves the display, and recording it.
 
+use eframe::egui;
+
 use crate::app::command::{PlayCommand, PlaySource};
 use crate::app::take::Take;
 use crate::app::view::Source;
@@ -20,6 +22,8 @@ impl Workbench {
             }
             PlayCommand::Source(PlaySource::Stroke) => self.explore_alone(),
             PlayCommand::Source(PlaySource::Recording) => self.replay(),
+            // Opening one takes a thread: `choose_input` does it.
+            PlayCommand::Source(PlaySource::Input) => {}
             PlayCommand::Step => self.send(engine::Command::Step),
             PlayCommand::Rewind => self.send(engine::Command::Rewind),
             PlayCommand::Seek(tick) => self.send(engine::Command::Seek(tick)),
@@ -40,10 +44,21 @@ impl Workbench {
         }
     }
 
+    /// Takes positions from the tablet or program that was chosen last.
+    pub(super) fn choose_input(&mut self, ctx: &egui::Context) {
+        match self.transient.sources.chosen().cloned() {
+            Some(chosen) => self.dispatch_source(ctx, chosen),
+            None => self
+                .transient
+                .notices
+                .give("Choose a tablet in the Bridge pane first"),
+        }
+    }
+
     /// What can be played plays or is held; the pointer gives way to a stroke.
     fn toggle_play(&mut self) {
         match self.transient.live.play.source {
-            Source::Pointer | Source::Lines => self.explore_alone(),
+            Source::Pointer | Source::Lines | Source::Device => self.explore_alone(),
             Source::Stroke | Source::Recording => {
                 let play = if self.transient.live.play.is_playing {
                     engine::Command::Pause

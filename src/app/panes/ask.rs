@@ -16,6 +16,7 @@ use crate::app::command::{Command, FileCommand, Purpose};
 use crate::app::completion::Completing;
 use crate::app::theme::{self, Palette, ROW, STEP};
 use crate::app::widgets::{CARD_DROP, CARD_MARGIN, button, card, choice, section};
+use crate::engine::ClipKind;
 
 /// What is said when a path is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,6 +83,7 @@ impl AskWords {
                 name: "cloth.png",
                 ending: "",
             },
+            Purpose::Clip(kind) => clip_words(kind),
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",
                 verb: "Export",
@@ -90,6 +92,31 @@ impl AskWords {
                 name: "export.png",
                 ending: ".png",
             },
+        }
+    }
+}
+
+fn clip_words(kind: ClipKind) -> AskWords {
+    let words = |title, hint, name, ending| AskWords {
+        title,
+        verb: "Export",
+        hint,
+        missing: "Type where to export to first",
+        name,
+        ending,
+    };
+    match kind {
+        ClipKind::Wav { .. } => {
+            let title = "Export the recording as a waveform";
+            words(title, "/path/to/NAME.wav", "recording.wav", ".wav")
+        }
+        ClipKind::Hjif => {
+            let title = "Export the recording as MPEG haptics";
+            words(title, "/path/to/NAME.hjif", "recording.hjif", ".hjif")
+        }
+        ClipKind::Frames => {
+            let title = "Export the recording as frames";
+            words(title, "/path/to/NAME.csv", "frames.csv", ".csv")
         }
     }
 }

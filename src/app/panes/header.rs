@@ -33,7 +33,7 @@ pub(crate) fn show(
         let name = RichText::new("Selvedge").font(theme::title());
         ui.label(name.color(palette.dim));
         ui.add_space(STEP);
-        show_scene_menu(ui, scene, &appearance.recent, wishes);
+        show_scene_menu(ui, scene, appearance, wishes);
         show_view_menu(ui, appearance, wishes);
         ui.add_space(STEP);
         show_history(ui, scene, wishes);

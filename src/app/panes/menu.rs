@@ -6,6 +6,7 @@ use eframe::egui::{self, Button, ThemePreference, Ui};
 
 use super::Wishes;
 use crate::app::arrangement::Pane;
+use crate::app::clips::{CLIPS, ClipsView};
 use crate::app::command::{Command, DotStyle, FileCommand, Purpose, ShowCommand};
 use crate::app::perspective::Perspective;
 use crate::app::shortcuts::hint;
@@ -34,6 +35,8 @@ pub(crate) struct Appearance {
     pub(crate) overlays: Overlays,
     /// The panes with whether each is in sight.
     pub(crate) panes: Vec<(Pane, bool)>,
+    /// The recording on its way to other programs.
+    pub(crate) clips: ClipsView,
     /// The scenes that were opened or saved last, newest first.
     pub(crate) recent: Vec<PathBuf>,
 }
@@ -42,7 +45,7 @@ pub(crate) struct Appearance {
 pub(crate) fn show_scene_menu(
     ui: &mut Ui,
     scene: &SceneView,
-    recent: &[PathBuf],
+    appearance: &Appearance,
     wishes: &mut Wishes,
 ) {
     ui.menu_button("Scene", |ui| {
@@ -50,7 +53,7 @@ pub(crate) fn show_scene_menu(
         entry(ui, "New", FileCommand::New.into(), None, wishes);
         let open = FileCommand::Ask(Purpose::OpenScene);
         entry(ui, "Open…", open.into(), None, wishes);
-        show_recent(ui, recent, wishes);
+        show_recent(ui, &appearance.recent, wishes);
         let shipped = FileCommand::OpenShipped;
         entry(ui, "Open the shipped scene", shipped.into(), None, wishes);
         ui.separator();
@@ -66,8 +69,28 @@ pub(crate) fn show_scene_menu(
         entry(ui, "Cloth from a picture…", picture.into(), None, wishes);
         let open = FileCommand::Ask(Purpose::OpenRecording);
         entry(ui, "Open a recording…", open.into(), None, wishes);
+        show_clips(ui, appearance.clips, wishes);
         ui.separator();
         entry(ui, "Close", FileCommand::Close.into(), None, wishes);
+    });
+}
+
+/// The recording for other programs; while one is written, how far it is.
+fn show_clips(ui: &mut Ui, clips: ClipsView, wishes: &mut Wishes) {
+    if let Some(share) = clips.share {
+        let percent = quantity::with_unit(f64::from(share) * 100.0, 0, "%");
+        let words = format!("Stop the export ({percent})");
+        return entry(ui, &words, FileCommand::StopClip.into(), None, wishes);
+    }
+    ui.add_enabled_ui(clips.has_take, |ui| {
+        let menu = ui.menu_button("Export the recording", |ui| {
+            for (kind, words) in CLIPS {
+                let ask = FileCommand::Ask(Purpose::Clip(kind));
+                entry(ui, words, ask.into(), None, wishes);
+            }
+        });
+        menu.response
+            .on_disabled_hover_text("There is no recording: record one or open one");
     });
 }
 

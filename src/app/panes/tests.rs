@@ -14,6 +14,7 @@ use super::{
 };
 use crate::app::command::{Command, DeviceCommand, FileCommand, Purpose};
 use crate::app::ports::PortsView;
+use crate::app::sources::SourcesView;
 use crate::app::theme;
 use crate::app::view::Live;
 use crate::bridge::{ArrayProfile, FoundPort, RecognisedBy};
@@ -136,6 +137,7 @@ fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, 
                 wizard: None,
                 folder: None,
             },
+            sources: &SourcesView::default(),
             plant: None,
             stops_on_focus_loss: false,
         };

@@ -174,7 +174,7 @@ impl Workbench {
             cell,
             tick: match live.play.source {
                 Source::Recording | Source::Stroke => live.play.tick,
-                Source::Pointer | Source::Lines => live.tick,
+                Source::Pointer | Source::Lines | Source::Device => live.tick,
             },
             trace,
             textile,

@@ -14,8 +14,8 @@ use super::order::Retired;
 use super::recording::{RecordedTick, Recorder};
 use super::track::Track;
 use super::{
-    EngineError, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot, SourceKind,
-    TICKS_PER_S, VelocityMethod,
+    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot,
+    SourceKind, TICKS_PER_S, VelocityMethod,
 };
 use crate::bridge::{Coder, SentFrame};
 use crate::geometry::Velocity;
@@ -104,6 +104,11 @@ impl EngineCore {
             .map_or_else(|| self.live.losses(), PointerInput::losses)
     }
 
+    /// How steadily the source reports.
+    pub fn input_rate(&self) -> InputRate {
+        self.track.rate()
+    }
+
     /// Does one tick. Allocates nothing.
     pub fn tick(&mut self, now: Instant, say: Say<'_>) {
         let reading = self.read(now);
@@ -118,6 +123,10 @@ impl EngineCore {
                     self.pose.angle_deg = self.angle_deg;
                     self.last_angle_deg = Some(self.angle_deg);
                 }
+            }
+            Reading::Lifted => {
+                self.follow();
+                self.pose = at_rest(self.pose);
             }
             Reading::Ended => {
                 if !self.has_ended {
@@ -265,6 +274,12 @@ impl EngineCore {
         self.live.poll(now, &mut |_| {});
         let reading = playable.poll(now, &mut |sample| restarted |= track.take(sample, now));
         track.look(now, restarted);
+        if reading == Reading::Lifted {
+            track.lift();
+        }
+        if let Some(angle_deg) = playable.angle_deg() {
+            self.angle_deg = angle_deg;
+        }
         reading
     }
 

@@ -1,23 +1,19 @@
 //! Positions as lines of text from any stream, read on a thread of its own.
 //!
-//! A line is `x_mm,y_mm`, stamped when it arrives, or `t_s,x_mm,y_mm` by the stream's own clock,
-//! whose first time is taken to be its arrival. A header and lines that begin with `#` are passed
-//! over; anything else is counted as bad. When the ring is full the reader waits, so that a pipe
-//! pushes back on whoever writes it; a file of lines with times is thereby played at its own speed.
+//! A line is `x_mm,y_mm`, stamped when it arrives, or `t_s,x_mm,y_mm` or `t_s,x_mm,y_mm,angle_deg`
+//! by the stream's own clock, whose first time is taken to be its arrival; the word `lift` says
+//! that the finger left the surface. A header and lines that begin with `#` are passed over;
+//! anything else is counted as bad. When the ring is full the reader waits, so that a pipe pushes
+//! back on whoever writes it; a file of lines with times is thereby played at its own speed.
 
 use std::io::{self, BufRead, Read as _};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use rtrb::{Consumer, Producer, RingBuffer};
-
-use super::{InputLosses, PointerInput, Reading};
+use super::feed::{FeedInput, FeedItem, FeedSender, feed};
 use crate::engine::{EngineError, PointerSample, SourceKind};
 use crate::geometry::Point;
 
-const CAPACITY: usize = 1024;
 /// A longer line is bad, whatever it holds, in bytes.
 const LONGEST_LINE: u64 = 256;
 /// How far a stream may run ahead of its own times.
@@ -25,73 +21,56 @@ const LEAD: Duration = Duration::from_millis(100);
 /// A time farther ahead than this is not waited for: the stream's clock has jumped.
 const LONGEST_LEAD: Duration = Duration::from_secs(1);
 const NAP: Duration = Duration::from_millis(5);
+const HEADERS: [&str; 3] = ["x_mm,y_mm", "t_s,x_mm,y_mm", "t_s,x_mm,y_mm,angle_deg"];
 
-/// Samples from a stream of lines.
-#[derive(Debug)]
-pub(in crate::engine) struct LineInput {
-    ring: Consumer<PointerSample>,
-    shared: Arc<Shared>,
-}
-
-#[derive(Debug, Default)]
-struct Shared {
-    bad_lines: AtomicU64,
-    has_ended: AtomicBool,
-}
-
-impl LineInput {
-    /// Starts to read. The thread ends with the stream, or at the next line after this is dropped.
-    pub(in crate::engine) fn start(lines: Box<dyn BufRead + Send>) -> Result<Self, EngineError> {
-        let (sender, ring) = RingBuffer::new(CAPACITY);
-        let shared = Arc::new(Shared::default());
-        let reader = Reader {
-            lines,
-            sender,
-            shared: Arc::clone(&shared),
-            origin: None,
-        };
-        thread::Builder::new()
-            .name("selvedge-lines".to_owned())
-            .spawn(move || reader.run())
-            .map_err(EngineError::Thread)?;
-        Ok(Self { ring, shared })
-    }
-}
-
-impl PointerInput for LineInput {
-    fn kind(&self) -> SourceKind {
-        SourceKind::Lines
-    }
-
-    fn poll(&mut self, _now: Instant, take: &mut dyn FnMut(PointerSample)) -> Reading {
-        // Read before the ring is emptied: what the reader pushed before it ended is then in it.
-        let has_ended = self.shared.has_ended.load(Ordering::Acquire);
-        for n_taken in 0..CAPACITY {
-            let Ok(sample) = self.ring.pop() else {
-                return if has_ended && n_taken == 0 {
-                    Reading::Ended
-                } else {
-                    Reading::Samples
-                };
-            };
-            take(sample);
-        }
-        Reading::Samples
-    }
-
-    fn losses(&self) -> InputLosses {
-        let bad_lines = self.shared.bad_lines.load(Ordering::Relaxed);
-        InputLosses {
-            bad_lines,
-            ..InputLosses::default()
-        }
-    }
-}
-
-struct Reader {
+/// Starts to read a stream. The thread ends with it, or at the next line after the input is
+/// dropped.
+pub(in crate::engine) fn start_lines(
     lines: Box<dyn BufRead + Send>,
-    sender: Producer<PointerSample>,
-    shared: Arc<Shared>,
+) -> Result<FeedInput, EngineError> {
+    let (mut sender, input) = feed(SourceKind::Lines);
+    let mut lines = Lines::new(lines);
+    thread::Builder::new()
+        .name("selvedge-lines".to_owned())
+        .spawn(move || {
+            while let Some(said) = lines.next() {
+                match said {
+                    Said::Aside => {}
+                    Said::Bad => sender.count_bad_line(),
+                    Said::Item(item) => push_patiently(&mut sender, item),
+                }
+                if sender.is_abandoned() {
+                    break;
+                }
+            }
+            sender.end();
+        })
+        .map_err(EngineError::Thread)?;
+    Ok(input)
+}
+
+fn push_patiently(sender: &mut FeedSender, mut item: FeedItem) {
+    while let Err(rejected) = sender.offer(item) {
+        if sender.is_abandoned() {
+            return;
+        }
+        item = rejected;
+        thread::sleep(NAP);
+    }
+}
+
+/// What a line says.
+#[derive(Debug, PartialEq)]
+pub(in crate::engine) enum Said {
+    Item(FeedItem),
+    Aside,
+    Bad,
+}
+
+/// A stream of lines with its clock.
+pub(in crate::engine) struct Lines<R> {
+    stream: R,
+    text: Vec<u8>,
     /// The stream's first time, s, and when it arrived.
     origin: Option<(f64, Instant)>,
 }
@@ -99,30 +78,56 @@ struct Reader {
 /// What a line holds.
 #[derive(Debug, PartialEq)]
 enum Line {
-    Sample { t_s: Option<f64>, position: Point },
+    Sample {
+        t_s: Option<f64>,
+        position: Point,
+        angle_deg: Option<f64>,
+    },
+    Lift,
     Aside,
     Bad,
 }
 
-impl Reader {
-    fn run(mut self) {
-        let mut text = Vec::new();
-        while !self.sender.is_abandoned() {
-            match self.read_line(&mut text) {
-                Ok(true) => self.take(&text),
-                Ok(false) | Err(_) => break,
-            }
+impl<R: BufRead> Lines<R> {
+    pub(in crate::engine) fn new(lines: R) -> Self {
+        Self {
+            stream: lines,
+            text: Vec::new(),
+            origin: None,
         }
-        self.shared.has_ended.store(true, Ordering::Release);
+    }
+
+    /// What the next line says, with its time on the engine's clock, waited for if that is a
+    /// little ahead; `None` at the end.
+    pub(in crate::engine) fn next(&mut self) -> Option<Said> {
+        if !self.read_line().unwrap_or(false) {
+            return None;
+        }
+        Some(match parse(&self.text) {
+            Line::Aside => Said::Aside,
+            Line::Bad => Said::Bad,
+            Line::Lift => Said::Item(FeedItem::Lift),
+            Line::Sample {
+                t_s,
+                position,
+                angle_deg,
+            } => {
+                let stamp = t_s.map_or_else(Instant::now, |t_s| self.stamp_of(t_s));
+                Said::Item(FeedItem::Sample(
+                    PointerSample { stamp, position },
+                    angle_deg,
+                ))
+            }
+        })
     }
 
     /// Reads one line, or the first bytes of one that is too long; false at the end.
-    fn read_line(&mut self, text: &mut Vec<u8>) -> io::Result<bool> {
-        text.clear();
-        let n_read = (&mut self.lines)
+    fn read_line(&mut self) -> io::Result<bool> {
+        self.text.clear();
+        let n_read = (&mut self.stream)
             .take(LONGEST_LINE)
-            .read_until(b'\n', text)?;
-        if n_read as u64 == LONGEST_LINE && !text.ends_with(b"\n") {
+            .read_until(b'\n', &mut self.text)?;
+        if n_read as u64 == LONGEST_LINE && !self.text.ends_with(b"\n") {
             self.skip_line()?;
         }
         Ok(n_read > 0)
@@ -130,25 +135,12 @@ impl Reader {
 
     fn skip_line(&mut self) -> io::Result<()> {
         loop {
-            let buffer = self.lines.fill_buf()?;
+            let buffer = self.stream.fill_buf()?;
             let end = buffer.iter().position(|&byte| byte == b'\n');
             let n_skipped = end.map_or(buffer.len(), |end| end + 1);
-            self.lines.consume(n_skipped);
+            self.stream.consume(n_skipped);
             if end.is_some() || n_skipped == 0 {
                 return Ok(());
-            }
-        }
-    }
-
-    fn take(&mut self, text: &[u8]) {
-        match parse(text) {
-            Line::Aside => {}
-            Line::Bad => {
-                self.shared.bad_lines.fetch_add(1, Ordering::Relaxed);
-            }
-            Line::Sample { t_s, position } => {
-                let stamp = t_s.map_or_else(Instant::now, |t_s| self.stamp_of(t_s));
-                self.push(PointerSample { stamp, position });
             }
         }
     }
@@ -171,16 +163,6 @@ impl Reader {
         }
         stamp
     }
-
-    fn push(&mut self, mut sample: PointerSample) {
-        while let Err(rtrb::PushError::Full(rejected)) = self.sender.push(sample) {
-            if self.sender.is_abandoned() {
-                return;
-            }
-            sample = rejected;
-            thread::sleep(NAP);
-        }
-    }
 }
 
 /// Numbers that are not finite are samples here: the engine drops and counts them as such.
@@ -193,10 +175,13 @@ fn parse(text: &[u8]) -> Line {
     if is_too_long {
         return Line::Bad;
     }
-    if text.is_empty() || text.starts_with('#') || matches!(text, "x_mm,y_mm" | "t_s,x_mm,y_mm") {
+    if text.is_empty() || text.starts_with('#') || HEADERS.contains(&text) {
         return Line::Aside;
     }
-    let mut numbers = [0.0; 3];
+    if text == "lift" {
+        return Line::Lift;
+    }
+    let mut numbers = [0.0; 4];
     let mut n_numbers = 0;
     for cell in text.split(',') {
         let (Some(slot), Ok(number)) = (numbers.get_mut(n_numbers), cell.trim().parse()) else {
@@ -205,17 +190,17 @@ fn parse(text: &[u8]) -> Line {
         *slot = number;
         n_numbers += 1;
     }
-    let [a, b, c] = numbers;
-    match n_numbers {
-        2 => Line::Sample {
-            t_s: None,
-            position: Point::new(a, b),
-        },
-        3 if a.is_finite() => Line::Sample {
-            t_s: Some(a),
-            position: Point::new(b, c),
-        },
-        _ => Line::Bad,
+    let [a, b, c, d] = numbers;
+    let (t_s, position, angle_deg) = match n_numbers {
+        2 => (None, Point::new(a, b), None),
+        3 if a.is_finite() => (Some(a), Point::new(b, c), None),
+        4 if a.is_finite() => (Some(a), Point::new(b, c), Some(d)),
+        _ => return Line::Bad,
+    };
+    Line::Sample {
+        t_s,
+        position,
+        angle_deg,
     }
 }
 
@@ -223,11 +208,12 @@ fn parse(text: &[u8]) -> Line {
 mod tests {
     use std::io::Cursor;
 
+    use super::super::{PointerInput as _, Reading};
     use super::*;
 
     /// Every sample of a text, and its bad lines.
     fn read(text: impl Into<Vec<u8>>) -> (Vec<PointerSample>, u64) {
-        let mut input = LineInput::start(Box::new(Cursor::new(text.into()))).unwrap();
+        let mut input = start_lines(Box::new(Cursor::new(text.into()))).unwrap();
         let mut samples = Vec::new();
         while input.poll(Instant::now(), &mut |s| samples.push(s)) != Reading::Ended {
             thread::sleep(Duration::from_millis(1));
@@ -262,8 +248,25 @@ mod tests {
     }
 
     #[test]
+    fn a_fourth_number_is_the_angle_and_a_word_the_lift() {
+        let text = "t_s,x_mm,y_mm,angle_deg\n0,1,2,30\nlift\n";
+        let mut lines = Lines::new(Cursor::new(text));
+        assert_eq!(lines.next(), Some(Said::Aside));
+        let sample = lines.next();
+        let Some(Said::Item(FeedItem::Sample(sample, angle_deg))) = sample else {
+            panic!("{sample:?}");
+        };
+        assert_eq!(
+            (sample.position, angle_deg),
+            (Point::new(1.0, 2.0), Some(30.0))
+        );
+        assert_eq!(lines.next(), Some(Said::Item(FeedItem::Lift)));
+        assert_eq!(lines.next(), None);
+    }
+
+    #[test]
     fn bad_lines_are_counted_and_the_stream_goes_on() {
-        let mut text = b"one,two\n1\n1,2,3,4\nnan,1,2\n1,2;\n\xff\xfe\n".to_vec();
+        let mut text = b"one,two\n1\n1,2,3,4,5\nnan,1,2\n1,2;\n\xff\xfe\n".to_vec();
         text.extend(std::iter::repeat_n(b'9', 100_000));
         text.extend(b"\n8,9\n");
         let (samples, n_bad) = read(text);

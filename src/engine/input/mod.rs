@@ -3,14 +3,23 @@
 //! A source either hands over time-stamped samples, whose velocity is then estimated, or states the
 //! pose of a tick itself, exactly as an offline rendering of the same path takes it.
 
+mod error;
+mod evdev;
+mod feed;
 mod lines;
 mod live;
 mod path;
+mod rate;
 
-pub(super) use lines::LineInput;
+pub use error::InputError;
+pub use evdev::{Area, AxisRange, InputDevice, list_input_devices, open_input_device};
+pub(super) use feed::{FeedItem, FeedSender, feed};
+pub(super) use lines::{Lines, Said, start_lines};
 pub use live::PointerSender;
 pub(super) use live::{LiveInput, live_ring};
 pub(super) use path::{ReplayInput, StrokeInput};
+pub use rate::InputRate;
+pub(super) use rate::RateMeter;
 
 use std::fmt::Debug;
 use std::time::Instant;
@@ -25,6 +34,9 @@ pub enum Reading {
     Samples,
     /// The pose of this tick, velocity included.
     Pose(Pose),
+    /// It handed over what samples there were before the finger left the surface: nothing is felt
+    /// until it is back.
+    Lifted,
     /// It is held: the display stands still where it is.
     Held,
     /// It has come to its end.
@@ -55,6 +67,8 @@ pub struct InputLosses {
     pub overflowed: u64,
     /// Lines that were no sample.
     pub bad_lines: u64,
+    /// Times that the system dropped reports of a device because nobody had read them yet.
+    pub lost_in_system: u64,
 }
 
 /// A source of positions in the workspace. [`poll`](Self::poll) neither allocates nor waits.
@@ -74,6 +88,11 @@ pub trait PointerInput: Send + Debug {
             is_playing: true,
             ..Playback::default()
         }
+    }
+
+    /// The display's angle where the source tells it, degrees counter-clockwise.
+    fn angle_deg(&self) -> Option<f64> {
+        None
     }
 
     /// What was lost on the way.

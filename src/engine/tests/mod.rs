@@ -5,6 +5,7 @@ mod commands;
 mod device;
 mod exact;
 mod glimpses;
+mod lift;
 mod mask;
 mod seek;
 mod shown;

@@ -9,6 +9,7 @@ mod back;
 mod calibration;
 mod counters;
 mod felt;
+mod inputs;
 mod link;
 mod port;
 mod timing;
@@ -21,6 +22,7 @@ use eframe::egui::Ui;
 use super::Wishes;
 use crate::app::plant::PlantView;
 use crate::app::ports::PortsView;
+use crate::app::sources::SourcesView;
 use crate::app::theme::STEP;
 use crate::app::view::Live;
 use crate::app::widgets::fold;
@@ -37,6 +39,8 @@ pub(crate) struct BridgePane<'a> {
     pub(crate) ports: &'a PortsView,
     /// The array.
     pub(crate) array: ArrayView<'a>,
+    /// What moves the display, and who hears of it.
+    pub(crate) sources: &'a SourcesView,
     /// What a model says the emulator's contactors do; `None` for other devices.
     pub(crate) plant: Option<&'a PlantView>,
     /// Whether an armed device stops when the window loses the keyboard.
@@ -78,6 +82,7 @@ pub(crate) fn show(
     fold(ui, ("Link", true), &counters::summary(bridge), |ui| {
         counters::show_counters(ui, bridge, view.live.status.felt_age_s);
     });
+    inputs::show(ui, view.live, view.sources, wishes);
     timing::show(ui, bridge, view.stops_on_focus_loss, wishes);
     if let Some(plant) = view.plant {
         felt::show(ui, plant, wishes);

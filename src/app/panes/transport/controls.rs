@@ -46,7 +46,7 @@ fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     act.show(ui, PlayCommand::ToggleRecording, Some(is_recording), wishes);
     let act = play_act(view);
     act.show(ui, PlayCommand::Toggle, None, wishes);
-    let refusal = (view.source == PlaySource::Pointer).then_some(LIVE);
+    let refusal = view.is_live().then_some(LIVE);
     let act = Act::new(Icon::Step, "Step", "Play one tick, then hold", refusal);
     act.show(ui, PlayCommand::Step, None, wishes);
     let act = Act::new(Icon::Rewind, "Rewind", "Back to the first tick", refusal);
@@ -68,7 +68,7 @@ fn play_act(view: &TransportView<'_>) -> Act {
         return Act::new(Icon::Pause, "Pause", what, None);
     }
     let what = match view.source {
-        PlaySource::Pointer => "Let the display explore by itself",
+        PlaySource::Pointer | PlaySource::Input => "Let the display explore by itself",
         PlaySource::Stroke => "Go on exploring",
         PlaySource::Recording => "Replay the recording",
     };
@@ -110,15 +110,23 @@ fn show_sources(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     });
     let pointer = "The display follows the pointer".to_owned();
     let stroke = "The display explores by itself, in a circle".to_owned();
+    let input = view.input.unwrap_or_default();
+    let input = format!("The display follows {input}");
+    let unchosen = view
+        .input
+        .is_none()
+        .then_some("Choose a tablet or program in the Bridge pane");
     let parts = [
         ("Pointer", pointer, None),
         ("By itself", stroke, None),
         ("Recording", replay.unwrap_or_default(), none),
+        ("Input", input, unchosen),
     ];
     let sources = [
         PlaySource::Pointer,
         PlaySource::Stroke,
         PlaySource::Recording,
+        PlaySource::Input,
     ];
     let chosen = sources.iter().position(|source| *source == view.source);
     if let Some(index) = segments(ui, ui.available_width(), &parts, chosen.unwrap_or(0)) {

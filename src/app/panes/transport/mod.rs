@@ -44,6 +44,8 @@ const TICK_MS: u64 = 25;
 pub(crate) struct TransportView<'a> {
     /// What moves the display.
     pub(crate) source: PlaySource,
+    /// The tablet or program that was chosen.
+    pub(crate) input: Option<&'a str>,
     /// Whether a recording or stroke moves on at the next tick.
     pub(crate) is_playing: bool,
     /// Whether a recording or stroke begins again at its end.
@@ -78,9 +80,14 @@ impl TransportView<'_> {
         self.take.filter(|_| is_shown)
     }
 
+    /// Whether positions come as they happen.
+    fn is_live(&self) -> bool {
+        matches!(self.source, PlaySource::Pointer | PlaySource::Input)
+    }
+
     /// Whether something runs that could be held.
     fn is_running(&self) -> bool {
-        self.is_playing && self.source != PlaySource::Pointer
+        self.is_playing && !self.is_live()
     }
 
     /// The tick that the numbers show, and what it counts.
@@ -89,7 +96,7 @@ impl TransportView<'_> {
             return (n_ticks, "Ticks recorded, 25 ms each");
         }
         match self.source {
-            PlaySource::Pointer => {
+            PlaySource::Pointer | PlaySource::Input => {
                 let newest = self.live.newest();
                 let tick = newest.map_or(0, |entry| entry.glimpse.tick);
                 (

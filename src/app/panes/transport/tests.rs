@@ -28,6 +28,7 @@ static NOTHING: LazyLock<History> = LazyLock::new(History::default);
 fn view(take: Option<&Take>) -> TransportView<'_> {
     TransportView {
         source: PlaySource::Pointer,
+        input: None,
         is_playing: true,
         does_loop: false,
         is_stopped: false,
@@ -142,7 +143,7 @@ fn what_makes_no_sense_now_asks_for_nothing() {
         ..view(None)
     };
     window.frame(&stopped, Vec::new());
-    let recording = pos2(240.0, 52.0);
+    let recording = pos2(190.0, 52.0);
     for at in [
         button_at(0),
         button_at(2),

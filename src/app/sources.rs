@@ -1,0 +1,271 @@
+//! What else can move the display, and who else hears of it: tablets that are read directly, and
+//! other programs of this machine.
+//!
+//! Devices are listed and opened on threads of their own. The link to other programs lasts until
+//! it is ended here; nothing of this is kept in files or undone.
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+
+use eframe::egui;
+
+use super::job::{Job, Polled};
+use super::window::Workbench;
+use crate::engine::{
+    self, InputDevice, InputError, InputSource, PointerInput, ProgramCounts, ProgramLink,
+    list_input_devices, open_input_device,
+};
+
+/// Where other programs find this one, if the port is free; otherwise any port is taken.
+const PORT: u16 = 7240;
+
+/// What can be done with sources.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum SourceCommand {
+    /// Look anew which devices there are.
+    List,
+    /// Take positions from this device.
+    Device(PathBuf),
+    /// Let other programs join.
+    Listen,
+    /// Let no program join any more.
+    EndListening,
+    /// Take positions from the program that joined.
+    Program,
+}
+
+/// What is shown of the sources.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct SourcesView {
+    /// Whether devices are being listed or opened now.
+    pub(crate) is_busy: bool,
+    /// Whether they have ever been listed.
+    pub(crate) is_known: bool,
+    /// Devices to choose from, and what they are.
+    pub(crate) devices: Vec<(PathBuf, String)>,
+    /// Why some of them, or all, cannot be chosen.
+    pub(crate) complaint: Option<String>,
+    /// Where programs may join, and how it stands with them.
+    pub(crate) programs: Option<(SocketAddr, ProgramCounts)>,
+}
+
+type Listed = Result<Vec<Result<InputDevice, InputError>>, InputError>;
+type Opened = Result<Box<dyn PointerInput>, InputError>;
+
+/// The sources that are known, and what is under way with them.
+#[derive(Debug, Default)]
+pub(crate) struct Sources {
+    view: SourcesView,
+    listing: Option<Job<Listed>>,
+    opening: Option<Job<Opened>>,
+    link: Option<ProgramLink>,
+    /// What was chosen last.
+    chosen: Option<(SourceCommand, String)>,
+}
+
+impl Sources {
+    /// What is shown.
+    pub(crate) fn view(&self) -> SourcesView {
+        let link = self.link.as_ref();
+        SourcesView {
+            is_busy: self.listing.is_some() || self.opening.is_some(),
+            programs: link.map(|link| (link.address(), link.counts())),
+            ..self.view.clone()
+        }
+    }
+
+    /// What was chosen last, to be chosen again.
+    pub(crate) fn chosen(&self) -> Option<&SourceCommand> {
+        self.chosen.as_ref().map(|(chosen, _)| chosen)
+    }
+
+    /// What people call it.
+    pub(crate) fn chosen_name(&self) -> Option<&str> {
+        self.chosen.as_ref().map(|(_, name)| name.as_str())
+    }
+
+    fn take_listed(&mut self, listed: Listed) {
+        self.view.is_known = true;
+        let (found, mut complaint) = match listed {
+            Ok(found) => (found, None),
+            Err(error) => (Vec::new(), Some(error.to_string())),
+        };
+        self.view.devices.clear();
+        for device in found {
+            match device {
+                Ok(device) => self
+                    .view
+                    .devices
+                    .push((device.path.clone(), described(&device))),
+                Err(error) => complaint = complaint.or_else(|| Some(error.to_string())),
+            }
+        }
+        self.view.complaint = complaint;
+    }
+}
+
+fn described(device: &InputDevice) -> String {
+    match device.axes.map(|axis| axis.length_mm()) {
+        [Some(width_mm), Some(height_mm)] => {
+            format!("{}, {width_mm:.0} × {height_mm:.0} mm", device.name)
+        }
+        _ => device.name.clone(),
+    }
+}
+
+impl Workbench {
+    /// Does what is wanted of sources.
+    pub(crate) fn dispatch_source(&mut self, ctx: &egui::Context, command: SourceCommand) {
+        match command {
+            SourceCommand::List => self.list_devices(ctx),
+            SourceCommand::Device(path) => self.open_device(ctx, &path),
+            SourceCommand::Listen => self.listen(),
+            SourceCommand::EndListening => self.end_listening(),
+            SourceCommand::Program => self.follow_program(),
+        }
+    }
+
+    fn list_devices(&mut self, ctx: &egui::Context) {
+        let sources = &mut self.transient.sources;
+        if self.is_stepped {
+            return sources.take_listed(list_input_devices());
+        }
+        if sources.listing.is_none() {
+            sources.listing = Job::start("selvedge-inputs", ctx, list_input_devices).ok();
+        }
+    }
+
+    fn open_device(&mut self, ctx: &egui::Context, path: &Path) {
+        let size_mm = self.document.scene().size_mm;
+        let device = path.to_owned();
+        let open = move || open_input_device(&device, None, size_mm);
+        let chosen = SourceCommand::Device(path.to_owned());
+        self.transient.sources.chosen = Some((chosen, path.display().to_string()));
+        if self.is_stepped {
+            return self.take_device(open());
+        }
+        self.transient.sources.opening = Job::start("selvedge-input", ctx, open).ok();
+    }
+
+    fn take_device(&mut self, opened: Opened) {
+        match opened {
+            Ok(input) => self.send(engine::Command::SetSource(InputSource::Live(input))),
+            Err(error) => self.transient.notices.give(error.to_string()),
+        }
+    }
+
+    fn listen(&mut self) {
+        let at = |port| ProgramLink::listen(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+        match at(PORT).or_else(|_taken| at(0)) {
+            Ok(link) => {
+                let display = self.eye.scene.displays.first();
+                let n_contactors = display.map_or(0, |display| display.offsets.len());
+                let tap = link.tap(n_contactors).map(Box::new);
+                self.transient.sources.link = Some(link);
+                self.send(engine::Command::SetTap(tap));
+            }
+            Err(error) => self.transient.notices.give(error.to_string()),
+        }
+    }
+
+    fn end_listening(&mut self) {
+        self.send(engine::Command::SetTap(None));
+        self.transient.sources.link = None;
+    }
+
+    fn follow_program(&mut self) {
+        let Some(link) = &self.transient.sources.link else {
+            let words = "No program can join yet: let other programs join first";
+            return self.transient.notices.give(words);
+        };
+        let source = link.source();
+        let name = "the program that joined".to_owned();
+        self.transient.sources.chosen = Some((SourceCommand::Program, name));
+        self.send(engine::Command::SetSource(source));
+    }
+
+    /// Takes what was listed and opened. To be called every frame.
+    pub(crate) fn poll_sources(&mut self) {
+        let sources = &mut self.transient.sources;
+        match sources.listing.as_ref().map(Job::poll) {
+            Some(Polled::Done(listed)) => {
+                sources.listing = None;
+                sources.take_listed(listed);
+            }
+            Some(Polled::BrokeOff) => sources.listing = None,
+            Some(Polled::Working) | None => {}
+        }
+        match sources.opening.as_ref().map(Job::poll) {
+            Some(Polled::Done(opened)) => {
+                sources.opening = None;
+                self.take_device(opened);
+            }
+            Some(Polled::BrokeOff) => sources.opening = None,
+            Some(Polled::Working) | None => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{BufRead as _, BufReader, Write as _};
+    use std::net::TcpStream;
+    use std::time::{Duration, Instant};
+
+    use super::*;
+    use crate::app::Drive;
+    use crate::app::view::Source;
+
+    #[test]
+    fn a_program_that_joins_moves_the_display_and_hears_what_is_felt() {
+        let ctx = egui::Context::default();
+        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        bench.dispatch(&ctx, SourceCommand::Listen.into());
+        bench.dispatch(&ctx, SourceCommand::Program.into());
+        let (address, _) = bench.transient.sources.view().programs.unwrap();
+        let mut program = TcpStream::connect(address).unwrap();
+        program
+            .set_read_timeout(Some(Duration::from_secs(20)))
+            .unwrap();
+        let mut lines = BufReader::new(program.try_clone().unwrap()).lines();
+        let header = lines.next().unwrap().unwrap();
+        assert!(
+            header.starts_with("tick,t_s,x_mm,y_mm,angle_deg,a40_um_0"),
+            "{header}"
+        );
+        program.write_all(b"61.5,70.25\n").unwrap();
+        let deadline = Instant::now() + Duration::from_secs(20);
+        loop {
+            bench.engine.advance_ticks(1).unwrap();
+            let line = lines.next().unwrap().unwrap();
+            if line.contains(",61.5,70.25,0,") {
+                break;
+            }
+            assert!(Instant::now() < deadline, "{line}");
+        }
+        bench.take_news(&ctx);
+        assert_eq!(bench.transient.live.play.source, Source::Lines);
+        let counts = bench.transient.sources.view().programs.unwrap().1;
+        assert!(counts.has_writer && counts.connected == 1, "{counts:?}");
+        bench.dispatch(&ctx, SourceCommand::EndListening.into());
+        assert!(bench.transient.sources.view().programs.is_none());
+        while let Some(Ok(_)) = lines.next() {
+            // What was on its way; then the connection ends.
+        }
+    }
+
+    #[test]
+    fn a_device_that_is_not_there_is_a_notice() {
+        let ctx = egui::Context::default();
+        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        bench.dispatch(&ctx, SourceCommand::Device("/nowhere/event1".into()).into());
+        let shown = bench.transient.notices.shown();
+        assert!(
+            shown[0].text.starts_with("/nowhere/event1"),
+            "{}",
+            shown[0].text
+        );
+        bench.dispatch(&ctx, SourceCommand::List.into());
+        assert!(bench.transient.sources.view().is_known);
+    }
+}

@@ -1,0 +1,166 @@
+//! Numbers that come tick by tick and are wanted row by row: blocks of ticks, turned round in
+//! memory, beside the file that they are for.
+//!
+//! One block is held; full ones go to a file that is made when the first is full and removed in
+//! any case. Every number is written once and read once.
+
+use std::fs::File;
+use std::io::{BufWriter, Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use super::SinkError;
+use crate::files::Staged;
+
+/// Ticks in a block: 26 s.
+const BLOCK_TICKS: usize = 1024;
+const NUMBER_BYTES: usize = 4;
+
+/// Ticks of `n_rows` numbers.
+#[derive(Debug)]
+pub(super) struct Spool {
+    n_rows: usize,
+    /// The block that is filled, tick by tick.
+    ticks: Vec<f32>,
+    place: PathBuf,
+    file: Option<(Staged, BufWriter<File>)>,
+    n_blocks: u64,
+    bytes: Vec<u8>,
+}
+
+impl Spool {
+    /// A spool beside `path`, in the folder for temporary files where that is no ordinary file.
+    pub(super) fn beside(path: &Path, n_rows: usize) -> Self {
+        let is_special = path.metadata().is_ok_and(|meta| !meta.is_file());
+        let place = if is_special {
+            std::env::temp_dir().join("selvedge-ticks")
+        } else {
+            path.with_added_extension("ticks")
+        };
+        Self {
+            n_rows,
+            ticks: Vec::with_capacity(BLOCK_TICKS * n_rows),
+            place,
+            file: None,
+            n_blocks: 0,
+            bytes: Vec::new(),
+        }
+    }
+
+    /// Adds the next number of this tick.
+    pub(super) fn push(&mut self, number: f32) {
+        self.ticks.push(number);
+    }
+
+    /// The tick is whole.
+    pub(super) fn end_tick(&mut self) -> Result<(), SinkError> {
+        if self.ticks.len() >= BLOCK_TICKS * self.n_rows {
+            self.put_away()?;
+        }
+        Ok(())
+    }
+
+    /// Gives `take` a row's numbers of all ticks, and returns the last; 0 without any.
+    pub(super) fn visit(
+        &mut self,
+        row: usize,
+        take: &mut dyn FnMut(f32) -> Result<(), SinkError>,
+    ) -> Result<f32, SinkError> {
+        let mut last = 0.0;
+        for block in 0..self.n_blocks {
+            self.fetch(block, row)?;
+            for bytes in self.bytes.chunks_exact(NUMBER_BYTES) {
+                last = bytes.try_into().map_or(0.0, f32::from_le_bytes);
+                take(last)?;
+            }
+        }
+        for tick in self.ticks.chunks_exact(self.n_rows) {
+            last = tick.get(row).copied().unwrap_or_default();
+            take(last)?;
+        }
+        Ok(last)
+    }
+
+    /// Turns the block round and writes it.
+    fn put_away(&mut self) -> Result<(), SinkError> {
+        self.bytes.clear();
+        for row in 0..self.n_rows {
+            for tick in self.ticks.chunks_exact(self.n_rows) {
+                let number = tick.get(row).copied().unwrap_or_default();
+                self.bytes.extend(number.to_le_bytes());
+            }
+        }
+        self.ticks.clear();
+        if self.file.is_none() {
+            let staged = Staged::new(&self.place);
+            let out = staged.create().map_err(SinkError::place(&self.place))?;
+            self.file = Some((staged, out));
+        }
+        if let Some((_, out)) = &mut self.file {
+            let written = out.write_all(&self.bytes).and_then(|()| out.flush());
+            written.map_err(SinkError::write(&self.place))?;
+        }
+        self.n_blocks += 1;
+        Ok(())
+    }
+
+    /// Reads a row's numbers of a block.
+    fn fetch(&mut self, block: u64, row: usize) -> Result<(), SinkError> {
+        let row_bytes = BLOCK_TICKS * NUMBER_BYTES;
+        let at = block * (self.n_rows * row_bytes) as u64 + (row * row_bytes) as u64;
+        self.bytes.resize(row_bytes, 0);
+        let Some((_, out)) = &mut self.file else {
+            return Ok(());
+        };
+        let mut file = out.get_ref();
+        let read = file.seek(SeekFrom::Start(at));
+        read.and_then(|_| file.read_exact(&mut self.bytes))
+            .map_err(SinkError::write(&self.place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_back_whole_over_many_blocks_and_nothing_is_left() {
+        let path = std::env::temp_dir().join(format!("selvedge-spool-{}.x", std::process::id()));
+        let mut spool = Spool::beside(&path, 3);
+        let n_ticks = 2 * BLOCK_TICKS + 7;
+        for tick in 0..n_ticks {
+            for row in 0..3 {
+                spool.push((10 * tick + row) as f32);
+            }
+            spool.end_tick().unwrap();
+        }
+        let kept = spool.ticks.len();
+        assert_eq!((kept, spool.n_blocks), (21, 2), "memory holds one block");
+        for row in 0..3 {
+            let mut numbers = Vec::new();
+            let last = spool.visit(row, &mut |number| {
+                numbers.push(number);
+                Ok(())
+            });
+            let expected: Vec<f32> = (0..n_ticks).map(|tick| (10 * tick + row) as f32).collect();
+            assert_eq!(numbers, expected);
+            assert_eq!(last.unwrap(), expected[n_ticks - 1]);
+        }
+        let beside = |spool: &Spool| {
+            let folder = spool.place.parent().unwrap();
+            let name = spool
+                .place
+                .file_name()
+                .unwrap()
+                .to_string_lossy()
+                .into_owned();
+            let entries = folder.read_dir().unwrap().flatten();
+            entries
+                .filter(|e| e.file_name().to_string_lossy().starts_with(&name))
+                .count()
+        };
+        assert_eq!(beside(&spool), 1);
+        let place = Spool::beside(&path, 3);
+        drop(spool);
+        assert_eq!(beside(&place), 0);
+    }
+}

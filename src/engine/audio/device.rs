@@ -1,0 +1,238 @@
+//! Sound cards through the system: which there are, and one that plays. The one home of `cpal`.
+
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use cpal::traits::{DeviceTrait as _, HostTrait as _, StreamTrait as _};
+use cpal::{Device, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
+
+use super::wave::{Wave, WaveFrames, wave};
+use super::{AudioEntry, AudioError};
+use crate::bridge::ArrayProfile;
+
+/// The rate that is taken where a card offers it: whole samples a tick and a period.
+const BEST_RATE_HZ: u32 = 48_000;
+const SLOWEST_HZ: u32 = 8_000;
+const FASTEST_HZ: u32 = 192_000;
+/// Formats that we write, best first.
+const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
+/// Samples that are made at once, for formats that are not ours.
+const MOST_AT_ONCE: usize = 4096;
+
+/// A sound card that plays until it is dropped.
+pub struct AudioOutput {
+    name: String,
+    frames: WaveFrames,
+    failures: Receiver<String>,
+    // Ends the sound when dropped.
+    _stream: Stream,
+}
+
+impl std::fmt::Debug for AudioOutput {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("AudioOutput")
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The sound cards that take samples of a kind that we make.
+///
+/// # Errors
+/// The system gives no list.
+pub fn audio_outputs() -> Result<Vec<AudioEntry>, AudioError> {
+    let entry = |device: &Device| {
+        let configs = device.supported_output_configs().ok()?;
+        let usable = configs.filter(|config| FORMATS.contains(&config.sample_format()));
+        let n_channels = usable.map(|config| config.channels()).max()?;
+        let name = name_of(device);
+        Some(AudioEntry { name, n_channels })
+    };
+    Ok(devices()?.iter().filter_map(entry).collect())
+}
+
+impl AudioOutput {
+    /// Opens the card of this name, or the only one whose name holds it, for `n_contactors`
+    /// contactors of arrays like `profile`. The thread that calls is woken at every tick.
+    ///
+    /// # Errors
+    /// There is no such card, it has too few channels, or the system refuses.
+    pub fn open(
+        name: &str,
+        profile: &ArrayProfile,
+        n_contactors: usize,
+    ) -> Result<Self, AudioError> {
+        let device = find(name)?;
+        let name = name_of(&device);
+        let (config, format) = config_of(&device, &name, n_contactors)?;
+        let refused = |what: String| AudioError::System {
+            name: name.clone(),
+            what,
+        };
+        let maker = thread::current();
+        let (frames, wave) = wave(config.sample_rate, (profile, n_contactors), maker)
+            .map_err(|error| refused(error.to_string()))?;
+        let (sender, failures) = sync_channel(1);
+        let stream = match format {
+            SampleFormat::I32 => build::<i32>(&device, config, wave, sender),
+            SampleFormat::I16 => build::<i16>(&device, config, wave, sender),
+            _ => build::<f32>(&device, config, wave, sender),
+        };
+        let stream = stream.map_err(|error| refused(error.to_string()))?;
+        stream.play().map_err(|error| refused(error.to_string()))?;
+        Ok(Self {
+            name,
+            frames,
+            failures,
+            _stream: stream,
+        })
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether it wants another frame.
+    pub fn wants_frame(&self) -> bool {
+        self.frames.wants_frame()
+    }
+
+    /// Plays a frame: amplitudes [A40, A320] of every contactor, µm.
+    pub fn push(&mut self, amplitudes_um: &[[f32; 2]]) {
+        self.frames.push(amplitudes_um);
+    }
+
+    /// Ramps to silence.
+    pub fn stop(&self) {
+        self.frames.stop();
+    }
+
+    /// Whether it is silent.
+    pub fn is_silent(&self) -> bool {
+        self.frames.is_silent()
+    }
+
+    /// Ticks that began without a new frame.
+    pub fn n_missed(&self) -> u64 {
+        self.frames.n_missed()
+    }
+
+    /// What broke it, if something did.
+    pub fn failure(&self) -> Option<AudioError> {
+        let what = self.failures.try_recv().ok()?;
+        Some(AudioError::System {
+            name: self.name.clone(),
+            what,
+        })
+    }
+}
+
+fn devices() -> Result<Vec<Device>, AudioError> {
+    let refused = |error: cpal::Error| AudioError::System {
+        name: "audio".to_owned(),
+        what: error.to_string(),
+    };
+    let found = cpal::default_host().output_devices().map_err(refused)?;
+    Ok(found.collect())
+}
+
+fn name_of(device: &Device) -> String {
+    let described = device.description();
+    described.map_or_else(|_| String::new(), |words| words.name().to_owned())
+}
+
+fn find(name: &str) -> Result<Device, AudioError> {
+    let wanted = name.to_lowercase();
+    let devices = devices()?;
+    if let Some(exact) = devices.iter().find(|device| name_of(device) == name) {
+        return Ok(exact.clone());
+    }
+    let mut like = devices
+        .into_iter()
+        .filter(|device| name_of(device).to_lowercase().contains(&wanted));
+    let unknown = |what| AudioError::Unknown {
+        what,
+        name: name.to_owned(),
+    };
+    let found = like.next().ok_or_else(|| unknown("no"))?;
+    match like.next() {
+        None => Ok(found),
+        Some(_) => Err(unknown("more than one")),
+    }
+}
+
+/// The fewest channels that suffice, in the best format, at 48 kHz or the rate nearest to it.
+fn config_of(
+    device: &Device,
+    name: &str,
+    n_contactors: usize,
+) -> Result<(StreamConfig, SampleFormat), AudioError> {
+    let refused = || AudioError::Channels {
+        name: name.to_owned(),
+        n_channels: n_contactors,
+    };
+    let configs = device
+        .supported_output_configs()
+        .map_err(|_closed| refused())?;
+    let usable = configs.filter_map(|config| {
+        let rank = FORMATS
+            .iter()
+            .position(|format| *format == config.sample_format())?;
+        let rate_hz = BEST_RATE_HZ.clamp(config.min_sample_rate(), config.max_sample_rate());
+        let is_usable = usize::from(config.channels()) >= n_contactors
+            && (SLOWEST_HZ..=FASTEST_HZ).contains(&rate_hz);
+        is_usable.then_some((config, rank, rate_hz))
+    });
+    let (config, _, rate_hz) = usable
+        .min_by_key(|(config, rank, rate_hz)| {
+            (rate_hz.abs_diff(BEST_RATE_HZ), config.channels(), *rank)
+        })
+        .ok_or_else(refused)?;
+    let format = config.sample_format();
+    Ok((config.with_sample_rate(rate_hz).config(), format))
+}
+
+fn build<T: SizedSample + FromSample<f32>>(
+    device: &Device,
+    config: StreamConfig,
+    mut wave: Wave,
+    failures: SyncSender<String>,
+) -> Result<Stream, cpal::Error> {
+    let n_outputs = usize::from(config.channels);
+    let n_at_once = MOST_AT_ONCE.max(n_outputs) / n_outputs * n_outputs;
+    let mut block = vec![0.0; n_at_once];
+    let play = move |out: &mut [T], _: &cpal::OutputCallbackInfo| {
+        for part in out.chunks_mut(n_at_once) {
+            let samples = &mut block[..part.len()];
+            wave.fill(samples, n_outputs);
+            for (slot, sample) in part.iter_mut().zip(samples) {
+                *slot = T::from_sample(*sample);
+            }
+        }
+    };
+    let fail = move |error: cpal::Error| {
+        // A missed deadline of the card is heard and counted elsewhere; the rest ends the sound.
+        if error.kind() != cpal::ErrorKind::Xrun {
+            drop(failures.try_send(error.to_string()));
+        }
+    };
+    device.build_output_stream(config, play, fail, None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_card_that_is_not_there_is_refused_by_name() {
+        let profile = ArrayProfile::default();
+        let opened = AudioOutput::open("no card of this name", &profile, 24);
+        let text = opened.unwrap_err().to_string();
+        assert!(
+            text.contains("no card of this name") || text.contains("audio"),
+            "{text}"
+        );
+        assert_eq!(text.lines().count(), 1, "{text}");
+    }
+}

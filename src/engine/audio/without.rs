@@ -1,0 +1,67 @@
+//! A program without audio: it says so.
+
+use super::{AudioEntry, AudioError};
+use crate::bridge::ArrayProfile;
+
+/// A sound card that plays; there is none in this program.
+#[derive(Debug)]
+pub struct AudioOutput {
+    never: std::convert::Infallible,
+}
+
+/// The sound cards.
+///
+/// # Errors
+/// Always: there is no audio in this program.
+pub fn audio_outputs() -> Result<Vec<AudioEntry>, AudioError> {
+    Err(AudioError::Absent)
+}
+
+impl AudioOutput {
+    /// Opens none.
+    ///
+    /// # Errors
+    /// Always: there is no audio in this program.
+    pub fn open(
+        _name: &str,
+        _profile: &ArrayProfile,
+        _n_contactors: usize,
+    ) -> Result<Self, AudioError> {
+        Err(AudioError::Absent)
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        match self.never {}
+    }
+
+    /// Whether it wants another frame.
+    pub fn wants_frame(&self) -> bool {
+        match self.never {}
+    }
+
+    /// Plays a frame: amplitudes [A40, A320] of every contactor, µm.
+    pub fn push(&mut self, _amplitudes_um: &[[f32; 2]]) {
+        match self.never {}
+    }
+
+    /// Ramps to silence.
+    pub fn stop(&self) {
+        match self.never {}
+    }
+
+    /// Whether it is silent.
+    pub fn is_silent(&self) -> bool {
+        match self.never {}
+    }
+
+    /// Ticks that began without a new frame.
+    pub fn n_missed(&self) -> u64 {
+        match self.never {}
+    }
+
+    /// What broke it, if something did.
+    pub fn failure(&self) -> Option<AudioError> {
+        match self.never {}
+    }
+}
