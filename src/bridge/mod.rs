@@ -1,4 +1,5 @@
-//! The serial bridge to a tactile array: protocol, safety, device emulators, and the WAV sink.
+//! The serial bridge to a tactile array: protocol, safety, array profiles, device emulators, and
+//! files for other programs.
 //!
 //! Amplitudes in µm come in; a device that synthesizes its own carriers hears of them once per 25
 //! ms tick. The device paces: it emits STATUS at every tick, the host answers with one FRAME for a
@@ -9,12 +10,12 @@
 //! amplitudes ─ codes ─ host ─ message ─ framing ─ port     (µm → u16, then the session)
 //!                                                  ║       (serial, pty or in process)
 //! output ─ device ─ message ─ framing ─────────── port     (hold, ramp, STOP)
-//!      └── plant                                            (what contactors would do, if looked at)
+//!      └── plant                                            (what contactors would do)
 //! ```
 //!
 //! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in
 //! virtual time. `Bridge` puts a reader and a writer thread around the former, the emulators put a
-//! clock around the latter.
+//! clock around the latter, and `wire` seeded faults between both.
 //!
 //! # Invariants
 //! - No textile, no scene, no rendering: this floor knows amplitudes per contactor and nothing of

@@ -184,7 +184,7 @@ mod tests {
         let path = folder.join("a.wav");
         let mut parts = WavParts::create(&path, SPEC).unwrap();
         parts.write(&[0.5; 8]).unwrap();
-        assert_eq!(parts.finish().unwrap(), [path.clone()]);
+        assert_eq!(parts.finish().unwrap(), std::slice::from_ref(&path));
         assert_eq!(samples(&path).len(), 8);
         fs::remove_dir_all(&folder).unwrap();
     }

@@ -244,7 +244,7 @@ mod tests {
                 writer.take(tick, &[[25.0, 10.0]; 24]).unwrap();
             }
             let written = unheard(|progress| writer.finish(progress)).unwrap();
-            assert_eq!(written.paths, [path.clone()]);
+            assert_eq!(written.paths, std::slice::from_ref(&path));
             assert!(
                 written.peak.is_some_and(|peak| (0.6..0.71).contains(&peak)),
                 "{written:?}"

@@ -3,6 +3,7 @@
 //! It belongs to the window or to a command line. It prepares what commands need, and drops what
 //! they replaced; the engine's thread does neither.
 
+mod device;
 mod scene;
 
 use std::fmt;
@@ -22,7 +23,7 @@ use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayProfile, Bridge, PlantWatch, SessionLog, Target};
+use crate::bridge::{ArrayProfile, PlantWatch, SessionLog};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;
@@ -298,11 +299,6 @@ impl Engine {
         &self.profile
     }
 
-    /// A look at the contactors of the emulator that was connected last; `None` of other devices.
-    pub fn plant(&mut self) -> Option<&mut PlantWatch> {
-        self.plant.as_mut()
-    }
-
     /// Whether the engine's thread is still there; an engine without one always is.
     pub fn is_running(&self) -> bool {
         match &self.body {
@@ -316,16 +312,6 @@ impl Engine {
         self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
-    }
-
-    fn connect_order(&mut self, target: Target) -> Order {
-        let switch = self.switch.clone();
-        let wake = move || switch.wake_engine();
-        let mut bridge = Bridge::open(target, self.profile.clone(), self.n_felt, wake);
-        self.plant = bridge.take_plant();
-        self.log(&mut bridge);
-        self.switch.set_device(bridge.stop_handle());
-        Order::Connect(Box::new(bridge))
     }
 
     fn recording_order(&mut self) -> Order {

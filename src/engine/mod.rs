@@ -28,7 +28,6 @@ mod glimpse;
 mod handle;
 mod input;
 mod link;
-mod logged;
 mod meters;
 mod order;
 mod pacer;

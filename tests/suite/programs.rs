@@ -35,19 +35,22 @@ fn a_program_says_positions_and_hears_amplitudes_while_the_device_plays_them() {
     assert_eq!(header.split(',').count(), 5 + 48, "{header}");
 
     // Back and forth over the textile until enough is felt where we are.
-    let mover = thread::spawn(move || {
-        let start = Instant::now();
-        for _ in 0..8000 {
-            // A clock that runs slower than ours would make every position old.
-            let t_s = start.elapsed().as_secs_f64();
-            let x_mm = 30.0 + 20.0 * (10.0 * t_s).sin();
-            let sent = writeln!(program, "{t_s},{x_mm},40");
-            if sent.is_err() {
-                return;
+    let mover = thread::Builder::new()
+        .name("mover".to_owned())
+        .spawn(move || {
+            let start = Instant::now();
+            for _ in 0..8000 {
+                // A clock that runs slower than ours would make every position old.
+                let t_s = start.elapsed().as_secs_f64();
+                let x_mm = 30.0 + 20.0 * (10.0 * t_s).sin();
+                let sent = writeln!(program, "{t_s},{x_mm},40");
+                if sent.is_err() {
+                    return;
+                }
+                thread::sleep(Duration::from_millis(5));
             }
-            thread::sleep(Duration::from_millis(5));
-        }
-    });
+        });
+    let mover = mover.unwrap();
     let deadline = Instant::now() + Duration::from_secs(30);
     let mut n_felt = 0;
     while n_felt < 40 {

@@ -50,16 +50,20 @@ fn one_run_writes_every_kind_of_file_with_the_same_amplitudes() {
             }
         }
     }
+    check_codes(&lab.read("f.csv"), [&low_um, &high_um]);
+}
 
-    let text = lab.read("f.csv");
+/// Codes are the amplitudes of a table, as a share of 50 µm.
+fn check_codes(text: &str, [low_um, high_um]: [&[f64]; 2]) {
+    let n_ticks = low_um.len() / 24;
     assert!(text.starts_with("# program = selvedge"), "{text}");
     let table: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
-    assert_eq!(table.len(), 1 + n_ticks);
+    assert_eq!(table.len(), 1 + n_ticks, "a header and a row a tick");
     let last: Vec<f64> = table[n_ticks]
         .split(',')
         .map(|n| n.parse().unwrap())
         .collect();
-    assert_eq!(last.len(), 2 + 48);
+    assert_eq!(last.len(), 2 + 48, "tick, time and two codes a contactor");
     for contactor in 0..24 {
         let row = 24 * (n_ticks - 1) + contactor;
         let [low, high] = [low_um[row], high_um[row]].map(|um| 65535.0 * um / 50.0);

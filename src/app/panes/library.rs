@@ -190,7 +190,8 @@ fn answer_item(
     response
         .on_hover_cursor(egui::CursorIcon::Grab)
         .on_hover_text(format!(
-            "{}\n{}{level}\nDrag it into the workspace, or double click; more with the right button",
+            "{}\n{}{level}\nDrag it into the workspace, or double click; more with the right \
+             button",
             item.name, item.kind
         ));
 }

@@ -33,6 +33,7 @@ struct Avatar {
 struct Sync {}
 
 #[derive(Deserialize)]
+#[expect(clippy::struct_field_names, reason = "the format's own names")]
 struct Perception {
     id: i32,
     avatar_id: i32,
@@ -62,6 +63,7 @@ struct ReadBand {
 }
 
 #[derive(Deserialize)]
+#[expect(clippy::struct_field_names, reason = "the format's own names")]
 struct Effect {
     effect_type: String,
     position: i32,
@@ -176,9 +178,9 @@ fn every_amplitude_of_24_contactors_comes_back() {
     for (tick, contactor) in [(0, 0), (1023, 3), (1024, 23), (1499, 7)] {
         let expected = of(tick, contactor);
         let at = |band| [usize::from(contactor), band, usize::from(tick)];
-        for band in 0..2 {
+        for (band, expected) in expected.into_iter().enumerate() {
             let found = amplitude_um(&read, at(band));
-            assert!((found - f64::from(expected[band])).abs() < 1e-5, "{found}");
+            assert!((found - f64::from(expected)).abs() < 1e-5, "{found}");
         }
     }
     let keyframes = &read.perceptions[0].channels[0].bands[0].effects[0].keyframes;

@@ -371,7 +371,7 @@ mod tests {
         line.run(2000, |_| 2 * MS);
         let start = line.now;
         let due = line.latching.due(start, start + MS);
-        assert_eq!(due, start + TICK - line.latching.lead());
+        assert_eq!(due + line.latching.lead(), start + TICK);
         let slow = start + 22 * MS;
         assert_eq!(line.latching.due(start, slow), slow);
         line.latching.forget();

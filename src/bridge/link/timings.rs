@@ -240,7 +240,9 @@ mod tests {
     fn bars_hold_every_duration_between_their_edges() {
         let histogram = Histogram::new();
         let durations = [3, 3, 24_990, 25_010, 25_400].map(Duration::from_micros);
-        durations.iter().for_each(|d| histogram.record(*d));
+        for duration in durations {
+            histogram.record(duration);
+        }
         let distribution = histogram.distribution();
         let bars: Vec<_> = distribution.bars().collect();
         assert_eq!(bars.iter().map(|bar| bar.count).sum::<u32>(), 5);

@@ -186,7 +186,7 @@ mod tests {
             monotonic: Instant::now(),
         };
         let entry = Entry {
-            at: epoch.monotonic + Duration::from_micros(1_500_000),
+            at: epoch.monotonic + Duration::from_millis(1500),
             tick: Some(60),
             device_us: Some(1_499_000),
             note,

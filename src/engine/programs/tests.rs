@@ -40,7 +40,7 @@ fn places(input: &mut dyn PointerInput, n: usize) -> Vec<f64> {
     let mut x_mm = Vec::new();
     eventually("places", || {
         input.poll(Instant::now(), &mut |sample| {
-            x_mm.push(sample.position.x_mm)
+            x_mm.push(sample.position.x_mm);
         });
         x_mm.len() >= n
     });

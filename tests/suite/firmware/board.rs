@@ -115,8 +115,13 @@ fn an_emulated_board_passes_the_self_test_and_plays_a_stroke() {
     let Some(board) = Board::start(&lab, "the firmware on an emulated board") else {
         return;
     };
-    let mut tries =
-        (0..N_TRIES).map(|_| self_test(Target::Port(board.port.clone()), ArrayProfile::default()));
+    let mut tries = (0..N_TRIES).map(|_| {
+        self_test(
+            Target::Port(board.port.clone()),
+            ArrayProfile::default(),
+            None,
+        )
+    });
     let report = tries.find(SelfTestReport::passed).unwrap();
     let caps = report.caps.unwrap();
     assert_eq!((caps.name(), caps.n_ch), ("reference firmware", 24));

@@ -10,6 +10,7 @@ use crate::app::arrays::{Wizard, WizardCommand};
 use crate::app::command::{ArrayCommand, Command, DeviceCommand, ShowCommand};
 use crate::app::panes::Wishes;
 use crate::app::ports::PortsView;
+use crate::app::sources::SourcesView;
 use crate::app::theme;
 use crate::app::view::{BridgePhase, BridgeView, Dot, Live};
 use crate::bridge::wiring::Answer;
@@ -81,6 +82,9 @@ impl Stage {
                 wizard: self.wizard.as_ref(),
                 folder: None,
             },
+            sources: &SourcesView::default(),
+            plant: None,
+            stops_on_focus_loss: false,
         };
         let mut typed = BridgeTyped {
             port: &mut self.port,
