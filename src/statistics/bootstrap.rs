@@ -62,7 +62,10 @@ pub fn bootstrap(
     }
     let n_undefined = how.n_resamples - values.len();
     if 2 * values.len() < how.n_resamples {
-        let reason = format!("undefined in {n_undefined} of {} resamples", how.n_resamples);
+        let reason = format!(
+            "undefined in {n_undefined} of {} resamples",
+            how.n_resamples
+        );
         return Err(Undefined::because(reason));
     }
     let (_, deviations) = centred(&values);
@@ -146,11 +149,21 @@ mod tests {
         let found = bootstrap(200, mean_of(&values), HOW)?;
         let expected = summary.interval(0.95)?;
         for interval in [found.percentile, found.bca.clone()?] {
-            assert!((interval.low - expected.low).abs() < 0.2 * summary.se, "{found:?}");
-            assert!((interval.high - expected.high).abs() < 0.2 * summary.se, "{found:?}");
+            assert!(
+                (interval.low - expected.low).abs() < 0.2 * summary.se,
+                "{found:?}"
+            );
+            assert!(
+                (interval.high - expected.high).abs() < 0.2 * summary.se,
+                "{found:?}"
+            );
         }
         assert!((found.se / summary.se - 1.0).abs() < 0.05, "{}", found.se);
-        assert_eq!(found, bootstrap(200, mean_of(&values), HOW)?, "the seed decides");
+        assert_eq!(
+            found,
+            bootstrap(200, mean_of(&values), HOW)?,
+            "the seed decides"
+        );
         Ok(())
     }
 

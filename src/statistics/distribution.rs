@@ -1,7 +1,7 @@
 //! Tails and quantiles of the distributions that tests refer to, each tail computed as itself and
 //! never as one minus the other, so that small p values keep their digits.
 //!
-//! Student's t, Fisher's F and the binomial are regularised incomplete beta functions I_x(a, b),
+//! Student's t, Fisher's F and the binomial are regularised incomplete beta functions,
 //! chi-squared is an incomplete gamma function (Abramowitz & Stegun 26.5.24, 26.6.2, 26.7.1,
 //! 26.4.19). Two of them go to these functions directly: the argument of statrs' `sf` of F is
 //! itself a one minus, and its `erfc` has ten digits where the incomplete gamma function has

@@ -61,7 +61,10 @@ mod tests {
             for end in [interval.low, interval.high] {
                 let n = trials as f64;
                 let score = (hits as f64 / n - end) / (end * (1.0 - end) / n).sqrt();
-                assert!((score.abs() - 1.959_963_984_540_054).abs() < 1e-10, "{score}");
+                assert!(
+                    (score.abs() - 1.959_963_984_540_054).abs() < 1e-10,
+                    "{score}"
+                );
             }
         }
         Ok(())
@@ -88,8 +91,14 @@ mod tests {
         // atanh 0.55 = ½ ln(1.55/0.45); se = 1/√13.
         let middle = 0.5 * (1.55_f64 / 0.45).ln();
         let half = 1.959_963_984_540_054 / 13.0_f64.sqrt();
-        assert!((interval.low - (middle - half).tanh()).abs() < 1e-14, "{interval:?}");
-        assert!((interval.high - (middle + half).tanh()).abs() < 1e-14, "{interval:?}");
+        assert!(
+            (interval.low - (middle - half).tanh()).abs() < 1e-14,
+            "{interval:?}"
+        );
+        assert!(
+            (interval.high - (middle + half).tanh()).abs() < 1e-14,
+            "{interval:?}"
+        );
         assert!(fisher_z(1.0, 16, 0.95).is_err(), "infinite z");
         assert!(fisher_z(0.5, 3, 0.95).is_err(), "no error");
         Ok(())

@@ -10,24 +10,34 @@
 
 mod binomial;
 mod bootstrap;
+mod correlation;
+pub mod detection;
 mod distribution;
+mod equivalence;
 mod interval;
 mod outcome;
+mod permutation;
 mod rank;
 mod summary;
 mod t_test;
+pub mod variance;
+mod wilcoxon;
 
 pub use binomial::exact_binomial;
 pub use bootstrap::{Bootstrap, Resampling, bootstrap};
+pub use correlation::{pearson, pearson_r, spearman};
 pub use distribution::{
     binomial_at_least, binomial_at_most, binomial_mass, chi_squared_upper, f_upper, normal_density,
     normal_lower, normal_quantile, normal_upper, t_quantile_upper, t_two_sided, t_upper,
 };
+pub use equivalence::{Equivalence, power_of_t, power_of_tost, tost};
 pub use interval::{fisher_z, wilson};
 pub use outcome::{Freedom, Interval, Named, Outcome, Sides};
+pub use permutation::sign_flip;
 pub use rank::Ranks;
 pub use summary::{Summary, mean};
 pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
+pub use wilcoxon::{wilcoxon_pairs, wilcoxon_signed_rank};
 
 use thiserror::Error;
 

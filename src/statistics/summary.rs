@@ -154,8 +154,14 @@ mod tests {
     fn the_spread_of_few_values_is_that_by_hand() -> Computed<()> {
         let summary = Summary::of(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0])?;
         assert_eq!(summary.mean, 5.0);
-        assert!((summary.sd - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15, "n − 1");
-        assert!((summary.se - summary.sd / 8.0_f64.sqrt()).abs() < 1e-15, "/√n");
+        assert!(
+            (summary.sd - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15,
+            "n − 1"
+        );
+        assert!(
+            (summary.se - summary.sd / 8.0_f64.sqrt()).abs() < 1e-15,
+            "/√n"
+        );
         let interval = summary.interval(0.95)?;
         let half = 2.364_624_251_592_785 * summary.se;
         assert!((interval.high - 5.0 - half).abs() < 1e-12, "{interval:?}");
@@ -177,7 +183,10 @@ mod tests {
         let rounded = Summary::of_differences(&[0.3, 0.4, 1.1], &[0.2, 0.3, 1.0])?;
         assert_eq!(rounded.sd, 0.0);
         let refused = rounded.interval(0.95).map_err(|e| e.reason);
-        assert!(refused.is_err_and(|r| r.contains("all 3 values equal")), "said");
+        assert!(
+            refused.is_err_and(|r| r.contains("all 3 values equal")),
+            "said"
+        );
         Ok(())
     }
 
@@ -188,7 +197,10 @@ mod tests {
         assert_eq!(reason(&[1.0]), Err("one value alone".to_owned()));
         let broken = reason(&[1.0, f64::NAN, 2.0]);
         assert_eq!(broken, Err("value 2 of 3 is not finite".to_owned()));
-        assert!(Summary::of_differences(&[1.0], &[1.0, 2.0]).is_err(), "pairs");
+        assert!(
+            Summary::of_differences(&[1.0], &[1.0, 2.0]).is_err(),
+            "pairs"
+        );
         assert!(Summary::of_mean_and_se(8, 41.3, -1.0).is_err(), "negative");
     }
 }

@@ -3,7 +3,7 @@
 //! t = (mean − μ₀)/SE with n − 1 degrees of freedom (Student 1908); for two samples the pooled
 //! variance with n₁ + n₂ − 2, or each sample's own with the degrees of Welch (1947) and
 //! Satterthwaite (1946). Effects are Cohen's d (1988): of one sample by its own standard
-//! deviation (d_z of pairs), of two by the pooled one, for Welch by the root of the mean variance.
+//! deviation (`d_z` of pairs), of two by the pooled one, for Welch by the root of the mean variance.
 
 use super::distribution::{t_quantile_upper, t_two_sided};
 use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Summary, Undefined};
@@ -138,7 +138,10 @@ mod tests {
     use super::*;
 
     fn assert_about(found: f64, printed: f64, half_digit: f64) {
-        assert!((found - printed).abs() <= half_digit, "{found} for {printed}");
+        assert!(
+            (found - printed).abs() <= half_digit,
+            "{found} for {printed}"
+        );
     }
 
     #[test]
@@ -171,19 +174,33 @@ mod tests {
         let (a, b) = ([5.0, 7.0, 9.0, 4.0], [4.0, 4.0, 7.0, 4.0]);
         // Differences 1, 3, 2, 0: mean 1.5, sd √(5/3), t = 1.5/√(5/12).
         let outcome = paired_t(&a, &b)?;
-        assert_about(outcome.statistic.value, 1.5 / (5.0_f64 / 12.0).sqrt(), 1e-13);
+        assert_about(
+            outcome.statistic.value,
+            1.5 / (5.0_f64 / 12.0).sqrt(),
+            1e-13,
+        );
         let effect = outcome.effect.map(|e| e.value)?;
         assert_about(effect, 1.5 / (5.0_f64 / 3.0).sqrt(), 1e-13);
-        assert!(outcome.interval?.holds(0.0) == (outcome.p >= 0.05), "they agree");
+        assert!(
+            outcome.interval?.holds(0.0) == (outcome.p >= 0.05),
+            "they agree"
+        );
         Ok(())
     }
 
     #[test]
     fn samples_of_equal_size_and_spread_make_both_tests_the_same() -> Computed<()> {
-        let (a, b) = (Summary::of(&[1.0, 2.0, 3.0])?, Summary::of(&[4.0, 5.0, 6.0])?);
+        let (a, b) = (
+            Summary::of(&[1.0, 2.0, 3.0])?,
+            Summary::of(&[4.0, 5.0, 6.0])?,
+        );
         let both = two_sample_t(&a, &b)?;
         assert_about(both.welch.p, both.student.p, 1e-14);
-        assert_about(both.student.statistic.value, -3.0 / (2.0_f64 / 3.0).sqrt(), 1e-13);
+        assert_about(
+            both.student.statistic.value,
+            -3.0 / (2.0_f64 / 3.0).sqrt(),
+            1e-13,
+        );
         Ok(())
     }
 
@@ -193,7 +210,10 @@ mod tests {
         assert!(one_sample_t(&same, 25.0).is_err(), "0/0");
         assert!(one_sample_t(&same, 20.0).is_err(), "5/0");
         assert!(two_sample_t(&same, &same).is_err(), "0/0");
-        assert!(paired_t(&[0.3, 0.4], &[0.2, 0.3]).is_err(), "rounding alone");
+        assert!(
+            paired_t(&[0.3, 0.4], &[0.2, 0.3]).is_err(),
+            "rounding alone"
+        );
         Ok(())
     }
 }
