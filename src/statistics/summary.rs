@@ -3,7 +3,7 @@
 use super::distribution::t_quantile_upper;
 use super::{Computed, Interval, Undefined};
 
-/// Rounding of a sum of squares, as a multiple of the squared spacing of numbers at the largest.
+/// Rounding of a difference, as a multiple of the larger number.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Size, mean and spread of a sample.
@@ -141,9 +141,14 @@ pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, v| v.abs().max(most))
 }
 
+/// Rounding of a difference of numbers as large as `scale`.
+pub(super) fn rounding(scale: f64) -> f64 {
+    ROUNDING * scale
+}
+
 /// Whether a sum of `n` squares is no more than rounding of numbers as large as `scale`.
 pub(super) fn is_rounding(sum: f64, n: usize, scale: f64) -> bool {
-    sum <= n as f64 * (ROUNDING * scale).powi(2)
+    sum <= n as f64 * rounding(scale).powi(2)
 }
 
 #[cfg(test)]

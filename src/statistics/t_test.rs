@@ -136,6 +136,7 @@ impl Difference {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::Random;
 
     fn assert_about(found: f64, printed: f64, half_digit: f64) {
         assert!(
@@ -201,6 +202,27 @@ mod tests {
             -3.0 / (2.0_f64 / 3.0).sqrt(),
             1e-13,
         );
+        Ok(())
+    }
+
+    #[test]
+    fn without_a_difference_one_study_of_twenty_finds_one() -> Computed<()> {
+        let mut random = Random::new(17);
+        let mut sample = |spread: f64| {
+            let values: Vec<f64> = (0..8).map(|_| spread * random.normal()).collect();
+            Summary::of(&values)
+        };
+        let (mut one, mut welch, mut holds) = (0, 0, 0);
+        for _ in 0..4000 {
+            let (a, b) = (sample(1.0)?, sample(3.0)?);
+            one += i32::from(one_sample_t(&a, 0.0)?.p < 0.05);
+            welch += i32::from(two_sample_t(&a, &b)?.welch.p < 0.05);
+            holds += i32::from(a.interval(0.95)?.holds(0.0));
+        }
+        for found in [one, welch, 4000 - holds] {
+            let share = f64::from(found) / 4000.0;
+            assert!((0.035..0.065).contains(&share), "{share}");
+        }
         Ok(())
     }
 

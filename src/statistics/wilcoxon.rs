@@ -4,7 +4,7 @@ use crate::numerics::median;
 
 use super::distribution::normal_upper;
 use super::rank::Ranks;
-use super::summary::{at_least, differences};
+use super::summary::{at_least, differences, largest, rounding};
 use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Undefined};
 
 /// Up to so many differences that are not zero every pattern of signs is counted.
@@ -23,20 +23,49 @@ const LEVEL: f64 = 0.95;
 /// # Errors
 /// No difference at all, values that are not finite.
 pub fn wilcoxon_signed_rank(values: &[f64], expected: f64) -> Computed<Outcome> {
-    at_least(values, 1)?;
-    let differences: Vec<f64> = values.iter().map(|v| v - expected).collect();
+    let differences = values.iter().map(|v| v - expected).collect();
+    signed_rank(differences, expected, largest(values).max(expected.abs()))
+}
+
+/// Likewise of the differences `a − b` of pairs.
+///
+/// # Errors
+/// As [`wilcoxon_signed_rank`], and different lengths.
+pub fn wilcoxon_pairs(a: &[f64], b: &[f64]) -> Computed<Outcome> {
+    signed_rank(differences(a, b)?, 0.0, largest(a).max(largest(b)))
+}
+
+/// Sizes that differ by no more than the rounding of numbers as large as `scale` become equal, and
+/// such differences 0.
+fn without_rounding(mut differences: Vec<f64>, scale: f64) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..differences.len()).collect();
+    order.sort_by(|&a, &b| differences[a].abs().total_cmp(&differences[b].abs()));
+    let mut size: f64 = 0.0;
+    for which in order {
+        let difference = differences[which];
+        if difference.abs() - size > rounding(scale) {
+            size = difference.abs();
+        }
+        differences[which] = size.copysign(difference);
+    }
+    differences
+}
+
+fn signed_rank(differences: Vec<f64>, expected: f64, scale: f64) -> Computed<Outcome> {
+    at_least(&differences, 1)?;
+    let differences = without_rounding(differences, scale);
     let kept: Vec<f64> = differences
         .iter()
         .copied()
         .filter(|d| d.abs() > 0.0)
         .collect();
     if kept.is_empty() {
-        let reason = format!("all {} values equal {expected}", values.len());
+        let reason = format!("all {} differences are zero", differences.len());
         return Err(Undefined::because(reason));
     }
     let sizes: Vec<f64> = kept.iter().map(|d| d.abs()).collect();
     let signed = SignedRanks::of(&kept, Ranks::of(&sizes));
-    let n_zero = values.len() - kept.len();
+    let n_zero = differences.len() - kept.len();
     let is_exact = kept.len() <= MOST_EXACT;
     let total = signed.total();
     Ok(Outcome {
@@ -64,14 +93,6 @@ pub fn wilcoxon_signed_rank(values: &[f64], expected: f64) -> Computed<Outcome> 
         interval: signed.interval(&differences, expected, n_zero),
         notes: notes(n_zero, signed.ranks.tie_sum > 0.0, is_exact),
     })
-}
-
-/// Likewise of the differences `a − b` of pairs.
-///
-/// # Errors
-/// As [`wilcoxon_signed_rank`], and different lengths.
-pub fn wilcoxon_pairs(a: &[f64], b: &[f64]) -> Computed<Outcome> {
-    wilcoxon_signed_rank(&differences(a, b)?, 0.0)
 }
 
 fn notes(n_zero: usize, has_ties: bool, is_exact: bool) -> Vec<String> {
@@ -251,6 +272,16 @@ mod tests {
             wilcoxon_signed_rank(&[25.0; 8], 25.0).is_err(),
             "nothing left"
         );
+        Ok(())
+    }
+
+    #[test]
+    fn rounding_breaks_no_ties_and_leaves_no_zeros() -> Computed<()> {
+        let shares = wilcoxon_pairs(&[0.3, 0.8, 0.7, 0.1 + 0.2], &[0.2, 0.7, 0.8, 0.3])?;
+        let whole = wilcoxon_pairs(&[3.0, 8.0, 7.0, 3.0], &[2.0, 7.0, 8.0, 3.0])?;
+        assert_eq!((shares.n, shares.p), (whole.n, whole.p));
+        assert_eq!(shares.statistic, whole.statistic);
+        assert_eq!(shares.notes, whole.notes);
         Ok(())
     }
 

@@ -228,6 +228,24 @@ fn complementary_answers_make_one_effect_nothing_by_nothing() -> Computed<()> {
 }
 
 #[test]
+fn without_an_effect_one_study_of_twenty_finds_one() -> Computed<()> {
+    let mut random = Random::new(5);
+    let mut table = reaction(0.0);
+    let mut n_found = [0; 3];
+    for _ in 0..2000 {
+        table.values.fill_with(|| Some(random.normal()));
+        for (count, effect) in n_found.iter_mut().zip(repeated_two_way(&table)?.effects) {
+            *count += i32::from(effect.p? < 0.05);
+        }
+    }
+    for count in n_found {
+        let share = f64::from(count) / 2000.0;
+        assert!((0.035..0.065).contains(&share), "{share}");
+    }
+    Ok(())
+}
+
+#[test]
 fn tables_that_cannot_be_analysed_say_why() {
     let reason = |table: &Crossed| repeated_two_way(table).map(|_| ()).map_err(|e| e.reason);
     let mut holes = reaction(0.0);
