@@ -3,7 +3,8 @@
 //! t = (mean − μ₀)/SE with n − 1 degrees of freedom (Student 1908); for two samples the pooled
 //! variance with n₁ + n₂ − 2, or each sample's own with the degrees of Welch (1947) and
 //! Satterthwaite (1946). Effects are Cohen's d (1988): of one sample by its own standard
-//! deviation (`d_z` of pairs), of two by the pooled one, for Welch by the root of the mean variance.
+//! deviation (`d_z` of pairs), of two by the pooled one, for Welch by the root of the mean
+//! variance.
 
 use super::distribution::{t_quantile_upper, t_two_sided};
 use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Summary, Undefined};

@@ -91,12 +91,12 @@ fn signed_rank(differences: Vec<f64>, expected: f64, scale: f64) -> Computed<Out
             value: expected + median(&mut walsh_means(&differences)),
         }),
         interval: signed.interval(&differences, expected, n_zero),
-        notes: notes(n_zero, signed.ranks.tie_sum > 0.0, is_exact),
+        notes: notes(n_zero, kept.len(), signed.ranks.tie_sum),
     })
 }
 
-fn notes(n_zero: usize, has_ties: bool, is_exact: bool) -> Vec<String> {
-    let mut notes = vec![if is_exact {
+fn notes(n_zero: usize, n_kept: usize, tie_sum: f64) -> Vec<String> {
+    let mut notes = vec![if n_kept <= MOST_EXACT {
         "exact over all patterns of signs".to_owned()
     } else {
         "normal approximation with continuity correction".to_owned()
@@ -104,7 +104,7 @@ fn notes(n_zero: usize, has_ties: bool, is_exact: bool) -> Vec<String> {
     if n_zero > 0 {
         notes.push(format!("{n_zero} differences of zero left out"));
     }
-    if has_ties {
+    if tie_sum > 0.0 {
         notes.push("equal sizes share the mean of their ranks".to_owned());
     }
     notes
