@@ -36,6 +36,8 @@ pub mod numerics;
 pub mod figure;
 pub mod files;
 
+pub mod statistics;
+
 pub mod surface;
 
 pub mod tactile;

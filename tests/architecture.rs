@@ -67,6 +67,7 @@ const HOMES: &[(&str, &str)] = &[
     ("serialport", "src/bridge/"),
     ("sha2", "src/files/"),
     ("signal_hook", "src/cli/"),
+    ("statrs", "src/statistics/"),
     ("tiff", "src/files/"),
     ("toml", "src/files/"),
     ("winit", "src/app/"),

@@ -1,0 +1,78 @@
+//! What a test found, as a table prints it: n, statistic, degrees of freedom, p, effect size,
+//! estimate with its interval, and what a reader has to know besides.
+
+use super::Computed;
+
+/// An interval that holds the true value with confidence `level`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Confidence, such as 0.95.
+    pub level: f64,
+}
+
+impl Interval {
+    /// Whether a value lies inside, ends included.
+    pub fn holds(&self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+}
+
+/// A number with the name that a table heads it by: `t`, `d_z`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Named {
+    /// Its symbol.
+    pub symbol: &'static str,
+    /// The number.
+    pub value: f64,
+}
+
+/// Degrees of freedom.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Freedom {
+    /// The test has none: exact, by permutation or by the normal.
+    None,
+    /// One number: t and χ².
+    One(f64),
+    /// Of the effect and of the error: F.
+    Two(f64, f64),
+}
+
+/// Which deviations count as evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sides {
+    /// Either way.
+    Two,
+    /// Larger than expected only.
+    Greater,
+    /// Smaller than expected only.
+    Less,
+}
+
+/// The outcome of one test.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// The test: `Welch t, two samples`.
+    pub test: &'static str,
+    /// Observations that entered, one number a group.
+    pub n: Vec<usize>,
+    /// The statistic.
+    pub statistic: Named,
+    /// Its degrees of freedom.
+    pub df: Freedom,
+    /// Probability under the null hypothesis of a statistic at least as extreme.
+    pub p: f64,
+    /// Which extremes `p` counts.
+    pub sides: Sides,
+    /// Size of the effect.
+    pub effect: Computed<Named>,
+    /// What is estimated, such as the difference of means.
+    pub estimate: Computed<Named>,
+    /// Interval of the estimate.
+    pub interval: Computed<Interval>,
+    /// Remarks for the reader: zeros left out, ties, exact or approximate.
+    pub notes: Vec<String>,
+}

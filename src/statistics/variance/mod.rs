@@ -1,0 +1,16 @@
+//! Analysis of variance: several groups or conditions at once.
+
+mod crossed;
+mod effect;
+mod friedman;
+mod groups;
+mod holm;
+mod repeated;
+mod sphericity;
+
+pub use crossed::{Answer, Crossed, Factor};
+pub use effect::{Effect, Sphericity, partial_eta_squared};
+pub use friedman::friedman;
+pub use groups::{kruskal_wallis, one_way, welch};
+pub use holm::{Comparison, every_pair, holm};
+pub use repeated::{Repeated, repeated_one_way, repeated_two_way};
