@@ -16,7 +16,7 @@ pub struct Lines {
 /// A product in the field of four elements 0, 1, ω, ω + 1, written 0…3; sums are `^`.
 pub(super) fn product(a: usize, b: usize) -> usize {
     // As polynomials over two elements, modulo ω² = ω + 1.
-    let carried = (a & 1) * b ^ ((a >> 1) * (b << 1));
+    let carried = ((a & 1) * b) ^ ((a >> 1) * (b << 1));
     if carried & 4 == 0 {
         carried
     } else {

@@ -107,11 +107,11 @@ fn of_plane(plane: &Lines, subject: &Random) -> Vec<Vec<RankingTrial>> {
     let split = blocks::split(&sets_of, plane.lines.len(), &mut subject.branch("blocks"));
     let trial = |(point, &line): (usize, &usize)| {
         let points = plane.lines[line];
-        let place = points.iter().position(|&p| p == point).unwrap_or(0);
+        let row = points.iter().position(|&p| p == point).unwrap_or(0);
         RankingTrial {
             block: 0,
             target: textiles[point],
-            alternatives: columns[line].map(|column| textiles[points[latin(place, column)]]),
+            alternatives: columns[line].map(|column| textiles[points[latin(row, column)]]),
         }
     };
     let block = |lines: &Vec<usize>| lines.iter().enumerate().map(trial).collect();
