@@ -52,6 +52,8 @@ pub mod bridge;
 
 pub mod engine;
 
+pub mod experiment;
+
 pub mod report;
 
 pub mod app;

@@ -18,6 +18,7 @@ mod digits;
 mod gray16;
 mod hash;
 mod inflate;
+mod journal;
 mod json;
 mod keys;
 mod npy;
@@ -36,6 +37,7 @@ pub use gray16::{
 };
 pub use hash::{md5_hex, sha256_hex};
 pub use inflate::{deflate, inflate};
+pub use journal::{Journal, Reopened};
 pub use json::{from_json_str, to_json_string};
 pub use keys::{
     KeyValue, Keys, keys_from_str, keys_to_string, lay_over, line_of_key, set_value, take_text,
@@ -53,6 +55,18 @@ use std::path::{Path, PathBuf};
 /// What can be wrong with a file.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
+    /// A file that would be written anew is there.
+    #[error("{} exists and is not overwritten; give another name, or continue it", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another process writes it.
+    #[error("{} is being written by another session; end that first", path.display())]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
     /// It cannot be read.
     #[error("cannot read {}: {source}; check the path", path.display())]
     Read {

@@ -205,18 +205,22 @@ pub struct TableWriter<W: Write> {
 impl<W: Write> TableWriter<W> {
     /// A table with this header. `path` only names it in errors.
     pub fn new(out: W, path: &Path, header: &[&str]) -> Result<Self, FileError> {
-        let path = path.to_owned();
-        let mut writer = Self {
-            out,
-            path,
-            line: String::new(),
-            n_cells: 0,
-        };
+        let mut writer = Self::continued(out, path);
         for name in header {
             writer.text(name);
         }
         writer.end_row()?;
         Ok(writer)
+    }
+
+    /// Rows of a table that has its header.
+    pub fn continued(out: W, path: &Path) -> Self {
+        Self {
+            out,
+            path: path.to_owned(),
+            line: String::new(),
+            n_cells: 0,
+        }
     }
 
     /// Adds a cell with a number.

@@ -1,0 +1,20 @@
+//! Which stimuli are shown in which trial: pure functions of a seed and a subject.
+//!
+//! Each purpose (relabelling, blocks, order, positions) draws from a branch of its own, so that a
+//! change in one shifts none of the others.
+
+mod blocks;
+mod plane;
+mod ranking;
+mod triads;
+
+pub use plane::{LINE_POINTS, Lines};
+pub use ranking::{RankingSchedule, RankingTrial, ScheduleError};
+pub use triads::{Triad, triads};
+
+use crate::numerics::Random;
+
+/// The generator of one subject in one experiment of a study.
+pub fn subject_random(study_seed: u64, experiment: &str, subject: &str) -> Random {
+    Random::new(study_seed).branch(experiment).branch(subject)
+}
