@@ -3,6 +3,8 @@
 //! Plain numbers in, plain numbers out: nothing here knows of textiles, files or clocks. What
 //! cannot be computed is [`Undefined`] with its reason, never a number that stands for nothing.
 
+pub mod mds;
+
 use thiserror::Error;
 
 /// Why a number cannot be computed, in words that stand in a report: `one subject alone`.
