@@ -12,6 +12,8 @@
 
 mod bridge;
 mod failure;
+mod mds;
+mod mds_json;
 mod output;
 mod picture;
 mod picture_relief;
@@ -71,6 +73,8 @@ enum Command {
     Textile(textile::TextileCommand),
     /// The repeats of a cloth from a picture, and the cell that repeats
     Picture(picture::PictureArgs),
+    /// A map from dissimilarities: non-metric multidimensional scaling
+    Mds(mds::MdsArgs),
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
@@ -105,6 +109,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),
+        Some(Command::Mds(args)) => mds::run(&args),
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

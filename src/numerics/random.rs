@@ -58,6 +58,13 @@ impl Random {
             self.generator.random_range(0..n)
         }
     }
+
+    /// Puts the values into a random order, every one as likely (Fisher–Yates).
+    pub fn shuffle<T>(&mut self, values: &mut [T]) {
+        for last in (1..values.len()).rev() {
+            values.swap(last, self.index(last + 1));
+        }
+    }
 }
 
 #[cfg(test)]
@@ -77,6 +84,20 @@ mod tests {
             a.branch("slub").uniform(),
             Random::new(7).branch("slub").uniform()
         );
+    }
+
+    #[test]
+    fn every_order_is_as_likely() {
+        let mut random = Random::new(4);
+        let mut counts = [0_u32; 3];
+        for _ in 0..3000 {
+            let mut values = [0, 1, 2];
+            random.shuffle(&mut values);
+            counts[values[0]] += 1;
+            assert_eq!(values.iter().sum::<usize>(), 3, "nothing is lost");
+        }
+        // Standard deviation of each: 26.
+        assert!(counts.iter().all(|n| n.abs_diff(1000) < 105), "{counts:?}");
     }
 
     #[test]

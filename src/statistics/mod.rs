@@ -4,6 +4,8 @@
 //! cannot be computed is [`Undefined`] with its reason, never a number that stands for nothing.
 
 pub mod mds;
+pub mod procrustes;
+pub mod properties;
 
 use thiserror::Error;
 

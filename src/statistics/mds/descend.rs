@@ -90,7 +90,11 @@ pub(super) fn descend(fit: &mut Fit<'_>, loss: Loss, x: &mut [f64], until: Until
         x.copy_from_slice(&tried);
         gradient.copy_from_slice(&new_gradient);
         // One small step may be a bad one; three in a row are the end.
-        n_small = if f - next <= until.share * f { n_small + 1 } else { 0 };
+        n_small = if f - next <= until.share * f {
+            n_small + 1
+        } else {
+            0
+        };
         f = next;
         if n_small >= 3 {
             break;
@@ -101,9 +105,8 @@ pub(super) fn descend(fit: &mut Fit<'_>, loss: Loss, x: &mut [f64], until: Until
 }
 
 fn remember(memory: &mut Vec<Remembered>, x: [&[f64]; 2], gradient: [&[f64]; 2]) {
-    let difference = |[new, old]: [&[f64]; 2]| -> Vec<f64> {
-        new.iter().zip(old).map(|(a, b)| a - b).collect()
-    };
+    let difference =
+        |[new, old]: [&[f64]; 2]| -> Vec<f64> { new.iter().zip(old).map(|(a, b)| a - b).collect() };
     let (step, change) = (difference(x), difference(gradient));
     let curvature = dot(&step, &change);
     if curvature > 1e-12 * (dot(&step, &step) * dot(&change, &change)).sqrt() {

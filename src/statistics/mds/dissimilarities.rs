@@ -201,7 +201,11 @@ mod tests {
 
     #[test]
     fn a_pair_given_on_one_side_counts_and_rounding_makes_ties() {
-        let found = of(3, &[(1, 0, 0.1 + 0.2), (1, 2, 0.3), (2, 1, 0.3), (2, 0, 4.0)]).unwrap();
+        let found = of(
+            3,
+            &[(1, 0, 0.1 + 0.2), (1, 2, 0.3), (2, 1, 0.3), (2, 0, 4.0)],
+        )
+        .unwrap();
         assert_eq!(found.pairs().len(), 3);
         assert_eq!(found.n_missing(), 0);
         let blocks: Vec<usize> = found.tied_blocks().iter().map(Vec::len).collect();

@@ -26,7 +26,13 @@ impl Elbow {
     pub fn of(losses: &[(usize, f64)], before: Option<f64>, chance: &[f64]) -> Self {
         let loss: Vec<f64> = losses.iter().map(|(_, loss)| *loss).collect();
         let dims: Vec<usize> = losses.iter().map(|(dims, _)| *dims).collect();
-        let at = |i: usize| if i == 0 { before } else { loss.get(i - 1).copied() };
+        let at = |i: usize| {
+            if i == 0 {
+                before
+            } else {
+                loss.get(i - 1).copied()
+            }
+        };
         let fall = |i: usize| Some(at(i)? - at(i + 1)?);
         let n = loss.len();
         let first_differences: Vec<Option<f64>> = (0..n).map(fall).collect();

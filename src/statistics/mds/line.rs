@@ -23,7 +23,11 @@ pub(super) fn exchange(fit: &mut Fit<'_>, plan: &Plan, x: &mut Vec<f64>, f: f64)
             for to in 0..n {
                 for is_swap in [true, false] {
                     // Moving to the next place is an exchange, and so is every swap backwards.
-                    let is_new = if is_swap { from < to } else { from.abs_diff(to) > 1 };
+                    let is_new = if is_swap {
+                        from < to
+                    } else {
+                        from.abs_diff(to) > 1
+                    };
                     if !is_new {
                         continue;
                     }

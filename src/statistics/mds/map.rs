@@ -122,7 +122,13 @@ fn per_point(fit: &Fit<'_>) -> (Vec<f64>, Option<Vec<f64>>) {
             sums[object][1] += w * d * d;
         }
     }
-    let own = |[left, whole]: &[f64; 2]| if *whole > 0.0 { (left / whole).sqrt() } else { 0.0 };
+    let own = |[left, whole]: &[f64; 2]| {
+        if *whole > 0.0 {
+            (left / whole).sqrt()
+        } else {
+            0.0
+        }
+    };
     let total: f64 = sums.iter().map(|[left, _]| left).sum();
     let whole: f64 = sums.iter().map(|[_, whole]| whole).sum();
     let shares = || sums.iter().map(|[left, _]| left / total).collect();
@@ -168,7 +174,10 @@ fn spearman(a: &[f64], b: &[f64]) -> Result<f64, Undefined> {
     let (a, b) = (ranks(a), ranks(b));
     let middle = 0.5 * (a.len() as f64 + 1.0);
     let product = |p: &[f64], q: &[f64]| -> f64 {
-        p.iter().zip(q).map(|(x, y)| (x - middle) * (y - middle)).sum()
+        p.iter()
+            .zip(q)
+            .map(|(x, y)| (x - middle) * (y - middle))
+            .sum()
     };
     let spread = (product(&a, &a) * product(&b, &b)).sqrt();
     if spread > 0.0 {

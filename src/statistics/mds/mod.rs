@@ -94,8 +94,16 @@ impl Mds {
     }
 
     fn plan(&self, k: usize) -> Plan {
-        let n_starts = if k == 1 { self.n_starts_on_a_line } else { self.n_starts };
-        let n_starts = if self.descent == Descent::None { 1 } else { n_starts };
+        let n_starts = if k == 1 {
+            self.n_starts_on_a_line
+        } else {
+            self.n_starts
+        };
+        let n_starts = if self.descent == Descent::None {
+            1
+        } else {
+            n_starts
+        };
         Plan {
             k,
             loss: self.loss,

@@ -178,11 +178,20 @@ mod tests {
     fn ties_by_the_three_rules() {
         let blocks = [0..2, 2..4];
         let values = [3.0, 1.0, 2.0, 6.0];
-        assert_eq!(fitted(Ties::Primary, &values, &blocks), [2.5, 1.0, 2.5, 6.0]);
-        assert_eq!(fitted(Ties::Secondary, &values, &blocks), [2.0, 2.0, 4.0, 4.0]);
+        assert_eq!(
+            fitted(Ties::Primary, &values, &blocks),
+            [2.5, 1.0, 2.5, 6.0]
+        );
+        assert_eq!(
+            fitted(Ties::Secondary, &values, &blocks),
+            [2.0, 2.0, 4.0, 4.0]
+        );
         assert_eq!(fitted(Ties::Tertiary, &values, &blocks), values);
         let falling = [5.0, 3.0, 2.0, 0.0];
-        assert_eq!(fitted(Ties::Tertiary, &falling, &blocks), [3.5, 1.5, 3.5, 1.5]);
+        assert_eq!(
+            fitted(Ties::Tertiary, &falling, &blocks),
+            [3.5, 1.5, 3.5, 1.5]
+        );
     }
 
     /// Independent: the largest of the smallest means over upper and lower sets.
@@ -198,7 +207,10 @@ mod tests {
             let mean = |a: usize, b: usize| mean_of(&values[a..=b], &weights[a..=b]).0;
             let least = |a: usize| (i..20).map(|b| mean(a, b)).fold(f64::INFINITY, f64::min);
             let expected = (0..=i).map(least).fold(f64::NEG_INFINITY, f64::max);
-            assert!((found - expected).abs() < 1e-12, "{i}: {found} or {expected}");
+            assert!(
+                (found - expected).abs() < 1e-12,
+                "{i}: {found} or {expected}"
+            );
         }
     }
 }

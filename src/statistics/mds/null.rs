@@ -50,11 +50,17 @@ impl Null {
             let first = n_done * n_together;
             let doing = format!("{purpose}, {dims} dimensions");
             progress.step(first as f64 / n_sets as f64, &doing)?;
-            in_pieces(some, 1, mds.n_threads, || (), |(), i, loss| {
-                let mut random = random.branch(&format!("set {}", first + i));
-                let set = without_structure(data, kind, &mut random);
-                loss[0] = lowest(mds, &set, dims);
-            });
+            in_pieces(
+                some,
+                1,
+                mds.n_threads,
+                || (),
+                |(), i, loss| {
+                    let mut random = random.branch(&format!("set {}", first + i));
+                    let set = without_structure(data, kind, &mut random);
+                    loss[0] = lowest(mds, &set, dims);
+                },
+            );
         }
         losses.sort_by(f64::total_cmp);
         Ok(Self { dims, losses })
@@ -87,9 +93,7 @@ fn without_structure(
         NullKind::RandomRanks => own().zip(1..).map(|(_, rank)| f64::from(rank)).collect(),
         NullKind::Permuted => own().collect(),
     };
-    for last in (1..deltas.len()).rev() {
-        deltas.swap(last, random.index(last + 1));
-    }
+    random.shuffle(&mut deltas);
     data.with_deltas(&deltas)
 }
 

@@ -131,7 +131,11 @@ pub(super) fn search(
     let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
     runs.sort_by(|a, b| a.f.total_cmp(&b.f));
     let followed: Vec<f64> = runs.iter().map(|run| run.f.max(0.0).sqrt()).collect();
-    runs.truncate(if plan.k == 1 { 10 * N_EXCHANGED } else { N_POLISHED });
+    runs.truncate(if plan.k == 1 {
+        10 * N_EXCHANGED
+    } else {
+        N_POLISHED
+    });
     if plan.descent == Descent::Polish {
         runs = finished(problem, plan, runs);
     }

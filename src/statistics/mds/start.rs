@@ -12,8 +12,9 @@ pub(super) fn torgerson(problem: &Problem, k: usize) -> Vec<f64> {
     let squares = complete(problem).map(|delta| delta * delta);
     let mean_row: Vec<f64> = (0..n).map(|i| squares.row(i).mean()).collect();
     let mean = squares.mean();
-    let centred =
-        DMatrix::from_fn(n, n, |i, j| -0.5 * (squares[(i, j)] - mean_row[i] - mean_row[j] + mean));
+    let centred = DMatrix::from_fn(n, n, |i, j| {
+        -0.5 * (squares[(i, j)] - mean_row[i] - mean_row[j] + mean)
+    });
     let eigen = centred.symmetric_eigen();
     let mut by_size: Vec<usize> = (0..n).collect();
     by_size.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
@@ -50,7 +51,10 @@ fn complete(problem: &Problem) -> DMatrix<f64> {
             }
         }
     }
-    all.zip_map(&ways, |known, way| if known.is_finite() { known } else { way })
+    all.zip_map(
+        &ways,
+        |known, way| if known.is_finite() { known } else { way },
+    )
 }
 
 /// Points thrown at random, normal along every axis.

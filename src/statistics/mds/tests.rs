@@ -11,7 +11,9 @@ pub(super) fn named(n: usize) -> Vec<String> {
 /// Distances of random points in `k` dimensions with a share of noise.
 fn spread(n: usize, k: usize, noise: f64, seed: u64) -> Dissimilarities {
     let mut random = Random::new(seed);
-    let x: Vec<Vec<f64>> = (0..n).map(|_| (0..k).map(|_| random.normal()).collect()).collect();
+    let x: Vec<Vec<f64>> = (0..n)
+        .map(|_| (0..k).map(|_| random.normal()).collect())
+        .collect();
     let mut values = vec![None; n * n];
     for i in 0..n {
         for j in i + 1..n {
@@ -91,7 +93,10 @@ fn no_way_downhill_ends_above_a_plainer_one_and_gradients_vanish() {
         let majorised = stress(Descent::Majorise, Loss::Stress1);
         let polished = stress(Descent::Polish, Loss::Stress1);
         assert!(classical > majorised, "{k}: {classical} and {majorised}");
-        assert!(polished <= majorised + 1e-7, "{k}: {polished} and {majorised}");
+        assert!(
+            polished <= majorised + 1e-7,
+            "{k}: {polished} and {majorised}"
+        );
         let both = [Descent::Majorise, Descent::Polish].map(|d| stress(d, Loss::SStress));
         assert!(both[1] <= both[0], "{k}: {both:?}");
     }
@@ -113,7 +118,11 @@ fn the_gradient_is_that_of_the_loss() {
                 fit.loss(loss, &moved)
             };
             let slope = (at(1e-6) - at(-1e-6)) / 2e-6;
-            assert!((slope - gradient[i]).abs() < 1e-7, "{loss:?}: {slope} {}", gradient[i]);
+            assert!(
+                (slope - gradient[i]).abs() < 1e-7,
+                "{loss:?}: {slope} {}",
+                gradient[i]
+            );
         }
     }
 }
@@ -124,7 +133,11 @@ fn a_known_configuration_comes_back() {
         let data = spread(20, k, 0.0, 40 + k as u64);
         let map = maps(&data, Mds::default(), k..=k).remove(0);
         assert!(map.stress1 < 2e-3, "{k}: {}", map.stress1);
-        assert!(map.spearman.clone().unwrap() > 0.9999, "{k}: {:?}", map.spearman);
+        assert!(
+            map.spearman.clone().unwrap() > 0.9999,
+            "{k}: {:?}",
+            map.spearman
+        );
     }
 }
 
@@ -148,7 +161,10 @@ fn on_a_line_the_best_of_all_orders_is_found() {
             }
             best = best.min(search::downhill(&mut fit, &mds.plan(1), &mut x).sqrt());
         }
-        assert!(found <= best + 1e-6, "seed {seed}: {found}, yet {best} is possible");
+        assert!(
+            found <= best + 1e-6,
+            "seed {seed}: {found}, yet {best} is possible"
+        );
     }
 }
 
@@ -183,7 +199,12 @@ fn same_bytes_whatever_the_number_of_threads_and_another_seed_the_same_map() {
         ..Mds::default()
     };
     let (a, b) = (maps(&data, with(2), 2..=2), maps(&data, other, 2..=2));
-    for (p, q) in a[0].points.iter().flatten().zip(b[0].points.iter().flatten()) {
+    for (p, q) in a[0]
+        .points
+        .iter()
+        .flatten()
+        .zip(b[0].points.iter().flatten())
+    {
         assert!((p - q).abs() < 1e-4, "{p} or {q}");
     }
 }
@@ -196,7 +217,11 @@ fn missing_pairs_are_left_out_and_weights_count() {
     for pair in whole.pairs() {
         let [i, j] = pair.objects;
         let is_spoilt = (i + 2 * j) % 9 == 0;
-        let delta = if is_spoilt { 10.0 - pair.delta } else { pair.delta };
+        let delta = if is_spoilt {
+            10.0 - pair.delta
+        } else {
+            pair.delta
+        };
         values[12 * i + j] = Some(delta.max(0.0));
         for at in [12 * i + j, 12 * j + i] {
             weights[at] = if is_spoilt { 0.0 } else { 1.0 + (i % 3) as f64 };
@@ -227,16 +252,29 @@ fn ties_ask_for_more_when_secondary() {
         maps(&data, mds, 2..=2)[0].stress1
     };
     let [primary, secondary, tertiary] = Ties::ALL.map(stress);
-    assert!(primary < secondary && tertiary < secondary, "{primary} {secondary} {tertiary}");
+    assert!(
+        primary < secondary && tertiary < secondary,
+        "{primary} {secondary} {tertiary}"
+    );
 }
 
 #[test]
 fn too_many_dimensions_and_clusters_are_warned_of() {
     let few = maps(&spread(6, 3, 0.3, 1), Mds::default(), 2..=2);
-    assert!(few[0].warnings.iter().any(|w| w.contains("almost whatever")), "{few:?}");
+    assert!(
+        few[0]
+            .warnings
+            .iter()
+            .any(|w| w.contains("almost whatever")),
+        "{few:?}"
+    );
     let near = maps(&spread(16, 5, 0.3, 1), Mds::default(), 3..=4);
     assert!(near[0].warnings.is_empty(), "{:?}", near[0].warnings);
-    assert!(near[1].warnings[0].contains("at least 17"), "{:?}", near[1].warnings);
+    assert!(
+        near[1].warnings[0].contains("at least 17"),
+        "{:?}",
+        near[1].warnings
+    );
     let mut values = vec![None; 144];
     for i in 0..12 {
         for j in i + 1..12 {
@@ -246,7 +284,10 @@ fn too_many_dimensions_and_clusters_are_warned_of() {
     }
     let data = Dissimilarities::new(named(12), &values).unwrap();
     let map = maps(&data, Mds::default(), 2..=2).remove(0);
-    assert!(map.warnings.iter().any(|w| w.contains("degenerate")), "{map:?}");
+    assert!(
+        map.warnings.iter().any(|w| w.contains("degenerate")),
+        "{map:?}"
+    );
 }
 
 /// Means of Monte Carlo runs elsewhere: 16 objects, 2-D 0.270; 3-D 0.172; 7 objects, 2-D 0.111.
@@ -264,12 +305,19 @@ fn chance_gives_what_is_known_and_structure_lies_below_it() {
         let null = null(&spread(n, 2, 0.1, 9), NullKind::RandomRanks, dims);
         println!("{n} {dims}: {} ({})", null.mean(), null.five_percent());
         let within = if n == 7 { 0.02 } else { 0.01 };
-        assert!((null.mean() - expected).abs() < within, "{n}, {dims}: {}", null.mean());
+        assert!(
+            (null.mean() - expected).abs() < within,
+            "{n}, {dims}: {}",
+            null.mean()
+        );
         assert!(null.five_percent() < null.mean(), "{null:?}");
     }
     let found = maps(&data, mds, 2..=2)[0].stress1;
     let permuted = null(&data, NullKind::Permuted, 2);
-    assert!((permuted.p_value(found) - 1.0 / 41.0).abs() < 1e-12, "{found}: {permuted:?}");
+    assert!(
+        (permuted.p_value(found) - 1.0 / 41.0).abs() < 1e-12,
+        "{found}: {permuted:?}"
+    );
     assert_eq!(permuted.p_value(1.0), 1.0);
 }
 
@@ -280,5 +328,8 @@ fn a_raised_flag_stops_the_search() {
     let mut report = |_: f64, _: &str| {};
     let mut progress = Progress::new(&mut report, flag);
     let data = spread(8, 2, 0.1, 1);
-    assert_eq!(Mds::default().maps(&data, 1..=2, &mut progress), Err(Cancelled));
+    assert_eq!(
+        Mds::default().maps(&data, 1..=2, &mut progress),
+        Err(Cancelled)
+    );
 }
