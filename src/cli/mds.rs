@@ -249,7 +249,7 @@ fn summary(data: &Dissimilarities, mds: &Mds, maps: &[Map], elbow: &Elbow) -> St
         let spearman = map
             .spearman
             .as_ref()
-            .map_or("none".to_owned(), |r| fixed(*r, 3));
+            .map_or_else(|_none| "none".to_owned(), |r| fixed(*r, 3));
         lines.push(format!(
             "{:4}  {:>8}  {:>8}  {spearman:>8}  {} of {}",
             map.dims,

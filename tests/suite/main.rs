@@ -12,6 +12,7 @@ mod bridge_end_to_end;
 mod commands;
 mod import;
 mod import_kes;
+mod mds;
 mod model_surfaces;
 mod no_allocation;
 mod no_allocation_engine;

@@ -46,7 +46,7 @@ impl Dissimilarities {
             return Err(Undefined::because(what));
         }
         if n < 3 {
-            let what = format!("a map needs at least three objects, and there are {n}");
+            let what = format!("a map needs at least three objects, and this has {n}");
             return Err(Undefined::because(what));
         }
         let largest = values.iter().flatten().copied().fold(0.0, f64::max);

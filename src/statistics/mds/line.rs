@@ -13,10 +13,10 @@ const GLANCE: Until = Until {
 const WORTH: f64 = 1.15;
 
 /// Improves a map on a line until no exchange of two objects and no move of one helps.
-pub(super) fn exchange(fit: &mut Fit<'_>, plan: &Plan, x: &mut Vec<f64>, f: f64) -> f64 {
+pub(super) fn exchange(fit: &mut Fit<'_>, plan: &Plan, x: &mut [f64], f: f64) -> f64 {
     let n = x.len();
     let mut best = f;
-    let mut tried = x.clone();
+    let mut tried = x.to_vec();
     loop {
         let before = best;
         for from in 0..n {

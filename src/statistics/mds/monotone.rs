@@ -129,8 +129,9 @@ impl Regression {
     fn over_blocks(&self, blocks: &[Range<usize>], mut visit: impl FnMut(Range<usize>, f64, f64)) {
         let mut start = 0;
         for pool in &self.pools {
-            for place in start..pool.end {
-                visit(blocks[place].clone(), self.means[place], pool.mean);
+            let pooled = start..pool.end;
+            for (block, own) in blocks[pooled.clone()].iter().zip(&self.means[pooled]) {
+                visit(block.clone(), *own, pool.mean);
             }
             start = pool.end;
         }
