@@ -45,7 +45,8 @@ const DEFINITIONS: Definitions = Definitions {
     sstress: "the same with d^2 in the place of d (ALSCAL)",
     points: "rows as in names; centred, principal axes, the coordinate farthest from 0 of each axis \
              positive, mean square distance 1",
-    reached_best: "starts whose loss, before the last polish, was within 1e-5 of the best",
+    reached_best: "starts that came within 1e-5 of the best loss by themselves: before the last \
+                   polish and, on a line, before objects were exchanged",
     stress_per_point: "the loss over the pairs of each object alone",
     share_per_point: "its share of what is left over; shares add up to 1",
     p: "(b + 1)/(N + 1), b sets without structure with a loss as low",

@@ -15,7 +15,7 @@ use super::{Bench, Findings, ReportError, Row, Study};
 const N_OBJECTS: usize = 16;
 /// Starts of the longest search, which the others are measured against.
 const N_LONGEST: usize = 400;
-const N_LONGEST_ON_A_LINE: usize = 4000;
+const N_LONGEST_ON_A_LINE: usize = 2000;
 
 /// Stress above the best known against run time, and recovery against noise.
 #[derive(Debug, Clone, Copy, Default)]
@@ -52,7 +52,7 @@ impl Study for MdsStudy {
 
     fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         let mut findings = Findings::default();
-        let dims = bench.effort.pick(vec![2], vec![1, 2, 3, 5]);
+        let dims = bench.effort.pick(vec![2], vec![1, 2, 3]);
         let all_ties = bench.effort.pick(&Ties::ALL[..1], &Ties::ALL[..2]);
         let data = ranked(&mut Random::new(bench.seed).branch("mds"));
         let n_cases = (dims.len() * all_ties.len()) as f64;

@@ -4,6 +4,7 @@
 //! downhill, keeps the best and lays it down one way; [`Null`] says what data without structure
 //! would give, [`Elbow`] how many dimensions are worth it.
 
+mod bootstrap;
 mod descend;
 mod dissimilarities;
 mod elbow;
@@ -18,6 +19,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 
+pub use bootstrap::Resampled;
 pub use dissimilarities::{Dissimilarities, Pair};
 pub use elbow::Elbow;
 pub use fit::Loss;

@@ -83,8 +83,8 @@ fn the_stress_belongs_to_the_points_that_come_back() {
 fn no_way_downhill_ends_above_a_plainer_one_and_gradients_vanish() {
     let data = spread(12, 3, 0.5, 11);
     let with = |descent, loss| Mds {
-        descent,
         loss,
+        descent,
         ..Mds::default()
     };
     for k in 2..=4 {
