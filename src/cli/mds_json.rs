@@ -43,8 +43,8 @@ const DEFINITIONS: Definitions = Definitions {
     stress1: "sqrt(sum (d - dhat)^2 / sum d^2) over pairs of the points given here; dhat is the \
               monotone regression of d on the order of the dissimilarities",
     sstress: "the same with d^2 in the place of d (ALSCAL)",
-    points: "rows as in names; centred, principal axes, the coordinate farthest from 0 of each axis \
-             positive, mean square distance 1",
+    points: "rows as in names; centred, principal axes, the coordinate farthest from 0 of each \
+             axis positive, mean square distance 1",
     reached_best: "starts that came within 1e-5 of the best loss by themselves: before the last \
                    polish and, on a line, before objects were exchanged",
     stress_per_point: "the loss over the pairs of each object alone",

@@ -18,12 +18,14 @@ pub struct NamedMatrix {
 }
 
 impl NamedMatrix {
-    /// Reads a table whose header row and first column hold names; the first cell of all is ignored.
+    /// Reads a table whose header row and first column hold names; the first cell of all is
+    /// ignored.
     ///
     /// Lines that start with `#` are comments; a byte-order mark is accepted.
     ///
     /// # Errors
-    /// A row of another length, a name that is empty or comes twice, a cell that is no finite number.
+    /// A row of another length, a name that is empty or comes twice, a cell that is no finite
+    /// number.
     pub fn read(text: &str, path: &Path) -> Result<Self, FileError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut reader = ReaderBuilder::new()
