@@ -76,7 +76,7 @@ const HOMES: &[(&str, &str)] = &[
 ];
 
 /// Crates that are vocabulary and may appear anywhere.
-const VOCABULARY: &[&str] = &["rtrb", "serde", "thiserror", "triple_buffer"];
+const VOCABULARY: &[&str] = &["nalgebra", "rtrb", "serde", "thiserror", "triple_buffer"];
 
 /// Names that say nothing about what lives there.
 const EMPTY_NAMES: &[&str] = &["utils", "util", "helpers", "common", "misc", "types"];

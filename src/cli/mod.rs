@@ -18,6 +18,8 @@ mod bridge_show;
 mod failure;
 mod identify;
 mod input;
+mod mds;
+mod mds_json;
 mod output;
 mod picture;
 mod picture_relief;
@@ -82,6 +84,8 @@ enum Command {
     /// Tablets and touch frames
     #[command(subcommand)]
     Input(input::InputCommand),
+    /// A map from dissimilarities: non-metric multidimensional scaling
+    Mds(mds::MdsArgs),
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
@@ -117,6 +121,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),
         Some(Command::Input(command)) => input::run(&command),
+        Some(Command::Mds(args)) => mds::run(&args),
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

@@ -21,6 +21,7 @@ mod inflate;
 mod journal;
 mod json;
 mod keys;
+mod matrix;
 mod npy;
 mod picture;
 mod rgb16;
@@ -43,6 +44,7 @@ pub use keys::{
     KeyValue, Keys, keys_from_str, keys_to_string, lay_over, line_of_key, set_value, take_text,
     value_at,
 };
+pub use matrix::NamedMatrix;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use rgb16::{Rgb16Image, decode_picture};

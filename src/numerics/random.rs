@@ -113,6 +113,20 @@ mod tests {
     }
 
     #[test]
+    fn every_order_is_as_likely() {
+        let mut random = Random::new(4);
+        let mut counts = [0_u32; 3];
+        for _ in 0..3000 {
+            let mut values = [0, 1, 2];
+            random.shuffle(&mut values);
+            counts[values[0]] += 1;
+            assert_eq!(values.iter().sum::<usize>(), 3, "nothing is lost");
+        }
+        // Standard deviation of each: 26.
+        assert!(counts.iter().all(|n| n.abs_diff(1000) < 105), "{counts:?}");
+    }
+
+    #[test]
     fn normal_numbers_have_unit_variance() {
         let mut random = Random::new(1);
         let n = 20_000;

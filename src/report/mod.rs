@@ -27,6 +27,7 @@ mod index;
 mod left_out;
 mod listing;
 mod machine;
+mod mds;
 mod models;
 mod pareto;
 mod picture;
@@ -53,6 +54,7 @@ pub use findings::{Findings, Row};
 pub use growth::GrowthStudy;
 pub use left_out::{LeftOutStudy, SavingRule};
 pub use machine::Machine;
+pub use mds::MdsStudy;
 pub use models::{BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy};
 pub use pareto::pareto;
 pub use picture::{AutocorrelationStudy, LatticeStudy, PictureRouteStudy, PictureScaleStudy};
@@ -86,6 +88,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(PictureRouteStudy),
         Box::new(BimorphStudy),
         Box::new(ReadersStudy),
+        Box::new(MdsStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),
     ]

@@ -39,6 +39,10 @@ pub use summary::{Summary, mean};
 pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
 pub use wilcoxon::{wilcoxon_pairs, wilcoxon_signed_rank};
 
+pub mod mds;
+pub mod procrustes;
+pub mod properties;
+
 use thiserror::Error;
 
 /// A number, or why there is none.

@@ -15,6 +15,7 @@ mod commands;
 mod firmware;
 mod import;
 mod import_kes;
+mod mds;
 mod model_surfaces;
 mod no_allocation;
 mod no_allocation_engine;

@@ -1,0 +1,274 @@
+//! `selvedge mds`: maps from a table of dissimilarities.
+
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::mds_json::{Chance, Document};
+use super::terminal::Meter;
+use super::{CliError, output, signals};
+use crate::files::{self, NamedMatrix};
+use crate::numerics;
+use crate::progress::{CancelFlag, Progress};
+use crate::quantity::fixed;
+use crate::statistics::mds::{
+    DEFAULT_STARTS, Dissimilarities, Elbow, LEAST_STARTS_ON_A_LINE, Loss, MOST_DIMENSIONS, Map,
+    Mds, Null, NullKind, Ties,
+};
+
+/// The two sides of a pair may differ by this share of the largest: rounding in a file.
+const ROUNDING_SHARE: f64 = 1e-6;
+/// Starts on a line for each set of data without structure: exchange does the rest.
+const STARTS_OF_CHANCE: usize = 100;
+
+/// A table of dissimilarities, and how it is mapped.
+#[derive(Debug, Args)]
+pub(super) struct MdsArgs {
+    /// Square CSV table: header row and first column of the same names; an empty cell is missing
+    dissimilarities: PathBuf,
+    /// Numbers of dimensions: 2, or 1-5
+    #[arg(long, value_name = "K-K", value_parser = dimensions, default_value = "1-5")]
+    dims: Dimensions,
+    /// What tied dissimilarities ask of distances: nothing, to be equal, to be equal in the mean
+    #[arg(long, value_enum, default_value_t = TiesArg::Primary)]
+    ties: TiesArg,
+    /// What is made small: Kruskal's stress-1, or the loss of ALSCAL on squared distances
+    #[arg(long, value_enum, default_value_t = LossArg::Stress1)]
+    loss: LossArg,
+    /// Starts in two dimensions and more; on a line at least 1000
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_STARTS,
+        value_parser = starts)]
+    starts: usize,
+    /// What random numbers begin with
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// File for the maps; `-` is standard output
+    #[arg(long, value_name = "OUT")]
+    json: Option<PathBuf>,
+    /// Take the mean where the two sides of a pair differ, instead of refusing the table
+    #[arg(long)]
+    average: bool,
+    /// Sets of random ranks to compare the stress with; 100 takes half a minute
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    random_data: u16,
+    /// Permutations of the table's own numbers to compare the stress with
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    permutations: u16,
+    /// Threads that share the work (as many as the machine has); the bytes are the same
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
+    threads: Option<u8>,
+}
+
+/// From so many dimensions to so many.
+#[derive(Debug, Clone, Copy)]
+struct Dimensions {
+    least: usize,
+    most: usize,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TiesArg {
+    Primary,
+    Secondary,
+    Tertiary,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum LossArg {
+    Stress1,
+    Sstress,
+}
+
+fn dimensions(text: &str) -> Result<Dimensions, String> {
+    let (least, most) = text.split_once('-').unwrap_or((text, text));
+    let number = |part: &str| part.trim().parse::<usize>().ok();
+    match (number(least), number(most)) {
+        (Some(least), Some(most)) if (1..=most).contains(&least) && most <= MOST_DIMENSIONS => {
+            Ok(Dimensions { least, most })
+        }
+        _ => Err(format!(
+            "give 1 to {MOST_DIMENSIONS} dimensions, such as 2 or 1-5"
+        )),
+    }
+}
+
+fn starts(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|n| (1..=1_000_000).contains(n));
+    number.ok_or_else(|| "give 1 to 1000000 starts".to_owned())
+}
+
+impl MdsArgs {
+    fn mds(&self) -> Mds {
+        Mds {
+            ties: match self.ties {
+                TiesArg::Primary => Ties::Primary,
+                TiesArg::Secondary => Ties::Secondary,
+                TiesArg::Tertiary => Ties::Tertiary,
+            },
+            loss: match self.loss {
+                LossArg::Stress1 => Loss::Stress1,
+                LossArg::Sstress => Loss::SStress,
+            },
+            n_starts: self.starts,
+            n_starts_on_a_line: self.starts.max(LEAST_STARTS_ON_A_LINE),
+            seed: self.seed,
+            n_threads: self.threads.map_or_else(numerics::n_threads, usize::from),
+            ..Mds::default()
+        }
+    }
+
+    fn dims(&self) -> RangeInclusive<usize> {
+        self.dims.least..=self.dims.most
+    }
+}
+
+/// Makes the maps, and writes them.
+pub(super) fn run(args: &MdsArgs) -> Result<(), CliError> {
+    let path = &args.dissimilarities;
+    let table = NamedMatrix::read(&files::read_text(path)?, path)?;
+    let data = checked(&table, path, args.average)?;
+    let mds = args.mds();
+    let cancel = CancelFlag::shared(signals::stop_flag()?);
+    let mut meter = Meter::new("mds");
+    let mut report = |share: f64, doing: &str| meter.show(share, doing);
+    let mut progress = Progress::new(&mut report, cancel);
+    let maps = mds.maps(&data, args.dims(), &mut progress)?;
+    let chance = chance(args, &data, &mut progress)?;
+    drop(meter);
+    let elbow = elbow(&maps, mds.loss, &chance);
+    let out = args.json.as_deref();
+    if let Some(out) = out {
+        let document = Document::of(&data, &mds, &maps, &chance, &elbow);
+        output::write_text(Some(out), &files::to_json_string(&document, out)?)?;
+    }
+    match out {
+        Some(out) if output::named_file(Some(out)).is_none() => Ok(()),
+        _ => output::print(&summary(&data, &mds, &maps, &elbow)),
+    }
+}
+
+/// The table as dissimilarities.
+fn checked(table: &NamedMatrix, path: &Path, average: bool) -> Result<Dissimilarities, CliError> {
+    let wrong = |what: String| CliError::Input(format!("{}: {what}", path.display()));
+    let (n_rows, n) = (table.rows.len(), table.columns.len());
+    if n_rows != n {
+        let what = format!(
+            "{n_rows} rows and {n} columns; a table of dissimilarities is square, with the same \
+             names down and across"
+        );
+        return Err(wrong(what));
+    }
+    let differing = table.rows.iter().zip(&table.columns).find(|(r, c)| r != c);
+    if let Some((row, column)) = differing {
+        let what = format!(
+            "a row is called {row} where the column is called {column}; give rows and columns the \
+             same names in the same order"
+        );
+        return Err(wrong(what));
+    }
+    let mut values = table.values.clone();
+    let largest = values.iter().flatten().copied().fold(0.0, f64::max);
+    for i in 0..n {
+        for j in i + 1..n {
+            let (a, b) = (&table.rows[i], &table.columns[j]);
+            let (Some(one), Some(other)) = (values[i * n + j], values[j * n + i]) else {
+                continue;
+            };
+            if (one - other).abs() > ROUNDING_SHARE * largest && !average {
+                let what = format!(
+                    "{a} to {b} is {one}, {b} to {a} is {other}; mend the table, or take the mean \
+                     of both with --average"
+                );
+                return Err(wrong(what));
+            }
+            let mean = 0.5 * (one + other);
+            (values[i * n + j], values[j * n + i]) = (Some(mean), Some(mean));
+        }
+    }
+    let negative = values
+        .iter()
+        .position(|value| value.is_some_and(|x| x < 0.0));
+    if let Some(at) = negative {
+        let (a, b) = (&table.rows[at / n], &table.columns[at % n]);
+        let what = format!("{a} to {b} is negative; a dissimilarity is 0 or more");
+        return Err(wrong(what));
+    }
+    Dissimilarities::new(table.rows.clone(), &values)
+        .map_err(|undefined| wrong(format!("{}; add what is missing", undefined.reason)))
+}
+
+/// What data without structure give, in every number of dimensions, as far as it is asked for.
+fn chance(
+    args: &MdsArgs,
+    data: &Dissimilarities,
+    progress: &mut Progress<'_>,
+) -> Result<Chance, CliError> {
+    let mds = Mds {
+        n_starts_on_a_line: STARTS_OF_CHANCE,
+        ..args.mds()
+    };
+    let mut all = Chance::default();
+    for (kind, n) in [
+        (NullKind::RandomRanks, args.random_data),
+        (NullKind::Permuted, args.permutations),
+    ] {
+        for k in args.dims().filter(|_| n > 0) {
+            let null = Null::of(&mds, data, kind, (k, usize::from(n)), progress)?;
+            match kind {
+                NullKind::RandomRanks => all.random_data.push(null),
+                NullKind::Permuted => all.permutations.push(null),
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn elbow(maps: &[Map], loss: Loss, chance: &Chance) -> Elbow {
+    let losses: Vec<(usize, f64)> = maps.iter().map(|map| (map.dims, map.loss(loss))).collect();
+    let on_a_line = chance.random_data.first().filter(|null| null.dims == 1);
+    let five_percent = chance.random_data.iter().map(Null::five_percent);
+    Elbow::of(
+        &losses,
+        on_a_line.map(Null::mean),
+        &five_percent.collect::<Vec<_>>(),
+    )
+}
+
+/// What a reader wants to know first.
+fn summary(data: &Dissimilarities, mds: &Mds, maps: &[Map], elbow: &Elbow) -> String {
+    let (n, n_missing) = (data.n_objects(), data.n_missing());
+    let mut lines = vec![format!(
+        "{n} objects, {} pairs, {n_missing} missing; {} ties, {} made small",
+        data.pairs().len(),
+        mds.ties.name(),
+        mds.loss.name()
+    )];
+    lines.push("dims  stress-1  S-stress  Spearman  starts that reached it".to_owned());
+    for map in maps {
+        let spearman = map
+            .spearman
+            .as_ref()
+            .map_or_else(|_none| "none".to_owned(), |r| fixed(*r, 3));
+        lines.push(format!(
+            "{:4}  {:>8}  {:>8}  {spearman:>8}  {} of {}",
+            map.dims,
+            fixed(map.stress1, 5),
+            fixed(map.sstress, 5),
+            map.n_reached,
+            map.n_starts
+        ));
+    }
+    if let Some(k) = elbow.by_bend {
+        lines.push(format!("the curve bends most at {k}"));
+    }
+    if let Some(k) = elbow.below_chance {
+        lines.push(format!("below the 5 % point of random data from {k} on"));
+    }
+    for map in maps {
+        let warned = map.warnings.iter();
+        lines.extend(warned.map(|warning| format!("{}-D: {warning}", map.dims)));
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}

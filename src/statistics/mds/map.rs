@@ -1,0 +1,204 @@
+//! A map, and what it says of itself: its stress, point by point and pair by pair, and warnings.
+
+use super::fit::{Fit, Loss, Problem};
+use super::orient::laid_down;
+use super::search::Lowest;
+use crate::statistics::Undefined;
+
+/// A squared loss share below this is degenerate: nothing is left to fit.
+const NOTHING_LEFT: f64 = 1e-3;
+/// Points nearer than this share of the mean distance stand on one place.
+const SAME_PLACE: f64 = 0.01;
+
+/// A map in so many dimensions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Its dimensions.
+    pub dims: usize,
+    /// Stress-1 of these very points, 0…1.
+    pub stress1: f64,
+    /// S-stress of these very points, 0…1.
+    pub sstress: f64,
+    /// Coordinates, a row an object: centred, principal axes, the mean square distance 1.
+    pub points: Vec<Vec<f64>>,
+    /// Starts that were followed.
+    pub n_starts: usize,
+    /// Starts that reached the best loss, within 10⁻⁵ of it.
+    pub n_reached: usize,
+    /// The loss over the pairs of each object alone.
+    pub stress_per_point: Vec<f64>,
+    /// The share that the pairs of each object have in what is left over; they add up to 1. `None`
+    /// where nothing is left over.
+    pub share_per_point: Option<Vec<f64>>,
+    /// Every pair, by rising dissimilarity.
+    pub shepard: Vec<ShepardPoint>,
+    /// Rank correlation of distances with dissimilarities (Spearman, mean ranks for ties).
+    pub spearman: Result<f64, Undefined>,
+    /// What a reader should know before trusting it.
+    pub warnings: Vec<String>,
+}
+
+/// A pair in Shepard's diagram.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShepardPoint {
+    /// Indices of the two.
+    pub objects: [usize; 2],
+    /// How unlike they are.
+    pub delta: f64,
+    /// How far apart they stand.
+    pub distance: f64,
+    /// The distance that the order asks for.
+    pub disparity: f64,
+}
+
+impl Map {
+    pub(super) fn of(problem: &Problem, loss: Loss, k: usize, found: &Lowest) -> Self {
+        let mut x = found.x.clone();
+        problem.normalise(&mut x, k);
+        let points = laid_down(&x, k);
+        let flat = points.concat();
+        let mut fit = Fit::new(problem, k);
+        let mut loss_of = |loss| fit.loss(loss, &flat).max(0.0).sqrt();
+        let other = match loss {
+            Loss::Stress1 => Loss::SStress,
+            Loss::SStress => Loss::Stress1,
+        };
+        let (second, first) = (loss_of(other), loss_of(loss));
+        let (stress1, sstress) = match loss {
+            Loss::Stress1 => (first, second),
+            Loss::SStress => (second, first),
+        };
+        let shepard = shepard(&fit, loss);
+        let (stress_per_point, share_per_point) = per_point(&fit);
+        let deltas: Vec<f64> = shepard.iter().map(|pair| pair.delta).collect();
+        let distances: Vec<f64> = shepard.iter().map(|pair| pair.distance).collect();
+        let warnings = warnings(problem.n, k, first, &distances);
+        Self {
+            dims: k,
+            stress1,
+            sstress,
+            points,
+            n_starts: found.n_starts,
+            n_reached: found.n_reached,
+            stress_per_point,
+            share_per_point,
+            spearman: spearman(&deltas, &distances),
+            shepard,
+            warnings,
+        }
+    }
+
+    /// The loss of this name.
+    pub fn loss(&self, loss: Loss) -> f64 {
+        match loss {
+            Loss::Stress1 => self.stress1,
+            Loss::SStress => self.sstress,
+        }
+    }
+}
+
+fn shepard(fit: &Fit<'_>, loss: Loss) -> Vec<ShepardPoint> {
+    let length = |value: f64| match loss {
+        Loss::Stress1 => value,
+        Loss::SStress => value.max(0.0).sqrt(),
+    };
+    let problem = fit.problem;
+    let point = |p: usize| ShepardPoint {
+        objects: problem.pairs[p],
+        delta: problem.deltas[p],
+        distance: length(fit.d[p]),
+        disparity: length(fit.disparities[p]),
+    };
+    (0..problem.pairs.len()).map(point).collect()
+}
+
+fn per_point(fit: &Fit<'_>) -> (Vec<f64>, Option<Vec<f64>>) {
+    let problem = fit.problem;
+    let mut sums = vec![[0.0; 2]; problem.n];
+    for (p, objects) in problem.pairs.iter().enumerate() {
+        let (w, d, h) = (problem.weights[p], fit.d[p], fit.disparities[p]);
+        for &object in objects {
+            sums[object][0] += w * (d - h) * (d - h);
+            sums[object][1] += w * d * d;
+        }
+    }
+    let own = |[left, whole]: &[f64; 2]| {
+        if *whole > 0.0 {
+            (left / whole).sqrt()
+        } else {
+            0.0
+        }
+    };
+    let total: f64 = sums.iter().map(|[left, _]| left).sum();
+    let whole: f64 = sums.iter().map(|[_, whole]| whole).sum();
+    let shares = || sums.iter().map(|[left, _]| left / total).collect();
+    let is_left = total > 1e-20 * whole;
+    (sums.iter().map(own).collect(), is_left.then(shares))
+}
+
+/// What makes a map worth little although its stress is low.
+fn warnings(n: usize, k: usize, loss: f64, distances: &[f64]) -> Vec<String> {
+    let mut out = Vec::new();
+    if n <= 2 * k + 2 {
+        out.push(format!(
+            "{n} objects fit into {k} dimensions almost whatever the data are: low stress means \
+             nothing here"
+        ));
+    } else if n < 4 * k + 1 {
+        let least = 4 * k + 1;
+        out.push(format!(
+            "{k} dimensions ask for at least {least} objects, and there are {n}"
+        ));
+    }
+    if loss < NOTHING_LEFT {
+        out.push(
+            "hardly any stress is left: the order of the dissimilarities may hold by few clusters \
+             of points (degenerate); look at the map and at Shepard's diagram"
+                .to_owned(),
+        );
+    }
+    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+    let n_same = distances.iter().filter(|d| **d < SAME_PLACE * mean).count();
+    let n_pairs = distances.len();
+    if n_same * 5 > n_pairs {
+        out.push(format!(
+            "{n_same} of {n_pairs} pairs stand on one place: the points fall into clusters, and \
+             what lies inside them is not shown"
+        ));
+    }
+    out
+}
+
+/// Rank correlation, mean ranks for ties.
+fn spearman(a: &[f64], b: &[f64]) -> Result<f64, Undefined> {
+    let (a, b) = (ranks(a), ranks(b));
+    let middle = 0.5 * (a.len() as f64 + 1.0);
+    let product = |p: &[f64], q: &[f64]| -> f64 {
+        p.iter()
+            .zip(q)
+            .map(|(x, y)| (x - middle) * (y - middle))
+            .sum()
+    };
+    let spread = (product(&a, &a) * product(&b, &b)).sqrt();
+    if spread > 0.0 {
+        Ok(product(&a, &b) / spread)
+    } else {
+        Err(Undefined::because("all distances are equal"))
+    }
+}
+
+/// Ranks from 1, the mean of those that equal values share.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut start = 0;
+    for equal in order.chunk_by(|&a, &b| values[a].total_cmp(&values[b]).is_eq()) {
+        let rank = start as f64 + 0.5 * (equal.len() as f64 + 1.0);
+        for &i in equal {
+            ranks[i] = rank;
+        }
+        start += equal.len();
+    }
+    ranks
+}

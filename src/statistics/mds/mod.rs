@@ -1,0 +1,118 @@
+//! Maps from dissimilarities: non-metric multidimensional scaling (Kruskal 1964; de Leeuw 1977).
+//!
+//! Points whose distances rise as the dissimilarities do. [`Mds::maps`] follows many starts
+//! downhill, keeps the best and lays it down one way; [`Null`] says what data without structure
+//! would give, [`Elbow`] how many dimensions are worth it.
+
+mod bootstrap;
+mod descend;
+mod dissimilarities;
+mod elbow;
+mod fit;
+mod line;
+mod map;
+mod monotone;
+mod null;
+mod orient;
+mod search;
+mod start;
+#[cfg(test)]
+mod tests;
+
+pub use bootstrap::Resampled;
+pub use dissimilarities::{Dissimilarities, Pair};
+pub use elbow::Elbow;
+pub use fit::Loss;
+pub use map::{Map, ShepardPoint};
+pub use monotone::Ties;
+pub use null::{Null, NullKind};
+pub use search::Descent;
+
+use std::ops::RangeInclusive;
+
+use crate::progress::{Cancelled, Progress};
+use fit::Problem;
+use search::{Plan, search};
+
+/// The most dimensions of a map.
+pub const MOST_DIMENSIONS: usize = 5;
+/// Starts in two dimensions and more, when nobody says how many.
+pub const DEFAULT_STARTS: usize = 50;
+/// Fewest starts on a line, where hardly one in a hundred reaches the best order.
+pub const LEAST_STARTS_ON_A_LINE: usize = 1000;
+
+/// How maps are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mds {
+    /// What ties ask for.
+    pub ties: Ties,
+    /// What is made small.
+    pub loss: Loss,
+    /// How starts are followed.
+    pub descent: Descent,
+    /// Starts in two dimensions and more.
+    pub n_starts: usize,
+    /// Starts on a line.
+    pub n_starts_on_a_line: usize,
+    /// What chance begins with.
+    pub seed: u64,
+    /// Threads that share the work; the maps do not depend on it.
+    pub n_threads: usize,
+}
+
+impl Default for Mds {
+    fn default() -> Self {
+        Self {
+            ties: Ties::default(),
+            loss: Loss::default(),
+            descent: Descent::default(),
+            n_starts: DEFAULT_STARTS,
+            n_starts_on_a_line: LEAST_STARTS_ON_A_LINE,
+            seed: 1,
+            n_threads: crate::numerics::n_threads(),
+        }
+    }
+}
+
+impl Mds {
+    /// The best map in each number of dimensions, 1 … [`MOST_DIMENSIONS`]; others are left out.
+    ///
+    /// # Errors
+    /// It was cancelled.
+    pub fn maps(
+        &self,
+        data: &Dissimilarities,
+        dims: RangeInclusive<usize>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Map>, Cancelled> {
+        let problem = Problem::new(data, self.ties);
+        let mut maps: Vec<Map> = Vec::new();
+        for k in dims.filter(|k| (1..=MOST_DIMENSIONS).contains(k)) {
+            let lower = maps.last().map(|map| map.points.concat());
+            let found = search(&problem, &self.plan(k), lower.as_deref(), progress)?;
+            maps.push(Map::of(&problem, self.loss, k, &found));
+        }
+        Ok(maps)
+    }
+
+    fn plan(&self, k: usize) -> Plan {
+        let n_starts = if k == 1 {
+            self.n_starts_on_a_line
+        } else {
+            self.n_starts
+        };
+        let n_starts = if self.descent == Descent::None {
+            1
+        } else {
+            n_starts
+        };
+        Plan {
+            k,
+            loss: self.loss,
+            descent: self.descent,
+            n_starts,
+            seed: self.seed,
+            n_threads: self.n_threads,
+        }
+    }
+}

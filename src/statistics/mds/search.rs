@@ -1,0 +1,170 @@
+//! The best of many starts, whatever the number of threads.
+
+use super::descend::{Until, descend, majorise};
+use super::fit::{Fit, Loss, Problem};
+use super::line::exchange;
+use super::start::{raised, thrown, torgerson};
+use crate::numerics::{Random, in_pieces};
+use crate::progress::{Cancelled, Progress};
+
+/// How a start is followed downhill.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Descent {
+    /// Not at all: classical scaling (Torgerson) as it is.
+    None,
+    /// Majorisation alone (SMACOF), which lowers stress-1 whatever the loss.
+    Majorise,
+    /// A few steps of majorisation, then quasi-Newton steps on the loss itself.
+    #[default]
+    Polish,
+}
+
+/// What is searched, and how.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plan {
+    pub(super) k: usize,
+    pub(super) loss: Loss,
+    pub(super) descent: Descent,
+    pub(super) n_starts: usize,
+    pub(super) seed: u64,
+    pub(super) n_threads: usize,
+}
+
+/// The lowest place that was found.
+#[derive(Debug, Clone)]
+pub(super) struct Lowest {
+    pub(super) x: Vec<f64>,
+    /// Loss (not squared).
+    pub(super) loss: f64,
+    pub(super) n_starts: usize,
+    /// Starts that came within [`AS_GOOD`] of it.
+    pub(super) n_reached: usize,
+}
+
+/// Losses that differ by less are the same place.
+pub(super) const AS_GOOD: f64 = 1e-5;
+/// Steps of majorisation before those of quasi-Newton.
+const N_MAJORISED: usize = 12;
+/// A start is followed until a step lowers the squared loss by less than this share.
+const FOLLOWED: Until = Until {
+    n_steps: 250,
+    share: 1e-8,
+};
+const MAJORISED: Until = Until {
+    n_steps: 5000,
+    share: 1e-9,
+};
+const POLISHED: Until = Until {
+    n_steps: 2000,
+    share: 1e-14,
+};
+/// The best starts that are polished to the end.
+const N_POLISHED: usize = 4;
+/// The best orders on a line that are improved by exchange.
+const N_EXCHANGED: usize = 6;
+
+struct Run {
+    x: Vec<f64>,
+    f: f64,
+}
+
+/// Follows a start downhill.
+pub(super) fn downhill(fit: &mut Fit<'_>, plan: &Plan, x: &mut [f64]) -> f64 {
+    match (plan.descent, plan.loss) {
+        (Descent::None, loss) => {
+            fit.problem.normalise(x, plan.k);
+            fit.loss(loss, x)
+        }
+        (Descent::Majorise, loss) => {
+            majorise(fit, x, MAJORISED);
+            fit.loss(loss, x)
+        }
+        (Descent::Polish, Loss::Stress1) => {
+            let until = Until {
+                n_steps: N_MAJORISED,
+                ..MAJORISED
+            };
+            majorise(fit, x, until);
+            descend(fit, Loss::Stress1, x, FOLLOWED)
+        }
+        (Descent::Polish, Loss::SStress) => descend(fit, Loss::SStress, x, FOLLOWED),
+    }
+}
+
+/// Where start number `i` begins.
+fn begun(problem: &Problem, plan: &Plan, lower: Option<&[f64]>, i: usize) -> Vec<f64> {
+    let mut random = Random::new(plan.seed).branch(&format!("{} dimensions, start {i}", plan.k));
+    match (i, lower) {
+        (0, _) => torgerson(problem, plan.k),
+        (1, Some(lower)) => raised(lower, plan.k, &mut random),
+        _ => thrown(problem.n, plan.k, &mut random),
+    }
+}
+
+/// Follows all starts and keeps the best. `lower` is the best map of one dimension less.
+///
+/// Starts are classical scaling, `lower` with a new axis, and chance. On a line the best orders are
+/// improved by exchange besides.
+pub(super) fn search(
+    problem: &Problem,
+    plan: &Plan,
+    lower: Option<&[f64]>,
+    progress: &mut Progress<'_>,
+) -> Result<Lowest, Cancelled> {
+    let mut runs: Vec<Option<Run>> = Vec::new();
+    runs.resize_with(plan.n_starts.max(1), || None);
+    // Between batches somebody may cancel: about a tenth of a second of work.
+    let batch = (100_000 / (problem.pairs.len() * plan.k)).clamp(8, 500);
+    let n_all = runs.len();
+    let doing = format!("{} dimensions", plan.k);
+    for (n_done, some) in runs.chunks_mut(batch).enumerate() {
+        let first = n_done * batch;
+        progress.step(first as f64 / n_all as f64, &doing)?;
+        let prepare = || Fit::new(problem, plan.k);
+        in_pieces(some, 1, plan.n_threads, prepare, |fit, number, run| {
+            fit.reset();
+            let mut x = begun(problem, plan, lower, first + number);
+            let f = downhill(fit, plan, &mut x);
+            run[0] = Some(Run { x, f });
+        });
+    }
+    let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
+    runs.sort_by(|a, b| a.f.total_cmp(&b.f));
+    let followed: Vec<f64> = runs.iter().map(|run| run.f.max(0.0).sqrt()).collect();
+    runs.truncate(if plan.k == 1 {
+        10 * N_EXCHANGED
+    } else {
+        N_POLISHED
+    });
+    if plan.descent == Descent::Polish {
+        runs = finished(problem, plan, runs);
+    }
+    let best = runs.swap_remove(0);
+    let loss = best.f.max(0.0).sqrt();
+    let is_there = |reached: &&f64| **reached <= loss + AS_GOOD;
+    Ok(Lowest {
+        x: best.x,
+        loss,
+        n_starts: n_all,
+        n_reached: followed.iter().filter(is_there).count(),
+    })
+}
+
+/// The best runs followed to the very end, the best first.
+fn finished(problem: &Problem, plan: &Plan, mut runs: Vec<Run>) -> Vec<Run> {
+    if plan.k == 1 {
+        runs.dedup_by(|a, b| (a.f - b.f).abs() <= 1e-7 * b.f);
+        runs.truncate(N_EXCHANGED);
+    }
+    let prepare = || Fit::new(problem, plan.k);
+    in_pieces(&mut runs, 1, plan.n_threads, prepare, |fit, _, run| {
+        fit.reset();
+        let run = &mut run[0];
+        if plan.k == 1 {
+            run.f = exchange(fit, plan, &mut run.x, run.f);
+        }
+        run.f = descend(fit, plan.loss, &mut run.x, POLISHED);
+    });
+    runs.sort_by(|a, b| a.f.total_cmp(&b.f));
+    runs
+}
