@@ -100,9 +100,12 @@ impl From<Cancelled> for CliError {
 
 fn code_of_file(error: &FileError) -> u8 {
     match error {
-        FileError::Read { .. } | FileError::Content { .. } | FileError::Whole { .. } => 2,
+        FileError::Read { .. }
+        | FileError::Exists { .. }
+        | FileError::Content { .. }
+        | FileError::Whole { .. } => 2,
         FileError::Write { source, .. } if source.kind() == io::ErrorKind::BrokenPipe => 0,
-        FileError::Write { .. } => 1,
+        FileError::Write { .. } | FileError::Busy { .. } => 1,
     }
 }
 
