@@ -185,7 +185,7 @@ fn sync_folder(path: &Path) -> io::Result<()> {
         let folder = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty());
-        File::open(folder.unwrap_or(Path::new(".")))?.sync_all()?;
+        File::open(folder.unwrap_or_else(|| Path::new(".")))?.sync_all()?;
     }
     Ok(())
 }
@@ -239,7 +239,7 @@ mod tests {
         let header = bytes.iter().position(|&b| b == b'\n').unwrap() + 1;
         for cut in header..=bytes.len() {
             fs::write(&path, &bytes[..cut]).unwrap();
-            let n_complete = bytes[header..cut].iter().filter(|&&b| b == b'\n').count();
+            let n_complete = bytes[header..cut].split(|&b| b == b'\n').count() - 1;
             let mut reopened = Journal::reopen(&path, &COLUMNS).unwrap();
             assert_eq!(reopened.table.n_rows(), n_complete, "cut at {cut}");
             let kept = fs::read(&path).unwrap();

@@ -27,10 +27,11 @@ impl Triad {
     }
 }
 
-/// All n(n − 1)/2 triads of a subject, in order. The odd one stands in every position as often as
-/// any other (or once more), and which of a pair is odd changes from one subject to the next:
-/// `nth_subject` counts them from 0. No pair stands next to one that shares both stimuli; that no
-/// two trials in a row have the same odd one is kept where it can be.
+/// All n(n − 1)/2 triads of a subject, in order.
+///
+/// The odd one stands in every position equally often, or once more. Which of a pair is odd changes
+/// from one subject to the next; `nth_subject` counts them from 0. Two trials in a row have other
+/// odd ones where that can be.
 pub fn triads(n_stimuli: usize, nth_subject: usize, subject: &Random) -> Vec<Triad> {
     let mut pairs = Vec::with_capacity(n_stimuli * n_stimuli.saturating_sub(1) / 2);
     for a in 0..n_stimuli {
@@ -86,9 +87,9 @@ mod tests {
             assert_eq!(positions, [7; 3]);
             assert_eq!(found, triads(7, nth, &random), "no chance but the seed's");
         }
-        for a in 0..7 {
-            for b in 0..7 {
-                assert_eq!(odd[a][b], if a == b { 0 } else { 4 }, "{a} odd beside {b}");
+        for (a, row) in odd.iter().enumerate() {
+            for (b, &n) in row.iter().enumerate() {
+                assert_eq!(n, if a == b { 0 } else { 4 }, "{a} odd beside {b}");
             }
         }
     }
