@@ -123,6 +123,7 @@ impl Obedient for OurCore {
                 let bits = u16::try_from(numbers()[0]).unwrap();
                 self.core.end_fault_cause(bits);
             }
+            "lost" => self.core.hang_up(&mut self.sent),
             "codes" => return self.codes(),
             _ => panic!("no such line: {line}"),
         }

@@ -128,7 +128,8 @@ impl Script {
         let session = self.dice.of(&[SESSION, SESSION, SESSION, 0]);
         hello.extend(session.to_le_bytes());
         hello.extend(self.dice.of(&[[1, 1], [1, 1], [0, 9], [1, 1], [2, 3]]));
-        hello.extend(self.dice.of(&[1u16, 1, 3, 0]).to_le_bytes());
+        // Bits that nobody knows are ignored; bit 1 wants LOG, whose text is each device's own.
+        hello.extend(self.dice.of(&[1u16, 1, 5, 0]).to_le_bytes());
         let lease_ms = self.dice.of(&[0u16, 1000, 30, 200, u16::MAX]);
         hello.extend(lease_ms.to_le_bytes());
         hello.extend([0, 0]);
@@ -260,8 +261,9 @@ impl Script {
 
     fn fault(&mut self) {
         let bits = self.dice.of(&[1u16, 2, 64]);
-        let line = match self.dice.below(2) {
+        let line = match self.dice.below(3) {
             0 => format!("fault {bits} {} -7", self.dice.of(&[3, 65_535])),
+            1 => "lost".to_owned(),
             _ => format!("cured {bits}"),
         };
         self.lines.push(line);
