@@ -21,15 +21,24 @@ pub(crate) fn fold(
 ) {
     let id = ui.scope_id().with(("fold", title));
     let is_open = ui.data(|data| data.get_temp(id)).unwrap_or(is_open_first);
-    let response = head(ui, title, is_open, summary);
-    let is_open = is_open != response.clicked();
-    if response.clicked() {
-        ui.data_mut(|data| data.insert_temp(id, is_open));
+    if told_fold(ui, (title, is_open), summary, content).clicked() {
+        ui.data_mut(|data| data.insert_temp(id, !is_open));
     }
-    if is_open {
+}
+
+/// The same where somebody else knows whether it is open, and takes a click on its name.
+pub(crate) fn told_fold(
+    ui: &mut Ui,
+    (title, is_open): (&'static str, bool),
+    summary: &str,
+    content: impl FnOnce(&mut Ui),
+) -> Response {
+    let response = head(ui, title, is_open, summary);
+    if is_open != response.clicked() {
         content(ui);
         ui.add_space(STEP);
     }
+    response
 }
 
 fn head(ui: &mut Ui, title: &str, is_open: bool, summary: &str) -> Response {

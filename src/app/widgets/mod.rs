@@ -21,7 +21,7 @@ pub(crate) use axis::{
 };
 pub(crate) use bar::{amplitude_bar, colour_bar};
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
-pub(crate) use fold::fold;
+pub(crate) use fold::{fold, told_fold};
 pub(crate) use limit_mark::{LIMIT_MARK, bites_band, limit_words, paint_limit_mark};
 pub(crate) use list::list;
 pub(crate) use polyline::corners;

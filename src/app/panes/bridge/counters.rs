@@ -36,7 +36,7 @@ pub(super) fn show_counters(ui: &mut Ui, bridge: Option<&BridgeView>, felt_age_s
     let answered = bridge.and_then(|bridge| bridge.status_to_frame_s);
     let answered = answered.map_or_else(String::new, |[p99_s, most_s]| {
         let [p99, most] = [p99_s, most_s].map(quantity::time_span);
-        format!("\nFrom its STATUS to our frame: 99 of 100 within {p99}, at most {most}")
+        format!("\nFrom when it was due to our frame: 99 of 100 within {p99}, at most {most}")
     });
     let interval = format!("Measured on the device's clock{answered}");
     let rows = [

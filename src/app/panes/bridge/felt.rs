@@ -1,15 +1,15 @@
 //! What the emulator's contactors are told and what a model says they do, number by number.
 
 use eframe::egui::{
-    self, Align2, CollapsingHeader, Label, Painter, Rect, Response, RichText, Sense, Stroke, Ui,
-    WidgetInfo, pos2, vec2,
+    self, Align2, Label, Painter, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
 use crate::app::command::DeviceCommand;
 use crate::app::panes::Wishes;
 use crate::app::plant::{PlantCell, PlantView};
-use crate::app::theme::{self, Palette, STEP};
-use crate::app::widgets::row;
+use crate::app::theme::{self, Palette};
+use crate::app::widgets::{row, told_fold};
 use crate::bridge::Skin;
 use crate::quantity;
 use crate::tactile::Band;
@@ -25,16 +25,10 @@ const LINE: f32 = 13.0;
 
 /// Shows the section; it opens and closes by its title.
 pub(crate) fn show(ui: &mut Ui, view: &PlantView, wishes: &mut Wishes) {
-    let palette = Palette::in_ui(ui);
-    ui.add_space(STEP);
-    let title = RichText::new("Displacement by a model");
-    let title = title.font(theme::small()).color(palette.dim);
-    let header = CollapsingHeader::new(title)
-        .id_salt("displacement")
-        .open(Some(view.is_open));
-    let shown = header.show_unindented(ui, |ui| show_open(ui, view, wishes));
     let tip = "What the emulator’s contactors would do under a finger, beside what they are told";
-    if shown.header_response.on_hover_text(tip).clicked() {
+    let part = ("Displacement by a model", view.is_open);
+    let head = told_fold(ui, part, "", |ui| show_open(ui, view, wishes));
+    if head.on_hover_text(tip).clicked() {
         wishes.push(DeviceCommand::ShowContactors(!view.is_open).into());
     }
 }

@@ -7,7 +7,7 @@ use crate::app::command::Command;
 use crate::app::sources::{SourceCommand, SourcesView};
 use crate::app::theme::{self, Palette};
 use crate::app::view::{InputView, Live, Source};
-use crate::app::widgets::{button, choice, quiet_pair, row, section};
+use crate::app::widgets::{button, choice, quiet_pair, row};
 use crate::quantity;
 
 /// How wide the menu of devices is, points.
@@ -15,8 +15,7 @@ const MENU: f32 = 288.0;
 
 /// Shows the part of the pane that is about inputs.
 pub(super) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, wishes: &mut Wishes) {
-    section(ui, "Input");
-    row(ui, word(live), |ui| {
+    row(ui, "Moved by", |ui| {
         ui.menu_button("Choose…", |ui| show_menu(ui, sources, wishes))
             .response
             .on_hover_text("Tablets, touch frames, and other programs of this machine");
@@ -25,7 +24,8 @@ pub(super) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, wishes: &mut
     show_programs(ui, sources);
 }
 
-fn word(live: &Live) -> &'static str {
+/// What moves the display, in a few words.
+pub(super) fn word(live: &Live) -> &'static str {
     match live.play.source {
         Source::Device if live.input.is_lifted => "Tablet: lifted, silent",
         Source::Device => "Tablet",

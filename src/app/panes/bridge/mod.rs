@@ -65,6 +65,7 @@ pub(crate) fn show(
     let bridge = view.live.bridge.as_ref();
     link::show_state(ui, bridge, view.target);
     link::show_arming(ui, bridge, view.live.is_stopped, wishes);
+    timing::show_fault(ui, bridge, wishes);
     back::show(ui, view.ports.back.as_ref(), wishes);
     if let Some(wizard) = view.array.wizard {
         ui.add_space(STEP);
@@ -81,9 +82,14 @@ pub(crate) fn show(
     });
     fold(ui, ("Link", true), &counters::summary(bridge), |ui| {
         counters::show_counters(ui, bridge, view.live.status.felt_age_s);
+        timing::show_focus(ui, view.stops_on_focus_loss, wishes);
     });
-    inputs::show(ui, view.live, view.sources, wishes);
-    timing::show(ui, bridge, view.stops_on_focus_loss, wishes);
+    fold(ui, ("Timing", false), &timing::summary(bridge), |ui| {
+        timing::show(ui, bridge, wishes);
+    });
+    fold(ui, ("Input", false), inputs::word(view.live), |ui| {
+        inputs::show(ui, view.live, view.sources, wishes);
+    });
     if let Some(plant) = view.plant {
         felt::show(ui, plant, wishes);
     }

@@ -8,7 +8,7 @@ use eframe::egui::{self, Label, Rect, RichText, Sense, Ui, WidgetInfo, pos2, vec
 use crate::app::command::DeviceCommand;
 use crate::app::panes::Wishes;
 use crate::app::panes::spectrogram::paint_sentence;
-use crate::app::theme::{self, Palette, STEP};
+use crate::app::theme::{self, Palette};
 use crate::app::view::{BridgeView, LinkTiming};
 use crate::app::widgets::{Axis, Side, Tick, button, paint_ticks, quiet_pair, row};
 use crate::bridge::{BridgeState, Distribution, Spread};
@@ -21,16 +21,17 @@ const LINE: f32 = 14.0;
 /// Both distributions have this axis, ms: the same quantity, the same scale.
 const TIMES_MS: [f64; 2] = [0.03, 300.0];
 
-/// Shows what is measured on the link.
-pub(crate) fn show(
-    ui: &mut Ui,
-    bridge: Option<&BridgeView>,
-    stops_on_focus_loss: bool,
-    wishes: &mut Wishes,
-) {
-    let none = LinkTiming::default();
-    let timing = bridge.map_or(&none, |bridge| &bridge.timing);
-    ui.add_space(STEP);
+/// What matters of the times while they are folded away.
+pub(super) fn summary(bridge: Option<&BridgeView>) -> String {
+    let round_trip = bridge.map(|bridge| bridge.timing.round_trip.spread);
+    let measured = round_trip.filter(|spread| spread.n > 0);
+    measured.map_or_else(String::new, |spread| {
+        format!("round trip {} ms", milliseconds(spread.median))
+    })
+}
+
+/// A way out of a fault whose cause is gone.
+pub(super) fn show_fault(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
     if bridge.is_some_and(|bridge| bridge.state == BridgeState::Faulted.label()) {
         let tip = "Ask the device to clear the fault; while its cause lasts it refuses. Arming is \
                    a step of its own";
@@ -38,6 +39,12 @@ pub(crate) fn show(
             wishes.push(DeviceCommand::ClearFaults.into());
         }
     }
+}
+
+/// Shows what is measured on the link.
+pub(super) fn show(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
+    let none = LinkTiming::default();
+    let timing = bridge.map_or(&none, |bridge| &bridge.timing);
     show_latching(ui, timing);
     ui.columns_const(|[left, right]: &mut [Ui; 2]| {
         let tip = "From a PING to its answer, asked once a second while frames are sent";
@@ -46,7 +53,6 @@ pub(crate) fn show(
         show_distribution(right, "Frame interval", &timing.frame_interval, tip);
     });
     show_log(ui, timing, wishes);
-    show_focus(ui, stops_on_focus_loss, wishes);
 }
 
 fn show_latching(ui: &mut Ui, timing: &LinkTiming) {
@@ -155,7 +161,8 @@ fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
     });
 }
 
-fn show_focus(ui: &mut Ui, stops_on_focus_loss: bool, wishes: &mut Wishes) {
+/// Whether another window that comes to the front stops the device.
+pub(super) fn show_focus(ui: &mut Ui, stops_on_focus_loss: bool, wishes: &mut Wishes) {
     let mut is_on = stops_on_focus_loss;
     let words = "All off when the focus is lost";
     let tip = "Stops an armed device as Esc does, as soon as this window loses the keyboard";
