@@ -29,7 +29,7 @@ pub(super) struct PlantArgs {
     /// Show displacement and current of every contactor, a model estimate, on the terminal
     #[arg(long)]
     show: bool,
-    /// The finger on them: free, light, firm, or KS,CS[,PRELOAD] in N/m, N s/m and µm
+    /// The finger on them: free, light, firm, or KS,CS or KS,CS,PRELOAD in N/m, N s/m and µm
     #[arg(long, value_name = "SKIN", default_value = "light", value_parser = skin)]
     skin: Skin,
     /// The beams: length, width and thickness of both layers in mm

@@ -34,7 +34,7 @@ pub struct Moment {
     pub amp_sum: u32,
 }
 
-/// Takes what a [`DeviceCore`](super::DeviceCore) emits.
+/// Takes what a [`DeviceCore`] emits.
 pub trait DeviceSink {
     /// One framed packet for the host.
     fn packet(&mut self, bytes: &[u8]);

@@ -25,7 +25,7 @@ struct Echo {
     round_trip: Duration,
 }
 
-/// What a [`DeviceClock`] has learned.
+/// What a clock line has learned of a device's clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClockFit {
     /// How much faster than ours the device's clock runs, in parts per million; 0 until known.

@@ -1,7 +1,7 @@
 //! Frames on a sound card with many channels, for labs that drive amplifiers from one.
 //!
 //! The card paces: whenever it begins a tick it takes the next frame, and whoever makes frames is
-//! woken to make another. [`wave`] is what the card plays, without any card: limits, soft start and
+//! woken to make another. `wave` is what the card plays, without any card: limits, soft start and
 //! the silence when frames stop. A card has no rule of silence of its own, so the rule stands here,
 //! and a process that dies takes it along: for work at a bench, not for a finger that nobody
 //! watches.

@@ -6,7 +6,7 @@
 //! | method | P | order | stable |
 //! |---|---|---|---|
 //! | exact hold | `e^{Ah}` | all | wherever the system is |
-//! | Runge–Kutta 4 | `Σ_{k≤4} (Ah)ᵏ/k!` | 4 | while every `|R(hλ)| ≤ 1`: about `h|λ| ≤ 2.8` |
+//! | Runge–Kutta 4 | `Σ_{k≤4} (Ah)ᵏ/k!` | 4 | while all R(hλ) ≤ 1 in magnitude: about hλ ≤ 2.8 |
 //! | trapezoid | `(I − Ah/2)⁻¹ (I + Ah/2)` | 2 | always; stiff modes keep ringing |
 //! | backward Euler | `(I − Ah)⁻¹` | 1 | always; damps what it should not |
 //!
