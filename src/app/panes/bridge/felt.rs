@@ -8,7 +8,7 @@ use eframe::egui::{
 use crate::app::command::DeviceCommand;
 use crate::app::panes::Wishes;
 use crate::app::plant::{PlantCell, PlantView};
-use crate::app::theme::{self, Palette};
+use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{row, told_fold};
 use crate::bridge::Skin;
 use crate::quantity;
