@@ -7,15 +7,34 @@ use super::script::Script;
 use super::{tools, vectors};
 use crate::program::Lab;
 
+/// The core in C, built and started in a folder of its own; `None`, and said so, where nothing
+/// builds it.
+fn started(what: &str, defines: &[&str]) -> Option<(Lab, CCore)> {
+    tools::has("cc", what).then(|| {
+        let lab = Lab::new();
+        let program = lab.path("hbp_host");
+        tools::build_host(&program, defines);
+        (lab, CCore::start(&program))
+    })
+}
+
+/// Plays the golden session to where frames are felt.
+fn run_stream(core: &mut CCore) {
+    let lines = vectors::read().session("stream");
+    let end = lines.iter().position(|line| line.starts_with("state RUN"));
+    for line in &lines[..end.unwrap()] {
+        if line.starts_with("at ") || line.starts_with("in ") {
+            core.obey(line);
+        }
+    }
+}
+
 /// Runs random scripts on both; the first difference fails with the lines that led to it.
 fn compare(defines: &[&str], model: &DeviceModel, n_scripts: u64) {
-    if !tools::has("cc", "the core in C against our own device") {
+    let Some((_lab, mut theirs)) = started("the core in C against our own device", defines) else {
         return;
-    }
-    let lab = Lab::new();
-    let program = lab.path("hbp_host");
-    tools::build_host(&program, defines);
-    let (mut theirs, mut ours) = (CCore::start(&program), OurCore::new(model.clone()));
+    };
+    let mut ours = OurCore::new(model.clone());
     let mut seen = std::collections::BTreeMap::new();
     for seed in 0..n_scripts {
         let lines = Script::lines(seed, model.n_channels(), 250);
@@ -81,13 +100,9 @@ fn another_array_in_c_answers_as_our_device_does() {
 /// the same.
 #[test]
 fn no_damaged_vector_is_taken_by_the_core_in_c() {
-    if !tools::has("cc", "damaged vectors against the core in C") {
+    let Some((_lab, mut theirs)) = started("damaged vectors against the core in C", &[]) else {
         return;
-    }
-    let lab = Lab::new();
-    let program = lab.path("hbp_host");
-    tools::build_host(&program, &[]);
-    let mut theirs = CCore::start(&program);
+    };
     let mut ours = OurCore::new(DeviceModel::default());
     let mut n_damaged = 0;
     for packet in vectors::read().packets {
@@ -112,23 +127,10 @@ fn no_damaged_vector_is_taken_by_the_core_in_c() {
 /// One tick of samples is the sum of two sines in exact integers, both at phase 0 when it begins.
 #[test]
 fn the_samples_are_sines_to_the_last_bit() {
-    if !tools::has("cc", "the sample generator in C") {
+    let Some((_lab, mut core)) = started("the sample generator in C", &[]) else {
         return;
-    }
-    let lab = Lab::new();
-    let program = lab.path("hbp_host");
-    tools::build_host(&program, &[]);
-    let mut core = CCore::start(&program);
-    let lines = vectors::read().session("stream");
-    for line in lines.iter().filter(|line| !line.starts_with("out")) {
-        if line.starts_with("state RUN") {
-            break;
-        }
-        let word = line.split(' ').next().unwrap_or_default();
-        if ["at", "in"].contains(&word) {
-            core.obey(line);
-        }
-    }
+    };
+    run_stream(&mut core);
     let numbers = |text: &str| -> Vec<f64> {
         let parse = |number: &str| number.parse().unwrap();
         text.split_whitespace().map(parse).collect()
@@ -152,20 +154,10 @@ fn the_samples_are_sines_to_the_last_bit() {
 
 #[test]
 fn a_lost_link_ramps_a_running_core_down_and_ends_a_resting_one() {
-    if !tools::has("cc", "a lost link on the core in C") {
+    let Some((_lab, mut core)) = started("a lost link on the core in C", &[]) else {
         return;
-    }
-    let lab = Lab::new();
-    let program = lab.path("hbp_host");
-    tools::build_host(&program, &[]);
-    let mut core = CCore::start(&program);
-    let lines = vectors::read().session("stream");
-    let end = lines.iter().position(|line| line.starts_with("state RUN"));
-    for line in &lines[..end.unwrap()] {
-        if line.starts_with("at ") || line.starts_with("in ") {
-            core.obey(line);
-        }
-    }
+    };
+    run_stream(&mut core);
     let state = |answer: &str| answer.split(' ').next().unwrap_or_default().to_owned();
     let now_us: u64 = 25_000;
     assert_eq!(state(&core.obey("lost")), "RAMP");
