@@ -15,6 +15,7 @@ mod archive;
 mod atomic;
 mod bytes;
 mod digits;
+mod flaw;
 mod gray16;
 mod hash;
 mod inflate;
@@ -33,6 +34,7 @@ pub use archive::{Archive, pack};
 pub use atomic::{create, read, read_text, write_atomic};
 pub use bytes::{ByteReader, Number, latin1};
 pub use digits::push_number;
+pub use flaw::{Flaw, Place};
 pub use gray16::{
     GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff, gray_values,
 };

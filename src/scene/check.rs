@@ -7,56 +7,16 @@ use std::collections::BTreeMap;
 
 use super::geometry::MAX_CONTACTORS;
 use super::{Display, Geometry, PlacedTextile, Scene};
+use crate::files::{Flaw, Place};
 use crate::geometry::Displacement;
-use crate::tactile::{Filters, Tuning, TuningError, check_gain};
+use crate::tactile::{Filters, Tuning, check_gain};
 
+/// How to mend a gain whose error does not say.
+const FINITE: &str = "give a finite number";
 /// Most textiles that a scene may hold.
 const MAX_TEXTILES: usize = 10_000;
 /// Most displays that a scene may hold: one a finger.
 const MAX_DISPLAYS: usize = 10;
-
-/// A wrong value, where it stands and how to mend it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Flaw {
-    /// The table that holds it; empty for the file itself.
-    pub(super) table: &'static str,
-    /// Which of the tables of that name, from 0.
-    pub(super) nth: usize,
-    /// Its key.
-    pub(super) key: &'static str,
-    /// What is wrong.
-    pub(super) what: String,
-    /// What to do about it.
-    pub(super) mend: String,
-}
-
-impl Flaw {
-    /// A flaw at (table, which of them, key).
-    pub(super) fn new(
-        (table, nth, key): (&'static str, usize, &'static str),
-        what: impl Into<String>,
-        mend: impl Into<String>,
-    ) -> Self {
-        Self {
-            table,
-            nth,
-            key,
-            what: what.into(),
-            mend: mend.into(),
-        }
-    }
-
-    /// The flaw of a gain or a tuning, whose errors read `what; mend`.
-    fn of_tuning(place: Place, error: &TuningError) -> Self {
-        let text = error.to_string();
-        let (what, mend) = text
-            .split_once("; ")
-            .unwrap_or((&text, "give a finite number"));
-        Self::new(place, what, mend)
-    }
-}
-
-type Place = (&'static str, usize, &'static str);
 
 /// The first thing that is wrong with a scene.
 pub(super) fn scene_flaw(scene: &Scene) -> Option<Flaw> {
@@ -167,13 +127,13 @@ fn tuning_flaw(tuning: &Tuning) -> Option<Flaw> {
     tuning
         .check()
         .err()
-        .map(|error| Flaw::of_tuning(("tuning", 0, error.key()), &error))
+        .map(|error| Flaw::told(("tuning", 0, error.key()), &error.to_string(), FINITE))
 }
 
 fn gain_flaw(place: Place, gain_db: f64) -> Option<Flaw> {
     check_gain(place.2, gain_db)
         .err()
-        .map(|error| Flaw::of_tuning(place, &error))
+        .map(|error| Flaw::told(place, &error.to_string(), FINITE))
 }
 
 fn sizes_flaw(place: Place, size_mm: [f64; 2]) -> Option<Flaw> {

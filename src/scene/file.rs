@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::check::{Flaw, scene_flaw};
+use super::check::scene_flaw;
 use super::{ArrayLayout, Geometry, SceneError};
-use crate::files::{self, FileError};
+use crate::files::{self, Flaw};
 use crate::geometry::{Displacement, Frame, Point, Rotation};
 use crate::tactile::{Filters, Tuning};
 use crate::textile::is_of_the_program;
@@ -135,7 +135,7 @@ impl Scene {
         let keys: SceneKeys = files::keys_from_str(text, path)?;
         let scene = Self::from_keys(keys).map_err(|flaw| flaw.in_file(text, path))?;
         match scene_flaw(&scene) {
-            Some(flaw) => Err(flaw.in_file(text, path)),
+            Some(flaw) => Err(flaw.in_file(text, path).into()),
             None => Ok(scene),
         }
     }
@@ -302,12 +302,5 @@ impl From<Flaw> for SceneError {
             what: flaw.what,
             mend: flaw.mend,
         }
-    }
-}
-
-impl Flaw {
-    fn in_file(self, text: &str, path: &Path) -> SceneError {
-        let line = files::line_of_key(text, self.table, self.nth, self.key);
-        FileError::content(path, line, self.what, self.mend).into()
     }
 }

@@ -3,31 +3,7 @@
 
 use super::{ArrayProfile, Calibration};
 use crate::bridge::message::LARGEST_CHANNELS;
-
-/// A wrong value: the table and key that hold it, what is wrong, and how to mend it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Flaw {
-    pub(super) table: &'static str,
-    pub(super) key: &'static str,
-    pub(super) what: String,
-    pub(super) mend: String,
-}
-
-impl Flaw {
-    pub(super) fn new(
-        (table, key): (&'static str, &'static str),
-        what: impl Into<String>,
-        mend: impl Into<String>,
-    ) -> Self {
-        let (what, mend) = (what.into(), mend.into());
-        Self {
-            table,
-            key,
-            what,
-            mend,
-        }
-    }
-}
+use crate::files::Flaw;
 
 /// The first thing that is wrong with a profile.
 pub(super) fn flaw(profile: &ArrayProfile) -> Option<Flaw> {
@@ -43,23 +19,23 @@ fn shape_flaw(profile: &ArrayProfile) -> Option<Flaw> {
     let n = profile.n_contactors();
     if profile.name.trim().is_empty() {
         let mend = "give the array a name";
-        return Some(Flaw::new(("", "name"), "the name is empty", mend));
+        return Some(Flaw::new(("", 0, "name"), "the name is empty", mend));
     }
     if n == 0 || n > LARGEST_CHANNELS {
         let what = format!("{} rows × {} columns", profile.rows, profile.cols);
         let mend = format!("give 1 to {LARGEST_CHANNELS} contactors: a frame carries no more");
-        return Some(Flaw::new(("", "rows"), what, mend));
+        return Some(Flaw::new(("", 0, "rows"), what, mend));
     }
     if profile.contactors_mm.is_empty() && profile.pitch_um == 0 {
         let mend = "give a pitch of 0.001 to 65.535 mm";
-        return Some(Flaw::new(("", "pitch_mm"), "the pitch is 0", mend));
+        return Some(Flaw::new(("", 0, "pitch_mm"), "the pitch is 0", mend));
     }
     None
 }
 
 fn places_flaw(profile: &ArrayProfile) -> Option<Flaw> {
     let places = &profile.contactors_mm;
-    let flaw = |what: String, mend: &str| Some(Flaw::new(("", "contactors_mm"), what, mend));
+    let flaw = |what: String, mend: &str| Some(Flaw::new(("", 0, "contactors_mm"), what, mend));
     if !places.is_empty() && places.len() != profile.n_contactors() {
         let n = profile.n_contactors();
         let what = format!("{} places for {n} contactors", places.len());
@@ -95,12 +71,12 @@ fn scale_flaw(profile: &ArrayProfile) -> Option<Flaw> {
         if !(least..=most).contains(&full_um) {
             let what = format!("a full scale of {full_um} µm");
             let mend = format!("give {least} to {most} µm for each band");
-            return Some(Flaw::new(("", "full_scale_um"), what, mend));
+            return Some(Flaw::new(("", 0, "full_scale_um"), what, mend));
         }
         if !(0.0..=full_um).contains(&limit_um) {
             let what = format!("a limit of {limit_um} µm where full scale is {full_um} µm");
             let mend = "give 0 to the full scale of that band";
-            return Some(Flaw::new(("", "limit_um"), what, mend));
+            return Some(Flaw::new(("", 0, "limit_um"), what, mend));
         }
     }
     None
@@ -112,7 +88,7 @@ fn silencing_flaw(profile: &ArrayProfile) -> Option<Flaw> {
     if hold_ms > most_ms {
         let what = format!("hold_ms is {hold_ms}");
         return Some(Flaw::new(
-            ("", "hold_ms"),
+            ("", 0, "hold_ms"),
             what,
             format!("give 0 to {most_ms} ms"),
         ));
@@ -123,13 +99,13 @@ fn silencing_flaw(profile: &ArrayProfile) -> Option<Flaw> {
             u32::from(hold_ms) + u32::from(ramp_ms)
         );
         let mend = format!("the array must be silent within {most_ms} ms: shorten one");
-        return Some(Flaw::new(("", "ramp_ms"), what, mend));
+        return Some(Flaw::new(("", 0, "ramp_ms"), what, mend));
     }
     if profile.hv_dv > ArrayProfile::LARGEST_HV_DV {
         let most_v = f64::from(ArrayProfile::LARGEST_HV_DV) / 10.0;
         let what = format!("a high voltage of {} V", f64::from(profile.hv_dv) / 10.0);
         return Some(Flaw::new(
-            ("", "hv_v"),
+            ("", 0, "hv_v"),
             what,
             format!("give 0 to {most_v} V"),
         ));
@@ -143,7 +119,7 @@ fn calibration_flaw(profile: &ArrayProfile) -> Option<Flaw> {
     if given != 0 && given != n {
         let what = format!("{given} gains for {n} contactors");
         return Some(Flaw::new(
-            ("calibration", keys[0]),
+            ("calibration", 0, keys[0]),
             what,
             "give one a contactor",
         ));
@@ -155,7 +131,7 @@ fn calibration_flaw(profile: &ArrayProfile) -> Option<Flaw> {
                 let what = format!("contactor {contactor} has a drive gain of {gain}");
                 let mend =
                     format!("give {least} to {most}; a contactor that is dead stands in off");
-                return Some(Flaw::new(("calibration", key), what, mend));
+                return Some(Flaw::new(("calibration", 0, key), what, mend));
             }
         }
     }
@@ -165,7 +141,7 @@ fn calibration_flaw(profile: &ArrayProfile) -> Option<Flaw> {
 fn wiring_flaw(profile: &ArrayProfile) -> Option<Flaw> {
     let wiring = profile.wiring.as_ref()?;
     let n = profile.n_contactors();
-    let flaw = |what: String, mend: String| Some(Flaw::new(("wiring", "channels"), what, mend));
+    let flaw = |what: String, mend: String| Some(Flaw::new(("wiring", 0, "channels"), what, mend));
     let whole = format!(
         "give every channel from 0 to {} once, in contactor order",
         n - 1

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::check::{Flaw, flaw};
+use super::check::flaw;
 use super::{ArrayProfile, Calibration, DeviceUid, Wiring};
 use crate::bridge::BridgeError;
-use crate::files::{self, FileError};
+use crate::files::{self, FileError, Flaw, Place};
 
 /// A file larger than this is no profile, bytes.
 const MOST_BYTES: usize = 1 << 20;
@@ -69,10 +69,7 @@ impl ArrayProfile {
             return Err(FileError::whole(path, what, "name the file of a profile").into());
         }
         let keys: ProfileKeys = files::keys_from_str(text, path)?;
-        let in_file = |flaw: Flaw| {
-            let line = files::line_of_key(text, flaw.table, 0, flaw.key);
-            BridgeError::from(FileError::content(path, line, flaw.what, flaw.mend))
-        };
+        let in_file = |flaw: Flaw| BridgeError::from(flaw.in_file(text, path));
         let profile = Self::from_keys(keys).map_err(in_file)?;
         flaw(&profile).map_or(Ok(profile), |flaw| Err(in_file(flaw)))
     }
@@ -108,15 +105,17 @@ impl ArrayProfile {
 
     fn from_keys(keys: ProfileKeys) -> Result<Self, Flaw> {
         let (pitch_um, contactors_mm) = match (keys.pitch_mm, keys.contactors_mm) {
-            (Some(pitch_mm), None) => (whole(("", "pitch_mm"), pitch_mm, "mm", 1e3)?, Vec::new()),
+            (Some(pitch_mm), None) => {
+                (whole(("", 0, "pitch_mm"), pitch_mm, "mm", 1e3)?, Vec::new())
+            }
             (None, Some(places)) if !places.is_empty() => (0, places),
             (Some(_), Some(_)) => {
                 let what = "pitch_mm and contactors_mm are both given";
-                return Err(Flaw::new(("", "contactors_mm"), what, "keep one"));
+                return Err(Flaw::new(("", 0, "contactors_mm"), what, "keep one"));
             }
             (None, _) => {
                 let mend = "give pitch_mm, or contactors_mm = [[x, y], …]";
-                return Err(Flaw::new(("", "rows"), "no contactor has a place", mend));
+                return Err(Flaw::new(("", 0, "rows"), "no contactor has a place", mend));
             }
         };
         let n = usize::from(keys.rows) * usize::from(keys.cols);
@@ -130,7 +129,7 @@ impl ArrayProfile {
             limit_um: keys.limit_um,
             hold_ms: keys.hold_ms,
             ramp_ms: keys.ramp_ms,
-            hv_dv: whole(("", "hv_v"), keys.hv_v, "V", 10.0)?,
+            hv_dv: whole(("", 0, "hv_v"), keys.hv_v, "V", 10.0)?,
             calibration: keys
                 .calibration
                 .map_or_else(|| Ok(Vec::new()), |keys| calibration_from(&keys, n))?,
@@ -167,16 +166,11 @@ const HEAD: &str = "\
 ";
 
 /// A number of `unit` as a whole number of its `per_unit` parts.
-fn whole(
-    place: (&'static str, &'static str),
-    value: f64,
-    unit: &str,
-    per_unit: f64,
-) -> Result<u16, Flaw> {
+fn whole(place: Place, value: f64, unit: &str, per_unit: f64) -> Result<u16, Flaw> {
     let parts = (value * per_unit).round();
     let is_whole = (value * per_unit - parts).abs() < 1e-6;
     if !is_whole || !(0.0..=f64::from(u16::MAX)).contains(&parts) {
-        let what = format!("{} is {value}", place.1);
+        let what = format!("{} is {value}", place.2);
         let most = f64::from(u16::MAX) / per_unit;
         let mend = format!(
             "give 0 to {most} {unit} in steps of {} {unit}",
@@ -200,7 +194,7 @@ fn calibration_from(keys: &CalibrationKeys, n: usize) -> Result<Vec<Calibration>
     if let Some((key, gains)) = gains.into_iter().find(|(_, gains)| gains.len() != n) {
         let what = format!("{} gains for {n} contactors", gains.len());
         return Err(Flaw::new(
-            ("calibration", key),
+            ("calibration", 0, key),
             what,
             "give one a contactor",
         ));
@@ -208,7 +202,7 @@ fn calibration_from(keys: &CalibrationKeys, n: usize) -> Result<Vec<Calibration>
     if let Some(contactor) = keys.off.iter().find(|contactor| **contactor >= n) {
         let what = format!("there is no contactor {contactor}");
         let mend = format!("contactors are 0 to {}", n.saturating_sub(1));
-        return Err(Flaw::new(("calibration", "off"), what, mend));
+        return Err(Flaw::new(("calibration", 0, "off"), what, mend));
     }
     let pairs = keys.drive_gain_40.iter().zip(&keys.drive_gain_320);
     let calibration = |(contactor, (&low, &high)): (usize, (&f64, &f64))| Calibration {
@@ -232,7 +226,7 @@ fn wiring_from(keys: WiringKeys) -> Result<Wiring, Flaw> {
     let uid = DeviceUid::parse(&keys.device_uid).ok_or_else(|| {
         let what = format!("{:?} is no device's number", keys.device_uid);
         let mend = "give its 24 hexadecimal digits, as \"selvedge bridge identify\" writes them";
-        Flaw::new(("wiring", "device_uid"), what, mend)
+        Flaw::new(("wiring", 0, "device_uid"), what, mend)
     })?;
     Ok(Wiring {
         device_uid: uid,
