@@ -2,11 +2,27 @@
 //!
 //! ```text
 //! design, seed, subject ─▶ schedule ─▶ procedure ─▶ log ─▶ analysis
+//!                                       │    ▲
+//!                                     trial  answer
+//!                                       ▼    │
+//!                                 participant, or simulated observer
 //! ```
 //!
 //! # Invariants
-//! - a schedule is a pure function of design, seed and subject: what was not yet answered can
-//!   always be found again
+//! - a schedule is a pure function of design, seed and subject, and a procedure of these and the
+//!   answers: what was not yet answered can always be found again
 //! - no window here, and no clock that a caller does not hand in
 
+mod course;
+pub mod design;
+mod error;
+mod procedure;
+mod record;
 pub mod schedule;
+mod trial;
+
+pub use course::{Course, Step};
+pub use error::ExperimentError;
+pub use procedure::Procedure;
+pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
+pub use trial::{Adjustment, Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task, Trial};

@@ -6,10 +6,12 @@
 mod blocks;
 mod plane;
 mod ranking;
+mod rounds;
 mod triads;
 
 pub use plane::{LINE_POINTS, Lines};
-pub use ranking::{RankingSchedule, RankingTrial, ScheduleError};
+pub use ranking::{RankingSchedule, RankingTrial, ScheduleError, is_ranked};
+pub use rounds::rounds;
 pub use triads::{Triad, triads};
 
 use crate::numerics::Random;

@@ -65,7 +65,7 @@ impl RankingSchedule {
     /// # Errors
     /// The number of textiles less one is no multiple of three, or is 0.
     pub fn of(n_textiles: usize, subject: &Random) -> Result<Self, ScheduleError> {
-        if n_textiles < N_ALTERNATIVES || n_textiles % 3 != 1 {
+        if !is_ranked(n_textiles) {
             return Err(ScheduleError::NoTriples { n: n_textiles });
         }
         let plane = Lines::over(n_textiles);
@@ -86,6 +86,11 @@ impl RankingSchedule {
             is_pair_balanced,
         })
     }
+}
+
+/// Whether so many textiles can be ranked in fours: the others of a target split into triples.
+pub fn is_ranked(n_textiles: usize) -> bool {
+    n_textiles >= N_ALTERNATIVES && n_textiles % 3 == 1
 }
 
 /// Blocks of the flags of a plane whose points are textiles in an order by chance.

@@ -1,0 +1,455 @@
+//! What makes a design's values wrong, and how to mend them.
+
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
+use super::{
+    Adjusting, Design, Judging, JudgingProtocol, Levels, Medium, Method, Rating, Source,
+    StaircaseTrack, Standard, Stopping, Track, Tunable, is_name,
+};
+use crate::experiment::schedule::is_ranked;
+use crate::files::{Flaw, Place};
+
+/// Most stimuli of a design: schedules are made at once.
+const MOST_STIMULI: usize = 400;
+/// Most times that a stimulus may come.
+const MOST_REPEATS: usize = 1000;
+/// Most trials that a series of levels may take: what never ends is stopped.
+const MOST_TRIALS: usize = 10_000;
+/// Levels that make sense, dB re 1 µm.
+const LEVELS_DB: RangeInclusive<f64> = -120.0..=60.0;
+
+/// The first thing that is wrong with a design, whose first `n_named` stimuli are those of
+/// `textiles`.
+pub(super) fn flaw(design: &Design, n_named: usize) -> Option<Flaw> {
+    names_flaw(design)
+        .or_else(|| stimuli_flaw(design, n_named))
+        .or_else(|| method_flaw(design))
+        .or_else(|| course_flaw(design))
+        .or_else(|| tuning_flaw(design))
+}
+
+fn names_flaw(design: &Design) -> Option<Flaw> {
+    let names = [("study", &design.study), ("experiment", &design.experiment)];
+    names.into_iter().find_map(|(key, name)| {
+        let mend = "give 1 to 64 letters, digits, - and _: files are named by it";
+        (!is_name(name)).then(|| Flaw::new(("", 0, key), format!("{key} is {name:?}"), mend))
+    })
+}
+
+fn stimuli_flaw(design: &Design, n_named: usize) -> Option<Flaw> {
+    let n = design.stimuli.len();
+    if n > MOST_STIMULI {
+        let what = format!("there are {n} stimuli");
+        return Some(Flaw::new(
+            ("", 0, "textiles"),
+            what,
+            format!("give {MOST_STIMULI} at most"),
+        ));
+    }
+    let mut seen = BTreeSet::new();
+    design
+        .stimuli
+        .iter()
+        .enumerate()
+        .find_map(|(at, stimulus)| {
+            // Those of `textiles` come first; the rest stand in tables of their own.
+            let place = |key| match at.checked_sub(n_named) {
+                None => ("", 0, "textiles"),
+                Some(nth) => ("stimulus", nth, key),
+            };
+            let id = &stimulus.id;
+            if id.is_empty() {
+                return Some(Flaw::new(
+                    place("id"),
+                    "a stimulus has no name",
+                    "give it an id",
+                ));
+            }
+            if !seen.insert(id) {
+                let what = format!("two stimuli are called {id:?}");
+                return Some(Flaw::new(place("id"), what, "give each an id of its own"));
+            }
+            source_flaw(&stimulus.source, design.medium, place)
+        })
+}
+
+fn source_flaw(
+    source: &Source,
+    medium: Medium,
+    place: impl Fn(&'static str) -> Place,
+) -> Option<Flaw> {
+    match source {
+        Source::RealCloth(cloth) if medium == Medium::Array => {
+            let what = format!("{cloth:?} is cloth on the table, and the medium is \"array\"");
+            let mend = "name a textile of the library, or set medium = \"real-cloth\"";
+            Some(Flaw::new(place("cloth"), what, mend))
+        }
+        Source::Textile { id, .. } if medium == Medium::RealCloth => {
+            let what = format!("{id:?} is virtual, and the medium is \"real-cloth\"");
+            Some(Flaw::new(place("textile"), what, "give cloth = \"…\""))
+        }
+        Source::Textile { gain_db, .. } if !gain_db.is_finite() => {
+            let what = format!("gain_db is {gain_db}");
+            Some(Flaw::new(
+                place("gain_db"),
+                what,
+                "give a finite number of dB",
+            ))
+        }
+        Source::Vibration { level_db, .. } => level_flaw(place("level_db"), *level_db),
+        Source::RealCloth(_) | Source::Textile { .. } => None,
+    }
+}
+
+fn level_flaw(place: Place, level_db: f64) -> Option<Flaw> {
+    let what = || format!("{} holds {level_db} dB", place.2);
+    let mend = "give levels from -120 to 60 dB re 1 µm";
+    (!LEVELS_DB.contains(&level_db)).then(|| Flaw::new(place, what(), mend))
+}
+
+fn method_flaw(design: &Design) -> Option<Flaw> {
+    let n = design.stimuli.len();
+    let table = design.method.name();
+    match &design.method {
+        Method::Ranking(ranking) => {
+            let place = ("ranking", 0, "target");
+            let what = format!("{n} stimuli cannot be ranked in fours");
+            let mend = "give 4, 7, 10, 13, 16 … of them";
+            let too_few = (!is_ranked(n)).then(|| Flaw::new(place, what, mend));
+            too_few.or_else(|| {
+                let is_real = design.medium == Medium::RealCloth;
+                let mend = match ranking.target {
+                    Standard::None => "give \"virtual\" or \"real-cloth\"",
+                    Standard::Virtual if is_real => "give \"real-cloth\": nothing is virtual here",
+                    _ => return None,
+                };
+                Some(Flaw::new(place, "there is no target to rank against", mend))
+            })
+        }
+        Method::OddOneOut(choosing) => too_few(table, n, 2).or_else(|| {
+            let place = ("odd_one_out", 0, "weights");
+            let is_share = choosing
+                .weights
+                .iter()
+                .all(|weight| (0.0..=1.0).contains(weight));
+            let what = format!("weights is {:?}", choosing.weights);
+            (!is_share).then(|| Flaw::new(place, what, "give three numbers from 0 to 1"))
+        }),
+        Method::Adjustment(adjusting) => too_few(table, n, 1)
+            .or_else(|| repeats_flaw(table, adjusting.repeats))
+            .or_else(|| adjusting_flaw(adjusting)),
+        Method::Judgement(judging) => {
+            too_few(table, n, 2).or_else(|| judging_flaw(design, judging))
+        }
+        Method::Levels(levels) => levels_flaw(levels),
+        Method::Magnitude { repeats, modulus } => too_few(table, n, 2)
+            .or_else(|| repeats_flaw(table, *repeats))
+            .or_else(|| {
+                let value = modulus.filter(|value| !(value.is_finite() && *value > 0.0))?;
+                let what = format!("modulus is {value}");
+                let mend = "give a finite number above 0";
+                Some(Flaw::new(("magnitude", 0, "modulus"), what, mend))
+            }),
+        Method::Rating(rating) => too_few(table, n, 1).or_else(|| rating_flaw(rating)),
+    }
+}
+
+fn too_few(table: &'static str, n: usize, least: usize) -> Option<Flaw> {
+    let what = || format!("there are {n} stimuli");
+    let mend = || format!("name at least {least} in textiles = […] or as [[stimulus]]");
+    (n < least).then(|| Flaw::new((table, 0, ""), what(), mend()))
+}
+
+fn repeats_flaw(table: &'static str, repeats: usize) -> Option<Flaw> {
+    let what = || format!("repeats is {repeats}");
+    let mend = || format!("give 1 to {MOST_REPEATS}");
+    let is_right = (1..=MOST_REPEATS).contains(&repeats);
+    (!is_right).then(|| Flaw::new((table, 0, "repeats"), what(), mend()))
+}
+
+fn adjusting_flaw(adjusting: &Adjusting) -> Option<Flaw> {
+    let n = adjusting.parameters.len();
+    if n == 0 || n > 2 {
+        let what = format!("{n} parameters are turned at once");
+        return Some(Flaw::new(
+            ("adjustment", 0, "standard"),
+            what,
+            "give one or two",
+        ));
+    }
+    let mut seen: Vec<Tunable> = Vec::new();
+    adjusting
+        .parameters
+        .iter()
+        .enumerate()
+        .find_map(|(nth, parameter)| {
+            let place = |key| ("adjustment.parameter", nth, key);
+            let name = parameter.what.name();
+            if seen.contains(&parameter.what) {
+                let what = format!("{name} is turned twice");
+                return Some(Flaw::new(place("key"), what, "give another parameter"));
+            }
+            seen.push(parameter.what);
+            let [from, to, step] = [parameter.from, parameter.to, parameter.step];
+            let is_range = from.is_finite() && to.is_finite() && from < to;
+            let is_step = step > 0.0 && step <= to - from;
+            if !is_range || !is_step {
+                let what = format!("{name} goes from {from} to {to} in steps of {step}");
+                let mend = "give from below to, and a step between";
+                return Some(Flaw::new(place("from"), what, mend));
+            }
+            let is_share = parameter.what == Tunable::Compression && !(0.0..=1.0).contains(&from)
+                || parameter.what == Tunable::Compression && to > 1.0;
+            let what = format!("compression goes from {from} to {to}");
+            is_share.then(|| Flaw::new(place("from"), what, "stay between 0 and 1"))
+        })
+}
+
+fn judging_flaw(design: &Design, judging: &Judging) -> Option<Flaw> {
+    let is_real = |at: &usize| design.stimuli[*at].condition == judging.real;
+    let (real, generated): (Vec<usize>, Vec<usize>) = (0..design.stimuli.len()).partition(is_real);
+    if real.is_empty() || generated.is_empty() {
+        let what = match real.is_empty() {
+            true => format!("no stimulus has the condition {:?}", judging.real),
+            false => format!("every stimulus has the condition {:?}", judging.real),
+        };
+        let mend = "give each [[stimulus]] its condition, at least one of them another";
+        return Some(Flaw::new(("judgement", 0, "real"), what, mend));
+    }
+    if judging.protocol == JudgingProtocol::Pair {
+        let material = |at: usize| &design.stimuli[at].material;
+        let lone = generated
+            .iter()
+            .find(|&&at| !real.iter().any(|&other| material(other) == material(at)));
+        if let Some(&at) = lone {
+            let what = format!("no real stimulus has the material {:?}", material(at));
+            let mend = "pairs share their material: state it for both";
+            return Some(Flaw::new(("judgement", 0, "protocol"), what, mend));
+        }
+    }
+    repeats_flaw("judgement", judging.repeats)
+}
+
+fn rating_flaw(rating: &Rating) -> Option<Flaw> {
+    if rating.scales.is_empty() {
+        let mend = "add [[rating.scale]] with key, low and high";
+        return Some(Flaw::new(
+            ("rating", 0, "repeats"),
+            "there is no scale",
+            mend,
+        ));
+    }
+    let mut seen = BTreeSet::new();
+    let flaw = rating.scales.iter().enumerate().find_map(|(nth, scale)| {
+        let place = ("rating.scale", nth, "key");
+        let is_key = is_name(&scale.key) && !scale.key.contains('-');
+        if !is_key || !seen.insert(&scale.key) {
+            let what = format!("a scale is called {:?}", scale.key);
+            let mend = "give each a name of its own, of letters, digits and _";
+            return Some(Flaw::new(place, what, mend));
+        }
+        let place = ("rating.scale", nth, "points");
+        let mend = "give 2 or more, or 0 for a line without points";
+        (scale.points == 1).then(|| Flaw::new(place, "a scale of one point", mend))
+    });
+    flaw.or_else(|| repeats_flaw("rating", rating.repeats))
+}
+
+fn levels_flaw(levels: &Levels) -> Option<Flaw> {
+    let place = |key| ("levels", 0, key);
+    let [low, high] = levels.range_db;
+    if !(2..=8).contains(&levels.intervals) {
+        let what = format!("intervals is {}", levels.intervals);
+        return Some(Flaw::new(place("intervals"), what, "give 2 to 8"));
+    }
+    if !(50..=5000).contains(&levels.interval_ms) {
+        let what = format!("interval_ms is {}", levels.interval_ms);
+        return Some(Flaw::new(place("interval_ms"), what, "give 50 to 5000"));
+    }
+    if !(LEVELS_DB.contains(&low) && LEVELS_DB.contains(&high) && low < high) {
+        let what = format!("range_db is {low} to {high}");
+        let mend = "give a lower and a higher level between -120 and 60 dB re 1 µm";
+        return Some(Flaw::new(place("range_db"), what, mend));
+    }
+    if let Some(reference) = levels
+        .reference_db
+        .filter(|db| !(db.is_finite() && *db <= low))
+    {
+        let what = format!("reference_db is {reference}, above the lowest level, {low}");
+        let mend = "levels are what is compared with it: raise range_db or lower it";
+        return Some(Flaw::new(place("reference_db"), what, mend));
+    }
+    track_flaw(levels).or_else(|| stopping_flaw(&levels.stopping, &levels.track))
+}
+
+fn track_flaw(levels: &Levels) -> Option<Flaw> {
+    let [low, high] = levels.range_db;
+    let outside = |values: &[f64]| values.iter().copied().find(|db| !(low..=high).contains(db));
+    match &levels.track {
+        Track::Staircase(staircase) => staircase_flaw(staircase).or_else(|| {
+            let db = outside(&staircase.starts_db)?;
+            let what = format!("a series begins at {db} dB, outside range_db");
+            let mend = format!("begin between {low} and {high} dB");
+            Some(Flaw::new(("levels.staircase", 0, "starts_db"), what, mend))
+        }),
+        Track::QuestPlus {
+            grid_db,
+            widths_db,
+            lapses,
+        } => {
+            let place = |key| ("levels.quest_plus", 0, key);
+            let steps = (high - low) / grid_db;
+            if !(*grid_db > 0.0 && (1.0..=500.0).contains(&steps)) {
+                let what = format!("grid_db is {grid_db}");
+                let mend = "give a step that divides range_db into 1 to 500";
+                return Some(Flaw::new(place("grid_db"), what, mend));
+            }
+            let is_width = |&width: &f64| width > 0.0 && width.is_finite();
+            if widths_db.is_empty() || widths_db.len() > 100 || !widths_db.iter().all(is_width) {
+                let what = format!("widths_db is {widths_db:?}");
+                return Some(Flaw::new(
+                    place("widths_db"),
+                    what,
+                    "give 1 to 100 numbers above 0",
+                ));
+            }
+            let is_lapse = |lapse: &f64| (0.0..=0.5).contains(lapse);
+            let is_right = !lapses.is_empty() && lapses.len() <= 20 && lapses.iter().all(is_lapse);
+            let what = format!("lapses is {lapses:?}");
+            let mend = "give 1 to 20 shares from 0 to 0.5";
+            (!is_right).then(|| Flaw::new(place("lapses"), what, mend))
+        }
+        Track::Constant { levels_db, repeats } => {
+            let place = |key| ("levels.constant", 0, key);
+            if levels_db.is_empty() || levels_db.len() > MOST_STIMULI {
+                let what = format!("there are {} levels", levels_db.len());
+                let mend = format!("give 1 to {MOST_STIMULI}");
+                return Some(Flaw::new(place("levels_db"), what, mend));
+            }
+            if let Some(db) = outside(levels_db) {
+                let what = format!("{db} dB lies outside range_db");
+                let mend = format!("stay between {low} and {high} dB");
+                return Some(Flaw::new(place("levels_db"), what, mend));
+            }
+            let is_right = (1..=MOST_REPEATS).contains(repeats);
+            let what = format!("repeats is {repeats}");
+            let mend = format!("give 1 to {MOST_REPEATS}");
+            (!is_right).then(|| Flaw::new(place("repeats"), what, mend))
+        }
+    }
+}
+
+fn staircase_flaw(staircase: &StaircaseTrack) -> Option<Flaw> {
+    let place = |key| ("levels.staircase", 0, key);
+    if !(1..=10).contains(&staircase.up) || !(1..=10).contains(&staircase.down) {
+        let what = format!("{} up, {} down", staircase.up, staircase.down);
+        return Some(Flaw::new(place("up"), what, "give 1 to 10 for each"));
+    }
+    let is_step = |&step: &f64| step > 0.0 && step.is_finite();
+    if staircase.steps_db.is_empty() || !staircase.steps_db.iter().all(is_step) {
+        let what = format!("steps_db is {:?}", staircase.steps_db);
+        return Some(Flaw::new(
+            place("steps_db"),
+            what,
+            "give one or more numbers above 0",
+        ));
+    }
+    if !is_step(&staircase.up_over_down) {
+        let what = format!("up_over_down is {}", staircase.up_over_down);
+        return Some(Flaw::new(
+            place("up_over_down"),
+            what,
+            "give a finite number above 0",
+        ));
+    }
+    if staircase.starts_db.is_empty() || staircase.starts_db.len() > 16 {
+        let what = format!("{} series are interleaved", staircase.starts_db.len());
+        return Some(Flaw::new(
+            place("starts_db"),
+            what,
+            "give where 1 to 16 series begin",
+        ));
+    }
+    let n = staircase.reversals_averaged;
+    let is_even = n > 0 && n.is_multiple_of(2);
+    let what = || format!("reversals_averaged is {n}");
+    let mend = "give an even number above 0: as many peaks as valleys";
+    (!is_even).then(|| Flaw::new(place("reversals_averaged"), what(), mend))
+}
+
+fn stopping_flaw(stopping: &Stopping, track: &Track) -> Option<Flaw> {
+    let place = |key| ("levels.stop", 0, key);
+    let Track::Constant { .. } = track else {
+        let most = stopping.trials;
+        if most > MOST_TRIALS {
+            let mend = format!("give {MOST_TRIALS} at most");
+            return Some(Flaw::new(
+                place("trials"),
+                format!("trials is {most}"),
+                mend,
+            ));
+        }
+        let ends = match track {
+            Track::Staircase(_) => most > 0 || stopping.reversals > 0,
+            _ => most > 0 || stopping.posterior_sd_db > 0.0,
+        };
+        let mend = match track {
+            Track::Staircase(_) => "state trials or reversals in [levels.stop]",
+            _ => "state trials or posterior_sd_db in [levels.stop]",
+        };
+        return (!ends).then(|| Flaw::new(place("trials"), "nothing ends a series", mend));
+    };
+    None
+}
+
+fn course_flaw(design: &Design) -> Option<Flaw> {
+    let course = &design.course;
+    let is_time = |s: f64| (0.0..=3600.0).contains(&s);
+    if !is_time(course.break_s) {
+        let what = format!("break_s is {}", course.break_s);
+        return Some(Flaw::new(
+            ("course", 0, "break_s"),
+            what,
+            "give 0 to 3600 s",
+        ));
+    }
+    if course.practice_trials > MOST_REPEATS {
+        let what = format!("practice_trials is {}", course.practice_trials);
+        let mend = format!("give {MOST_REPEATS} at most");
+        return Some(Flaw::new(("course", 0, "practice_trials"), what, mend));
+    }
+    let movements = course.familiarisation.iter().enumerate();
+    let flaw = movements.into_iter().find_map(|(nth, movement)| {
+        let is_speed = (1.0..=1000.0).contains(&movement.speed_mm_per_s);
+        let what = format!("{} s at {} mm/s", movement.for_s, movement.speed_mm_per_s);
+        let mend = "give 0 to 3600 s at 1 to 1000 mm/s";
+        let place = ("course.familiarisation", nth, "for_s");
+        (!is_time(movement.for_s) || !is_speed).then(|| Flaw::new(place, what, mend))
+    });
+    flaw.or_else(|| rules_flaw(design))
+}
+
+fn rules_flaw(design: &Design) -> Option<Flaw> {
+    let share = design.rules.least_share_correct;
+    if !(0.0..=1.0).contains(&share) {
+        let place = ("rules", 0, "least_share_correct");
+        let what = format!("least_share_correct is {share}");
+        return Some(Flaw::new(place, what, "give 0 to 1"));
+    }
+    let least_s = design.rules.least_response_s;
+    let what = format!("least_response_s is {least_s}");
+    let is_right = least_s >= 0.0 && least_s.is_finite();
+    let place = ("rules", 0, "least_response_s");
+    (!is_right).then(|| Flaw::new(place, what, "give a number of s from 0"))
+}
+
+fn tuning_flaw(design: &Design) -> Option<Flaw> {
+    let error = design.tuning.as_ref()?.check().err()?;
+    let place = ("tuning", 0, error.key());
+    Some(Flaw::told(
+        place,
+        &error.to_string(),
+        "give a finite number",
+    ))
+}

@@ -1,0 +1,255 @@
+//! What is asked, and how the next question is found.
+
+use crate::tactile::{Band, Tuning};
+
+/// What a session asks.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Method {
+    /// Rank four alternatives by their likeness to a target (Philpott & Summers 2012).
+    Ranking(Ranking),
+    /// Find the odd one of three (Allerkamp et al.).
+    OddOneOut(Choosing),
+    /// Turn parameters until a stimulus is as asked.
+    Adjustment(Adjusting),
+    /// Say what is real and what is generated (Cai et al. 2021).
+    Judgement(Judging),
+    /// Find the interval with the (stronger) vibration: thresholds and just noticeable differences.
+    Levels(Levels),
+    /// Give numbers for strengths.
+    Magnitude {
+        /// How often every stimulus comes.
+        repeats: usize,
+        /// The number that the first stimulus is said to have, if one is said.
+        modulus: Option<f64>,
+    },
+    /// Place stimuli on scales.
+    Rating(Rating),
+}
+
+impl Method {
+    /// As files and logs call it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Ranking(_) => "ranking",
+            Self::OddOneOut(_) => "odd_one_out",
+            Self::Adjustment(_) => "adjustment",
+            Self::Judgement(_) => "judgement",
+            Self::Levels(_) => "levels",
+            Self::Magnitude { .. } => "magnitude",
+            Self::Rating(_) => "rating",
+        }
+    }
+}
+
+/// Ranking against a target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ranking {
+    /// Where the target lies.
+    pub target: Standard,
+}
+
+/// What a trial is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standard {
+    /// The real cloth on the table.
+    RealCloth,
+    /// A virtual one in the middle of the others.
+    Virtual,
+    /// Nothing: what is asked is the participant's own.
+    None,
+}
+
+/// The odd one out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choosing {
+    /// What a right answer is worth by grade, from easy to hard; a wrong one is worth 0.
+    pub weights: [f64; 3],
+}
+
+/// Adjustment of parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Adjusting {
+    /// What is turned, one or two at once.
+    pub parameters: Vec<TunedParameter>,
+    /// What it is compared with.
+    pub standard: Standard,
+    /// How often every stimulus comes, half of them begun high, half low.
+    pub repeats: usize,
+}
+
+/// A parameter that participants turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TunedParameter {
+    /// Which.
+    pub what: Tunable,
+    /// The lowest value.
+    pub from: f64,
+    /// The highest value.
+    pub to: f64,
+    /// What one press of a key turns it by.
+    pub step: f64,
+}
+
+/// What can be turned: parts of a [`Tuning`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Tunable {
+    /// The gain of everything, dB.
+    Gain,
+    /// The gain of the 40 Hz band, dB.
+    Gain40,
+    /// The gain of the 320 Hz band, dB.
+    Gain320,
+    /// Compression, 0 to 1.
+    Compression,
+}
+
+impl Tunable {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Gain, Self::Gain40, Self::Gain320, Self::Compression];
+
+    /// As files and logs spell it, with its unit.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gain => "gain_db",
+            Self::Gain40 => "gain_40_db",
+            Self::Gain320 => "gain_320_db",
+            Self::Compression => "compression",
+        }
+    }
+
+    /// Sets it in a tuning.
+    pub fn set(self, tuning: &mut Tuning, value: f64) {
+        match self {
+            Self::Gain => tuning.gain_db = value,
+            Self::Gain40 => tuning.gain_40_db = value,
+            Self::Gain320 => tuning.gain_320_db = value,
+            Self::Compression => tuning.compression = value,
+        }
+    }
+}
+
+/// Real or generated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judging {
+    /// The condition of stimuli that count as real.
+    pub real: String,
+    /// One at a time, or two side by side.
+    pub protocol: JudgingProtocol,
+    /// How often every stimulus comes.
+    pub repeats: usize,
+    /// Grades of confidence that are asked for; 0 asks for none.
+    pub confidence_grades: u8,
+}
+
+/// How stimuli are judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JudgingProtocol {
+    /// One at a time: real or generated?
+    Single,
+    /// The real and a generated one of a material: which is real?
+    Pair,
+}
+
+/// Thresholds and just noticeable differences at one carrier.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Levels {
+    /// The carrier.
+    pub band: Band,
+    /// Intervals of a trial, 2 to 8; one of them holds the signal.
+    pub intervals: usize,
+    /// What the other intervals hold, dB re 1 µm; `None` is nothing, which asks for a threshold.
+    pub reference_db: Option<f64>,
+    /// Length of an interval, ms.
+    pub interval_ms: u32,
+    /// The lowest and the highest level that may come, dB re 1 µm.
+    pub range_db: [f64; 2],
+    /// How the next level is found.
+    pub track: Track,
+    /// When a series ends.
+    pub stopping: Stopping,
+}
+
+/// How the next level is found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Track {
+    /// Down after so many right answers, up after so many wrong ones.
+    Staircase(StaircaseTrack),
+    /// The level that is expected to teach most, over a grid of thresholds, slopes and lapses.
+    QuestPlus {
+        /// Step of levels and thresholds over the range, dB.
+        grid_db: f64,
+        /// Widths of the psychometric function (5 to 95 %), dB.
+        widths_db: Vec<f64>,
+        /// Shares of lapses.
+        lapses: Vec<f64>,
+    },
+    /// The same levels for everybody, each as often.
+    Constant {
+        /// The levels, dB re 1 µm.
+        levels_db: Vec<f64>,
+        /// How often each comes.
+        repeats: usize,
+    },
+}
+
+/// Interleaved staircases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaircaseTrack {
+    /// Wrong answers before it goes up.
+    pub up: u32,
+    /// Right answers before it goes down.
+    pub down: u32,
+    /// Steps downwards, dB: the first until the first reversal, then the next; the last stays.
+    pub steps_db: Vec<f64>,
+    /// Steps upwards over steps downwards.
+    pub up_over_down: f64,
+    /// Where each of the interleaved series begins, dB re 1 µm.
+    pub starts_db: Vec<f64>,
+    /// The last reversals that the threshold is the mean of; an even number.
+    pub reversals_averaged: usize,
+}
+
+/// When a series ends; what is 0 does not end it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stopping {
+    /// After so many trials.
+    pub trials: usize,
+    /// After so many reversals.
+    pub reversals: usize,
+    /// Once the threshold's posterior standard deviation is below this, dB.
+    pub posterior_sd_db: f64,
+    /// Only once all that are stated hold, instead of any.
+    pub needs_all: bool,
+}
+
+/// Rating scales.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rating {
+    /// The scales, asked together.
+    pub scales: Vec<Scale>,
+    /// How often every stimulus comes.
+    pub repeats: usize,
+}
+
+/// One scale.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Scale {
+    /// Its name in logs: letters, digits and `_`.
+    pub key: String,
+    /// What stands at its low end.
+    pub low: String,
+    /// What stands at its high end.
+    pub high: String,
+    /// Its points from 1; 0 is a line from 0 to 100 without points.
+    pub points: u8,
+}
+
+impl Scale {
+    /// The lowest and the highest answer.
+    pub fn bounds(&self) -> [f64; 2] {
+        match self.points {
+            0 => [0.0, 100.0],
+            points => [1.0, f64::from(points)],
+        }
+    }
+}

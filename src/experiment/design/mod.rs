@@ -1,0 +1,120 @@
+//! A study as its file states it: what is felt, what is asked, in which course.
+//!
+//! One design is one experiment; the papers' sessions are designs. A design never changes what
+//! another purpose draws: all chance comes from [`Design::seed`], the subject and the purpose.
+
+mod check;
+mod file;
+mod method;
+mod stimulus;
+
+use std::path::PathBuf;
+
+pub use method::{
+    Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, Ranking, Rating, Scale,
+    StaircaseTrack, Standard, Stopping, Track, Tunable, TunedParameter,
+};
+pub use stimulus::{Medium, Source, Stimulus};
+
+use crate::tactile::Tuning;
+
+/// A study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// The study's id: letters, digits, `-` and `_`; files are named by it.
+    pub study: String,
+    /// Which experiment of the study this is; as the study's id.
+    pub experiment: String,
+    /// What people call it.
+    pub title: String,
+    /// What the finger lies on.
+    pub medium: Medium,
+    /// What all chance begins with.
+    pub seed: u64,
+    /// The library of the textiles, relative to the design's file; `None` is the shipped one.
+    pub library: Option<PathBuf>,
+    /// What is felt, in order; trials number them from 0.
+    pub stimuli: Vec<Stimulus>,
+    /// What is asked.
+    pub method: Method,
+    /// What surrounds the trials.
+    pub course: CourseSettings,
+    /// What was settled before the first subject came.
+    pub rules: Rules,
+    /// Gains and compression; `None` is the library's default tuning.
+    pub tuning: Option<Tuning>,
+    /// SHA-256 of the file's text, which says whether a log belongs to it.
+    pub hash: String,
+    /// The file's text, which every log carries.
+    pub text: String,
+}
+
+/// What surrounds the trials.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CourseSettings {
+    /// Movements that are practised first.
+    pub familiarisation: Vec<Familiarisation>,
+    /// Trials of practice, which do not count.
+    pub practice_trials: usize,
+    /// A break after every so many blocks; 0 for none.
+    pub break_after_blocks: usize,
+    /// The least length of a break, s.
+    pub break_s: f64,
+    /// Whether a noise covers what the device can be heard by.
+    pub masking_noise: bool,
+    /// What the participant reads first.
+    pub instructions: String,
+}
+
+/// A movement to practise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Familiarisation {
+    /// Along which course.
+    pub movement: Movement,
+    /// For how long, s.
+    pub for_s: f64,
+    /// How fast the guide moves, mm/s.
+    pub speed_mm_per_s: f64,
+}
+
+/// A guided movement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Movement {
+    /// On a circle.
+    Circular,
+    /// To and fro on a line.
+    Linear,
+}
+
+/// What was settled before the first subject came, and is copied into every report.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rules {
+    /// How many subjects are planned; 0 where it was left open.
+    pub subjects: usize,
+    /// A session with fewer complete trials is left out.
+    pub least_trials: usize,
+    /// A trial answered faster is left out, s.
+    pub least_response_s: f64,
+    /// A subject whose share of right answers is below this is left out, 0 to 1.
+    pub least_share_correct: f64,
+}
+
+/// Who takes part, as schedules need to know it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Subject {
+    /// The pseudonym: letters, digits, `-` and `_`.
+    pub pseudonym: String,
+    /// Which subject of the study this is, from 0: what is balanced over subjects goes by it.
+    pub nth: usize,
+    /// Which session of this subject, from 1.
+    pub session: u32,
+}
+
+/// Whether a text may name a study, an experiment or a subject in names of files.
+pub fn is_name(text: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    !text.is_empty() && text.len() <= 64 && text.chars().all(is_plain)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,37 @@
+//! What can be wrong with an experiment: one line each.
+
+use super::schedule::ScheduleError;
+use super::trial::AnswerError;
+use crate::files::FileError;
+
+/// What can be wrong with a design, a session or a log.
+#[derive(Debug, thiserror::Error)]
+pub enum ExperimentError {
+    /// A file: what, where and how to mend it.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// No schedule exists.
+    #[error(transparent)]
+    Schedule(#[from] ScheduleError),
+    /// An answer that does not answer the question.
+    #[error(transparent)]
+    Answer(#[from] AnswerError),
+    /// A value that did not come from a file.
+    #[error("{what}; {mend}")]
+    Value {
+        /// What is wrong.
+        what: String,
+        /// What to do about it.
+        mend: String,
+    },
+}
+
+impl ExperimentError {
+    /// A value that did not come from a file.
+    pub fn value(what: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self::Value {
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+}
