@@ -19,6 +19,7 @@ mod error;
 mod procedure;
 mod record;
 pub mod schedule;
+pub mod session;
 mod trial;
 
 pub use course::{Course, Step};

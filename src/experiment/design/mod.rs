@@ -6,6 +6,7 @@
 mod check;
 mod file;
 mod method;
+mod shipped;
 mod stimulus;
 
 use std::path::PathBuf;

@@ -1,0 +1,63 @@
+//! Sessions in a folder, as analyses read them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::Sidecar;
+use crate::experiment::ExperimentError;
+use crate::experiment::design::{Design, Subject};
+use crate::experiment::record::{Record, column_names, read_records};
+use crate::files::{self, FileError, Table};
+
+/// A session that was held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Its log.
+    pub log: PathBuf,
+    /// Who took part.
+    pub subject: Subject,
+    /// The design that it was held by.
+    pub design: Design,
+    /// Its rows in order, practice and aborted trials too.
+    pub records: Vec<Record>,
+    /// Whether the log ends in the middle of a row, which is left out.
+    pub has_torn_row: bool,
+}
+
+/// Every session in a folder, by name. Tables without a sidecar are no sessions.
+///
+/// # Errors
+/// The folder or a log cannot be read.
+pub fn find(folder: &Path) -> Result<Vec<Found>, ExperimentError> {
+    let entries = fs::read_dir(folder).map_err(|source| FileError::Read {
+        path: folder.to_owned(),
+        source,
+    })?;
+    let is_log = |path: &PathBuf| {
+        path.extension().is_some_and(|extension| extension == "csv")
+            && path.with_extension("json").is_file()
+    };
+    let paths = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
+    let mut logs: Vec<PathBuf> = paths.filter(is_log).collect();
+    logs.sort();
+    logs.into_iter().map(|log| read(&log)).collect()
+}
+
+fn read(log: &Path) -> Result<Found, ExperimentError> {
+    let sidecar = Sidecar::read(log)?;
+    let (design, subject) = (sidecar.design(log)?, sidecar.subject());
+    let text = files::read_text(log)?;
+    // A session that is being held may be in the middle of a row.
+    let complete = text.rfind('\n').map_or(0, |end| end + 1);
+    let names = column_names(&design);
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let table = Table::read(&text[..complete], log, &names, &[])?;
+    let records = read_records(&design, &table, log)?;
+    Ok(Found {
+        log: log.to_owned(),
+        subject,
+        design,
+        records,
+        has_torn_row: complete < text.len(),
+    })
+}

@@ -1,0 +1,271 @@
+//! A session on disk: every trial is in its log before the next begins, and a session that was
+//! interrupted goes on where its log ends.
+//!
+//! ```text
+//! STUDY_EXPERIMENT_SUBJECT_1.csv      one row a trial, append-only
+//! STUDY_EXPERIMENT_SUBJECT_1.json     design, columns, every opening
+//! STUDY_EXPERIMENT_SUBJECT_1-paths/   how each trial was explored: path files to be replayed
+//! ```
+//!
+//! The path of a trial is written before its row: a row that is there has all that belongs to it.
+
+mod found;
+mod sidecar;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+pub use found::{Found, find};
+pub use sidecar::{Opening, Sidecar};
+
+use super::ExperimentError;
+use super::course::{Course, Step};
+use super::design::{Design, Subject, is_name};
+use super::record::{Apparatus, Outcome, Record, Timing, column_names, read_records};
+use super::trial::{Answer, Trial};
+use crate::files::{FileError, Journal, Reopened};
+use crate::quantity::rfc3339;
+use crate::scene::ExplorationPath;
+
+/// A session that is being held.
+#[derive(Debug)]
+pub struct Session {
+    design: Design,
+    subject: Subject,
+    course: Course,
+    journal: Journal,
+    sidecar: Sidecar,
+    n_rows: usize,
+}
+
+/// What is known of a trial besides its answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Circumstances<'a> {
+    /// When it began and was answered.
+    pub timing: Timing,
+    /// What presented it.
+    pub apparatus: Apparatus,
+    /// What the experimenter noted.
+    pub note: &'a str,
+    /// How it was explored, if that was recorded.
+    pub path: Option<&'a ExplorationPath>,
+}
+
+impl Session {
+    /// Begins a session in a folder, which is made where it is missing.
+    ///
+    /// # Errors
+    /// The pseudonym is no name, this session was begun before, or it cannot be written.
+    pub fn create(
+        folder: &Path,
+        design: Design,
+        subject: Subject,
+        device: &str,
+    ) -> Result<Self, ExperimentError> {
+        check_pseudonym(&subject.pseudonym)?;
+        fs::create_dir_all(folder).map_err(|source| FileError::Write {
+            path: folder.to_owned(),
+            source,
+        })?;
+        let course = Course::begin(&design, &subject)?;
+        let path = log_path(folder, &design, &subject);
+        let names = column_names(&design);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let journal = Journal::create(&path, &names)?;
+        let mut sidecar = Sidecar::of(&design, &subject, course.progress().1);
+        sidecar.open(Opening::at(SystemTime::now(), device, 0));
+        sidecar.write(&path)?;
+        Ok(Self {
+            design,
+            subject,
+            course,
+            journal,
+            sidecar,
+            n_rows: 0,
+        })
+    }
+
+    /// Opens a session again by its log: what was answered is answered, the next trial waits.
+    ///
+    /// # Errors
+    /// It cannot be read or written, another process writes it, or a row is not of its design.
+    pub fn resume(log: &Path, device: &str) -> Result<Self, ExperimentError> {
+        let mut sidecar = Sidecar::read(log)?;
+        let (design, subject) = (sidecar.design(log)?, sidecar.subject());
+        let names = column_names(&design);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let Reopened {
+            journal,
+            table,
+            set_aside,
+        } = Journal::reopen(log, &names)?;
+        let records = read_records(&design, &table, log)?;
+        let course = Course::resume(&design, &subject, &records)?;
+        let mut opening = Opening::at(SystemTime::now(), device, records.len());
+        opening.after_utc = records.last().map(|last| last.timing.response_utc.clone());
+        opening.set_aside = set_aside.map(|path| path.display().to_string());
+        sidecar.open(opening);
+        sidecar.write(log)?;
+        Ok(Self {
+            design,
+            subject,
+            course,
+            journal,
+            sidecar,
+            n_rows: records.len(),
+        })
+    }
+
+    /// The design.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// Who takes part.
+    pub fn subject(&self) -> &Subject {
+        &self.subject
+    }
+
+    /// What the session was opened with, this time last.
+    pub fn openings(&self) -> &[Opening] {
+        self.sidecar.openings()
+    }
+
+    /// The file of rows.
+    pub fn log(&self) -> &Path {
+        self.journal.path()
+    }
+
+    /// Rows that are on disk.
+    pub fn n_rows(&self) -> usize {
+        self.n_rows
+    }
+
+    /// What happens now.
+    pub fn step(&self) -> Step<'_> {
+        self.course.step()
+    }
+
+    /// Trials answered and trials there will be at most, practice included.
+    pub fn progress(&self) -> (usize, usize) {
+        self.course.progress()
+    }
+
+    /// Goes on from instructions, a movement or a break.
+    pub fn pass(&mut self) {
+        self.course.pass();
+    }
+
+    /// Answers the trial that waits. It is on disk when this returns, and the trial waits on if it
+    /// could not be written: answer again once the disk has room.
+    ///
+    /// # Errors
+    /// It is no answer to the trial, or it cannot be written.
+    pub fn answer(
+        &mut self,
+        answer: &Answer,
+        circumstances: &Circumstances<'_>,
+    ) -> Result<Option<bool>, ExperimentError> {
+        let mut next = self.course.clone();
+        let is_correct = next.answer(answer)?;
+        let outcome = Outcome::Answered(answer.clone());
+        self.write(outcome, is_correct, circumstances)?;
+        self.course = next;
+        Ok(is_correct)
+    }
+
+    /// Gives the trial that waits up, on disk too; it comes again as another attempt.
+    ///
+    /// # Errors
+    /// No trial waits, or it cannot be written.
+    pub fn abort(&mut self, circumstances: &Circumstances<'_>) -> Result<(), ExperimentError> {
+        self.write(Outcome::Aborted, None, circumstances)?;
+        self.course.abort();
+        Ok(())
+    }
+
+    fn write(
+        &mut self,
+        outcome: Outcome,
+        is_correct: Option<bool>,
+        circumstances: &Circumstances<'_>,
+    ) -> Result<(), ExperimentError> {
+        let Step::Trial(trial) = self.course.step() else {
+            let mend = "go on to the trial first";
+            return Err(ExperimentError::value("no trial waits", mend));
+        };
+        let record = Record {
+            trial: trial.clone(),
+            attempt: self.course.attempt(),
+            outcome,
+            is_correct,
+            timing: circumstances.timing.clone(),
+            apparatus: circumstances.apparatus.clone(),
+            note: circumstances.note.to_owned(),
+        };
+        if let Some(path) = circumstances.path {
+            self.write_path(path, &record)?;
+        }
+        let cells = record.cells(&self.design, &self.subject);
+        let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
+        self.journal.append(&cells)?;
+        self.n_rows += 1;
+        Ok(())
+    }
+
+    fn write_path(&self, path: &ExplorationPath, record: &Record) -> Result<(), ExperimentError> {
+        let file = path_file(self.log(), &record.trial, record.attempt);
+        let folder = file.parent().unwrap_or(Path::new("."));
+        fs::create_dir_all(folder).map_err(|source| FileError::Write {
+            path: folder.to_owned(),
+            source,
+        })?;
+        path.write(&file)
+            .map_err(|error| ExperimentError::value(error.to_string(), "answer again"))
+    }
+}
+
+/// The file of how a trial was explored.
+pub fn path_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
+    let stem = log.file_stem().unwrap_or_default().to_string_lossy();
+    let practice = if trial.is_practice {
+        "practice"
+    } else {
+        "trial"
+    };
+    let again = if attempt > 1 {
+        format!("-{attempt}")
+    } else {
+        String::new()
+    };
+    let name = format!("{practice}-{:03}{again}.csv", trial.number + 1);
+    log.with_file_name(format!("{stem}-paths")).join(name)
+}
+
+/// The log of a subject's session in a folder.
+pub fn log_path(folder: &Path, design: &Design, subject: &Subject) -> PathBuf {
+    folder.join(format!(
+        "{}_{}_{}_{}.csv",
+        design.study, design.experiment, subject.pseudonym, subject.session
+    ))
+}
+
+fn check_pseudonym(pseudonym: &str) -> Result<(), ExperimentError> {
+    if is_name(pseudonym) {
+        return Ok(());
+    }
+    let mend = "give 1 to 64 letters, digits, - and _: files are named by it, and no real name";
+    Err(ExperimentError::value(
+        format!("the subject is {pseudonym:?}"),
+        mend,
+    ))
+}
+
+/// A moment as logs hold it.
+pub(super) fn told_utc(at: SystemTime) -> String {
+    rfc3339(at)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,210 @@
+//! Sessions: what is answered is on disk, and what is on disk can be continued.
+
+use std::path::PathBuf;
+use std::time::UNIX_EPOCH;
+
+use super::*;
+use crate::experiment::design::Method;
+use crate::experiment::{Grade, Task};
+use crate::numerics::Random;
+
+pub(in crate::experiment) struct Folder(pub(in crate::experiment) PathBuf);
+
+impl Folder {
+    pub(in crate::experiment) fn new(name: &str) -> Self {
+        let name = format!("selvedge-session-{name}-{}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        drop(fs::remove_dir_all(&path));
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        drop(fs::remove_dir_all(&self.0));
+    }
+}
+
+fn subject() -> Subject {
+    Subject {
+        pseudonym: "p01".to_owned(),
+        nth: 0,
+        session: 1,
+    }
+}
+
+/// Some answer to a task.
+fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
+    match task {
+        Task::Rank { .. } => {
+            let mut ranks = [1, 2, 3, 4];
+            random.shuffle(&mut ranks);
+            Answer::Ranks(ranks)
+        }
+        Task::OddOne { .. } => Answer::Odd {
+            position: random.index(3),
+            grade: Grade::ALL[random.index(3)],
+        },
+        Task::Adjust { starts, .. } => Answer::Adjusted {
+            values: starts.iter().map(|start| start / 3.0).collect(),
+            steps: vec![crate::experiment::Adjustment {
+                at_ms: 0.1,
+                parameter: 0,
+                value: starts[0] / 3.0,
+            }],
+        },
+        Task::Judge { .. } => Answer::Judged {
+            is_real: random.index(2) == 0,
+            confidence: Some(2),
+        },
+        Task::JudgePair { .. } | Task::Interval { .. } => Answer::Chosen {
+            position: random.index(2),
+            confidence: None,
+        },
+        Task::Estimate { .. } => Answer::Magnitude(0.1 + random.uniform()),
+        Task::Rate { .. } => {
+            let Method::Rating(rating) = &design.method else {
+                return Answer::Ratings(Vec::new());
+            };
+            Answer::Ratings(
+                rating
+                    .scales
+                    .iter()
+                    .map(|_| 100.0 * random.uniform())
+                    .collect(),
+            )
+        }
+    }
+}
+
+fn circumstances(nth: u64) -> Circumstances<'static> {
+    let ns = nth * 1_000_000_007;
+    Circumstances {
+        timing: Timing::between([UNIX_EPOCH, UNIX_EPOCH], [ns, ns + 1_234_567]),
+        apparatus: Apparatus {
+            device: "none, \"in a test\"".to_owned(),
+            ..Apparatus::default()
+        },
+        note: "a note, with a comma\nand two lines",
+        path: None,
+    }
+}
+
+/// Answers up to so many trials; gives every seventh up first.
+fn go_on(session: &mut Session, most: usize, random: &mut Random) {
+    for nth in 0..most {
+        while !matches!(session.step(), Step::Trial(_) | Step::Finished) {
+            session.pass();
+        }
+        let Step::Trial(trial) = session.step() else {
+            return;
+        };
+        let answer = any_answer(session.design(), &trial.task, random);
+        if nth % 7 == 6 {
+            session.abort(&circumstances(nth as u64)).unwrap();
+        }
+        session.answer(&answer, &circumstances(nth as u64)).unwrap();
+    }
+}
+
+#[test]
+fn every_shipped_design_can_be_held_to_its_end_and_read_back() {
+    for name in Design::shipped_names() {
+        let folder = Folder::new(name);
+        let design = Design::shipped(name).unwrap();
+        let mut session = Session::create(&folder.0, design, subject(), "none").unwrap();
+        go_on(&mut session, usize::MAX.min(2000), &mut Random::new(1));
+        assert_eq!(session.step(), Step::Finished, "{name}");
+        assert!(session.progress().0 > 10, "{name}");
+        let found = find(&folder.0).unwrap();
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].records.len(), session.n_rows(), "{name}");
+        let text = files_text(session.log());
+        let again: Vec<Vec<String>> = found[0]
+            .records
+            .iter()
+            .map(|record| record.cells(&found[0].design, &found[0].subject))
+            .collect();
+        let mut writer = crate::files::TableWriter::continued(Vec::new(), session.log());
+        for cells in again {
+            for cell in &cells {
+                writer.text(&cell.replace('\n', " "));
+            }
+            writer.end_row().unwrap();
+        }
+        let rows = String::from_utf8(writer.finish().unwrap()).unwrap();
+        assert!(
+            text.ends_with(&rows),
+            "{name}: rows change when read and written"
+        );
+    }
+}
+
+fn files_text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn a_session_goes_on_as_if_it_had_never_stopped() {
+    let design = Design::shipped("ranking-virtual-target").unwrap();
+    let whole = Folder::new("whole");
+    let mut session = Session::create(&whole.0, design.clone(), subject(), "none").unwrap();
+    go_on(&mut session, 84, &mut Random::new(2));
+    let trials = |folder: &Folder| -> Vec<Trial> {
+        let found = find(&folder.0).unwrap();
+        found[0]
+            .records
+            .iter()
+            .map(|record| record.trial.clone())
+            .collect()
+    };
+    let parts = Folder::new("parts");
+    let mut random = Random::new(2);
+    let mut session = Session::create(&parts.0, design, subject(), "none").unwrap();
+    let log = session.log().to_owned();
+    for _ in 0..6 {
+        go_on(&mut session, 14, &mut random);
+        drop(session);
+        session = Session::resume(&log, "none").unwrap();
+    }
+    assert_eq!(session.progress(), (84, 84));
+    assert_eq!(session.openings().len(), 7);
+    assert_eq!(trials(&whole), trials(&parts));
+}
+
+#[test]
+fn two_sessions_cannot_write_one_log() {
+    let folder = Folder::new("twice");
+    let design = Design::shipped("rating").unwrap();
+    let session = Session::create(&folder.0, design.clone(), subject(), "none").unwrap();
+    let again = Session::create(&folder.0, design, subject(), "none").unwrap_err();
+    assert!(again.to_string().contains("not overwritten"), "{again}");
+    let beside = Session::resume(session.log(), "none").unwrap_err();
+    assert!(beside.to_string().contains("another session"), "{beside}");
+}
+
+#[test]
+fn a_log_of_a_later_version_is_refused_with_what_is_known() {
+    let folder = Folder::new("later");
+    let design = Design::shipped("rating").unwrap();
+    let session = Session::create(&folder.0, design, subject(), "none").unwrap();
+    let log = session.log().to_owned();
+    drop(session);
+    let path = log.with_extension("json");
+    let text = files_text(&path).replace("\"schema_version\": 1", "\"schema_version\": 2");
+    fs::write(&path, text).unwrap();
+    let error = Session::resume(&log, "none").unwrap_err().to_string();
+    assert!(error.contains("knows up to 1"), "{error}");
+}
+
+#[test]
+fn a_real_name_with_a_space_is_no_pseudonym() {
+    let folder = Folder::new("name");
+    let design = Design::shipped("rating").unwrap();
+    let subject = Subject {
+        pseudonym: "Ada Lovelace".to_owned(),
+        ..subject()
+    };
+    let error = Session::create(&folder.0, design, subject, "none").unwrap_err();
+    assert!(error.to_string().contains("no real name"), "{error}");
+}
