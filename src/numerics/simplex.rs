@@ -73,7 +73,11 @@ fn improve<const N: usize>(corners: &mut [Lowest<N>], at: &mut impl FnMut([f64; 
     let mirrored = along(1.0);
     let moved = if mirrored.value < corners[0].value {
         let farther = along(2.0);
-        Some(if farther.value < mirrored.value { farther } else { mirrored })
+        Some(if farther.value < mirrored.value {
+            farther
+        } else {
+            mirrored
+        })
     } else if mirrored.value < second {
         Some(mirrored)
     } else {
@@ -115,6 +119,9 @@ mod tests {
             if inside { sum } else { f64::NAN }
         };
         let found = lowest(walled, [2.0, 1.0, -1.0], [0.3; 3]);
-        assert!(found.place[0] > 0.5 && found.value < 0.2501 + 0.02, "{found:?}");
+        assert!(
+            found.place[0] > 0.5 && found.value < 0.2501 + 0.02,
+            "{found:?}"
+        );
     }
 }

@@ -29,7 +29,10 @@ impl ConstantStimuli {
             random.shuffle(&mut round);
             order.extend(round);
         }
-        Ok(Self { order, trials: Vec::new() })
+        Ok(Self {
+            order,
+            trials: Vec::new(),
+        })
     }
 }
 
@@ -43,7 +46,11 @@ impl Procedure for ConstantStimuli {
         if !presented.is_finite() {
             return Err(Undefined::because("the presented stimulus is not finite"));
         }
-        self.trials.push(Trial { asked, presented, is_right });
+        self.trials.push(Trial {
+            asked,
+            presented,
+            is_right,
+        });
         Ok(())
     }
 

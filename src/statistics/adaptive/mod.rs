@@ -58,7 +58,25 @@ pub trait Procedure {
 
     /// The trials so far by presented stimulus, for a fit.
     fn blocks(&self) -> Vec<Block> {
-        blocks(self.trials().iter().map(|trial| (trial.presented, trial.is_right)))
+        blocks(
+            self.trials()
+                .iter()
+                .map(|trial| (trial.presented, trial.is_right)),
+        )
+    }
+}
+
+impl<P: Procedure + ?Sized> Procedure for Box<P> {
+    fn stimulus(&self) -> Option<f64> {
+        (**self).stimulus()
+    }
+
+    fn answer(&mut self, presented: f64, is_right: bool) -> Computed<()> {
+        (**self).answer(presented, is_right)
+    }
+
+    fn trials(&self) -> &[Trial] {
+        (**self).trials()
     }
 }
 

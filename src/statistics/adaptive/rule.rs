@@ -83,7 +83,9 @@ impl Rule {
         self.check()?;
         let share = up / (up + down);
         if !(up > 0.0 && down > 0.0 && share > 0.0 && share < 1.0) {
-            return Err(Undefined::because(format!("steps of {up} up and {down} down")));
+            return Err(Undefined::because(format!(
+                "steps of {up} up and {down} down"
+            )));
         }
         Ok(inverted(|p| self.down_share(p), share, [0.0, 1.0]))
     }
@@ -98,7 +100,10 @@ mod tests {
     fn equal_steps_settle_at_the_targets_of_the_table() -> Computed<()> {
         for (m, target) in [(1, 0.5), (2, 0.707_1), (3, 0.793_7), (4, 0.840_9)] {
             let found = Rule::one_up(m).target(1.0, 1.0)?;
-            assert!((found - 0.5_f64.powf(1.0 / f64::from(m))).abs() < 1e-11, "{m}");
+            assert!(
+                (found - 0.5_f64.powf(1.0 / f64::from(m))).abs() < 1e-11,
+                "{m}"
+            );
             assert!((found - target).abs() < 5e-5, "{found}");
             let mirrored = Rule { n_up: m, m_down: 1 }.target(1.0, 1.0)?;
             assert!((mirrored - (1.0 - found)).abs() < 1e-11, "{mirrored}");
@@ -114,7 +119,10 @@ mod tests {
             assert!((found - target).abs() < 1e-4, "{m}: {found} for {target}");
         }
         // Kaernbach: three times as far up as down finds three quarters.
-        assert!((Rule::one_up(1).target(3.0, 1.0)? - 0.75).abs() < 1e-11, "weighted");
+        assert!(
+            (Rule::one_up(1).target(3.0, 1.0)? - 0.75).abs() < 1e-11,
+            "weighted"
+        );
         Ok(())
     }
 
@@ -127,7 +135,11 @@ mod tests {
             let (mut right, mut wrong) = (0, 0);
             while right < 3 && wrong < 2 {
                 let is_right = random.uniform() < p;
-                (right, wrong) = if is_right { (right + 1, 0) } else { (0, wrong + 1) };
+                (right, wrong) = if is_right {
+                    (right + 1, 0)
+                } else {
+                    (0, wrong + 1)
+                };
             }
             n_down += i32::from(right == 3);
         }
@@ -138,10 +150,16 @@ mod tests {
     #[test]
     fn scales_lead_back_and_what_is_no_rule_is_refused() {
         for scale in [StepScale::Linear, StepScale::Log, StepScale::Decibel] {
-            assert!((scale.stimulus(scale.place(3.7)) - 3.7).abs() < 1e-12, "{scale:?}");
+            assert!(
+                (scale.stimulus(scale.place(3.7)) - 3.7).abs() < 1e-12,
+                "{scale:?}"
+            );
         }
         assert_eq!(StepScale::Decibel.place(10.0), 20.0);
-        assert!(Rule { n_up: 0, m_down: 1 }.target(1.0, 1.0).is_err(), "none up");
+        assert!(
+            Rule { n_up: 0, m_down: 1 }.target(1.0, 1.0).is_err(),
+            "none up"
+        );
         assert!(Rule::one_up(2).target(0.0, 1.0).is_err(), "no step");
     }
 }

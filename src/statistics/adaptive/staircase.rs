@@ -39,7 +39,11 @@ impl StaircasePlan {
             rule,
             scale,
             start,
-            stages: vec![Stage { up, down, n_reversals: 0 }],
+            stages: vec![Stage {
+                up,
+                down,
+                n_reversals: 0,
+            }],
             limits: match scale {
                 StepScale::Linear => [f64::MIN, f64::MAX],
                 _ => [f64::MIN_POSITIVE, f64::MAX],
@@ -53,7 +57,10 @@ impl StaircasePlan {
     /// # Errors
     /// No stage, steps that are not above zero.
     pub fn target(&self) -> Computed {
-        let last = self.stages.last().ok_or_else(|| Undefined::because("no steps"))?;
+        let last = self
+            .stages
+            .last()
+            .ok_or_else(|| Undefined::because("no steps"))?;
         self.rule.target(last.up, last.down)
     }
 
@@ -75,7 +82,10 @@ impl StaircasePlan {
             let reason = format!("a start of {start} between limits of {low} and {high}");
             return Err(Undefined::because(reason));
         }
-        self.stop.check(&Reached { n_reversals: Some(0), ..Reached::default() })
+        self.stop.check(&Reached {
+            n_reversals: Some(0),
+            ..Reached::default()
+        })
     }
 }
 
@@ -118,6 +128,7 @@ pub struct Staircase {
     plan: StaircasePlan,
     place: f64,
     stage: usize,
+    n_turns_of_stage: u32,
     n_right: u32,
     n_wrong: u32,
     /// Whether the last move was down.
@@ -140,6 +151,7 @@ impl Staircase {
             place: plan.scale.place(plan.start),
             plan,
             stage: 0,
+            n_turns_of_stage: 0,
             n_right: 0,
             n_wrong: 0,
             went_down: None,
@@ -175,10 +187,15 @@ impl Staircase {
             };
             (n > 0).then(|| {
                 let of = if n == 1 { "a step was" } else { "steps were" };
-                format!("{n} {of} cut short at the {name} limit {stimulus}: the threshold is biased")
+                format!(
+                    "{n} {of} cut short at the {name} limit {stimulus}: the threshold is biased"
+                )
             })
         };
-        [Limit::Low, Limit::High].into_iter().filter_map(warning).collect()
+        [Limit::Low, Limit::High]
+            .into_iter()
+            .filter_map(warning)
+            .collect()
     }
 
     /// Steps in a row that a limit cut short, up to now: an observer who never feels it.
@@ -236,7 +253,11 @@ impl Staircase {
             *n += u32::from(is_cut);
         }
         let is_any = is_cut[0] || is_cut[1];
-        self.n_at_limit_in_a_row = if is_any { self.n_at_limit_in_a_row + 1 } else { 0 };
+        self.n_at_limit_in_a_row = if is_any {
+            self.n_at_limit_in_a_row + 1
+        } else {
+            0
+        };
     }
 
     fn turn(&mut self) {
@@ -245,11 +266,11 @@ impl Staircase {
             stimulus: self.asked(),
             stage: self.stage,
         });
-        let stage = self.stage;
-        let of_stage = self.reversals.iter().filter(|r| r.stage == stage).count();
-        let is_last = stage + 1 == self.plan.stages.len();
-        if !is_last && of_stage >= self.plan.stages[stage].n_reversals as usize {
+        self.n_turns_of_stage += 1;
+        let is_last = self.stage + 1 == self.plan.stages.len();
+        if !is_last && self.n_turns_of_stage >= self.plan.stages[self.stage].n_reversals {
             self.stage += 1;
+            self.n_turns_of_stage = 0;
         }
     }
 
@@ -270,7 +291,11 @@ impl Procedure for Staircase {
             let reason = format!("a stimulus of {presented} has no place among steps");
             return Err(Undefined::because(reason));
         }
-        self.trials.push(Trial { asked, presented, is_right });
+        self.trials.push(Trial {
+            asked,
+            presented,
+            is_right,
+        });
         if is_right {
             (self.n_right, self.n_wrong) = (self.n_right + 1, 0);
         } else {

@@ -1,8 +1,6 @@
 //! Where a staircase stays in the long run, exactly: the stationary distribution of its Markov
 //! chain over stimulus, answers in a row and direction.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::Rule;
 use crate::statistics::{Computed, Undefined};
 
@@ -22,7 +20,7 @@ pub struct Stationary {
 }
 
 /// States more than this are too many to solve for.
-const MOST_STATES: usize = 2000;
+const MOST_STATES: usize = 20_000;
 
 /// The long run with steps of `up` and `down` places between the first and the last of
 /// `p_right.len()` places; `p_right` is the probability to be right at each.
@@ -32,7 +30,12 @@ const MOST_STATES: usize = 2000;
 /// chain that is not one (some places are never left for others).
 pub fn stationary(rule: Rule, [up, down]: [usize; 2], p_right: &[f64]) -> Computed<Stationary> {
     rule.check()?;
-    let chain = Chain { rule, up, down, n_places: p_right.len() };
+    let chain = Chain {
+        rule,
+        up,
+        down,
+        n_places: p_right.len(),
+    };
     let n = chain.n_states();
     if up == 0 || down == 0 || p_right.len() < 2 || n > MOST_STATES {
         let places = p_right.len();
@@ -42,23 +45,64 @@ pub fn stationary(rule: Rule, [up, down]: [usize; 2], p_right: &[f64]) -> Comput
     if let Some(p) = p_right.iter().find(|p| !(0.0..=1.0).contains(*p)) {
         return Err(Undefined::because(format!("a probability of {p}")));
     }
-    // Balance πP = π, with one equation exchanged for Σπ = 1.
-    let mut balance = DMatrix::zeros(n, n);
-    for state in 0..n {
-        balance[(state, state)] -= 1.0;
-        for (is_right, p) in chain.answers(state, p_right) {
-            balance[(chain.after(state, is_right).to, state)] += p;
-        }
+    Ok(chain.read(&chain.long_run(p_right)?, p_right))
+}
+
+/// Transitions between states that lie no farther apart than `half`.
+struct Band {
+    n: usize,
+    half: usize,
+    cells: Vec<f64>,
+}
+
+impl Band {
+    fn new(n: usize, half: usize) -> Self {
+        let cells = vec![0.0; n * (2 * half + 1)];
+        Self { n, half, cells }
     }
-    balance.row_mut(n - 1).fill(1.0);
-    let mut one = DVector::zeros(n);
-    one[n - 1] = 1.0;
-    let solved = balance.lu().solve(&one);
-    let shares = solved.filter(|pi| pi.iter().all(|p| p.is_finite() && *p > -1e-9));
-    let shares = shares.ok_or_else(|| {
-        Undefined::because("the staircase has no single long run: places that never meet")
-    })?;
-    Ok(chain.read(shares.as_slice(), p_right))
+
+    fn at(&mut self, from: usize, to: usize) -> &mut f64 {
+        &mut self.cells[from * (2 * self.half + 1) + to + self.half - from]
+    }
+
+    /// The stationary distribution by taking out one state after another, without a subtraction
+    /// (Grassmann, Taksar & Heyman 1985).
+    fn stationary(mut self) -> Computed<Vec<f64>> {
+        let mut leaving = vec![0.0; self.n];
+        for last in (1..self.n).rev() {
+            let first = last.saturating_sub(self.half);
+            let away: f64 = (first..last).map(|to| *self.at(last, to)).sum();
+            if away <= 0.0 {
+                let reason = "the staircase has no single long run: some places never lead back";
+                return Err(Undefined::because(reason));
+            }
+            leaving[last] = away;
+            for from in first..last {
+                let share = *self.at(from, last) / away;
+                if share > 0.0 {
+                    for to in first..last {
+                        *self.at(from, to) += share * *self.at(last, to);
+                    }
+                }
+            }
+        }
+        let mut shares = vec![1.0; self.n];
+        for last in 1..self.n {
+            let into = (last.saturating_sub(self.half)..last).map(|from| {
+                let share = *self.at(from, last);
+                shares[from] * share
+            });
+            shares[last] = into.sum::<f64>() / leaving[last];
+            // Relative to a first state that is hardly ever seen they would overflow.
+            if shares[last] > 1e100 {
+                let scale = shares[last].recip();
+                shares[..=last].iter_mut().for_each(|share| *share *= scale);
+            }
+        }
+        let sum: f64 = shares.iter().sum();
+        shares.iter_mut().for_each(|share| *share /= sum);
+        Ok(shares)
+    }
 }
 
 /// The chain: a state is a place, a run of answers and the direction of the last move.
@@ -85,6 +129,18 @@ impl Chain {
         2 * self.n_places * self.n_runs()
     }
 
+    fn long_run(&self, p_right: &[f64]) -> Computed<Vec<f64>> {
+        let half = 2 * self.n_runs() * (self.up.max(self.down) + 1);
+        let n = self.n_states();
+        let mut band = Band::new(n, half.min(n - 1));
+        for state in 0..n {
+            for (is_right, p) in self.answers(state, p_right) {
+                *band.at(state, self.after(state, is_right).to) += p;
+            }
+        }
+        band.stationary()
+    }
+
     fn place(&self, state: usize) -> usize {
         state / (2 * self.n_runs())
     }
@@ -96,21 +152,35 @@ impl Chain {
 
     fn after(&self, state: usize, is_right: bool) -> Move {
         let (n_runs, m) = (self.n_runs(), self.rule.m_down as usize);
-        let (place, went_down) = (self.place(state), state % 2);
+        let (place, went_up) = (self.place(state), state % 2);
         let run = state / 2 % n_runs;
         // Runs of wrong answers follow those of right ones.
         let (right, wrong) = if run < m { (run, 0) } else { (0, run - m + 1) };
-        let (right, wrong) = if is_right { (right + 1, 0) } else { (0, wrong + 1) };
-        let state = |place: usize, run: usize, down: usize| (place * n_runs + run) * 2 + down;
+        let (right, wrong) = if is_right {
+            (right + 1, 0)
+        } else {
+            (0, wrong + 1)
+        };
+        // The first state, down to the first place, is one that every other leads to.
+        let state = |place: usize, run: usize, went_up: usize| (place * n_runs + run) * 2 + went_up;
         if right == m {
-            let to = state(place.saturating_sub(self.down), 0, 1);
-            Move { to, is_reversal: went_down == 0 }
+            let to = state(place.saturating_sub(self.down), 0, 0);
+            Move {
+                to,
+                is_reversal: went_up == 1,
+            }
         } else if wrong == self.rule.n_up as usize {
-            let to = state((place + self.up).min(self.n_places - 1), 0, 0);
-            Move { to, is_reversal: went_down == 1 }
+            let to = state((place + self.up).min(self.n_places - 1), 0, 1);
+            Move {
+                to,
+                is_reversal: went_up == 0,
+            }
         } else {
             let run = if is_right { right } else { m + wrong - 1 };
-            Move { to: state(place, run, went_down), is_reversal: false }
+            Move {
+                to: state(place, run, went_up),
+                is_reversal: false,
+            }
         }
     }
 

@@ -106,9 +106,16 @@ mod tests {
         ]);
         assert_eq!(stop.to_string(), "30 trials or (8 reversals and 20 trials)");
         let met = |n_trials, n: u32| {
-            stop.is_met(&Reached { n_trials, n_reversals: Some(n), posterior_sd: None })
+            stop.is_met(&Reached {
+                n_trials,
+                n_reversals: Some(n),
+                posterior_sd: None,
+            })
         };
-        assert!(!met(19, 9) && met(20, 8) && !met(29, 7) && met(30, 0), "or of and");
+        assert!(
+            !met(19, 9) && met(20, 8) && !met(29, 7) && met(30, 0),
+            "or of and"
+        );
         assert!(stop.is_sure(), "30 trials");
         let all = Stop::All(vec![Stop::Reversals(8), Stop::Trials(20)]);
         assert!(!all.is_sure(), "reversals may never come");
@@ -116,13 +123,28 @@ mod tests {
 
     #[test]
     fn what_can_never_come_true_is_refused() {
-        let quest = Reached { posterior_sd: Some(1.0), ..Reached::default() };
-        let staircase = Reached { n_reversals: Some(0), ..Reached::default() };
+        let quest = Reached {
+            posterior_sd: Some(1.0),
+            ..Reached::default()
+        };
+        let staircase = Reached {
+            n_reversals: Some(0),
+            ..Reached::default()
+        };
         assert!(Stop::Reversals(4).check(&quest).is_err(), "no reversals");
-        assert!(Stop::PosteriorSd(0.1).check(&staircase).is_err(), "no posterior");
+        assert!(
+            Stop::PosteriorSd(0.1).check(&staircase).is_err(),
+            "no posterior"
+        );
         assert!(Stop::Any(Vec::new()).check(&quest).is_err(), "no condition");
-        assert!(Stop::All(vec![Stop::Trials(0)]).check(&quest).is_err(), "no trial");
-        assert!(Stop::PosteriorSd(f64::NAN).check(&quest).is_err(), "no number");
+        assert!(
+            Stop::All(vec![Stop::Trials(0)]).check(&quest).is_err(),
+            "no trial"
+        );
+        assert!(
+            Stop::PosteriorSd(f64::NAN).check(&quest).is_err(),
+            "no number"
+        );
         assert!(Stop::Reversals(4).check(&staircase).is_ok(), "fine");
     }
 }

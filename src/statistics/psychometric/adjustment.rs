@@ -89,9 +89,15 @@ mod tests {
         let found = Adjustments::of(starts, Settings::Log)?;
         assert!((found.centre - 40.0).abs() < 1e-12, "{found:?}");
         // In octaves about the mean −2, −1, 0, 0, 1, 2: squares 10, over n − 1 = 5.
-        assert!((found.all.sd - 2.0_f64.ln() * 2.0_f64.sqrt()).abs() < 1e-12, "n − 1");
+        assert!(
+            (found.all.sd - 2.0_f64.ln() * 2.0_f64.sqrt()).abs() < 1e-12,
+            "n − 1"
+        );
         let difference = found.difference?;
-        assert!((difference.estimate?.value + 4.0_f64.ln()).abs() < 1e-12, "two octaves");
+        assert!(
+            (difference.estimate?.value + 4.0_f64.ln()).abs() < 1e-12,
+            "two octaves"
+        );
         let linear = Adjustments::of(starts, Settings::Linear)?;
         assert!((linear.centre - 350.0 / 6.0).abs() < 1e-12, "{linear:?}");
         Ok(())
@@ -99,12 +105,24 @@ mod tests {
 
     #[test]
     fn one_direction_alone_has_no_effect_of_the_start_and_zero_no_logarithm() -> Computed<()> {
-        let up = Starts { ascending: &[1.0, 2.0], descending: &[] };
+        let up = Starts {
+            ascending: &[1.0, 2.0],
+            descending: &[],
+        };
         let found = Adjustments::of(up, Settings::Linear)?;
-        assert!(found.difference.is_err() && found.descending.is_err(), "{found:?}");
-        let zero = Starts { ascending: &[1.0, 0.0], descending: &[] };
+        assert!(
+            found.difference.is_err() && found.descending.is_err(),
+            "{found:?}"
+        );
+        let zero = Starts {
+            ascending: &[1.0, 0.0],
+            descending: &[],
+        };
         let refused = Adjustments::of(zero, Settings::Log).map_err(|e| e.reason);
-        assert!(refused.is_err_and(|r| r.contains("setting 2 of 2 is 0")), "said");
+        assert!(
+            refused.is_err_and(|r| r.contains("setting 2 of 2 is 0")),
+            "said"
+        );
         Ok(())
     }
 }

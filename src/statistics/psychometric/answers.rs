@@ -22,7 +22,11 @@ pub fn blocks(trials: impl IntoIterator<Item = (f64, bool)>) -> Vec<Block> {
     for (x, is_right) in trials {
         let is_new = blocks.last().is_none_or(|last| last.x < x || x.is_nan());
         if is_new {
-            blocks.push(Block { x, n: 0, n_right: 0 });
+            blocks.push(Block {
+                x,
+                n: 0,
+                n_right: 0,
+            });
         }
         if let Some(last) = blocks.last_mut() {
             last.n += 1;

@@ -45,7 +45,11 @@ impl Psychometric {
     /// p and 1 − p at a stimulus. Of Weibull, at 0 and below, as at nothing.
     pub fn probabilities(&self, x: f64) -> [f64; 2] {
         let place = self.family.place(x);
-        self.at_place(if place.is_nan() { f64::NEG_INFINITY } else { place })
+        self.at_place(if place.is_nan() {
+            f64::NEG_INFINITY
+        } else {
+            place
+        })
     }
 
     /// p and 1 − p at a place on the family's scale.
@@ -103,7 +107,7 @@ impl Psychometric {
 }
 
 /// F and 1 − F with guesses and lapses.
-pub(super) fn scaled([low, high]: [f64; 2], guess: f64, lapse: f64) -> [f64; 2] {
+pub(in crate::statistics) fn scaled([low, high]: [f64; 2], guess: f64, lapse: f64) -> [f64; 2] {
     let span = 1.0 - guess - lapse;
     [guess + span * low, lapse + span * high]
 }
@@ -130,7 +134,10 @@ mod tests {
                 let x = curve.stimulus_at(share)?;
                 assert!((curve.at(x) - share).abs() < 1e-13, "{family:?} {share}");
             }
-            assert!((curve.stimulus_at_shape(0.5)? - 4.0).abs() < 1e-13, "{family:?}");
+            assert!(
+                (curve.stimulus_at_shape(0.5)? - 4.0).abs() < 1e-13,
+                "{family:?}"
+            );
             let h = 1e-5;
             let rise = (curve.at(4.0 + h) - curve.at(4.0 - h)) / (2.0 * h);
             assert!((rise / curve.slope() - 1.0).abs() < 1e-7, "{family:?}");
@@ -157,10 +164,18 @@ mod tests {
         assert!(good.stimulus_at(0.2).is_err(), "below chance");
         assert!(good.stimulus_at(0.99).is_err(), "above what lapses leave");
         let bad = |width, threshold, guess| {
-            let curve = Psychometric { width, threshold, guess, ..good };
+            let curve = Psychometric {
+                width,
+                threshold,
+                guess,
+                ..good
+            };
             curve.checked().is_err()
         };
-        assert!(bad(0.0, 1.0, 0.0) && bad(1.0, -1.0, 0.0) && bad(1.0, 1.0, 0.99), "checked");
+        assert!(
+            bad(0.0, 1.0, 0.0) && bad(1.0, -1.0, 0.0) && bad(1.0, 1.0, 0.99),
+            "checked"
+        );
         assert_eq!(good.at(0.0), 0.25);
         assert_eq!(good.at(-3.0), 0.25);
     }

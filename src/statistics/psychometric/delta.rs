@@ -54,7 +54,11 @@ impl Fit {
         let (most, is_fixed) = self.model.lapse.most();
         let lapse = self.curve.lapse;
         let is_inside = lapse > NEAR_END && lapse < most - NEAR_END;
-        if is_fixed || !is_inside { vec![0, 1] } else { vec![0, 1, 2] }
+        if is_fixed || !is_inside {
+            vec![0, 1]
+        } else {
+            vec![0, 1, 2]
+        }
     }
 
     fn steps(&self, mode: Point) -> Point {

@@ -1,6 +1,8 @@
 //! The shapes of psychometric functions: how the share of answers rises with the stimulus.
 
-use crate::statistics::distribution::{normal_density, normal_lower, normal_quantile, normal_upper};
+use crate::statistics::distribution::{
+    normal_density, normal_lower, normal_quantile, normal_upper,
+};
 use crate::statistics::{Computed, Undefined};
 
 /// The shape F, which rises from 0 to 1: ½ at the threshold, 5 % and 95 % a width apart.
@@ -23,7 +25,7 @@ const LOGIT: f64 = 2.944_438_979_166_440_3;
 /// The z of 95 %.
 const PROBIT: f64 = 1.644_853_626_951_472_2;
 /// ln(−ln 0.05) and −ln(−ln 0.95): the two ends of the Gumbel function.
-const GUMBEL: [f64; 2] = [1.097_188_700_364_948_7, 2.970_195_249_041_979_4];
+const GUMBEL: [f64; 2] = [1.097_188_700_364_948_7, 2.970_195_249_042_164_6];
 /// ln(ln 2): its middle.
 const GUMBEL_MIDDLE: f64 = -0.366_512_920_581_664_35;
 
@@ -63,7 +65,11 @@ impl Family {
             Self::Logistic => {
                 let tail = (-(2.0 * LOGIT * z).abs()).exp();
                 let [small, large] = [tail / (1.0 + tail), 1.0 / (1.0 + tail)];
-                if z < 0.0 { [small, large] } else { [large, small] }
+                if z < 0.0 {
+                    [small, large]
+                } else {
+                    [large, small]
+                }
             }
             Self::Normal => {
                 let z = 2.0 * PROBIT * z;
@@ -96,9 +102,7 @@ impl Family {
         match self {
             Self::Logistic => 0.5 * LOGIT,
             Self::Normal => 2.0 * PROBIT * normal_density(0.0),
-            Self::Weibull | Self::Gumbel => {
-                0.5 * std::f64::consts::LN_2 * (GUMBEL[0] + GUMBEL[1])
-            }
+            Self::Weibull | Self::Gumbel => 0.5 * std::f64::consts::LN_2 * (GUMBEL[0] + GUMBEL[1]),
         }
     }
 }
@@ -127,7 +131,10 @@ mod tests {
             }
             let [low, high] = family.shares(-60.0);
             assert!(low < 1e-70 && high == 1.0, "{family:?}: {low}, {high}");
-            assert!(family.widths_at(1.0).is_err() && family.widths_at(0.0).is_err(), "open");
+            assert!(
+                family.widths_at(1.0).is_err() && family.widths_at(0.0).is_err(),
+                "open"
+            );
         }
         Ok(())
     }

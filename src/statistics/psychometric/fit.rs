@@ -140,12 +140,23 @@ fn start(target: &Target<'_>) -> Point {
         low + (high - low) * (f64::from(i) + 0.5) / f64::from(n)
     };
     let n_lapses = if is_fixed { 1 } else { STARTS[2] };
-    let mut best = ([0.5 * (from + to), 0.5 * (widths[0] + widths[1]), most], f64::NEG_INFINITY);
+    let mut best = (
+        [0.5 * (from + to), 0.5 * (widths[0] + widths[1]), most],
+        f64::NEG_INFINITY,
+    );
     for i in 0..STARTS[0] {
         for j in 0..STARTS[1] {
             for k in 0..n_lapses {
-                let lapse = if is_fixed { most } else { within([0.0, most], k, n_lapses) };
-                let tried = [within([from, to], i, STARTS[0]), within(widths, j, STARTS[1]), lapse];
+                let lapse = if is_fixed {
+                    most
+                } else {
+                    within([0.0, most], k, n_lapses)
+                };
+                let tried = [
+                    within([from, to], i, STARTS[0]),
+                    within(widths, j, STARTS[1]),
+                    lapse,
+                ];
                 let value = target.ln_posterior(tried);
                 if value > best.1 {
                     best = (tried, value);
@@ -170,7 +181,11 @@ fn mode(target: &Target<'_>, start: Point) -> Computed<Point> {
         // The rate as an angle: its ends are no walls to a search.
         let rate = |angle: f64| most * angle.sin().powi(2);
         let at = |p: &[f64; 3]| -target.ln_posterior([p[0], p[1], rate(p[2])]);
-        let angle = (lapse / most).clamp(0.0, 1.0).sqrt().asin().clamp(0.2, 1.37);
+        let angle = (lapse / most)
+            .clamp(0.0, 1.0)
+            .sqrt()
+            .asin()
+            .clamp(0.2, 1.37);
         let first = lowest(at, [threshold, ln_width, angle], [0.1 * range, 0.3, 0.3]);
         let again = lowest(at, first.place, [-0.03 * range, 0.1, -0.2]).place;
         [again[0], again[1], rate(again[2])]

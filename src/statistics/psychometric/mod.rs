@@ -31,6 +31,7 @@ pub use adjustment::{Adjustments, Settings, Starts};
 pub use answers::{Block, blocks};
 pub use comparison::{Comparison, Measured};
 pub use curve::Psychometric;
+pub(super) use curve::scaled;
 pub use family::Family;
 pub use fit::{Fit, Model};
 pub use posterior::{Marginal, Posterior};

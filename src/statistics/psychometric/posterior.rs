@@ -23,14 +23,20 @@ pub struct Marginal {
 impl Marginal {
     /// Its mean.
     pub fn mean(&self) -> f64 {
-        self.values.iter().zip(&self.masses).map(|(v, m)| v * m).sum()
+        self.values
+            .iter()
+            .zip(&self.masses)
+            .map(|(v, m)| v * m)
+            .sum()
     }
 
     /// Its standard deviation.
     pub fn sd(&self) -> f64 {
         let mean = self.mean();
         let both = self.values.iter().zip(&self.masses);
-        both.map(|(v, m)| m * (v - mean).powi(2)).sum::<f64>().sqrt()
+        both.map(|(v, m)| m * (v - mean).powi(2))
+            .sum::<f64>()
+            .sqrt()
     }
 }
 
@@ -100,7 +106,10 @@ impl Grid {
             let cell = (high - low) / self.counts[axis] as f64;
             let from = low + cell * (first as f64 - 1.0);
             let to = low + cell * (last as f64 + 2.0);
-            ends[axis] = [from.min(mode[axis] - cell).max(low), to.max(mode[axis] + cell).min(high)];
+            ends[axis] = [
+                from.min(mode[axis] - cell).max(low),
+                to.max(mode[axis] + cell).min(high),
+            ];
         }
         ends
     }
@@ -127,19 +136,29 @@ impl Fit {
         grid.counts = [CELLS[0], CELLS[1], n_lapses(CELLS[2])];
         let masses = grid.masses(&target);
         let marginal = |axis: usize, of: &dyn Fn(f64) -> f64| Marginal {
-            values: (0..grid.counts[axis]).map(|i| of(grid.along(axis, i))).collect(),
+            values: (0..grid.counts[axis])
+                .map(|i| of(grid.along(axis, i)))
+                .collect(),
             masses: grid.marginal(&masses, axis),
         };
         let [_, n_widths, n_lapses] = grid.counts;
         let curve = |cell: usize| {
-            let (i, j, k) = (cell / n_lapses / n_widths, cell / n_lapses % n_widths, cell % n_lapses);
+            let (i, j, k) = (
+                cell / n_lapses / n_widths,
+                cell / n_lapses % n_widths,
+                cell % n_lapses,
+            );
             target.curve([grid.along(0, i), grid.along(1, j), grid.along(2, k)])
         };
         Posterior {
             threshold: marginal(0, &|place| self.model.family.stimulus(place)),
             width: marginal(1, &f64::exp),
             lapse: marginal(2, &|rate| rate),
-            cells: masses.iter().enumerate().map(|(cell, &m)| (curve(cell), m)).collect(),
+            cells: masses
+                .iter()
+                .enumerate()
+                .map(|(cell, &m)| (curve(cell), m))
+                .collect(),
         }
     }
 }
@@ -176,7 +195,11 @@ fn quantile(values: &[(f64, f64)], share: f64) -> f64 {
     for &(value, mass) in values {
         let at = below + 0.5 * mass;
         if at >= share {
-            let part = if at > last_at { (share - last_at) / (at - last_at) } else { 1.0 };
+            let part = if at > last_at {
+                (share - last_at) / (at - last_at)
+            } else {
+                1.0
+            };
             return last + part.clamp(0.0, 1.0) * (value - last);
         }
         below += mass;

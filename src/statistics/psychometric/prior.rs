@@ -67,14 +67,16 @@ impl Lapse {
         };
         let is_good = (0.0..0.5).contains(&most) && is_shaped;
         is_good.then_some(()).ok_or_else(|| {
-            Undefined::because(format!("{self:?} is no prior of a lapse rate below one half"))
+            Undefined::because(format!(
+                "{self:?} is no prior of a lapse rate below one half"
+            ))
         })
     }
 }
 
 impl Guess {
     /// The rate beside a lapse rate.
-    pub(super) fn rate(self, lapse: f64) -> f64 {
+    pub(in crate::statistics) fn rate(self, lapse: f64) -> f64 {
         match self {
             Self::Share(share) => share,
             Self::EqualToLapse => lapse,
@@ -115,7 +117,8 @@ impl Priors {
     pub(super) fn check(&self) -> Computed<()> {
         let [low, high] = self.threshold;
         let [narrow, wide] = self.width;
-        let is_good = low < high && narrow > 0.0 && narrow <= wide && (high - low + wide).is_finite();
+        let is_good =
+            low < high && narrow > 0.0 && narrow <= wide && (high - low + wide).is_finite();
         is_good.then_some(()).ok_or_else(|| {
             Undefined::because(format!("{self:?} are no ranges of threshold and width"))
         })

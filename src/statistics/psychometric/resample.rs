@@ -31,7 +31,11 @@ impl Fit {
     /// Fewer than 100 resamples, a level outside (0, 1), more than half of the resamples without
     /// a threshold.
     pub fn resample(&self, how: Resampling) -> Computed<Resamples> {
-        let Resampling { n_resamples, seed, level } = how;
+        let Resampling {
+            n_resamples,
+            seed,
+            level,
+        } = how;
         if n_resamples < 100 || !(level > 0.0 && level < 1.0) {
             let reason = format!("{n_resamples} resamples at level {level} give no interval");
             return Err(Undefined::because(reason));
@@ -72,7 +76,11 @@ impl Fit {
 impl Resamples {
     /// The probability of a deviance at least that of the fit, if the model holds.
     pub fn p_deviance(&self) -> f64 {
-        let n_worse = self.deviances.iter().filter(|&&d| d >= self.deviance).count();
+        let n_worse = self
+            .deviances
+            .iter()
+            .filter(|&&d| d >= self.deviance)
+            .count();
         (n_worse as f64 + 1.0) / (self.deviances.len() as f64 + 1.0)
     }
 
@@ -84,7 +92,11 @@ impl Resamples {
         &self,
         quantity: impl Fn(&Psychometric) -> Computed,
     ) -> Computed<(f64, Interval)> {
-        let mut values = self.curves.iter().map(quantity).collect::<Computed<Vec<_>>>()?;
+        let mut values = self
+            .curves
+            .iter()
+            .map(quantity)
+            .collect::<Computed<Vec<_>>>()?;
         let (_, deviations) = centred(&values);
         let se = (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt();
         let tail = 0.5 * (1.0 - self.level);

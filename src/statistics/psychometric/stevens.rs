@@ -74,7 +74,9 @@ pub fn stevens(estimates: &[Estimate], level: f64) -> Computed<Stevens> {
     let values: Vec<f64> = own.iter().map(|(_, law)| law.exponent).collect();
     let exponents = Summary::of(&values);
     Ok(Stevens {
-        interval: exponents.clone().and_then(|summary| summary.interval(level)),
+        interval: exponents
+            .clone()
+            .and_then(|summary| summary.interval(level)),
         exponents,
         stimuli,
         means: ln_means.into_iter().map(f64::exp).collect(),
@@ -91,8 +93,10 @@ pub fn stevens(estimates: &[Estimate], level: f64) -> Computed<Stevens> {
 pub fn with_equal_moduli(estimates: &[Estimate]) -> Computed<Vec<Estimate>> {
     let (_, subjects) = collected(estimates)?;
     let mean = |logs: &Logs| logs.iter().sum::<f64>() / logs.len() as f64;
-    let own: BTreeMap<&str, f64> =
-        subjects.iter().map(|(name, logs)| (name.as_str(), mean(logs))).collect();
+    let own: BTreeMap<&str, f64> = subjects
+        .iter()
+        .map(|(name, logs)| (name.as_str(), mean(logs)))
+        .collect();
     let group = own.values().sum::<f64>() / own.len() as f64;
     let moved = |estimate: &Estimate| Estimate {
         value: estimate.value * (group - own[estimate.subject.as_str()]).exp(),
@@ -108,13 +112,19 @@ fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<(String, Logs)>)
     stimuli.dedup();
     let mut sums: BTreeMap<&str, Vec<[f64; 2]>> = BTreeMap::new();
     for estimate in estimates {
-        let Estimate { subject, stimulus, value } = estimate;
+        let Estimate {
+            subject,
+            stimulus,
+            value,
+        } = estimate;
         let has_logarithm = |x: f64| x > 0.0 && x.is_finite();
         if !(has_logarithm(*value) && has_logarithm(*stimulus)) {
             let reason = format!("{subject} gave {value} to {stimulus}: no logarithm");
             return Err(Undefined::because(reason));
         }
-        let cells = sums.entry(subject).or_insert_with(|| vec![[0.0; 2]; stimuli.len()]);
+        let cells = sums
+            .entry(subject)
+            .or_insert_with(|| vec![[0.0; 2]; stimuli.len()]);
         let place = stimuli.partition_point(|x| x < stimulus);
         cells[place][0] += value.ln();
         cells[place][1] += 1.0;
@@ -135,15 +145,17 @@ fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<(String, Logs)>)
         return Err(Undefined::because(reason));
     }
     let logs = |cells: Vec<[f64; 2]>| cells.into_iter().map(|[sum, n]| sum / n).collect();
-    let subjects = sums.into_iter().map(|(name, cells)| (name.to_owned(), logs(cells)));
+    let subjects = sums
+        .into_iter()
+        .map(|(name, cells)| (name.to_owned(), logs(cells)));
     Ok((stimuli, subjects.collect()))
 }
 
 fn power_law(ln_stimuli: &[f64], ln_values: &[f64], level: f64) -> Computed<PowerLaw> {
     let pairs = ln_stimuli.iter().zip(ln_values);
     let points: Vec<[f64; 2]> = pairs.map(|(x, y)| [*x, *y]).collect();
-    let line = LineFit::through(&points)
-        .ok_or_else(|| Undefined::because("the stimuli do not differ"))?;
+    let line =
+        LineFit::through(&points).ok_or_else(|| Undefined::because("the stimuli do not differ"))?;
     let df = points.len() as f64 - 2.0;
     let interval = t_quantile_upper(0.5 * (1.0 - level), df)
         .map_err(|_no_freedom| Undefined::because("two stimuli leave no scatter about a line"))
@@ -162,10 +174,15 @@ fn power_law(ln_stimuli: &[f64], ln_values: &[f64], level: f64) -> Computed<Powe
 
 fn r_squared(points: &[[f64; 2]], line: &LineFit) -> Computed {
     let values: Vec<f64> = points.iter().map(|p| p[1]).collect();
-    let (mean, n) = (values.iter().sum::<f64>() / values.len() as f64, values.len());
+    let (mean, n) = (
+        values.iter().sum::<f64>() / values.len() as f64,
+        values.len(),
+    );
     let all: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();
-    let left: f64 =
-        points.iter().map(|[x, y]| (y - line.offset - line.slope * x).powi(2)).sum();
+    let left: f64 = points
+        .iter()
+        .map(|[x, y]| (y - line.offset - line.slope * x).powi(2))
+        .sum();
     let varies = all > n as f64 * (1e-12 * mean.abs().max(1.0)).powi(2);
     varies
         .then(|| 1.0 - left / all)
@@ -186,7 +203,11 @@ mod tests {
                 for _ in 0..3 {
                     let scatter = (noise * random.normal()).exp();
                     let value = modulus * stimulus.powf(*exponent) * scatter;
-                    all.push(Estimate { subject: format!("S{i}"), stimulus, value });
+                    all.push(Estimate {
+                        subject: format!("S{i}"),
+                        stimulus,
+                        value,
+                    });
                 }
             }
         }
@@ -200,10 +221,17 @@ mod tests {
             assert!((law.exponent - exponent).abs() < 1e-12, "{law:?}");
             assert!((law.r_squared.clone()? - 1.0).abs() < 1e-12, "{law:?}");
         }
-        assert!((found.group.exponent - 0.7).abs() < 1e-12, "{:?}", found.group);
+        assert!(
+            (found.group.exponent - 0.7).abs() < 1e-12,
+            "{:?}",
+            found.group
+        );
         // ±4.303·0.2/√3.
         let half = 4.302_652_729_911_275 * 0.2 / 3.0_f64.sqrt();
-        assert!((found.interval?.high - 0.7 - half).abs() < 1e-9, "t over subjects");
+        assert!(
+            (found.interval?.high - 0.7 - half).abs() < 1e-9,
+            "t over subjects"
+        );
         Ok(())
     }
 
@@ -212,11 +240,20 @@ mod tests {
         let raw = estimates(&[0.6; 6], 0.1, 2);
         let equal = with_equal_moduli(&raw)?;
         let (before, after) = (stevens(&raw, 0.95)?, stevens(&equal, 0.95)?);
-        assert!((before.group.exponent - after.group.exponent).abs() < 1e-12, "same");
-        assert!((before.means[2] / after.means[2] - 1.0).abs() < 1e-12, "same means");
+        assert!(
+            (before.group.exponent - after.group.exponent).abs() < 1e-12,
+            "same"
+        );
+        assert!(
+            (before.means[2] / after.means[2] - 1.0).abs() < 1e-12,
+            "same means"
+        );
         let spread = |all: &[Estimate]| {
-            let at: Vec<f64> =
-                all.iter().filter(|e| e.stimulus == 5.0).map(|e| e.value.ln()).collect();
+            let at: Vec<f64> = all
+                .iter()
+                .filter(|e| e.stimulus == 5.0)
+                .map(|e| e.value.ln())
+                .collect();
             Summary::of(&at).map(|summary| summary.sd)
         };
         assert!(spread(&equal)? < 0.2 * spread(&raw)?, "moduli are gone");
@@ -228,10 +265,16 @@ mod tests {
         let reason = |all: &[Estimate]| stevens(all, 0.95).map(|_| ()).map_err(|e| e.reason);
         let mut zero = estimates(&[0.5, 0.6], 0.1, 3);
         zero[4].value = 0.0;
-        assert!(reason(&zero).is_err_and(|r| r.contains("S0 gave 0 to 2")), "zero");
+        assert!(
+            reason(&zero).is_err_and(|r| r.contains("S0 gave 0 to 2")),
+            "zero"
+        );
         let mut missing = estimates(&[0.5, 0.6], 0.1, 3);
         missing.retain(|e| !(e.subject == "S1" && e.stimulus == 10.0));
-        assert_eq!(reason(&missing), Err("missing estimates: S1 at 10".to_owned()));
+        assert_eq!(
+            reason(&missing),
+            Err("missing estimates: S1 at 10".to_owned())
+        );
         missing.retain(|e| e.stimulus == 1.0);
         assert!(reason(&missing).is_err(), "one stimulus");
         assert!(reason(&[]).is_err(), "none");
@@ -240,8 +283,14 @@ mod tests {
     #[test]
     fn one_subject_has_its_own_line_and_no_interval_over_subjects() -> Computed<()> {
         let found = stevens(&estimates(&[0.8], 0.05, 4), 0.95)?;
-        assert!(found.exponents.is_err() && found.interval.is_err(), "{found:?}");
-        assert!(found.group.interval?.holds(0.8), "by scatter about the line");
+        assert!(
+            found.exponents.is_err() && found.interval.is_err(),
+            "{found:?}"
+        );
+        assert!(
+            found.group.interval?.holds(0.8),
+            "by scatter about the line"
+        );
         Ok(())
     }
 }

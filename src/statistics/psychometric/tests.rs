@@ -16,7 +16,11 @@ fn truth(family: Family) -> Psychometric {
 
 fn expected(curve: &Psychometric, n: u32) -> Vec<Block> {
     let block = |x: f64| {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "≤ n")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "≤ n"
+        )]
         let n_right = (f64::from(n) * curve.at(x)).round() as u32;
         Block { x, n, n_right }
     };
@@ -38,8 +42,14 @@ fn expected_answers_give_the_function_back_in_every_family() -> Computed<()> {
         let truth = truth(family);
         let fit = Model::alternatives(family, 2).fit(&expected(&truth, 1_000_000))?;
         let found = fit.curve;
-        assert!((found.threshold - 5.0).abs() < 2e-3, "{family:?}: {found:?}");
-        assert!((found.width / truth.width - 1.0).abs() < 2e-3, "{family:?}: {found:?}");
+        assert!(
+            (found.threshold - 5.0).abs() < 2e-3,
+            "{family:?}: {found:?}"
+        );
+        assert!(
+            (found.width / truth.width - 1.0).abs() < 2e-3,
+            "{family:?}: {found:?}"
+        );
         assert!((found.lapse - 0.02).abs() < 1e-3, "{family:?}: {found:?}");
         assert!(fit.notes.is_empty() && fit.deviance < 1.0, "{fit:?}");
     }
@@ -73,31 +83,56 @@ fn the_mode_is_no_lower_than_any_place_of_a_fine_grid_and_close_to_its_best() ->
                 }
             }
         }
-        assert!(fit.ln_posterior >= best.0, "{family:?}: {} {best:?}", fit.ln_posterior);
-        assert!(fit.ln_posterior - best.0 < 0.02, "{family:?}: {} {best:?}", fit.ln_posterior);
+        assert!(
+            fit.ln_posterior >= best.0,
+            "{family:?}: {} {best:?}",
+            fit.ln_posterior
+        );
+        assert!(
+            fit.ln_posterior - best.0 < 0.02,
+            "{family:?}: {} {best:?}",
+            fit.ln_posterior
+        );
     }
     Ok(())
 }
 
 #[test]
 fn three_ways_to_an_interval_agree_where_trials_are_many() -> Computed<()> {
-    let truth = Psychometric { guess: 0.25, ..truth(Family::Logistic) };
+    let truth = Psychometric {
+        guess: 0.25,
+        ..truth(Family::Logistic)
+    };
     let blocks = drawn(&truth, 150, &mut Random::new(3));
     let fit = Model::alternatives(Family::Logistic, 4).fit(&blocks)?;
     let threshold = |curve: &Psychometric| Ok(curve.threshold);
     let (se, delta) = fit.delta(threshold, 0.95)?;
     let posterior = fit.posterior();
     let by_bayes = posterior.interval(threshold, 0.95)?;
-    let how = Resampling { n_resamples: 500, seed: 4, level: 0.95 };
+    let how = Resampling {
+        n_resamples: 500,
+        seed: 4,
+        level: 0.95,
+    };
     let resamples = fit.resample(how)?;
     let (_, by_simulation) = resamples.interval(threshold)?;
     for other in [by_bayes, by_simulation] {
-        assert!((other.low - delta.low).abs() < 0.5 * se, "{other:?} {delta:?}");
-        assert!((other.high - delta.high).abs() < 0.5 * se, "{other:?} {delta:?}");
+        assert!(
+            (other.low - delta.low).abs() < 0.5 * se,
+            "{other:?} {delta:?}"
+        );
+        assert!(
+            (other.high - delta.high).abs() < 0.5 * se,
+            "{other:?} {delta:?}"
+        );
     }
     assert!((posterior.threshold.sd() / se - 1.0).abs() < 0.15, "{se}");
     assert!(delta.holds(5.0), "{delta:?}");
-    assert!((0.01..0.99).contains(&resamples.p_deviance()), "{}", resamples.p_deviance());
+    assert!(
+        (0.01..0.99).contains(&resamples.p_deviance()),
+        "{}",
+        resamples.p_deviance()
+    );
     assert_eq!(resamples, fit.resample(how)?, "the seed decides");
     Ok(())
 }
@@ -114,12 +149,13 @@ fn the_posterior_is_that_of_a_finer_grid() -> Computed<()> {
     };
     let fit = model.fit(&blocks)?;
     let (target, n) = (fit.target(), 400);
-    let ([from, to], [narrow, wide]) =
-        (fit.priors.threshold_support(), fit.priors.width_support());
+    let ([from, to], [narrow, wide]) = (fit.priors.threshold_support(), fit.priors.width_support());
     let (mut sum, mut sum_m, mut sum_w) = (0.0, 0.0, 0.0);
     for i in 0..n {
         for j in 0..n {
-            let along = |low: f64, high: f64, i: i32| low + (high - low) * (f64::from(i) + 0.5) / f64::from(n);
+            let along = |low: f64, high: f64, i: i32| {
+                low + (high - low) * (f64::from(i) + 0.5) / f64::from(n)
+            };
             let (m, w) = (along(from, to, i), along(narrow, wide, j));
             let mass = target.ln_posterior([m, w.ln(), 0.0]).exp();
             sum += mass;
@@ -130,7 +166,11 @@ fn the_posterior_is_that_of_a_finer_grid() -> Computed<()> {
     let posterior = fit.posterior();
     let (m, w) = (posterior.threshold.mean(), posterior.width.mean());
     assert!((m - sum_m / sum).abs() < 0.01, "{m} {}", sum_m / sum);
-    assert!((w / (sum_w / sum) - 1.0).abs() < 0.01, "{w} {}", sum_w / sum);
+    assert!(
+        (w / (sum_w / sum) - 1.0).abs() < 0.01,
+        "{w} {}",
+        sum_w / sum
+    );
     Ok(())
 }
 
@@ -142,15 +182,26 @@ fn two_sided_answers_give_pse_jnd_and_weber_fraction() -> Computed<()> {
         ..truth(Family::Normal)
     };
     let fit = Model::two_sided(Family::Normal).fit(&expected(&truth, 2000))?;
-    let how = Resampling { n_resamples: 100, seed: 1, level: 0.95 };
+    let how = Resampling {
+        n_resamples: 100,
+        seed: 1,
+        level: 0.95,
+    };
     let found = fit.comparison(4.5, &fit.resample(how)?)?;
     assert!((found.pse.value - 5.0).abs() < 0.02, "{:?}", found.pse);
     assert!((found.constant_error - 0.5).abs() < 0.02, "{found:?}");
     let jnd = truth.jnd()?;
-    assert!((found.jnd.value / jnd - 1.0).abs() < 0.02, "{:?}", found.jnd);
+    assert!(
+        (found.jnd.value / jnd - 1.0).abs() < 0.02,
+        "{:?}",
+        found.jnd
+    );
     let weber = found.weber_fraction?.value;
     assert!((weber - found.jnd.value / 4.5).abs() < 1e-12, "{weber}");
-    assert!(found.jnd.delta?.holds(jnd) && found.jnd.bootstrap?.holds(jnd), "held");
+    assert!(
+        found.jnd.delta?.holds(jnd) && found.jnd.bootstrap?.holds(jnd),
+        "held"
+    );
     let of_nothing = fit.comparison(0.0, &fit.resample(how)?)?;
     assert!(of_nothing.weber_fraction.is_err(), "over zero");
     Ok(())
@@ -162,37 +213,104 @@ fn answers_that_say_nothing_are_refused_and_a_threshold_outside_is_said() -> Com
     let reason = |blocks: &[(f64, u32, u32)]| {
         let block = |&(x, n, n_right): &(f64, u32, u32)| Block { x, n, n_right };
         let blocks: Vec<Block> = blocks.iter().map(block).collect();
-        model.fit(&blocks).map(|fit| fit.notes).map_err(|e| e.reason)
+        model
+            .fit(&blocks)
+            .map(|fit| fit.notes)
+            .map_err(|e| e.reason)
     };
     assert_eq!(reason(&[]), Err("no trials".to_owned()));
-    assert!(reason(&[(1.0, 5, 3)]).is_err_and(|r| r.contains("one stimulus")), "one");
-    assert!(reason(&[(1.0, 5, 5), (2.0, 5, 5)]).is_err_and(|r| r.contains("all 10")), "right");
-    assert!(reason(&[(1.0, 5, 0), (2.0, 5, 0)]).is_err_and(|r| r.contains("none of 10")), "wrong");
+    assert!(
+        reason(&[(1.0, 5, 3)]).is_err_and(|r| r.contains("one stimulus")),
+        "one"
+    );
+    assert!(
+        reason(&[(1.0, 5, 5), (2.0, 5, 5)]).is_err_and(|r| r.contains("all 10")),
+        "right"
+    );
+    assert!(
+        reason(&[(1.0, 5, 0), (2.0, 5, 0)]).is_err_and(|r| r.contains("none of 10")),
+        "wrong"
+    );
     assert!(reason(&[(1.0, 5, 6), (2.0, 5, 1)]).is_err(), "six of five");
-    assert!(reason(&[(f64::NAN, 5, 1), (2.0, 5, 1)]).is_err(), "no stimulus");
+    assert!(
+        reason(&[(f64::NAN, 5, 1), (2.0, 5, 1)]).is_err(),
+        "no stimulus"
+    );
     let rising_beyond = reason(&[(1.0, 40, 10), (2.0, 40, 11), (3.0, 40, 13)]);
-    assert!(rising_beyond.is_ok_and(|notes| !notes.is_empty()), "not bracketed");
-    let zero = [Block { x: 0.0, n: 9, n_right: 2 }, Block { x: 1.0, n: 9, n_right: 8 }];
-    assert!(Model::alternatives(Family::Weibull, 4).fit(&zero).is_err(), "ln 0");
-    let bad = Model { lapse: Lapse::Fixed(0.7), ..model };
+    assert!(
+        rising_beyond.is_ok_and(|notes| !notes.is_empty()),
+        "not bracketed"
+    );
+    let zero = [
+        Block {
+            x: 0.0,
+            n: 9,
+            n_right: 2,
+        },
+        Block {
+            x: 1.0,
+            n: 9,
+            n_right: 8,
+        },
+    ];
+    assert!(
+        Model::alternatives(Family::Weibull, 4).fit(&zero).is_err(),
+        "ln 0"
+    );
+    let bad = Model {
+        lapse: Lapse::Fixed(0.7),
+        ..model
+    };
     assert!(bad.fit(&zero).is_err(), "a lapse rate of 0.7");
-    let perfect = [Block { x: 0.0, n: 9, n_right: 0 }, Block { x: 1.0, n: 9, n_right: 9 }];
-    let yes_no = Model { guess: Guess::Share(0.0), lapse: Lapse::Fixed(0.0), ..model };
-    assert!((yes_no.fit(&perfect)?.curve.threshold - 0.5).abs() < 0.01, "a step");
+    let perfect = [
+        Block {
+            x: 0.0,
+            n: 9,
+            n_right: 0,
+        },
+        Block {
+            x: 1.0,
+            n: 9,
+            n_right: 9,
+        },
+    ];
+    let yes_no = Model {
+        guess: Guess::Share(0.0),
+        lapse: Lapse::Fixed(0.0),
+        ..model
+    };
+    assert!(
+        (yes_no.fit(&perfect)?.curve.threshold - 0.5).abs() < 0.01,
+        "a step"
+    );
     Ok(())
 }
 
 #[test]
 fn a_beta_prior_draws_the_lapse_rate_towards_its_mode() -> Computed<()> {
-    let truth = Psychometric { lapse: 0.05, ..truth(Family::Logistic) };
+    let truth = Psychometric {
+        lapse: 0.05,
+        ..truth(Family::Logistic)
+    };
     let blocks = expected(&truth, 10);
     let lapse = |lapse| {
-        let model = Model { lapse, ..Model::alternatives(Family::Logistic, 2) };
+        let model = Model {
+            lapse,
+            ..Model::alternatives(Family::Logistic, 2)
+        };
         model.fit(&blocks).map(|fit| fit.curve.lapse)
     };
     let flat = lapse(Lapse::default())?;
-    let beta = lapse(Lapse::Beta { a: 1.0, b: 100.0, most: MOST_LAPSE })?;
-    let sharp = lapse(Lapse::Beta { a: 301.0, b: 9701.0, most: MOST_LAPSE })?;
+    let beta = lapse(Lapse::Beta {
+        a: 1.0,
+        b: 100.0,
+        most: MOST_LAPSE,
+    })?;
+    let sharp = lapse(Lapse::Beta {
+        a: 301.0,
+        b: 9701.0,
+        most: MOST_LAPSE,
+    })?;
     assert!(beta < flat, "{beta} {flat}");
     assert!((sharp - 0.03).abs() < 0.003, "{sharp}");
     Ok(())
@@ -201,6 +319,17 @@ fn a_beta_prior_draws_the_lapse_rate_towards_its_mode() -> Computed<()> {
 #[test]
 fn trials_become_blocks_of_equal_stimuli() {
     let found = blocks([(2.0, true), (1.0, false), (2.0, false), (2.0, true)]);
-    let expected = [Block { x: 1.0, n: 1, n_right: 0 }, Block { x: 2.0, n: 3, n_right: 2 }];
+    let expected = [
+        Block {
+            x: 1.0,
+            n: 1,
+            n_right: 0,
+        },
+        Block {
+            x: 2.0,
+            n: 3,
+            n_right: 2,
+        },
+    ];
     assert_eq!(found, expected);
 }
