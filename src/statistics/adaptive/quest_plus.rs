@@ -229,7 +229,9 @@ impl QuestPlus {
         }
         let sum: f64 = ln_posterior.iter().map(|ln| (ln - most).exp()).sum();
         let total = most + sum.ln();
-        ln_posterior.iter_mut().for_each(|ln| *ln -= total);
+        for ln in &mut ln_posterior {
+            *ln -= total;
+        }
         self.masses.clear();
         self.masses.extend(ln_posterior.iter().map(|ln| ln.exp()));
         self.ln_posterior = ln_posterior;

@@ -100,7 +100,9 @@ impl Band {
             }
         }
         let sum: f64 = shares.iter().sum();
-        shares.iter_mut().for_each(|share| *share /= sum);
+        for share in &mut shares {
+            *share /= sum;
+        }
         Ok(shares)
     }
 }

@@ -12,9 +12,9 @@ pub enum Stop {
     /// Once the posterior of the threshold has this standard deviation or less.
     PosteriorSd(f64),
     /// As soon as one of these holds.
-    Any(Vec<Stop>),
+    Any(Vec<Self>),
     /// Once all of these hold.
-    All(Vec<Stop>),
+    All(Vec<Self>),
 }
 
 /// How far a procedure is; `None` for what it does not have.

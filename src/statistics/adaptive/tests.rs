@@ -95,7 +95,7 @@ fn a_long_staircase_stays_where_its_chain_says() -> Computed<()> {
 #[test]
 fn small_steps_approach_the_target_and_large_ones_are_right_a_little_less_often() -> Computed<()> {
     let curve = observer();
-    for (m, target) in [(1, 0.5), (2, 0.707_1), (3, 0.793_7), (4, 0.840_9)] {
+    for (m, target) in [(1, 0.5), (2, 0.5_f64.sqrt()), (3, 0.793_7), (4, 0.840_9)] {
         // Steps of 2 and of 0.2 of a width of 8.
         let long_run = |n: i32| -> Computed<f64> {
             let at = |x: i32| curve.at(f64::from(x) * 20.0 / f64::from(n));
@@ -303,7 +303,9 @@ fn by_hand(grid: &QuestGrid, trials: &[(f64, bool)]) -> (Vec<f64>, f64) {
         }
     }
     let sum: f64 = masses.iter().sum();
-    masses.iter_mut().for_each(|m| *m /= sum);
+    for mass in &mut masses {
+        *mass /= sum;
+    }
     let entropy = masses
         .iter()
         .map(|m| if *m > 0.0 { -m * m.ln() } else { 0.0 })

@@ -165,8 +165,8 @@ mod tests {
         assert!(good.stimulus_at(0.99).is_err(), "above what lapses leave");
         let bad = |width, threshold, guess| {
             let curve = Psychometric {
-                width,
                 threshold,
+                width,
                 guess,
                 ..good
             };

@@ -26,7 +26,7 @@ impl Fit {
         let target = self.target();
         let mode = point(&self.curve);
         let free = self.free();
-        let steps = self.steps(mode);
+        let steps = steps(mode);
         let information = self.information(mode, &free, steps);
         let moved = |axis: usize, by: f64| {
             let mut place = mode;
@@ -61,11 +61,6 @@ impl Fit {
         }
     }
 
-    fn steps(&self, mode: Point) -> Point {
-        let width = mode[1].exp();
-        [1e-3 * width, 1e-3, 0.2 * NEAR_END]
-    }
-
     /// Minus the second derivatives of the log-posterior.
     fn information(&self, mode: Point, free: &[usize], steps: Point) -> DMatrix<f64> {
         let target = self.target();
@@ -89,4 +84,10 @@ impl Fit {
             -bent / (steps[a] * steps[b])
         })
     }
+}
+
+/// How far to either side differences are taken.
+fn steps(mode: Point) -> Point {
+    let width = mode[1].exp();
+    [1e-3 * width, 1e-3, 0.2 * NEAR_END]
 }

@@ -79,9 +79,13 @@ impl Grid {
             }
         }
         let most = masses.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        masses.iter_mut().for_each(|ln| *ln = (*ln - most).exp());
+        for mass in &mut masses {
+            *mass = (*mass - most).exp();
+        }
         let sum: f64 = masses.iter().sum();
-        masses.iter_mut().for_each(|m| *m /= sum);
+        for mass in &mut masses {
+            *mass /= sum;
+        }
         masses
     }
 

@@ -49,8 +49,8 @@ pub struct Stevens {
     pub interval: Computed<Interval>,
 }
 
-/// Logarithms of one subject's geometric means, one a stimulus.
-type Logs = Vec<f64>;
+/// A subject and the logarithms of its geometric means, one a stimulus.
+type Subject = (String, Vec<f64>);
 
 /// Fits power laws to estimates in any order, several a stimulus where they were repeated.
 ///
@@ -92,7 +92,7 @@ pub fn stevens(estimates: &[Estimate], level: f64) -> Computed<Stevens> {
 /// As [`stevens`].
 pub fn with_equal_moduli(estimates: &[Estimate]) -> Computed<Vec<Estimate>> {
     let (_, subjects) = collected(estimates)?;
-    let mean = |logs: &Logs| logs.iter().sum::<f64>() / logs.len() as f64;
+    let mean = |logs: &[f64]| logs.iter().sum::<f64>() / logs.len() as f64;
     let own: BTreeMap<&str, f64> = subjects
         .iter()
         .map(|(name, logs)| (name.as_str(), mean(logs)))
@@ -106,7 +106,7 @@ pub fn with_equal_moduli(estimates: &[Estimate]) -> Computed<Vec<Estimate>> {
 }
 
 /// Stimuli ascending, and mean logarithms of each subject at each of them.
-fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<(String, Logs)>)> {
+fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<Subject>)> {
     let mut stimuli: Vec<f64> = estimates.iter().map(|e| e.stimulus).collect();
     stimuli.sort_by(f64::total_cmp);
     stimuli.dedup();
