@@ -187,6 +187,19 @@ impl AnswerError {
     }
 }
 
+impl Answer {
+    /// Whether a choice is one of `n`.
+    pub(super) fn check_choice(&self, n: usize) -> Result<(), AnswerError> {
+        match self {
+            Self::Chosen { position, .. } if *position >= n => Err(AnswerError::value(
+                told(*position),
+                format!("give 1 to {n}"),
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Task {
     /// Whether an answer is right; `None` where nothing is right or wrong.
     ///
@@ -224,7 +237,7 @@ impl Task {
             (Self::JudgePair { real, .. }, Answer::Chosen { position, .. }) => {
                 Ok(Some(chosen(*position, 2)? == *real))
             }
-            // How many intervals there are is the design's to check.
+            // How many intervals there are is the procedure's to check.
             (Self::Interval { signal, .. }, Answer::Chosen { position, .. }) => {
                 Ok(Some(position == signal))
             }

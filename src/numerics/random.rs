@@ -35,6 +35,11 @@ impl Random {
         Self::new(hash)
     }
 
+    /// What it began with, for generators of another kind.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         self.generator.random::<f64>()

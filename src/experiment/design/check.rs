@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use super::{
-    Adjusting, Design, Judging, JudgingProtocol, Levels, Medium, Method, Rating, Source,
-    StaircaseTrack, Standard, Stopping, Track, Tunable, is_name,
+    Adjusting, Design, Judging, JudgingProtocol, Levels, Medium, Method, QuestPlusTrack, Rating,
+    Source, StaircaseTrack, Standard, Stopping, Track, Tunable, is_name,
 };
 use crate::experiment::schedule::is_ranked;
 use crate::files::{Flaw, Place};
@@ -276,7 +276,7 @@ fn levels_flaw(levels: &Levels) -> Option<Flaw> {
         .reference_db
         .filter(|db| !(db.is_finite() && *db <= low))
     {
-        let what = format!("reference_db is {reference}, above the lowest level, {low}");
+        let what = format!("reference_db is {reference}, not below the lowest level, {low}");
         let mend = "levels are what is compared with it: raise range_db or lower it";
         return Some(Flaw::new(place("reference_db"), what, mend));
     }
@@ -293,33 +293,7 @@ fn track_flaw(levels: &Levels) -> Option<Flaw> {
             let mend = format!("begin between {low} and {high} dB");
             Some(Flaw::new(("levels.staircase", 0, "starts_db"), what, mend))
         }),
-        Track::QuestPlus {
-            grid_db,
-            widths_db,
-            lapses,
-        } => {
-            let place = |key| ("levels.quest_plus", 0, key);
-            let steps = (high - low) / grid_db;
-            if !(*grid_db > 0.0 && (1.0..=500.0).contains(&steps)) {
-                let what = format!("grid_db is {grid_db}");
-                let mend = "give a step that divides range_db into 1 to 500";
-                return Some(Flaw::new(place("grid_db"), what, mend));
-            }
-            let is_width = |&width: &f64| width > 0.0 && width.is_finite();
-            if widths_db.is_empty() || widths_db.len() > 100 || !widths_db.iter().all(is_width) {
-                let what = format!("widths_db is {widths_db:?}");
-                return Some(Flaw::new(
-                    place("widths_db"),
-                    what,
-                    "give 1 to 100 numbers above 0",
-                ));
-            }
-            let is_lapse = |lapse: &f64| (0.0..=0.5).contains(lapse);
-            let is_right = !lapses.is_empty() && lapses.len() <= 20 && lapses.iter().all(is_lapse);
-            let what = format!("lapses is {lapses:?}");
-            let mend = "give 1 to 20 shares from 0 to 0.5";
-            (!is_right).then(|| Flaw::new(place("lapses"), what, mend))
-        }
+        Track::QuestPlus(track) => quest_plus_flaw(track, high - low),
         Track::Constant { levels_db, repeats } => {
             let place = |key| ("levels.constant", 0, key);
             if levels_db.is_empty() || levels_db.len() > MOST_STIMULI {
@@ -338,6 +312,29 @@ fn track_flaw(levels: &Levels) -> Option<Flaw> {
             (!is_right).then(|| Flaw::new(place("repeats"), what, mend))
         }
     }
+}
+
+fn quest_plus_flaw(track: &QuestPlusTrack, span_db: f64) -> Option<Flaw> {
+    let place = |key| ("levels.quest_plus", 0, key);
+    let grid_db = track.grid_db;
+    if !(grid_db > 0.0 && (1.0..=500.0).contains(&(span_db / grid_db))) {
+        let what = format!("grid_db is {grid_db}");
+        let mend = "give a step that divides range_db into 1 to 500";
+        return Some(Flaw::new(place("grid_db"), what, mend));
+    }
+    let widths = &track.widths;
+    let is_width = |&width: &f64| width > 0.0 && width.is_finite();
+    if widths.is_empty() || widths.len() > 100 || !widths.iter().all(is_width) {
+        let what = format!("the widths are {widths:?}");
+        let mend = "give 1 to 100 numbers above 0";
+        return Some(Flaw::new(place("widths_db"), what, mend));
+    }
+    let lapses = &track.lapses;
+    let is_lapse = |lapse: &f64| (0.0..=0.5).contains(lapse);
+    let is_right = !lapses.is_empty() && lapses.len() <= 20 && lapses.iter().all(is_lapse);
+    let what = format!("lapses is {lapses:?}");
+    let mend = "give 1 to 20 shares from 0 to 0.5";
+    (!is_right).then(|| Flaw::new(place("lapses"), what, mend))
 }
 
 fn staircase_flaw(staircase: &StaircaseTrack) -> Option<Flaw> {

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::check::flaw;
 use super::{
     Adjusting, Choosing, CourseSettings, Design, Familiarisation, Judging, JudgingProtocol, Levels,
-    Medium, Method, Movement, Ranking, Rating, Rules, Scale, Source, StaircaseTrack, Standard,
-    Stimulus, Stopping, Track, Tunable, TunedParameter,
+    Medium, Method, Movement, QuestPlusTrack, Ranking, Rating, Rules, Scale, Source,
+    StaircaseTrack, Standard, Stimulus, Stopping, Track, Tunable, TunedParameter,
 };
 use crate::experiment::ExperimentError;
 use crate::files::{self, Flaw, Place};
@@ -171,14 +171,10 @@ fn six() -> usize {
 struct QuestPlusKeys {
     #[serde(default = "unity")]
     grid_db: f64,
-    #[serde(default = "widths")]
-    widths_db: Vec<f64>,
+    widths_db: Option<Vec<f64>>,
+    widths_ln: Option<Vec<f64>>,
     #[serde(default = "lapses")]
     lapses: Vec<f64>,
-}
-
-fn widths() -> Vec<f64> {
-    vec![2.0, 4.0, 8.0, 16.0]
 }
 
 fn lapses() -> Vec<f64> {
@@ -462,11 +458,10 @@ impl LevelsKeys {
                 reversals_averaged: keys.reversals_averaged,
             })
         }));
-        tracks.extend(self.quest_plus.map(|keys| Track::QuestPlus {
-            grid_db: keys.grid_db,
-            widths_db: keys.widths_db,
-            lapses: keys.lapses,
-        }));
+        let is_difference = self.reference_db.is_some();
+        if let Some(keys) = self.quest_plus {
+            tracks.push(keys.track(is_difference)?);
+        }
         tracks.extend(self.constant.map(|keys| Track::Constant {
             levels_db: keys.levels_db,
             repeats: keys.repeats,
@@ -498,6 +493,32 @@ impl LevelsKeys {
                 posterior_sd_db: self.stop.posterior_sd_db,
                 needs_all,
             },
+        }))
+    }
+}
+
+impl QuestPlusKeys {
+    fn track(self, is_difference: bool) -> Result<Track, Flaw> {
+        let (stated, other, usual) = if is_difference {
+            (self.widths_ln, self.widths_db, vec![1.5, 2.0, 3.0, 4.0])
+        } else {
+            (self.widths_db, self.widths_ln, vec![2.0, 4.0, 8.0, 16.0])
+        };
+        if other.is_some() {
+            let (key, mend) = match is_difference {
+                true => (
+                    "widths_db",
+                    "with reference_db give widths_ln: logarithms of dB",
+                ),
+                false => ("widths_ln", "without reference_db give widths_db"),
+            };
+            let place = ("levels.quest_plus", 0, key);
+            return Err(Flaw::new(place, format!("{key} has no meaning here"), mend));
+        }
+        Ok(Track::QuestPlus(QuestPlusTrack {
+            grid_db: self.grid_db,
+            widths: stated.unwrap_or(usual),
+            lapses: self.lapses,
         }))
     }
 }

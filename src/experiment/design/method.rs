@@ -1,5 +1,6 @@
 //! What is asked, and how the next question is found.
 
+use crate::statistics::psychometric::Family;
 use crate::tactile::{Band, Tuning};
 
 /// What a session asks.
@@ -169,20 +170,35 @@ pub struct Levels {
     pub stopping: Stopping,
 }
 
+impl Levels {
+    /// The number that the psychometric function is of: the level, dB re 1 µm, or its difference
+    /// from the reference, dB.
+    pub fn stimulus(&self, level_db: f64) -> f64 {
+        level_db - self.reference_db.unwrap_or(0.0)
+    }
+
+    /// The level of that number, dB re 1 µm.
+    pub fn level_db(&self, stimulus: f64) -> f64 {
+        stimulus + self.reference_db.unwrap_or(0.0)
+    }
+
+    /// The psychometric function's shape: Weibull of amplitude for a threshold, which is Gumbel in
+    /// dB; Weibull of the difference where there is a reference, since no difference is not felt.
+    pub fn family(&self) -> Family {
+        match self.reference_db {
+            None => Family::Gumbel,
+            Some(_) => Family::Weibull,
+        }
+    }
+}
+
 /// How the next level is found.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Track {
     /// Down after so many right answers, up after so many wrong ones.
     Staircase(StaircaseTrack),
-    /// The level that is expected to teach most, over a grid of thresholds, slopes and lapses.
-    QuestPlus {
-        /// Step of levels and thresholds over the range, dB.
-        grid_db: f64,
-        /// Widths of the psychometric function (5 to 95 %), dB.
-        widths_db: Vec<f64>,
-        /// Shares of lapses.
-        lapses: Vec<f64>,
-    },
+    /// The level that is expected to teach most.
+    QuestPlus(QuestPlusTrack),
     /// The same levels for everybody, each as often.
     Constant {
         /// The levels, dB re 1 µm.
@@ -190,6 +206,18 @@ pub enum Track {
         /// How often each comes.
         repeats: usize,
     },
+}
+
+/// QUEST+ over a grid of thresholds, widths and lapses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuestPlusTrack {
+    /// Step of levels and thresholds over the range, dB.
+    pub grid_db: f64,
+    /// Widths of the psychometric function, from 5 to 95 %: dB for a threshold, natural logarithms
+    /// of the difference for one from a reference.
+    pub widths: Vec<f64>,
+    /// Shares of lapses.
+    pub lapses: Vec<f64>,
 }
 
 /// Interleaved staircases.

@@ -12,8 +12,8 @@ mod stimulus;
 use std::path::PathBuf;
 
 pub use method::{
-    Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, Ranking, Rating, Scale,
-    StaircaseTrack, Standard, Stopping, Track, Tunable, TunedParameter,
+    Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, QuestPlusTrack, Ranking, Rating,
+    Scale, StaircaseTrack, Standard, Stopping, Track, Tunable, TunedParameter,
 };
 pub use stimulus::{Medium, Source, Stimulus};
 

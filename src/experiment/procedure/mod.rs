@@ -4,19 +4,32 @@
 //! anywhere else and knows no clock, so a session is resumed by answering again what its log
 //! holds.
 
+mod adaptive;
 mod listed;
 
+use adaptive::Adaptive;
+
 use super::ExperimentError;
-use super::design::{Design, Method, Subject, Track};
+use super::design::{Design, Method, Subject};
 use super::schedule::subject_random;
 use super::trial::{Answer, AnswerError, Trial};
 use crate::numerics::Random;
 
 /// What a subject is asked in a session.
 #[derive(Debug, Clone)]
-pub struct Procedure {
-    trials: Vec<Trial>,
-    n_answered: usize,
+pub struct Procedure(Kind);
+
+#[derive(Debug, Clone)]
+enum Kind {
+    /// All is known before the first answer.
+    Listed {
+        trials: Vec<Trial>,
+        n_answered: usize,
+        /// Choices of a trial, where the design says how many there are.
+        n_choices: usize,
+    },
+    /// The next trial depends on the answers.
+    Adaptive(Box<Adaptive>),
 }
 
 impl Procedure {
@@ -26,26 +39,45 @@ impl Procedure {
     /// The design has no schedule.
     pub fn of(design: &Design, subject: &Subject) -> Result<Self, ExperimentError> {
         let random = session_random(design, subject);
-        let trials = listed::trials(design, subject, &random)?;
-        Ok(Self {
-            trials,
+        let mut n_choices = usize::MAX;
+        if let Method::Levels(levels) = &design.method {
+            let n_practice = design.course.practice_trials;
+            if let Some(adaptive) = Adaptive::of(levels, n_practice, &random)? {
+                return Ok(Self(Kind::Adaptive(Box::new(adaptive))));
+            }
+            n_choices = levels.intervals;
+        }
+        Ok(Self(Kind::Listed {
+            trials: listed::trials(design, subject, &random)?,
             n_answered: 0,
-        })
+            n_choices,
+        }))
     }
 
     /// The trial that waits for an answer; `None` when all is answered.
     pub fn trial(&self) -> Option<&Trial> {
-        self.trials.get(self.n_answered)
+        match &self.0 {
+            Kind::Listed {
+                trials, n_answered, ..
+            } => trials.get(*n_answered),
+            Kind::Adaptive(adaptive) => adaptive.trial(),
+        }
     }
 
     /// How many trials were answered, practice included.
     pub fn n_answered(&self) -> usize {
-        self.n_answered
+        match &self.0 {
+            Kind::Listed { n_answered, .. } => *n_answered,
+            Kind::Adaptive(adaptive) => adaptive.n_answered(),
+        }
     }
 
     /// How many there will be at most, practice included.
     pub fn n_trials(&self) -> usize {
-        self.trials.len()
+        match &self.0 {
+            Kind::Listed { trials, .. } => trials.len(),
+            Kind::Adaptive(adaptive) => adaptive.n_trials(),
+        }
     }
 
     /// Takes the answer to the trial that waits: whether it is right, where that can be said.
@@ -53,12 +85,22 @@ impl Procedure {
     /// # Errors
     /// It is no answer to it; the trial still waits.
     pub fn answer(&mut self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
-        let Some(trial) = self.trial() else {
-            return Err(AnswerError::value("all is answered", "end the session"));
-        };
-        let verdict = trial.task.verdict(answer)?;
-        self.n_answered += 1;
-        Ok(verdict)
+        match &mut self.0 {
+            Kind::Listed {
+                trials,
+                n_answered,
+                n_choices,
+            } => {
+                let Some(trial) = trials.get(*n_answered) else {
+                    return Err(AnswerError::value("all is answered", "end the session"));
+                };
+                answer.check_choice(*n_choices)?;
+                let verdict = trial.task.verdict(answer)?;
+                *n_answered += 1;
+                Ok(verdict)
+            }
+            Kind::Adaptive(adaptive) => adaptive.answer(answer),
+        }
     }
 }
 
