@@ -4,10 +4,12 @@
 //! another purpose draws: all chance comes from [`Design::seed`], the subject and the purpose.
 
 mod check;
+mod check_levels;
 mod file;
 mod method;
 mod shipped;
 mod stimulus;
+mod tables;
 
 use std::path::PathBuf;
 
