@@ -124,19 +124,32 @@ impl LogLikelihood for Choices {
     }
 
     fn slopes(&self, x: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let mut slopes = DVector::from_column_slice(&self.wins);
-        let mut information = DMatrix::zeros(x.len(), x.len());
+        let n_items = x.len();
+        let mut slopes = self.wins.clone();
+        // Row by row; the most of the work when there are many sets.
+        let mut information = vec![0.0; n_items * n_items];
         for (set, n) in &self.sets {
             let shares = shares(x, set);
             for (&i, p) in set.iter().zip(&shares) {
-                slopes[i] -= n * p;
-                information[(i, i)] += n * p;
+                let row = &mut information[i * n_items..(i + 1) * n_items];
+                let expected = n * p;
+                slopes[i] -= expected;
+                row[i] += expected;
                 for (&j, q) in set.iter().zip(&shares) {
-                    information[(i, j)] -= n * p * q;
+                    row[j] -= expected * q;
                 }
             }
         }
-        (slopes, information)
+        let information = DMatrix::from_vec(n_items, n_items, information);
+        (DVector::from_vec(slopes), information)
+    }
+
+    fn span(&self, step: &[f64]) -> f64 {
+        let of_set = |set: &Vec<usize>| {
+            let steps = || set.iter().map(|&i| step[i]);
+            steps().fold(f64::NEG_INFINITY, f64::max) - steps().fold(f64::INFINITY, f64::min)
+        };
+        self.sets.keys().map(of_set).fold(0.0, f64::max)
     }
 }
 

@@ -7,7 +7,7 @@ use super::choices::{Choices, Prior};
 use super::connection::number;
 use super::deviance::{Deviance, deviance_of};
 use super::newton::{LogLikelihood, maximise};
-use super::preferences::{Compared, Preferences};
+use super::preferences::{Compared, Preferences, span_of_pairs};
 use super::scale::{Estimate, Scale};
 use crate::statistics::{Computed, Undefined};
 
@@ -179,6 +179,13 @@ impl LogLikelihood for Model {
             information[(nu, nu)] += n * tied * (1.0 - tied);
         }
         (slopes, information)
+    }
+
+    fn span(&self, step: &[f64]) -> f64 {
+        let of_nu = step[self.n_items].abs();
+        span_of_pairs(&self.pairs, step)
+            .max(self.prior.span(step))
+            .max(of_nu)
     }
 }
 

@@ -6,11 +6,12 @@ use crate::statistics::{Computed, Undefined};
 
 /// Steps after which a search is given up; a dozen is usual.
 const MOST_STEPS: usize = 200;
-/// No value moves further in one step: within it curvatures change by a bounded factor, beyond it a
-/// step may end where the likelihood is straight and the next one has no bounds.
+/// No difference changes by more in one step: within it curvatures change by a bounded factor,
+/// beyond it a step may end where the likelihood is straight and the next one has no bounds.
 const LONGEST: f64 = 1.5;
 /// A step in no value larger than this, or than so many standard errors in all, ends the search;
-/// the error left is about its square.
+/// the error left is about its square. So does a near one that is not much shorter than the last:
+/// what is left is rounding.
 const TOLERANCE: f64 = 1e-10;
 
 /// A log-likelihood, concave, that does not change when its first `n_items` arguments are shifted
@@ -22,6 +23,9 @@ pub(super) trait LogLikelihood {
     fn value(&self, x: &[f64]) -> f64;
     /// Its slopes, and its curvatures with the sign changed: the observed information.
     fn slopes(&self, x: &[f64]) -> (DVector<f64>, DMatrix<f64>);
+    /// How much a step changes what probabilities hang on, at most: differences of items that were
+    /// compared, and other arguments.
+    fn span(&self, step: &[f64]) -> f64;
 }
 
 /// Where a log-likelihood is largest.
@@ -43,13 +47,15 @@ pub(super) struct Peak {
 pub(super) fn maximise(model: &impl LogLikelihood, start: Vec<f64>) -> Computed<Peak> {
     let mut x = start;
     let mut value = model.value(&x);
+    let mut last_errors = f64::INFINITY;
     for n_steps in 1..=MOST_STEPS {
         let (slopes, information) = model.slopes(&x);
         let step = &inverse(model.n_items(), information)? * &slopes;
         let n_errors = slopes.dot(&step).max(0.0).sqrt();
         // Here the rise of the value drowns in rounding, and a whole step is sure to be the best.
-        let is_near = n_errors < 1e-3 && step.amax() < 0.1;
-        let mut share = (LONGEST / step.amax()).min(1.0);
+        let span = model.span(step.as_slice());
+        let is_near = n_errors < 1e-3 && span < 0.1;
+        let mut share = (LONGEST / span).min(1.0);
         loop {
             let next: Vec<f64> = x.iter().zip(&step).map(|(x, s)| x + share * s).collect();
             let next_value = model.value(&next);
@@ -63,7 +69,9 @@ pub(super) fn maximise(model: &impl LogLikelihood, start: Vec<f64>) -> Computed<
             }
         }
         centre(&mut x[..model.n_items()]);
-        if is_near && step.amax().min(n_errors) <= TOLERANCE {
+        let is_rounding = n_errors < 1e-6 && n_errors > 0.5 * last_errors;
+        last_errors = n_errors;
+        if is_near && (is_rounding || step.amax().min(n_errors) <= TOLERANCE) {
             let information = model.slopes(&x).1;
             let covariance = inverse(model.n_items(), information)?;
             return Ok(Peak {

@@ -28,6 +28,12 @@ impl Compared {
     }
 }
 
+/// The most that a step of values changes the difference of two items that were compared.
+pub(super) fn span_of_pairs(pairs: &[Compared], step: &[f64]) -> f64 {
+    let of_pair = |pair: &Compared| (step[pair.items[0]] - step[pair.items[1]]).abs();
+    pairs.iter().map(of_pair).fold(0.0, f64::max)
+}
+
 impl Preferences {
     /// Of items that were not compared yet.
     pub fn new(n_items: usize) -> Self {

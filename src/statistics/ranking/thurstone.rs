@@ -7,7 +7,7 @@ use super::choices::Prior;
 use super::connection::number;
 use super::deviance::{Deviance, deviance_of};
 use super::newton::{LogLikelihood, maximise};
-use super::preferences::{Compared, Preferences};
+use super::preferences::{Compared, Preferences, span_of_pairs};
 use super::scale::Scale;
 use crate::statistics::detection::Correction;
 use crate::statistics::{
@@ -105,6 +105,10 @@ impl LogLikelihood for Probit {
             }
         }
         (slopes, information)
+    }
+
+    fn span(&self, step: &[f64]) -> f64 {
+        span_of_pairs(&self.pairs, step)
     }
 }
 
