@@ -39,8 +39,8 @@ pub(super) struct Peak {
     pub(super) n_steps: usize,
 }
 
-/// The peak of a log-likelihood, uphill from `start` in steps that are halved until they do not lead
-/// down.
+/// The peak of a log-likelihood, uphill from `start` in steps that are halved until they do not
+/// lead down.
 ///
 /// # Errors
 /// The search does not settle, or the peak is flat.
