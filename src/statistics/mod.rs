@@ -44,6 +44,7 @@ pub mod mds;
 pub mod procrustes;
 pub mod properties;
 pub mod psychometric;
+pub mod ranking;
 
 use thiserror::Error;
 
