@@ -85,7 +85,6 @@ pub use wav::{SampleFormat, WavSpec, WavWriter};
 pub use wav_parts::WavParts;
 pub(crate) use wire::Simulation;
 pub use wire::{
-    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
-    WiredDevice, parse_latency, parse_lie, parse_one_off, parse_rate, parse_rate_and_time,
-    parse_swap, parse_time_us,
+    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, Injection, InjectionKind,
+    LaneFaults, Latency, OneOff, OneOffKind, WiredDevice,
 };
