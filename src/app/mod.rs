@@ -39,6 +39,7 @@ mod document;
 mod editing;
 mod error;
 mod export;
+mod faulty;
 mod felt;
 mod follower;
 mod frame;

@@ -236,6 +236,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
 pub(crate) fn device_name(target: &Target) -> String {
     match target {
         Target::Emulator => "Emulator".to_owned(),
+        Target::FaultyEmulator(_) => "Emulator with faults".to_owned(),
         Target::Port(path) => path.display().to_string(),
     }
 }

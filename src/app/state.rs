@@ -10,6 +10,7 @@ use super::compare::Comparison;
 use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::export::Exports;
+use super::faulty::FaultBench;
 use super::history::Moment;
 use super::importing::Importing;
 use super::job::Job;
@@ -130,6 +131,8 @@ pub(crate) struct Transient {
     pub(crate) desk_size: Vec2,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured_bridge: Option<BridgeView>,
+    /// What is to go wrong with the emulator.
+    pub(crate) faults: FaultBench,
     /// The emulator's contactors.
     pub(crate) plant: PlantPeek,
     /// Refusals to arm that are expected, since there is no device.
