@@ -48,7 +48,7 @@ mod wav_parts;
 mod wire;
 
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
-pub use codes::{Bite, CodeCounters, Coder, FULL_CODE};
+pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
 pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Miswiring, Moment, Sense,
 };

@@ -37,14 +37,11 @@ fn told(words: &FaultWords) -> String {
     }
 }
 
-/// Shows the part: what runs, and what is chosen for the next start.
-pub(super) fn show(
-    ui: &mut Ui,
-    (running, chosen): (&FaultWords, &mut FaultWords),
-    wishes: &mut Wishes,
-) {
+/// Shows the part: what is chosen for the next start.
+pub(super) fn show(ui: &mut Ui, chosen: &mut FaultWords, wishes: &mut Wishes) {
     show_presets(ui, chosen);
     show_group(ui, FaultGroup::All, chosen);
+    show_start(ui, chosen, wishes);
     for group in FaultGroup::ALL {
         if group != FaultGroup::All {
             let summary = said_in(group, chosen);
@@ -54,7 +51,6 @@ pub(super) fn show(
             });
         }
     }
-    show_start(ui, (running, chosen), wishes);
 }
 
 fn show_presets(ui: &mut Ui, chosen: &mut FaultWords) {
@@ -128,6 +124,7 @@ fn show_field(ui: &mut Ui, option: &FaultOption, chosen: &mut FaultWords) {
     let tip = format!("{}\nFor example {}", option.help, option.example);
     row(ui, option.label, |ui| {
         let hint = match option.usual {
+            "" if option.group == FaultGroup::Channels => "none",
             "" => "never",
             usual => usual,
         };
@@ -168,7 +165,7 @@ fn show_words(ui: &mut Ui, words: &str, ink: egui::Color32) {
     ui.add(Label::new(words).wrap());
 }
 
-fn show_start(ui: &mut Ui, (running, chosen): (&FaultWords, &FaultWords), wishes: &mut Wishes) {
+fn show_start(ui: &mut Ui, chosen: &FaultWords, wishes: &mut Wishes) {
     ui.add_space(STEP);
     let unread = chosen.faults().err();
     let refusal = unread.map(|(option, _)| format!("\"{}\" cannot be read", option.label));
@@ -184,8 +181,7 @@ fn show_start(ui: &mut Ui, (running, chosen): (&FaultWords, &FaultWords), wishes
             wishes.push(DeviceCommand::StartFaults(chosen.clone()).into());
         }
     });
-    let words = format!("Now: {}.", told(running));
-    show_words(ui, &words, Palette::in_ui(ui).dim);
+    ui.add_space(STEP);
 }
 
 #[cfg(test)]

@@ -99,7 +99,7 @@ pub(crate) fn show(
     if let Some(running) = view.faults {
         let summary = faults::summary(running, typed.faults);
         fold(ui, ("Faults", false), &summary, |ui| {
-            faults::show(ui, (running, typed.faults), wishes);
+            faults::show(ui, typed.faults, wishes);
         });
     }
     if let Some(plant) = view.plant {
