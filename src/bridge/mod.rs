@@ -50,7 +50,8 @@ mod wire;
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Miswiring, Moment, Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
+    Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
