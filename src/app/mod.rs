@@ -41,6 +41,7 @@ mod error;
 mod export;
 mod faulty;
 mod felt;
+mod folders;
 mod follower;
 mod frame;
 mod free_places;

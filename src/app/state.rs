@@ -11,6 +11,7 @@ use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::export::Exports;
 use super::faulty::FaultBench;
+use super::folders::Folders;
 use super::history::Moment;
 use super::importing::Importing;
 use super::job::Job;
@@ -59,6 +60,8 @@ pub(crate) struct Transient {
     pub(crate) search: String,
     /// What the link was last opened to.
     pub(crate) target: Option<String>,
+    /// Folders that the desktop is asked to show.
+    pub(crate) folders: Folders,
     /// A scene on its way.
     pub(crate) opening: Option<Opening>,
     /// A recorded exploration on its way.

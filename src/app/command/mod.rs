@@ -187,6 +187,8 @@ pub(crate) enum DeviceCommand {
     ClearFaults,
     /// Put the path of the session log where it can be pasted.
     CopyLogPath,
+    /// Show the folder of the session log in the desktop's file manager.
+    OpenLogFolder,
     /// Whether an armed device stops when the window loses the keyboard.
     StopOnFocusLoss(bool),
     /// Do something with array profiles.

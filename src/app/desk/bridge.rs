@@ -35,7 +35,7 @@ impl Workbench {
             target: self.transient.target.as_deref(),
             ports: self.transient.ports.view(),
             array,
-            sources: &self.transient.sources.view(),
+            sources: &self.sources_view(),
             plant: has_plant.then_some(&self.transient.plant.view),
             faults: faults.running.as_ref(),
             stops_on_focus_loss: self.settings.kept.stops_on_focus_loss,

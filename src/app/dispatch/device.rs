@@ -37,6 +37,12 @@ impl Workbench {
                 let path = log.map(|log| log.path().display().to_string());
                 ctx.copy_text(path.unwrap_or_default());
             }
+            DeviceCommand::OpenLogFolder => {
+                let log = self.engine.session_log();
+                if let Some(folder) = log.and_then(|log| log.path().parent()) {
+                    self.transient.folders.open(ctx, folder);
+                }
+            }
             DeviceCommand::StopOnFocusLoss(is_wanted) => {
                 self.settings.kept.stops_on_focus_loss = is_wanted;
             }

@@ -13,6 +13,7 @@ mod felt;
 mod inputs;
 mod link;
 mod port;
+mod surface;
 mod timing;
 mod wiring;
 

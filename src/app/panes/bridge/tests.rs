@@ -10,7 +10,7 @@ use crate::app::arrays::{Wizard, WizardCommand};
 use crate::app::command::{ArrayCommand, Command, DeviceCommand, ShowCommand};
 use crate::app::panes::Wishes;
 use crate::app::ports::PortsView;
-use crate::app::sources::SourcesView;
+use crate::app::sources::{SourcesView, SurfaceView};
 use crate::app::theme;
 use crate::app::view::{BridgePhase, BridgeView, Dot, Live};
 use crate::bridge::wiring::Answer;
@@ -27,6 +27,7 @@ pub(super) struct Stage {
     port: String,
     copy_name: String,
     ports: PortsView,
+    pub(super) sources: SourcesView,
     pub(super) faults: Option<FaultWords>,
     pub(super) chosen_faults: FaultWords,
 }
@@ -66,6 +67,7 @@ impl Stage {
             port: String::new(),
             copy_name: String::new(),
             ports: PortsView::default(),
+            sources: SourcesView::default(),
             faults: Some(FaultWords::default()),
             chosen_faults: FaultWords::default(),
         }
@@ -86,7 +88,7 @@ impl Stage {
                 wizard: self.wizard.as_ref(),
                 folder: None,
             },
-            sources: &SourcesView::default(),
+            sources: &self.sources,
             plant: None,
             faults: self.faults.as_ref(),
             stops_on_focus_loss: false,
@@ -262,6 +264,7 @@ fn the_pane_is_drawn_in_every_state() {
         ("faults", faulty(true)),
         ("faults-light", faulty(true)),
         ("faults-none", faulty(false)),
+        ("surface", tablet()),
     ];
     for (name, mut stage) in stages {
         let pixels = picture(name, &mut stage);
@@ -269,6 +272,20 @@ fn the_pane_is_drawn_in_every_state() {
         let n_inked = pixels.chunks(4).filter(|pixel| *pixel != ground).count();
         assert!(n_inked > 2_000, "{name}: {n_inked} pixels are not ground");
     }
+}
+
+/// A tablet that was laid over a part of the workspace, and a log.
+fn tablet() -> Stage {
+    let mut stage = Stage::new(BridgePhase::Ready);
+    stage.sources.surface = Some(SurfaceView {
+        name: "Wacom Intuos Pro M Pen".to_owned(),
+        area_mm: [-22.0, 62.5, 216.0, 135.0],
+        is_own: true,
+    });
+    if let Some(bridge) = &mut stage.live.bridge {
+        bridge.timing.log = Some("/home/ada/.local/share/selvedge/logs/bridge.csv".to_owned());
+    }
+    stage
 }
 
 /// An emulator whose cable is bad, or whose faults are none.
@@ -318,6 +335,7 @@ fn picture(name: &str, stage: &mut Stage) -> Vec<u8> {
                         ("Stalls and cable", true),
                     ],
                     "faults-none" => &[("Faults", true)],
+                    "surface" => &[("Link", false), ("Timing", true), ("Input", true)],
                     _ => &[],
                 };
                 for (title, is_open) in folds {

@@ -152,6 +152,14 @@ fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
         if button(ui, "Copy path", tip, None) {
             wishes.push(DeviceCommand::CopyLogPath.into());
         }
+        if button(
+            ui,
+            "Open folder",
+            "Show the log's folder in the file manager",
+            None,
+        ) {
+            wishes.push(DeviceCommand::OpenLogFolder.into());
+        }
         let (words, ink) = match &timing.log_failure {
             Some(why) => (format!("not written: {why}"), palette.danger),
             None => (path.clone(), palette.dim),
