@@ -155,7 +155,7 @@ impl Workbench {
             SourceCommand::Listen => self.listen(),
             SourceCommand::EndListening => self.end_listening(),
             SourceCommand::Program => self.follow_program(),
-            SourceCommand::Area(name, area) => self.place_surface(ctx, name, area.as_deref()),
+            SourceCommand::Area(name, area) => self.place_surface(ctx, &name, area.as_deref()),
         }
     }
 
@@ -178,11 +178,11 @@ impl Workbench {
     }
 
     /// Keeps where the surface of tablets of this name lies; one that is read is read so from now on.
-    fn place_surface(&mut self, ctx: &egui::Context, name: String, area: Option<&str>) {
+    fn place_surface(&mut self, ctx: &egui::Context, name: &str, area: Option<&str>) {
         let areas = &mut self.settings.kept.tablet_areas;
         match area.map(str::parse).transpose() {
-            Ok(Some(area)) => drop(areas.insert(name.clone(), area)),
-            Ok(None) => drop(areas.remove(&name)),
+            Ok(Some(area)) => drop(areas.insert(name.to_owned(), area)),
+            Ok(None) => drop(areas.remove(name)),
             Err(error) => return self.transient.notices.give(error.to_string()),
         }
         let device = self.transient.sources.chosen_device();

@@ -129,17 +129,6 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
     if overlays.is_none() {
         odd.push("overlays");
     }
-    let areas = taken("tablet_areas_mm", keys.tablet_areas_mm, odd).unwrap_or_default();
-    let areas: BTreeMap<String, Area> = areas
-        .into_iter()
-        .filter_map(|(name, numbers)| match Area::of(numbers) {
-            Ok(area) => Some((name, area)),
-            Err(_) => {
-                odd.push("tablet_areas_mm");
-                None
-            }
-        })
-        .collect();
     let zoom_percent = taken("zoom_percent", keys.zoom_percent, odd);
     let top_um = taken("amplitude_top_um", keys.amplitude_top_um, odd);
     let is_locked = taken("amplitude_locked", keys.amplitude_locked, odd);
@@ -169,11 +158,28 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             taken("arrangement_cloth", keys.arrangement_cloth, odd),
         ],
         array: taken("array", keys.array, odd),
-        tablet_areas: areas,
+        tablet_areas: areas(keys.tablet_areas_mm, odd),
         window_size: taken("window_size", keys.window_size, odd),
         ..first
     }
     .with_recent_scenes(recent.unwrap_or_default())
+}
+
+/// The areas of tablets; one that is none leaves only its tablet as at first.
+fn areas(
+    value: Value<BTreeMap<String, [f64; 4]>>,
+    odd: &mut Vec<&'static str>,
+) -> BTreeMap<String, Area> {
+    const KEY: &str = "tablet_areas_mm";
+    let mut areas = BTreeMap::new();
+    for (name, numbers) in taken(KEY, value, odd).unwrap_or_default() {
+        if let Ok(area) = Area::of(numbers) {
+            areas.insert(name, area);
+        } else {
+            odd.push(KEY);
+        }
+    }
+    areas
 }
 
 fn taken<T>(key: &'static str, value: Value<T>, odd: &mut Vec<&'static str>) -> Option<T> {

@@ -7,7 +7,7 @@ use crate::app::command::DeviceCommand;
 use crate::app::faulty::PRESETS;
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette, STEP};
-use crate::app::widgets::{button, choice, fold, list, row};
+use crate::app::widgets::{button, choice, field_row, fold, list, row};
 use crate::bridge::{FaultGroup, FaultKind, FaultOption, FaultWords};
 
 /// Width of a field, points.
@@ -122,7 +122,7 @@ fn show_field(ui: &mut Ui, option: &FaultOption, chosen: &mut FaultWords) {
     let palette = Palette::in_ui(ui);
     let mut text = chosen.text(option).to_owned();
     let tip = format!("{}\nFor example {}", option.help, option.example);
-    row(ui, option.label, |ui| {
+    field_row(ui, option.label, |ui| {
         let hint = match option.usual {
             "" if option.group == FaultGroup::Channels => "none",
             "" => "never",

@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, Margin, RichText, TextEdit, Ui};
 use super::super::Wishes;
 use crate::app::sources::{SourceCommand, SurfaceView};
 use crate::app::theme::{self, Palette};
-use crate::app::widgets::{button, row};
+use crate::app::widgets::{button, field_row};
 use crate::quantity;
 
 /// Width of a number, points.
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, surface: &SurfaceView, wishes: &mut Wishes) {
         let name = surface.name.clone();
         wishes.push(SourceCommand::Area(name, Some(texts.join(","))).into());
     }
-    row(ui, "", |ui| {
+    field_row(ui, "", |ui| {
         let refusal = (!surface.is_own).then_some("Nothing was changed of it");
         let tip = "Where the surface usually lies: in the middle, true to size if the tablet \
                    states that";
@@ -62,7 +62,7 @@ fn pair(
     fields: [(&str, f64); 2],
 ) -> [Option<String>; 2] {
     let mut changed = [None, None];
-    row(ui, name, |ui| {
+    field_row(ui, name, |ui| {
         let dim = Palette::in_ui(ui).dim;
         let small = |words: &str| RichText::new(words).font(theme::small()).color(dim);
         ui.label(small("mm"));

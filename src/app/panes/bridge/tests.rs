@@ -288,6 +288,14 @@ fn tablet() -> Stage {
     stage
 }
 
+#[test]
+fn the_folder_of_the_log_is_opened_by_a_button() {
+    let mut harness = window(tablet());
+    click(&mut harness, Role::Button, "Timing");
+    let opened = click(&mut harness, Role::Button, "Open folder");
+    assert_eq!(opened, [DeviceCommand::OpenLogFolder.into()]);
+}
+
 /// An emulator whose cable is bad, or whose faults are none.
 fn faulty(is_bad: bool) -> Stage {
     let mut stage = Stage::new(BridgePhase::Ready);

@@ -82,8 +82,8 @@ fn items(text: &str) -> impl Iterator<Item = &str> {
 
 /// A whole number from 0 to `T`'s largest.
 fn whole<T: std::str::FromStr>(text: &str, what: &str) -> Result<T, String> {
-    let number = text.trim().parse();
-    number.map_err(|_| format!("\"{text}\" is no {what}: write a whole number"))
+    let number = text.trim().parse().ok();
+    number.ok_or_else(|| format!("\"{text}\" is no {what}: write a whole number"))
 }
 
 fn switch(text: &str) -> Result<bool, String> {

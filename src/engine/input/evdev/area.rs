@@ -99,7 +99,10 @@ impl FromStr for Area {
         let wrong = || InputError::Area(text.to_owned());
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
-        Self::of(numbers.ok_or_else(wrong)?).map_err(|_| wrong())
+        // What is refused is told as it was written.
+        numbers
+            .and_then(|numbers| Self::of(numbers).ok())
+            .ok_or_else(wrong)
     }
 }
 
