@@ -177,7 +177,8 @@ impl Workbench {
         }
     }
 
-    /// Keeps where the surface of tablets of this name lies; one that is read is read so from now on.
+    /// Keeps where the surface of tablets of this name lies; one that is read now is read so from
+    /// now on.
     fn place_surface(&mut self, ctx: &egui::Context, name: &str, area: Option<&str>) {
         let areas = &mut self.settings.kept.tablet_areas;
         match area.map(str::parse).transpose() {

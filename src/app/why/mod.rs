@@ -63,7 +63,7 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// What a contactor of this array is told for these amplitudes, µm, by a device that takes codes
+    /// What a contactor of this array is told for these amplitudes, µm, where the device takes codes
     /// up to `comp_limit`. `gain` is the soft-start gain of an armed device.
     pub(crate) fn of(
         (profile, contactor): (&ArrayProfile, usize),

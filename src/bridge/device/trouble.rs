@@ -64,8 +64,8 @@ impl DeviceCore {
         whole(taken).saturating_add(self.sense.i_ma)
     }
 
-    /// Trips where the amplifiers take more than the model's supply gives. Output is off at once, so
-    /// that the cause is gone.
+    /// Trips where the amplifiers take more than the model's supply gives. Output is off at once,
+    /// so that the cause is gone.
     pub(super) fn check_current(&mut self, sink: &mut impl DeviceSink) {
         let Some(most_ma) = self.model.over_current_ma else {
             return;
