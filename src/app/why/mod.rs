@@ -63,8 +63,8 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// What a contactor of this array is told for these amplitudes, µm. The device takes codes up to
-    /// `comp_limit`; `gain` is the soft-start gain of one that is armed.
+    /// What a contactor of this array is told for these amplitudes, µm. The device takes codes
+    /// up to `comp_limit`; `gain` is the soft-start gain of one that is armed.
     pub(crate) fn of(
         (profile, contactor): (&ArrayProfile, usize),
         amplitudes_um: [f64; 2],
