@@ -75,6 +75,9 @@ impl Workbench {
         self.poll_sources();
         self.poll_lab(ctx);
         self.transient.ports.poll();
+        if let Some(failure) = self.transient.folders.poll() {
+            self.transient.notices.give(failure);
+        }
         self.poll_measuring();
         self.rest_collection();
         match self.transient.dialogs.poll() {

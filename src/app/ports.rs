@@ -96,7 +96,7 @@ impl Ports {
         self.view.back = None;
         match target {
             Some(Target::Port(path)) => self.replug.hold(path.clone()),
-            Some(Target::Emulator) | None => self.replug.let_go(),
+            Some(_) | None => self.replug.let_go(),
         }
     }
 

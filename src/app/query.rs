@@ -194,6 +194,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         state: link.state.label(),
         phase: phase(link.state),
         uid: link.caps.map(|caps| DeviceUid(caps.uid)),
+        comp_limit: link.comp_limit,
         can_identify: link
             .caps
             .is_some_and(|caps| caps.modes & Caps::MODE_IDENT != 0),
@@ -236,6 +237,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
 pub(crate) fn device_name(target: &Target) -> String {
     match target {
         Target::Emulator => "Emulator".to_owned(),
+        Target::FaultyEmulator(_) => "Emulator with faults".to_owned(),
         Target::Port(path) => path.display().to_string(),
     }
 }

@@ -10,9 +10,10 @@ use std::path::{Path, PathBuf};
 use eframe::egui;
 
 use super::job::{Job, Polled};
+use super::view::Source;
 use super::window::Workbench;
 use crate::engine::{
-    self, InputDevice, InputError, InputSource, PointerInput, ProgramCounts, ProgramLink,
+    self, Area, InputDevice, InputError, InputSource, PointerInput, ProgramCounts, ProgramLink,
     list_input_devices, open_input_device,
 };
 
@@ -32,6 +33,20 @@ pub(crate) enum SourceCommand {
     EndListening,
     /// Take positions from the program that joined.
     Program,
+    /// Where the surface of tablets of this name lies, `X,Y,WIDTH,HEIGHT` in mm of the workspace;
+    /// `None`: where it usually does.
+    Area(String, Option<String>),
+}
+
+/// Where the surface of the tablet that was chosen last lies.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SurfaceView {
+    /// What the tablet calls itself.
+    pub(crate) name: String,
+    /// `[x, y, width, height]`, mm of the workspace.
+    pub(crate) area_mm: [f64; 4],
+    /// Whether the user said so.
+    pub(crate) is_own: bool,
 }
 
 /// What is shown of the sources.
@@ -43,6 +58,8 @@ pub(crate) struct SourcesView {
     pub(crate) is_known: bool,
     /// Devices to choose from, and what they are.
     pub(crate) devices: Vec<(PathBuf, String)>,
+    /// The surface of the one that was chosen last.
+    pub(crate) surface: Option<SurfaceView>,
     /// Why some of them, or all, cannot be chosen.
     pub(crate) complaint: Option<String>,
     /// Where programs may join, and how it stands with them.
@@ -56,6 +73,8 @@ type Opened = Result<Box<dyn PointerInput>, InputError>;
 #[derive(Debug, Default)]
 pub(crate) struct Sources {
     view: SourcesView,
+    /// The devices as they were listed last.
+    listed: Vec<InputDevice>,
     listing: Option<Job<Listed>>,
     opening: Option<Job<Opened>>,
     link: Option<ProgramLink>,
@@ -71,6 +90,19 @@ impl Sources {
             is_busy: self.listing.is_some() || self.opening.is_some(),
             programs: link.map(|link| (link.address(), link.counts())),
             ..self.view.clone()
+        }
+    }
+
+    /// The device at this path, as it was listed last.
+    fn listed(&self, path: &Path) -> Option<&InputDevice> {
+        self.listed.iter().find(|device| device.path == path)
+    }
+
+    /// The device that was chosen last, if it was a device.
+    fn chosen_device(&self) -> Option<&InputDevice> {
+        match self.chosen()? {
+            SourceCommand::Device(path) => self.listed(path),
+            _ => None,
         }
     }
 
@@ -90,16 +122,17 @@ impl Sources {
             Ok(found) => (found, None),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
-        self.view.devices.clear();
+        self.listed.clear();
         for device in found {
             match device {
-                Ok(device) => self
-                    .view
-                    .devices
-                    .push((device.path.clone(), described(&device))),
+                Ok(device) => self.listed.push(device),
                 Err(error) => complaint = complaint.or_else(|| Some(error.to_string())),
             }
         }
+        let devices = self.listed.iter();
+        self.view.devices = devices
+            .map(|device| (device.path.clone(), described(device)))
+            .collect();
         self.view.complaint = complaint;
     }
 }
@@ -122,6 +155,43 @@ impl Workbench {
             SourceCommand::Listen => self.listen(),
             SourceCommand::EndListening => self.end_listening(),
             SourceCommand::Program => self.follow_program(),
+            SourceCommand::Area(name, area) => self.place_surface(ctx, &name, area.as_deref()),
+        }
+    }
+
+    /// What is shown of the sources.
+    pub(crate) fn sources_view(&self) -> SourcesView {
+        let sources = &self.transient.sources;
+        let surface = sources.chosen_device().map(|device| {
+            let own = self.settings.kept.tablet_areas.get(&device.name);
+            let usual = || Area::usual(device.axes, self.document.scene().size_mm);
+            SurfaceView {
+                name: device.name.clone(),
+                area_mm: own.copied().unwrap_or_else(usual).numbers(),
+                is_own: own.is_some(),
+            }
+        });
+        SourcesView {
+            surface,
+            ..sources.view()
+        }
+    }
+
+    /// Keeps where the surface of tablets of this name lies; one that is read now is read so from
+    /// now on.
+    fn place_surface(&mut self, ctx: &egui::Context, name: &str, area: Option<&str>) {
+        let areas = &mut self.settings.kept.tablet_areas;
+        match area.map(str::parse).transpose() {
+            Ok(Some(area)) => drop(areas.insert(name.to_owned(), area)),
+            Ok(None) => drop(areas.remove(name)),
+            Err(error) => return self.transient.notices.give(error.to_string()),
+        }
+        let device = self.transient.sources.chosen_device();
+        let path = device.filter(|device| device.name == name);
+        let path = path.map(|device| device.path.clone());
+        let is_read = self.transient.live.play.source == Source::Device;
+        if let Some(path) = path.filter(|_| is_read) {
+            self.open_device(ctx, &path);
         }
     }
 
@@ -138,7 +208,10 @@ impl Workbench {
     fn open_device(&mut self, ctx: &egui::Context, path: &Path) {
         let size_mm = self.document.scene().size_mm;
         let device = path.to_owned();
-        let open = move || open_input_device(&device, None, size_mm);
+        let name = self.transient.sources.listed(path).map(|found| &found.name);
+        let area = name.and_then(|name| self.settings.kept.tablet_areas.get(name));
+        let area = area.copied();
+        let open = move || open_input_device(&device, area, size_mm);
         let chosen = SourceCommand::Device(path.to_owned());
         self.transient.sources.chosen = Some((chosen, path.display().to_string()));
         if self.is_stepped {
@@ -214,7 +287,7 @@ mod tests {
 
     use super::*;
     use crate::app::Drive;
-    use crate::app::view::Source;
+    use crate::engine::AxisRange;
 
     #[test]
     fn a_program_that_joins_moves_the_display_and_hears_what_is_felt() {
@@ -252,6 +325,54 @@ mod tests {
         while let Some(Ok(_)) = lines.next() {
             // What was on its way; then the connection ends.
         }
+    }
+
+    fn tablet() -> InputDevice {
+        let axis = |mm: i32| AxisRange {
+            min: 0,
+            max: 100 * mm,
+            per_mm: 100,
+        };
+        InputDevice {
+            path: "/nowhere/event7".into(),
+            name: "Pen tablet".to_owned(),
+            axes: [axis(216), axis(135)],
+            contact: "touch",
+        }
+    }
+
+    #[test]
+    fn the_area_of_a_tablet_is_kept_by_its_name_and_nonsense_is_refused_in_a_line() {
+        let ctx = egui::Context::default();
+        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        bench.transient.sources.take_listed(Ok(vec![Ok(tablet())]));
+        assert_eq!(bench.sources_view().surface, None, "none was chosen");
+        bench.dispatch(&ctx, SourceCommand::Device("/nowhere/event7".into()).into());
+        let usual = bench.sources_view().surface.unwrap();
+        assert_eq!((usual.area_mm[2], usual.is_own), (216.0, false));
+        let area = |text: &str| {
+            let text = Some(text.to_owned());
+            SourceCommand::Area("Pen tablet".to_owned(), text).into()
+        };
+        bench.dispatch(&ctx, area("10,20,100,62.5"));
+        let own = bench.sources_view().surface.unwrap();
+        assert_eq!((own.area_mm, own.is_own), ([10.0, 20.0, 100.0, 62.5], true));
+        for wrong in ["10,20,0,62.5", "10,20,-4,62.5", "10,20,wide,62.5"] {
+            bench.dispatch(&ctx, area(wrong));
+            let shown = bench.transient.notices.shown();
+            let last = &shown.last().unwrap().text;
+            assert!(
+                last.contains(wrong) && last.contains("is no area"),
+                "{last}"
+            );
+            assert_eq!(bench.sources_view().surface.as_ref(), Some(&own));
+        }
+        bench.dispatch(
+            &ctx,
+            SourceCommand::Area("Pen tablet".to_owned(), None).into(),
+        );
+        assert_eq!(bench.sources_view().surface, Some(usual));
+        assert!(bench.settings.kept.tablet_areas.is_empty());
     }
 
     #[test]

@@ -10,6 +10,8 @@ use super::compare::Comparison;
 use super::curves::Curves;
 use super::dialogs::Dialogs;
 use super::export::Exports;
+use super::faulty::FaultBench;
+use super::folders::Folders;
 use super::history::Moment;
 use super::importing::Importing;
 use super::job::Job;
@@ -58,6 +60,8 @@ pub(crate) struct Transient {
     pub(crate) search: String,
     /// What the link was last opened to.
     pub(crate) target: Option<String>,
+    /// Folders that the desktop is asked to show.
+    pub(crate) folders: Folders,
     /// A scene on its way.
     pub(crate) opening: Option<Opening>,
     /// A recorded exploration on its way.
@@ -130,6 +134,8 @@ pub(crate) struct Transient {
     pub(crate) desk_size: Vec2,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured_bridge: Option<BridgeView>,
+    /// What is to go wrong with the emulator.
+    pub(crate) faults: FaultBench,
     /// The emulator's contactors.
     pub(crate) plant: PlantPeek,
     /// Refusals to arm that are expected, since there is no device.

@@ -302,6 +302,8 @@ pub(crate) struct BridgeView {
     pub(crate) phase: BridgePhase,
     /// The device's own number.
     pub(crate) uid: Option<DeviceUid>,
+    /// The largest codes that it takes now.
+    pub(crate) comp_limit: Option<[u16; 2]>,
     /// Whether it can drive one channel alone.
     pub(crate) can_identify: bool,
     /// Ticks from a frame to its effect.

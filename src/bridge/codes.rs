@@ -31,6 +31,8 @@ pub struct Bite {
     pub non_finite: bool,
     /// The band's limit held, `[40 Hz, 320 Hz]`.
     pub limited: [bool; 2],
+    /// That limit is the device's own, which is below the profile's.
+    pub by_device: [bool; 2],
     /// Both components were scaled down to share full drive.
     pub guarded: bool,
     /// The profile switches the contactor off, and an amplitude was asked for.
@@ -42,6 +44,15 @@ impl Bite {
     pub fn any(self) -> bool {
         self.non_finite || self.guarded || self.off || self.limited.contains(&true)
     }
+}
+
+/// The largest amplitude that a contactor is ever played with, before the bands share full drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// As what the contactor does, µm.
+    pub um: f64,
+    /// Whether it is the device's own rather than the profile's.
+    pub is_of_device: bool,
 }
 
 /// Full scale and limits in µm, made safe: no NaN, no negative limit, full scale above 0.
@@ -119,14 +130,31 @@ impl Coder {
         }
     }
 
-    /// Lowers the limits to what the device accepts: `comp_limit · F / 65535` per band.
-    pub fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
-        self.link = Some(comp_limit);
-        for (band, code) in comp_limit.into_iter().enumerate() {
+    /// Lowers the limits to what the device accepts: `comp_limit · F / 65535` per band. `None`: no
+    /// device is known that lowers them.
+    pub fn set_link_limit(&mut self, comp_limit: impl Into<Option<[u16; 2]>>) {
+        self.link = comp_limit.into();
+        self.scale.drive_limit_um = [f64::INFINITY; 2];
+        for (band, code) in self.link.into_iter().flatten().enumerate() {
             let full_scale_um = self.scale.full_scale_um[band];
             self.scale.drive_limit_um[band] =
                 f64::from(code) * full_scale_um / f64::from(FULL_CODE);
         }
+    }
+
+    /// The limits of a contactor in both bands, and whose they are.
+    pub fn limits(&self, contactor: usize) -> [Limit; 2] {
+        let lead = self.leads.get(contactor);
+        let gains = lead.map_or([1.0; 2], |lead| lead.calibration.drive_gain);
+        [0, 1].map(|band| {
+            let is_of_device = self.scale.device_is_lower(band, gains[band]);
+            let um = if is_of_device {
+                self.scale.drive_limit_um[band] / gains[band]
+            } else {
+                self.scale.limit_um[band]
+            };
+            Limit { um, is_of_device }
+        })
     }
 
     /// The component limits to ask a device for: the smallest codes that no allowed amplitude
@@ -246,6 +274,8 @@ fn drive_code(
         let needed_um = wanted_um.min(scale.limit_um[band]) * calibration.drive_gain[band];
         bite.limited[band] =
             wanted_um > scale.limit_um[band] || needed_um > scale.drive_limit_um[band];
+        bite.by_device[band] =
+            bite.limited[band] && scale.device_is_lower(band, calibration.drive_gain[band]);
         driven_um[band] = needed_um.min(scale.drive_limit_um[band]);
     }
     let share = driven_um[0] / scale.full_scale_um[0] + driven_um[1] / scale.full_scale_um[1];
@@ -272,6 +302,13 @@ impl Scale {
             *full_scale_um = if usable { *full_scale_um } else { 1.0 };
         }
         scale
+    }
+
+    /// Whether the device's limit of a contactor with this drive gain is below the profile's. One
+    /// that was asked for because of the profile is that rounded up, and within half a code of it.
+    fn device_is_lower(&self, band: usize, drive_gain: f64) -> bool {
+        let half_um = 0.5 * self.full_scale_um[band] / f64::from(FULL_CODE);
+        self.drive_limit_um[band] + half_um < self.limit_um[band] * drive_gain
     }
 }
 

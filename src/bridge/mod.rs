@@ -48,9 +48,10 @@ mod wav_parts;
 mod wire;
 
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
-pub use codes::{Bite, CodeCounters, Coder, FULL_CODE};
+pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Miswiring, Moment, Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
+    Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
@@ -85,7 +86,6 @@ pub use wav::{SampleFormat, WavSpec, WavWriter};
 pub use wav_parts::WavParts;
 pub(crate) use wire::Simulation;
 pub use wire::{
-    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
-    WiredDevice, parse_latency, parse_lie, parse_one_off, parse_rate, parse_rate_and_time,
-    parse_swap, parse_time_us,
+    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, Injection, InjectionKind,
+    LaneFaults, Latency, OneOff, OneOffKind, WiredDevice,
 };

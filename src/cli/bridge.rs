@@ -124,7 +124,7 @@ fn card_line(AudioEntry { name, n_channels }: &AudioEntry) -> String {
 #[cfg(unix)]
 fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
     let model = crate::bridge::DeviceModel::for_array(&args.array);
-    let faults = args.faults.faults();
+    let faults = args.faults.faults().map_err(CliError::Input)?;
     faults.check(model.n_channels()).map_err(CliError::Input)?;
     let contactors = args.plant.model()?;
     let stop = super::signals::stop_flag()?;

@@ -1,192 +1,86 @@
-//! The options of `selvedge bridge emulate` that make the device or its link fail.
+//! The options of `selvedge bridge emulate` that make the device or its link fail: the rows of
+//! [`FaultOption`] as arguments.
 
-use clap::Args;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
-use crate::bridge::{
-    Direction, Faults, LaneFaults, Latency, Lie, Miswiring, OneOff, OneOffKind, parse_latency,
-    parse_lie, parse_one_off, parse_rate, parse_rate_and_time, parse_swap, parse_time_us,
-};
-
-const HICCUP_US: u64 = 50_000;
-const LINK: &str = "Faults of the link";
-const DEVICE: &str = "Faults of the device";
-const ONCE: &str = "Faults at a time since the start (5s, 5s+300ms for how long; 5s,20s for two)";
+use crate::bridge::{FaultKind, FaultOption, FaultWords, Faults};
 
 /// What is to go wrong. Nothing, unless it is asked for.
-#[derive(Debug, Args)]
+#[derive(Debug)]
 pub(super) struct FaultArgs {
-    /// Where random faults begin; the same seed gives the same faults
-    #[arg(long, value_name = "N", default_value_t = 1, help_heading = LINK)]
-    seed: u64,
-    /// How long bytes take: none, cdc (1 ms frames), ftdi (16 ms timer) or mean~deviation
-    #[arg(long, value_name = "LATENCY", default_value = "none", help_heading = LINK,
-          value_parser = parse_latency)]
-    latency: [Latency; 2],
-    /// Share of writes that take 50 ms, or TIME, longer
-    #[arg(long, value_name = "RATE[:TIME]", help_heading = LINK, value_parser = hiccup)]
-    hiccup: Option<(f64, u64)>,
-    /// Share of bytes lost
-    #[arg(long, value_name = "RATE", default_value = "0", help_heading = LINK,
-          value_parser = parse_rate)]
-    drop: f64,
-    /// Share of bytes changed
-    #[arg(long, value_name = "RATE", default_value = "0", help_heading = LINK,
-          value_parser = parse_rate)]
-    flip: f64,
-    /// Share of bytes that a random one comes before
-    #[arg(long, value_name = "RATE", default_value = "0", help_heading = LINK,
-          value_parser = parse_rate)]
-    insert: f64,
-    /// Share of 64-byte USB packets lost
-    #[arg(long, value_name = "RATE", default_value = "0", help_heading = LINK,
-          value_parser = parse_rate)]
-    lose_usb: f64,
-    /// Share of writes that arrive twice
-    #[arg(long, value_name = "RATE", default_value = "0", help_heading = LINK,
-          value_parser = parse_rate)]
-    repeat: f64,
-    /// Mean time between bursts of random bytes
-    #[arg(long, value_name = "TIME", help_heading = LINK, value_parser = parse_time_us)]
-    garbage_every: Option<u64>,
-    /// Which way all of these act: to-device, to-host or both
-    #[arg(long, value_name = "WAY", default_value = "both", help_heading = LINK,
-          value_parser = way)]
-    way: Way,
-    /// A modem manager asks AT+GCAP before each visit of a host
-    #[arg(long, help_heading = LINK)]
-    chatter: bool,
-    /// The device sends a boot banner after each boot
-    #[arg(long, help_heading = LINK)]
-    banner: bool,
-
-    /// How much faster the device's clock runs, in parts per million
-    #[arg(long, value_name = "PPM", default_value_t = 0, help_heading = DEVICE,
-          allow_negative_numbers = true)]
-    clock_ppm: i32,
-    /// How far ticks lie from their place, at most 10ms
-    #[arg(long, value_name = "TIME", default_value = "0ms", help_heading = DEVICE,
-          value_parser = parse_time_us)]
-    tick_jitter: u64,
-    /// What CAPS say although it is not so: version=2, rows=5, cols, channels, components,
-    /// tick-us, low-mhz, high-mhz, max-body; cut=40 cuts them short
-    #[arg(long, value_name = "KEY=VALUE", help_heading = DEVICE, value_parser = parse_lie)]
-    lie: Vec<Lie>,
-    /// A channel that moves nothing, from 0
-    #[arg(long, value_name = "CHANNEL", help_heading = DEVICE, value_delimiter = ',')]
-    dead: Vec<u16>,
-    /// Two channels that move each other's contactor
-    #[arg(long, value_name = "A,B", help_heading = DEVICE, value_parser = parse_swap)]
-    swap: Vec<[u16; 2]>,
-
-    /// The device reads nothing, for 300ms
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::StallReading))]
-    stall_reading_at: Vec<OneOff>,
-    /// Nothing arrives from the device, for 300ms
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::StallWriting))]
-    stall_writing_at: Vec<OneOff>,
-    /// The cable is out, for 2s; then the port comes back as PATH-2
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::Unplug))]
-    unplug_at: Vec<OneOff>,
-    /// The device starts anew, within 300ms
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::Reboot))]
-    reboot_at: Vec<OneOff>,
-    /// The watchdog starts the device anew, within 300ms
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::Watchdog))]
-    watchdog_at: Vec<OneOff>,
-    /// The device is too hot, for 2s
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::OverTemperature))]
-    over_temperature_at: Vec<OneOff>,
-    /// The amplifier takes too much current, for 2s
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::OverCurrent))]
-    over_current_at: Vec<OneOff>,
-    /// The high voltage breaks down, for 2s
-    #[arg(long, value_name = "TIME", help_heading = ONCE, value_delimiter = ',',
-          value_parser = once(OneOffKind::HvSag))]
-    hv_sag_at: Vec<OneOff>,
+    words: FaultWords,
 }
 
 impl FaultArgs {
     /// The faults that were asked for.
-    pub(super) fn faults(&self) -> Faults {
-        let once = [
-            &self.stall_reading_at,
-            &self.stall_writing_at,
-            &self.unplug_at,
-            &self.reboot_at,
-            &self.watchdog_at,
-            &self.over_temperature_at,
-            &self.over_current_at,
-            &self.hv_sag_at,
-        ];
-        Faults {
-            seed: self.seed,
-            to_device: self.lane(Direction::ToDevice),
-            to_host: self.lane(Direction::ToHost),
-            clock_ppm: self.clock_ppm,
-            tick_jitter_us: u32::try_from(self.tick_jitter).unwrap_or(u32::MAX),
-            lies: self.lie.clone(),
-            wiring: Miswiring {
-                dead: self.dead.clone(),
-                swapped: self.swap.clone(),
-            },
-            once: once.into_iter().flatten().copied().collect(),
-        }
+    ///
+    /// # Errors
+    /// What cannot be read, by its option. Arguments were read when they were parsed.
+    pub(super) fn faults(&self) -> Result<Faults, String> {
+        let faults = self.words.faults();
+        faults.map_err(|(option, why)| format!("--{}: {why}", option.name))
+    }
+}
+
+impl Args for FaultArgs {
+    fn augment_args(command: Command) -> Command {
+        command.args(FaultOption::ALL.iter().map(argument))
     }
 
-    fn lane(&self, direction: Direction) -> LaneFaults {
-        let (at, chatter) = match direction {
-            Direction::ToDevice => (0, self.chatter),
-            Direction::ToHost => (1, self.banner),
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for FaultArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let mut args = Self {
+            words: FaultWords::default(),
         };
-        let spoken = LaneFaults {
-            chatter,
-            ..LaneFaults::default()
-        };
-        if self.way.0.is_some_and(|only| only != direction) {
-            return spoken;
+        args.update_from_arg_matches(matches)?;
+        Ok(args)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        for option in FaultOption::ALL {
+            if matches.value_source(option.name) != Some(ValueSource::CommandLine) {
+                continue;
+            }
+            let text = if option.kind == FaultKind::Switch {
+                FaultWords::ON.to_owned()
+            } else {
+                let texts = matches
+                    .get_many::<String>(option.name)
+                    .into_iter()
+                    .flatten();
+                texts.map(String::as_str).collect::<Vec<_>>().join(" ")
+            };
+            self.words.say(option, &text);
         }
-        let (hiccup_rate, hiccup_us) = self.hiccup.unwrap_or_default();
-        LaneFaults {
-            latency: self.latency[at],
-            hiccup_rate,
-            hiccup_us,
-            drop_rate: self.drop,
-            flip_rate: self.flip,
-            insert_rate: self.insert,
-            usb_loss_rate: self.lose_usb,
-            repeat_rate: self.repeat,
-            garbage_every_us: self.garbage_every,
-            ..spoken
-        }
+        Ok(())
     }
 }
 
-/// One direction only, or both.
-#[derive(Clone, Copy, Debug)]
-struct Way(Option<Direction>);
-
-fn way(text: &str) -> Result<Way, String> {
-    match text {
-        "both" => Ok(Way(None)),
-        "to-device" => Ok(Way(Some(Direction::ToDevice))),
-        "to-host" => Ok(Way(Some(Direction::ToHost))),
-        _ => Err("the ways are to-device, to-host and both".to_owned()),
+fn argument(option: &'static FaultOption) -> Arg {
+    let argument = Arg::new(option.name)
+        .long(option.name)
+        .help(option.help)
+        .help_heading(option.group.heading());
+    let argument = match option.kind {
+        FaultKind::Switch => return argument.action(ArgAction::SetTrue),
+        FaultKind::One => argument.action(ArgAction::Set),
+        FaultKind::Many => argument.action(ArgAction::Append),
+    };
+    let argument = argument
+        .value_name(option.value)
+        .allow_negative_numbers(true)
+        .value_parser(move |text: &str| option.check(text).map(|()| text.to_owned()));
+    if option.usual.is_empty() {
+        argument
+    } else {
+        argument.default_value(option.usual)
     }
-}
-
-fn hiccup(text: &str) -> Result<(f64, u64), String> {
-    parse_rate_and_time(text, HICCUP_US)
-}
-
-fn once(kind: OneOffKind) -> impl Fn(&str) -> Result<OneOff, String> + Clone + Send + Sync {
-    move |text| parse_one_off(kind, text)
 }
 
 #[cfg(test)]
@@ -194,6 +88,7 @@ mod tests {
     use clap::Parser;
 
     use super::*;
+    use crate::bridge::{LaneFaults, Latency, Lie, OneOffKind};
 
     #[derive(Parser)]
     struct Line {
@@ -203,8 +98,7 @@ mod tests {
 
     fn read(words: &str) -> Result<Faults, String> {
         let line = Line::try_parse_from(std::iter::once("emulate").chain(words.split(' ')));
-        line.map(|line| line.faults.faults())
-            .map_err(|error| error.to_string())
+        line.map_err(|error| error.to_string())?.faults.faults()
     }
 
     #[test]

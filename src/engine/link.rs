@@ -29,7 +29,7 @@ pub(super) struct Link {
 pub(super) enum News {
     /// A device tick began; when its STATUS arrived, and when the answer is due.
     Tick(u32, [Instant; 2]),
-    /// A device with these limits is connected.
+    /// A device with these limits is connected, or configured.
     Limits([u16; 2]),
     /// The device is gone.
     Gone,
@@ -64,6 +64,7 @@ impl Link {
                 } => return Some(News::Tick(*tick, [*received, *due])),
                 BridgeEvent::Pong { .. } => continue,
                 BridgeEvent::Connected(caps) => Some(News::Limits(caps.comp_limit)),
+                BridgeEvent::Ready(config) => Some(News::Limits(config.comp_limit)),
                 BridgeEvent::Lost(_) | BridgeEvent::Refused(_) => Some(News::Gone),
                 _ => None,
             };
@@ -148,10 +149,11 @@ impl Link {
         bridge.identify(channel, how)
     }
 
-    /// The limits of the device, if one is connected.
+    /// The limits of the device, if one is connected: those in force, or else its largest.
     pub(super) fn comp_limit(&self) -> Option<[u16; 2]> {
-        let caps = self.bridge.as_ref()?.caps();
-        caps.map(|caps| caps.comp_limit)
+        let bridge = self.bridge.as_ref()?;
+        let in_force = bridge.config().map(|config| config.comp_limit);
+        in_force.or_else(|| bridge.caps().map(|caps| caps.comp_limit))
     }
 
     /// Frames not made because no armed device listened.
@@ -169,6 +171,7 @@ impl Link {
         Some(LinkView {
             state: bridge.state(),
             caps: bridge.caps().copied(),
+            comp_limit: self.comp_limit(),
             status: bridge.status().copied(),
             depth: bridge.depth(),
             lead: bridge.lead(),

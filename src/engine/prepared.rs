@@ -173,7 +173,7 @@ impl PreparedScene {
     }
 
     /// The device's own limits, which lower those of the profile for the first display.
-    pub(super) fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
+    pub(super) fn set_link_limit(&mut self, comp_limit: Option<[u16; 2]>) {
         if let Some(output) = self.outputs.first_mut() {
             output.coder.set_link_limit(comp_limit);
         }

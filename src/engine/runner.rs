@@ -192,9 +192,10 @@ impl Runner {
         while let Some(news) = link.hear(&mut say) {
             match news {
                 News::Tick(number, times) => tick = Some((number, times)),
-                News::Limits(comp_limit) => self.core.set_link_limit(comp_limit),
+                News::Limits(comp_limit) => self.core.set_link_limit(Some(comp_limit)),
                 News::Gone => {
                     tick = None;
+                    self.core.set_link_limit(None);
                     self.pacer.forget_device();
                 }
             }
@@ -266,9 +267,7 @@ impl Runner {
             self.connect(None);
             self.say(Notice::DisplayChanged);
         }
-        if let Some(comp_limit) = self.link.comp_limit() {
-            next.scene_mut().set_link_limit(comp_limit);
-        }
+        next.scene_mut().set_link_limit(self.link.comp_limit());
         self.obey_core(CoreOrder::Scene(next));
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));
@@ -292,6 +291,7 @@ impl Runner {
 
     fn connect(&mut self, bridge: Option<Box<crate::bridge::Bridge>>) {
         let last = self.link.connect(bridge);
+        self.core.set_link_limit(None);
         self.pacer.forget_device();
         self.retire(last.map(Retired::Bridge));
     }

@@ -234,6 +234,8 @@ pub struct LinkView {
     pub state: BridgeState,
     /// What the device says it is.
     pub caps: Option<Caps>,
+    /// The largest codes that it takes now, `[40 Hz, 320 Hz]`.
+    pub comp_limit: Option<[u16; 2]>,
     /// Its last STATUS.
     pub status: Option<Status>,
     /// Ticks from a frame to its effect, 1…3.

@@ -167,7 +167,7 @@ mod tests {
         }
         assert!(dots.iter().any(|dot| dot.bite.limited[0]));
         let why = window.bench.transient.why.0.as_ref().unwrap();
-        assert_eq!(why.output.limit_um, [2.0, 50.0]);
+        assert_eq!(why.output.limits.map(|limit| limit.um), [2.0, 50.0]);
         assert!(why.output.bite.limited[0], "{:?}", why.output);
         let mut last = window.run();
         rasteriser.apply(&mut last.textures_delta);

@@ -27,7 +27,7 @@ use super::probe::Probe;
 use super::sources::SourceCommand;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
-use crate::bridge::Skin;
+use crate::bridge::{FaultWords, Skin};
 use crate::engine::ClipKind;
 use crate::geometry::Point;
 use crate::tactile::Band;
@@ -169,8 +169,10 @@ pub(crate) enum DeviceCommand {
     GoOn,
     /// Ramp it to silence.
     Disarm,
-    /// Connect to the emulator in this process.
+    /// Connect to the emulator in this process, of which nothing fails.
     ConnectEmulator,
+    /// Connect to the emulator in this process anew, with these faults.
+    StartFaults(FaultWords),
     /// Connect to the device at this path.
     ConnectPort(PathBuf),
     /// Let go of it.
@@ -185,6 +187,8 @@ pub(crate) enum DeviceCommand {
     ClearFaults,
     /// Put the path of the session log where it can be pasted.
     CopyLogPath,
+    /// Show the folder of the session log in the desktop's file manager.
+    OpenLogFolder,
     /// Whether an armed device stops when the window loses the keyboard.
     StopOnFocusLoss(bool),
     /// Do something with array profiles.

@@ -13,6 +13,7 @@ impl Workbench {
         let profile = self.array();
         let mut copy_name = std::mem::take(&mut self.arrays.copy_name);
         let mut port = std::mem::take(&mut self.transient.port);
+        let mut faults = std::mem::take(&mut self.transient.faults);
         // What no frame can carry is no array that a device drives.
         let is_drivable = profile.n_contactors() <= LARGEST_CHANNELS;
         let array = ArrayView {
@@ -34,16 +35,19 @@ impl Workbench {
             target: self.transient.target.as_deref(),
             ports: self.transient.ports.view(),
             array,
-            sources: &self.transient.sources.view(),
+            sources: &self.sources_view(),
             plant: has_plant.then_some(&self.transient.plant.view),
+            faults: faults.running.as_ref(),
             stops_on_focus_loss: self.settings.kept.stops_on_focus_loss,
         };
         let mut typed = BridgeTyped {
             port: &mut port,
             copy_name: &mut copy_name,
+            faults: &mut faults.chosen,
         };
         panes::show_bridge(ui, &view, &mut typed, wishes);
         self.arrays.copy_name = copy_name;
         self.transient.port = port;
+        self.transient.faults = faults;
     }
 }

@@ -279,7 +279,7 @@ impl Workbench {
         DriveWaveView {
             before_um: drive_um(history, contactor, tick.saturating_sub(1)),
             now_um: drive_um(history, contactor, tick),
-            limit_um: self.engine.profile().limit_um,
+            limit_um: self.limits().map(|limit| limit.um),
         }
     }
 }

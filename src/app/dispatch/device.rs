@@ -4,8 +4,8 @@ use eframe::egui;
 
 use crate::app::command::DeviceCommand;
 use crate::app::window::Workbench;
-use crate::app::{panes, query};
-use crate::bridge::Target;
+use crate::app::{faulty, panes, query};
+use crate::bridge::{FaultWords, Target};
 use crate::engine;
 
 impl Workbench {
@@ -19,9 +19,11 @@ impl Workbench {
             }
             DeviceCommand::Disarm => self.send(engine::Command::Disarm),
             DeviceCommand::ConnectEmulator => self.connect(Target::Emulator),
+            DeviceCommand::StartFaults(words) => self.start_faults(words),
             DeviceCommand::ConnectPort(path) => self.connect(Target::Port(path)),
             DeviceCommand::Disconnect => {
                 self.transient.target = None;
+                self.transient.faults.running = None;
                 self.transient.ports.hold(None);
                 self.send(engine::Command::Disconnect);
             }
@@ -35,13 +37,32 @@ impl Workbench {
                 let path = log.map(|log| log.path().display().to_string());
                 ctx.copy_text(path.unwrap_or_default());
             }
+            DeviceCommand::OpenLogFolder => {
+                let log = self.engine.session_log();
+                if let Some(folder) = log.and_then(|log| log.path().parent()) {
+                    self.transient.folders.open(ctx, folder);
+                }
+            }
             DeviceCommand::StopOnFocusLoss(is_wanted) => {
                 self.settings.kept.stops_on_focus_loss = is_wanted;
             }
         }
     }
 
+    /// Starts the emulator anew with what was chosen, if it can be read and this array can have it.
+    fn start_faults(&mut self, words: FaultWords) {
+        let n_channels = self.array().n_contactors();
+        match faulty::target(&words, n_channels) {
+            Ok(target) => {
+                self.connect(target);
+                self.transient.faults.running = Some(words);
+            }
+            Err(why) => self.transient.notices.give(why),
+        }
+    }
+
     fn connect(&mut self, target: Target) {
+        self.transient.faults.running = target.is_emulator().then(FaultWords::default);
         // What was said of the last device is no news of this one.
         if let Some(last) = &self.transient.target {
             self.transient.notices.forget_about(last);

@@ -17,7 +17,7 @@ use crate::app::ports::PortsView;
 use crate::app::sources::SourcesView;
 use crate::app::theme;
 use crate::app::view::Live;
-use crate::bridge::{ArrayProfile, FoundPort, RecognisedBy};
+use crate::bridge::{ArrayProfile, FaultWords, FoundPort, RecognisedBy};
 
 /// A window with nothing in it but `content`, and what is wished for in it.
 fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
@@ -139,11 +139,13 @@ fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, 
             },
             sources: &SourcesView::default(),
             plant: None,
+            faults: None,
             stops_on_focus_loss: false,
         };
         let mut typed = BridgeTyped {
             port,
             copy_name: &mut String::new(),
+            faults: &mut FaultWords::default(),
         };
         show_bridge(ui, &view, &mut typed, wishes);
     })

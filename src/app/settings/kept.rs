@@ -1,5 +1,6 @@
 //! What is kept between two runs: plain values, always within bounds.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::ThemePreference;
@@ -10,6 +11,7 @@ use crate::app::perspective::Perspective;
 use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
 use crate::app::workspace::Overlays;
+use crate::engine::Area;
 
 /// Most scenes that are remembered.
 const MAX_RECENT: usize = 10;
@@ -53,6 +55,8 @@ pub(crate) struct Kept {
     pub(crate) arrangements: [Option<String>; Perspective::ALL.len()],
     /// The array profile that was chosen; `None`: the one of the scene's display.
     pub(crate) array: Option<String>,
+    /// Where the surfaces of tablets of these names lie in the workspace.
+    pub(crate) tablet_areas: BTreeMap<String, Area>,
     /// Size of the window, points.
     pub(crate) window_size: Option<[f32; 2]>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
@@ -76,6 +80,7 @@ impl Default for Kept {
             perspective: Perspective::default(),
             arrangements: Default::default(),
             array: None,
+            tablet_areas: BTreeMap::new(),
             window_size: None,
             recent_scenes: Vec::new(),
         }

@@ -3,6 +3,7 @@
 //! A key that is unknown is passed over, a value that is not understood leaves only its own
 //! setting as at first: a file of a newer version, or one edited by hand, spoils nothing else.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::ThemePreference;
@@ -15,6 +16,7 @@ use crate::app::perspective::Perspective;
 use crate::app::rendering::Rendering;
 use crate::app::theme::ColourMap;
 use crate::app::workspace::Overlays;
+use crate::engine::Area;
 use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
 use crate::render::array::Method;
 
@@ -57,6 +59,9 @@ struct Keys {
     arrangement: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     arrangement_cloth: Value<String>,
+    /// Tables come last in the file.
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    tablet_areas_mm: Value<BTreeMap<String, [f64; 4]>>,
 }
 
 /// What a key states.
@@ -153,10 +158,28 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             taken("arrangement_cloth", keys.arrangement_cloth, odd),
         ],
         array: taken("array", keys.array, odd),
+        tablet_areas: areas(keys.tablet_areas_mm, odd),
         window_size: taken("window_size", keys.window_size, odd),
         ..first
     }
     .with_recent_scenes(recent.unwrap_or_default())
+}
+
+/// The areas of tablets; one that is none leaves only its tablet as at first.
+fn areas(
+    value: Value<BTreeMap<String, [f64; 4]>>,
+    odd: &mut Vec<&'static str>,
+) -> BTreeMap<String, Area> {
+    const KEY: &str = "tablet_areas_mm";
+    let mut areas = BTreeMap::new();
+    for (name, numbers) in taken(KEY, value, odd).unwrap_or_default() {
+        if let Ok(area) = Area::of(numbers) {
+            areas.insert(name, area);
+        } else {
+            odd.push(KEY);
+        }
+    }
+    areas
 }
 
 fn taken<T>(key: &'static str, value: Value<T>, odd: &mut Vec<&'static str>) -> Option<T> {
@@ -220,6 +243,15 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         perspective: word(&kept.perspective, &perspectives()).into(),
         arrangement: kept.arrangements[0].clone().into(),
         arrangement_cloth: kept.arrangements[1].clone().into(),
+        tablet_areas_mm: Some(&kept.tablet_areas)
+            .filter(|areas| !areas.is_empty())
+            .map(|areas| {
+                let areas = areas.iter();
+                areas
+                    .map(|(name, area)| (name.clone(), area.numbers()))
+                    .collect()
+            })
+            .into(),
     };
     keys_to_string(&keys, path)
 }
@@ -260,6 +292,9 @@ mod tests {
                 Some("{}".to_owned()),
             ],
             array: Some("rig \"2\"".to_owned()),
+            tablet_areas: [("Pen \"S\" 5.1", [-3.5, 20.0, 216.0, 135.25])]
+                .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
+                .into(),
             window_size: Some([1600.0, 1000.5]),
             ..Kept::default()
         };

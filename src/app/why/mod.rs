@@ -14,7 +14,7 @@ use super::command::Part;
 use super::sensation::Sensation;
 use super::view::Source;
 use super::window::Workbench;
-use crate::bridge::{ArrayProfile, Bite, Calibration, Coder};
+use crate::bridge::{ArrayProfile, Bite, Calibration, Coder, Limit};
 use crate::render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
@@ -50,8 +50,8 @@ pub(crate) struct Output {
     pub(crate) is_silent: bool,
     /// The soft-start gain.
     pub(crate) gain: f64,
-    /// Limits of both bands, µm.
-    pub(crate) limit_um: [f64; 2],
+    /// Limits of both bands that come first, and whose they are.
+    pub(crate) limits: [Limit; 2],
     /// How the contactor answers its drive.
     pub(crate) calibration: Calibration,
     /// The channel that drives it.
@@ -63,12 +63,12 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// What a contactor of this array is told for these amplitudes, µm. `gain` is the soft-start
-    /// gain of an armed device.
+    /// What a contactor of this array is told for these amplitudes, µm. The device takes codes
+    /// up to `comp_limit`; `gain` is the soft-start gain of one that is armed.
     pub(crate) fn of(
         (profile, contactor): (&ArrayProfile, usize),
         amplitudes_um: [f64; 2],
-        gain: Option<f64>,
+        (gain, comp_limit): (Option<f64>, Option<[u16; 2]>),
         is_silent: bool,
     ) -> Self {
         #[expect(
@@ -78,12 +78,13 @@ impl Output {
         let single = amplitudes_um.map(|um| um as f32);
         let felt = if is_silent { [0.0; 2] } else { single };
         let mut coder = Coder::of_contactor(profile, contactor);
+        coder.set_link_limit(comp_limit);
         let codes = coder.encode(&[felt], gain.unwrap_or(1.0));
         Self {
             is_sent: gain.is_some(),
             is_silent,
             gain: gain.unwrap_or(1.0),
-            limit_um: profile.limit_um,
+            limits: coder.limits(0),
             calibration: profile.calibration_of(contactor),
             channel: profile.channel_of(contactor),
             bite: coder.limited().first().copied().unwrap_or_default(),
@@ -130,6 +131,15 @@ impl Why {
 }
 
 impl Workbench {
+    /// The limits of the chosen contactor, or of one that nothing is known of.
+    pub(crate) fn limits(&self) -> [Limit; 2] {
+        let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
+        let bridge = self.transient.live.bridge.as_ref();
+        let mut coder = Coder::of_contactor(self.engine.profile(), contactor);
+        coder.set_link_limit(bridge.and_then(|bridge| bridge.comp_limit));
+        coder.limits(0)
+    }
+
     /// Explains the chosen contactor as it is now, unless the explanation is held.
     pub(crate) fn explain(&mut self) {
         if self.transient.why.1 && self.transient.why.0.is_some() {
@@ -160,13 +170,15 @@ impl Workbench {
             (contactor / n_columns, contactor % n_columns)
         });
         let is_muted = !self.transient.audition.is_felt(Part::Contactor(contactor));
-        let gain = live.bridge.as_ref().and_then(|bridge| bridge.gain);
+        let bridge = live.bridge.as_ref();
+        let gain = bridge.and_then(|bridge| bridge.gain);
+        let comp_limit = bridge.and_then(|bridge| bridge.comp_limit);
         let is_silent = live.is_silent || is_muted;
         let amplitudes_um = trace.amplitudes_um;
         let output = Output::of(
             (self.engine.profile(), contactor),
             amplitudes_um,
-            gain,
+            (gain, comp_limit),
             is_silent,
         );
         Some(Why {

@@ -55,7 +55,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Why {
     let output = Output::of(
         (&ArrayProfile::default(), 0),
         trace.amplitudes_um,
-        None,
+        (None, None),
         false,
     );
     Why {
@@ -134,7 +134,12 @@ fn outside_at_rest_and_silent_are_said() {
     assert!(to_text(&why([5.0, 5.0], [0.0, 0.0])).contains("below 0.01 mm/s"));
     let mut held = why([5.0, 5.0], [40.0, 0.0]);
     let amplitudes = held.trace.amplitudes_um;
-    held.output = Output::of((&ArrayProfile::default(), 0), amplitudes, Some(1.0), true);
+    held.output = Output::of(
+        (&ArrayProfile::default(), 0),
+        amplitudes,
+        (Some(1.0), None),
+        true,
+    );
     assert_eq!(held.output.codes, [0, 0]);
     assert!(to_text(&held).contains("silent now"));
 }
@@ -166,9 +171,40 @@ fn the_table_holds_every_bin_and_its_powers_add_up() {
 
 #[test]
 fn limits_that_hold_are_named() {
-    let loud = Output::of((&ArrayProfile::default(), 0), [80.0, 1.0], Some(1.0), false);
+    let loud = Output::of(
+        (&ArrayProfile::default(), 0),
+        [80.0, 1.0],
+        (Some(1.0), None),
+        false,
+    );
     assert!(loud.bite.limited[0] && loud.is_sent, "{loud:?}");
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     explained.output = loud;
     assert!(to_text(&explained).contains("40 Hz is held"));
+}
+
+#[test]
+fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
+    let profile = ArrayProfile {
+        limit_um: [40.0, 20.0],
+        ..ArrayProfile::default()
+    };
+    let mut explained = why([10.2, 20.0], [40.0, 0.0]);
+    // Half of 50 µm at 40 Hz is the device's; at 320 Hz it would take more than the profile.
+    let half = Some([32_768, 32_768]);
+    let told = Output::of((&profile, 0), [30.0, 30.0], (Some(1.0), half), false);
+    assert_eq!(told.limits.map(|limit| limit.is_of_device), [true, false]);
+    assert_eq!(told.bite.by_device, [true, false]);
+    assert_eq!(told.bite.limited, [true, true]);
+    explained.output = told;
+    let text = to_text(&explained);
+    assert!(
+        text.contains("25.0 (device) / 20.0 µm, both are held"),
+        "{text}"
+    );
+    // What the device was asked for because of the profile is the profile's.
+    let asked = Coder::new(&profile, 24).comp_limit();
+    let told = Output::of((&profile, 0), [60.0, 60.0], (Some(1.0), Some(asked)), false);
+    assert_eq!(told.bite.by_device, [false, false]);
+    assert_eq!(told.limits.map(|limit| limit.um), profile.limit_um);
 }

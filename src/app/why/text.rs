@@ -92,7 +92,14 @@ fn spectrum(direction: &DirectionTrace) -> (String, String) {
 }
 
 fn limits(why: &Why) -> String {
-    let [low, high] = why.output.limit_um.map(|um| fixed(um, 1));
+    let limits = why.output.limits;
+    let [low, high] = limits.map(|limit| fixed(limit.um, 1));
+    let numbers = match limits.map(|limit| limit.is_of_device) {
+        [false, false] => format!("{low} / {high} µm"),
+        [true, false] => format!("{low} (device) / {high} µm"),
+        [false, true] => format!("{low} / {high} µm (device)"),
+        [true, true] => format!("{low} / {high} µm (both the device's)"),
+    };
     let bite = why.output.bite;
     let words = match (bite.limited, bite.guarded) {
         _ if bite.off => "switched off in the array profile",
@@ -102,7 +109,7 @@ fn limits(why: &Why) -> String {
         ([false, true], _) => "320 Hz is held",
         ([true, true], _) => "both are held",
     };
-    format!("{low} / {high} µm, {words}")
+    format!("{numbers}, {words}")
 }
 
 /// What the array profile says of the contactor, where it differs from the nominal.
@@ -192,7 +199,10 @@ fn rows(why: &Why) -> Vec<TableRow> {
     row("amplitude", "", None, amplitudes, "um");
     let above_db = why.sensation.above_db(amplitudes);
     row("sensation level by model", "", None, above_db, "dB");
-    row("limit", "", None, why.output.limit_um, "um");
+    let limits = why.output.limits;
+    row("limit", "", None, limits.map(|limit| limit.um), "um");
+    let of_device = limits.map(|limit| f64::from(u8::from(limit.is_of_device)));
+    row("limit is the device's", "", None, of_device, "1");
     row("soft-start gain", "", None, [why.output.gain; 2], "1");
     let codes = why.output.codes.map(f64::from);
     row("drive code", "", None, codes, "1");

@@ -32,10 +32,24 @@ pub(crate) fn paint_limit_mark(painter: &Painter, centre: Pos2) {
 
 /// What bites a contactor, in words behind the mark; `None` when nothing does.
 pub(crate) fn limit_words(bite: Bite) -> Option<String> {
+    let whose = |band: usize| {
+        if bite.by_device[band] {
+            "the device's own limit"
+        } else {
+            "the array's limit"
+        }
+    };
     let held = match bite.limited {
-        [true, true] => Some("both bands are held at their limits"),
-        [true, false] => Some("40 Hz is held at its limit"),
-        [false, true] => Some("320 Hz is held at its limit"),
+        [true, true] if bite.by_device[0] == bite.by_device[1] => {
+            Some(format!("both bands are held at {}", whose(0)))
+        }
+        [true, true] => Some(format!(
+            "40 Hz is held at {}, 320 Hz at {}",
+            whose(0),
+            whose(1)
+        )),
+        [true, false] => Some(format!("40 Hz is held at {}", whose(0))),
+        [false, true] => Some(format!("320 Hz is held at {}", whose(1))),
         [false, false] => None,
     };
     let shared = bite
@@ -43,7 +57,8 @@ pub(crate) fn limit_words(bite: Bite) -> Option<String> {
         .then_some("both bands are scaled down to share full drive");
     let off = bite.off.then_some("switched off in the array profile");
     let none = bite.non_finite.then_some("not a number, so silent");
-    let words: Vec<&str> = [held, shared, off, none].into_iter().flatten().collect();
+    let words = [held.as_deref(), shared, off, none].into_iter();
+    let words: Vec<&str> = words.flatten().collect();
     (!words.is_empty()).then(|| format!("Played weaker than shown: {}", words.join("; ")))
 }
 
@@ -66,7 +81,17 @@ mod tests {
         let words = limit_words(held).unwrap();
         assert_eq!(
             words,
-            "Played weaker than shown: 320 Hz is held at its limit"
+            "Played weaker than shown: 320 Hz is held at the array's limit"
+        );
+        let by_device = Bite {
+            limited: [true, true],
+            by_device: [true, false],
+            ..held
+        };
+        assert_eq!(
+            limit_words(by_device).unwrap(),
+            "Played weaker than shown: 40 Hz is held at the device's own limit, 320 Hz at the \
+             array's limit"
         );
         assert_eq!([0, 1].map(|band| bites_band(held, band)), [false, true]);
         let off = Bite {

@@ -31,4 +31,6 @@ pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{
     RowShape, asked_value, declare, key_steps, slider_row, slider_row_as, tip_beside,
 };
-pub(crate) use text::{button, choice, mark, paint_line, quiet_pair, row, section, toggle};
+pub(crate) use text::{
+    button, choice, field_row, mark, paint_line, quiet_pair, row, section, toggle,
+};

@@ -17,7 +17,24 @@ pub(crate) fn section(ui: &mut Ui, title: &str) {
 
 /// A row with a name on the left and whatever `content` adds on the right, right-aligned.
 pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Response {
-    let size = vec2(ui.available_width(), 20.0);
+    row_of(ui, (name, 20.0), content)
+}
+
+/// The same, as high as a field that one types in.
+pub(crate) fn field_row<R>(
+    ui: &mut Ui,
+    name: &str,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> Response {
+    row_of(ui, (name, ROW), content)
+}
+
+fn row_of<R>(
+    ui: &mut Ui,
+    (name, height): (&str, f32),
+    content: impl FnOnce(&mut Ui) -> R,
+) -> Response {
+    let size = vec2(ui.available_width(), height);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.label(name);
         ui.with_layout(Layout::right_to_left(Align::Center), content);

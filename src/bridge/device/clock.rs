@@ -90,6 +90,7 @@ impl DeviceCore {
                 self.apply_frame(sink);
             }
         }
+        self.check_current(sink);
         self.report_change(sink);
         if self
             .session

@@ -24,7 +24,7 @@ use output::OutputStage;
 use queue::FrameQueue;
 use samples::SampleRing;
 pub use sink::{AppliedFrame, DeviceSink, Moment};
-pub use trouble::Sense;
+pub use trouble::{Load, Sense};
 
 const MS_US: u64 = 1000;
 const TICK: u64 = TICK_US as u64;
@@ -289,7 +289,7 @@ impl DeviceCore {
             bad: self.counters.bad,
             clipped: self.counters.clipped,
             hv_dv: self.measured_hv_dv(),
-            i_ma: self.sense.i_ma,
+            i_ma: self.measured_ma(),
             temp_cdeg: self.sense.temp_cdeg,
             faults: self.faults | informative,
             age_ms: self.age_ms(),

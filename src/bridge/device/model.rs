@@ -1,6 +1,7 @@
 //! What an emulated device says of itself in CAPS.
 
 use super::lie::{Lie, Miswiring};
+use super::trouble::Load;
 use crate::bridge::codes::ArrayProfile;
 use crate::bridge::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::bridge::message::{Caps, Config, MAGIC, TICK_US, frame};
@@ -9,7 +10,7 @@ use crate::bridge::message::{Caps, Config, MAGIC, TICK_US, frame};
 pub(super) const SAMPLE_HZ: u16 = 8000;
 
 /// Build-time properties of a device; the default is a 6 × 4 array with plain capabilities.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DeviceModel {
     /// Rows of contactors.
     pub rows: u8,
@@ -35,6 +36,10 @@ pub struct DeviceModel {
     pub lies: Vec<Lie>,
     /// How its contactors are connected.
     pub wiring: Miswiring,
+    /// What its amplifiers take; `None`: it measures no current.
+    pub load: Option<Load>,
+    /// The current above which it reports over-current, mA; `None`: it never does by itself.
+    pub over_current_ma: Option<u16>,
 }
 
 impl Default for DeviceModel {
@@ -52,6 +57,8 @@ impl Default for DeviceModel {
             name: String::from("emulated array"),
             lies: Vec::new(),
             wiring: Miswiring::default(),
+            load: None,
+            over_current_ma: None,
         }
     }
 }

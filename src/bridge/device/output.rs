@@ -118,12 +118,16 @@ impl OutputStage {
     /// Output codes after gain, each rounded down.
     pub(super) fn write_to(&self, codes: &mut [[u16; 2]]) {
         for (channel, out) in codes.iter_mut().enumerate().take(self.slewed.len()) {
-            let code = self.moved(channel);
-            *out = match self.ident {
-                Some(ident) if ident.channel == channel => [0, ident.amp],
-                Some(_) => [0, 0],
-                None => code.map(|code| self.scaled(code)),
-            };
+            *out = self.code(channel);
+        }
+    }
+
+    /// A channel's codes after gain, each rounded down.
+    pub(super) fn code(&self, channel: usize) -> [u16; 2] {
+        match self.ident {
+            Some(ident) if ident.channel == channel => [0, ident.amp],
+            Some(_) => [0, 0],
+            None => self.moved(channel).map(|code| self.scaled(code)),
         }
     }
 

@@ -2,7 +2,7 @@
 //! breaks, its cable is pulled.
 
 use super::{DeviceCore, DeviceSink};
-use crate::bridge::message::{DeviceState, Fault};
+use crate::bridge::message::{DeviceState, Fault, fault_bit};
 
 /// What a device's sensors show, as STATUS tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,57 @@ impl Default for Sense {
     }
 }
 
+/// What amplifiers and contactors take, to be measured: a current in proportion to each code.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Root mean square of a contactor's current for each code, `[40 Hz, 320 Hz]`, mA.
+    pub ma_per_code: [f64; 2],
+}
+
+impl Load {
+    /// The current of channels with these codes: their root mean squares over a tick added, mA.
+    pub fn ma(&self, codes: impl Iterator<Item = [u16; 2]>) -> f64 {
+        let of_channel = |code: [u16; 2]| {
+            let [low, high] = [0, 1].map(|band| self.ma_per_code[band] * f64::from(code[band]));
+            low.hypot(high)
+        };
+        codes.map(of_channel).sum()
+    }
+}
+
 impl DeviceCore {
+    /// Measures the current of amplifiers with this load from now on.
+    pub(in crate::bridge) fn set_load(&mut self, load: Load) {
+        self.model.load = Some(load);
+    }
+
+    /// The supply current that STATUS tells, mA: what amplifiers take for the codes of this moment,
+    /// 0 where the model has none, and in mode B, where it is not measured.
+    pub(super) fn measured_ma(&self) -> u16 {
+        let is_playing = self.state.is_live() && !self.plays_samples();
+        let load = self.model.load.filter(|_| is_playing);
+        let taken = load.map_or(0.0, |load| {
+            let dead = &self.model.wiring.dead;
+            let channels = (0..self.model.n_channels()).zip(0_u16..);
+            let alive = channels.filter(|(_, channel)| !dead.contains(channel));
+            load.ma(alive.map(|(at, _)| self.output.code(at)))
+        });
+        whole(taken).saturating_add(self.sense.i_ma)
+    }
+
+    /// Trips where the amplifiers take more than the model's supply gives. Output is off at once,
+    /// so that the cause is gone.
+    pub(super) fn check_current(&mut self, sink: &mut impl DeviceSink) {
+        let Some(most_ma) = self.model.over_current_ma else {
+            return;
+        };
+        let ma = self.measured_ma();
+        if self.state.is_live() && ma > most_ma {
+            self.raise_fault(fault_bit::OVER_CURRENT, u16::MAX, i32::from(ma), sink);
+            self.end_fault_cause(fault_bit::OVER_CURRENT);
+        }
+    }
+
     /// What the sensors show from now on.
     pub fn set_sense(&mut self, sense: Sense) {
         self.sense = sense;
@@ -90,4 +140,14 @@ impl DeviceCore {
     pub(in crate::bridge) fn held(&self) -> usize {
         self.decoder.capacity() + self.queue.held() + self.scratch.capacity()
     }
+}
+
+/// Rounded half up.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a current is not negative; `as` saturates"
+)]
+fn whole(ma: f64) -> u16 {
+    (ma + 0.5).floor() as u16
 }

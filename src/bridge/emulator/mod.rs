@@ -44,7 +44,10 @@ impl EmulatorThread {
         plant: Option<PlantFeed>,
     ) -> Result<PairPort, BridgeError> {
         let (host, mut device) = pair("emulator");
-        let wired = WiredDevice::new(model, faults);
+        let mut wired = WiredDevice::new(model, faults);
+        if let Some(feed) = &plant {
+            wired.set_load(feed.load());
+        }
         Builder::new()
             .name(String::from("bridge-emulator"))
             .spawn(move || {

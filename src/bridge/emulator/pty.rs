@@ -63,6 +63,7 @@ impl PtyEmulator {
     /// Gives the device contactors of this kind, and a way to look at them while it runs.
     pub fn watch(&mut self, model: ContactorModel) -> PlantWatch {
         let (feed, watch) = plant_watch(model, self.device.output().len());
+        self.device.set_load(feed.load());
         self.plant = Some(feed);
         watch
     }

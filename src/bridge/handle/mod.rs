@@ -31,31 +31,41 @@ const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
 
 /// Which device to talk to.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// An emulated device inside this process, shaped like the profile.
     Emulator,
+    /// The same with faults.
+    FaultyEmulator(Box<Faults>),
     /// A serial port, or anything that looks like one.
     Port(PathBuf),
 }
 
 impl Target {
-    /// A name for people: `emulator` or the path.
+    /// Whether it is a device inside this process.
+    pub fn is_emulator(&self) -> bool {
+        !matches!(self, Self::Port(_))
+    }
+
+    /// A name for people: `emulator`, `emulator with faults` or the path.
     pub fn name(&self) -> String {
         match self {
             Self::Emulator => String::from("emulator"),
+            Self::FaultyEmulator(_) => String::from("emulator with faults"),
             Self::Port(path) => path.display().to_string(),
         }
     }
 
     /// Opens both ends. May block.
     fn open(&self, profile: &ArrayProfile, plant: Option<PlantFeed>) -> Result<Ends, BridgeError> {
+        let emulate = |faults: &Faults| -> Result<Ends, BridgeError> {
+            let model = DeviceModel::for_array(profile);
+            let port = EmulatorThread::start_with(model, faults, plant)?;
+            Ok((Box::new(port.clone()), Box::new(port)))
+        };
         match self {
-            Self::Emulator => {
-                let model = DeviceModel::for_array(profile);
-                let port = EmulatorThread::start_with(model, &Faults::default(), plant)?;
-                Ok((Box::new(port.clone()), Box::new(port)))
-            }
+            Self::Emulator => emulate(&Faults::default()),
+            Self::FaultyEmulator(faults) => emulate(faults),
             Self::Port(path) => {
                 let port = open_patiently(&path.display().to_string())?;
                 Ok((Box::new(port.try_clone()?), Box::new(port)))
@@ -88,7 +98,8 @@ impl Bridge {
         let sequence = Sequence::default();
         let name = target.name();
         let shape = profile.clone();
-        let plant = (target == Target::Emulator)
+        let plant = target
+            .is_emulator()
             .then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
         let (feed, plant) = plant.unzip();
         let opener = Box::new(move || target.open(&shape, feed));

@@ -177,6 +177,12 @@ impl ContactorModel {
     /// Displacement of the pin for a sine at the amplifier's input, µm/V, in closed form: skin on
     /// the pin, no limit reached.
     pub fn response_um_per_v(&self, frequency_hz: f64) -> Complex {
+        let [_, pin] = self.beam_and_pin_um_per_v(frequency_hz);
+        pin
+    }
+
+    /// The same of the beam's tip, and of the pin.
+    pub(super) fn beam_and_pin_um_per_v(&self, frequency_hz: f64) -> [Complex; 2] {
         let omega = TAU * frequency_hz;
         let spring = |k: f64, c: f64, kg: f64| Complex::new(k - omega * omega * kg, omega * c);
         let stem = spring(self.stem_n_per_m, self.stem_damping(), 0.0);
@@ -194,7 +200,7 @@ impl ContactorModel {
         let amplifier = Complex::new(1.0, omega * self.amplifier.time_constant_s);
         // Stem and pin in a row load the beam; of its way the pin gets stem / (stem + pin).
         let way = self.bimorph.force_n_per_v() / amplifier / (beam * (stem + pin) + stem * pin);
-        1e6 * way * stem
+        [1e6 * way * (stem + pin), 1e6 * way * stem]
     }
 
     /// What the DAC's hold leaves of a sine: `sin(πf/8000) / (πf/8000)`, by which

@@ -18,6 +18,7 @@ mod amplifier;
 mod bimorph;
 mod contactor;
 mod lanes;
+mod load;
 mod reading;
 mod sample;
 mod skin;

@@ -59,6 +59,27 @@ fn displacement_at_40_and_320_hz_is_within_a_thousandth_of_the_closed_form() {
 }
 
 #[test]
+fn the_current_in_closed_form_is_the_plants_own() {
+    for skin in LOADS {
+        let model = loaded(skin);
+        let mut plant = Plant::new(&model, 24).unwrap();
+        for codes in [[30_000, 20_000], [40_000, 0], [0, 40_000]] {
+            for _ in 0..40 {
+                plant.tick(&[codes; 24], RAIL_V);
+            }
+            let found = model.load().ma(std::iter::repeat_n(codes, 24));
+            let wanted = plant.reading().current_ma();
+            assert!(
+                (found / wanted - 1.0).abs() < 5e-3,
+                "{skin}, {codes:?}: {found} mA, the plant {wanted} mA"
+            );
+        }
+    }
+    let idle = loaded(Skin::LIGHT).load().ma([[0; 2]; 24].into_iter());
+    assert!(idle.abs() < 1e-12);
+}
+
+#[test]
 fn an_unchanging_frame_has_no_line_above_the_dac_but_the_images_of_its_hold() {
     const FINE: usize = 16;
     let (model, codes) = (loaded(Skin::LIGHT), [25_000, 17_000]);

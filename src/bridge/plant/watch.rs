@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use triple_buffer::{Input, Output, triple_buffer};
 
 use super::{ContactorModel, Plant, PlantReading, SAMPLES_PER_TICK};
-use crate::bridge::device::DeviceCore;
+use crate::bridge::device::{DeviceCore, Load};
 use crate::bridge::message::DeviceState;
 
 /// Samples of the device's 1 ms clock.
@@ -34,6 +34,7 @@ pub struct PlantFeed {
     readings: Input<PlantReading>,
     models: Output<ContactorModel>,
     n_contactors: usize,
+    load: Load,
     /// Made when somebody looks for the first time; `None` also where the model is refused.
     plant: Option<Box<Plant>>,
     codes: Vec<[u16; 2]>,
@@ -53,6 +54,7 @@ pub fn plant_watch(model: ContactorModel, n_contactors: usize) -> (PlantFeed, Pl
         readings: readings_in,
         models: models_out,
         n_contactors,
+        load: model.load(),
         plant: None,
         codes: vec![[0; 2]; n_contactors],
         next_codes: vec![[0; 2]; n_contactors],
@@ -97,6 +99,12 @@ impl PlantWatch {
 }
 
 impl PlantFeed {
+    /// What the contactors take of their amplifiers, by the model that the feed was made with:
+    /// whoever looks, and whatever finger is laid on them since, the device tells the same.
+    pub fn load(&self) -> Load {
+        self.load
+    }
+
     /// A device has done a step of its 1 ms clock: what it put out until then is played, what it
     /// puts out now comes next.
     ///

@@ -25,6 +25,8 @@ pub struct Faults {
     pub lies: Vec<Lie>,
     /// Contactors that do not move, or move in place of another.
     pub wiring: Miswiring,
+    /// The supply current above which the device reports over-current, mA.
+    pub over_current_ma: Option<u16>,
     /// What happens at told times, in any order.
     pub once: Vec<OneOff>,
 }

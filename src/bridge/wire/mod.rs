@@ -13,6 +13,7 @@
 mod clock;
 mod faults;
 mod lane;
+mod options;
 mod parse;
 mod simulation;
 mod wired;
@@ -20,10 +21,7 @@ mod wired;
 pub use faults::{
     Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
 };
-pub use parse::{
-    latency as parse_latency, lie as parse_lie, one_off as parse_one_off, rate as parse_rate,
-    rate_and_time as parse_rate_and_time, swap as parse_swap, time_us as parse_time_us,
-};
+pub use options::{FaultGroup, FaultKind, FaultOption, FaultWords};
 pub(crate) use simulation::Simulation;
 pub use wired::WiredDevice;
 

@@ -10,7 +10,7 @@ use crate::bridge::device::Lie;
 const LONGEST: Duration = Duration::from_hours(1000);
 
 /// A time in µs: `5s`, `300ms`, `250us`, `2min`, `1h`.
-pub fn time_us(text: &str) -> Result<u64, String> {
+pub(super) fn time_us(text: &str) -> Result<u64, String> {
     let refused = || format!("\"{text}\" is no time: write for example 5s, 300ms or 250us");
     let split = text.find(|letter: char| letter.is_ascii_alphabetic());
     let (number, unit) = text.split_at(split.ok_or_else(refused)?);
@@ -31,7 +31,7 @@ pub fn time_us(text: &str) -> Result<u64, String> {
 }
 
 /// A share: `0.001` or `0.1%`.
-pub fn rate(text: &str) -> Result<f64, String> {
+pub(super) fn rate(text: &str) -> Result<f64, String> {
     let (number, scale) = match text.strip_suffix('%') {
         Some(number) => (number, 0.01),
         None => (text, 1.0),
@@ -42,7 +42,7 @@ pub fn rate(text: &str) -> Result<f64, String> {
 }
 
 /// A share and, if it is said, for how long: `1%`, `0.1%:50ms`.
-pub fn rate_and_time(text: &str, usual_us: u64) -> Result<(f64, u64), String> {
+pub(super) fn rate_and_time(text: &str, usual_us: u64) -> Result<(f64, u64), String> {
     match text.split_once(':') {
         Some((share, time)) => Ok((rate(share)?, time_us(time)?)),
         None => Ok((rate(text)?, usual_us)),
@@ -51,7 +51,7 @@ pub fn rate_and_time(text: &str, usual_us: u64) -> Result<(f64, u64), String> {
 
 /// How long bytes take: towards the device and towards the host. `none`, `cdc`, `ftdi`, or a mean
 /// and a standard deviation such as `5ms~2ms`.
-pub fn latency(text: &str) -> Result<[Latency; 2], String> {
+pub(super) fn latency(text: &str) -> Result<[Latency; 2], String> {
     match text {
         "none" => return Ok([Latency::None; 2]),
         "cdc" => return Ok([Latency::UsbFrame; 2]),
@@ -72,7 +72,7 @@ pub fn latency(text: &str) -> Result<[Latency; 2], String> {
 }
 
 /// When something happens and for how long: `5s`, `5s+300ms`.
-pub fn one_off(kind: OneOffKind, text: &str) -> Result<OneOff, String> {
+pub(super) fn one_off(kind: OneOffKind, text: &str) -> Result<OneOff, String> {
     let (at_us, for_us) = match text.split_once('+') {
         Some((at, long)) => (time_us(at)?, time_us(long)?),
         None => (time_us(text)?, kind.usual_us()),
@@ -85,7 +85,7 @@ pub fn one_off(kind: OneOffKind, text: &str) -> Result<OneOff, String> {
 }
 
 /// A lie in CAPS: `version=2`, `rows=5`, `cut=40`.
-pub fn lie(text: &str) -> Result<Lie, String> {
+pub(super) fn lie(text: &str) -> Result<Lie, String> {
     const KEYS: &str =
         "version, rows, cols, channels, components, tick-us, low-mhz, high-mhz, max-body or cut";
     let (key, value) = text
@@ -108,7 +108,7 @@ pub fn lie(text: &str) -> Result<Lie, String> {
 }
 
 /// Two channels that move each other's contactor: `3,7`.
-pub fn swap(text: &str) -> Result<[u16; 2], String> {
+pub(super) fn swap(text: &str) -> Result<[u16; 2], String> {
     let channels = text.split_once(',');
     let both = channels.and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
     both.ok_or_else(|| format!("\"{text}\": write two channels such as 3,7"))

@@ -4,9 +4,10 @@ use super::clock::DeviceClock;
 use super::faults::{Direction, Faults, Injection, InjectionKind, OneOff, OneOffKind};
 use super::lane::{BOOT_BANNER, Lane};
 use crate::bridge::device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Moment, Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, Sense,
 };
 use crate::bridge::message::{DeviceState, fault_bit};
+use crate::bridge::plant::ContactorModel;
 
 const HOT_CDEG: i16 = 8500;
 const OVER_CURRENT_MA: u16 = 900;
@@ -54,6 +55,12 @@ impl WiredDevice {
         model.lies.extend(&faults.lies);
         model.wiring.dead.extend(&faults.wiring.dead);
         model.wiring.swapped.extend(&faults.wiring.swapped);
+        if let Some(most_ma) = faults.over_current_ma {
+            model.over_current_ma = Some(most_ma);
+            // What trips must be measured.
+            let usual = || ContactorModel::default().load();
+            model.load.get_or_insert_with(usual);
+        }
         let mut schedule: Vec<(u64, bool, OneOff)> = faults
             .once
             .iter()
@@ -130,6 +137,12 @@ impl WiredDevice {
     /// The same, to change what it senses or to break it.
     pub fn core_mut(&mut self) -> &mut DeviceCore {
         &mut self.core
+    }
+
+    /// Lets the device measure the current of amplifiers with this load, after a reboot too.
+    pub(in crate::bridge) fn set_load(&mut self, load: Load) {
+        self.model.load = Some(load);
+        self.core.set_load(load);
     }
 
     /// Channels of the device.

@@ -224,8 +224,8 @@ impl EngineCore {
         self.revision += 1;
     }
 
-    /// A device with these limits is connected.
-    pub(super) fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
+    /// A device with these limits is connected, or none any more.
+    pub(super) fn set_link_limit(&mut self, comp_limit: Option<[u16; 2]>) {
         self.scene.set_link_limit(comp_limit);
     }
 

@@ -3,6 +3,7 @@
 use eframe::egui::{Align, Label, Layout, RichText, Ui};
 
 use super::super::Wishes;
+use super::surface;
 use crate::app::command::Command;
 use crate::app::sources::{SourceCommand, SourcesView};
 use crate::app::theme::{self, Palette};
@@ -20,6 +21,9 @@ pub(super) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, wishes: &mut
             .response
             .on_hover_text("Tablets, touch frames, and other programs of this machine");
     });
+    if let Some(surface) = &sources.surface {
+        surface::show(ui, surface, wishes);
+    }
     show_rate(ui, &live.input);
     show_programs(ui, sources);
 }

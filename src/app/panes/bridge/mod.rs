@@ -8,10 +8,12 @@ mod array;
 mod back;
 mod calibration;
 mod counters;
+mod faults;
 mod felt;
 mod inputs;
 mod link;
 mod port;
+mod surface;
 mod timing;
 mod wiring;
 
@@ -26,6 +28,7 @@ use crate::app::sources::SourcesView;
 use crate::app::theme::STEP;
 use crate::app::view::Live;
 use crate::app::widgets::fold;
+use crate::bridge::FaultWords;
 
 pub(crate) use back::{BACK, notice as back_notice};
 
@@ -43,6 +46,8 @@ pub(crate) struct BridgePane<'a> {
     pub(crate) sources: &'a SourcesView,
     /// What a model says the emulator's contactors do; `None` for other devices.
     pub(crate) plant: Option<&'a PlantView>,
+    /// What goes wrong with the emulator that is connected; `None` for other devices.
+    pub(crate) faults: Option<&'a FaultWords>,
     /// Whether an armed device stops when the window loses the keyboard.
     pub(crate) stops_on_focus_loss: bool,
 }
@@ -53,6 +58,8 @@ pub(crate) struct BridgeTyped<'a> {
     pub(crate) port: &'a mut String,
     /// The name of a copy of the array profile.
     pub(crate) copy_name: &'a mut String,
+    /// What is to go wrong with the emulator next.
+    pub(crate) faults: &'a mut FaultWords,
 }
 
 /// Shows the pane.
@@ -90,6 +97,12 @@ pub(crate) fn show(
     fold(ui, ("Input", false), inputs::word(view.live), |ui| {
         inputs::show(ui, view.live, view.sources, wishes);
     });
+    if let Some(running) = view.faults {
+        let summary = faults::summary(running, typed.faults);
+        fold(ui, ("Faults", false), &summary, |ui| {
+            faults::show(ui, typed.faults, wishes);
+        });
+    }
     if let Some(plant) = view.plant {
         felt::show(ui, plant, wishes);
     }

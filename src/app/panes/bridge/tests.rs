@@ -10,11 +10,11 @@ use crate::app::arrays::{Wizard, WizardCommand};
 use crate::app::command::{ArrayCommand, Command, DeviceCommand, ShowCommand};
 use crate::app::panes::Wishes;
 use crate::app::ports::PortsView;
-use crate::app::sources::SourcesView;
+use crate::app::sources::{SourcesView, SurfaceView};
 use crate::app::theme;
 use crate::app::view::{BridgePhase, BridgeView, Dot, Live};
 use crate::bridge::wiring::Answer;
-use crate::bridge::{ArrayProfile, Bite, BridgeEvent, Calibration, DeviceUid, Wiring};
+use crate::bridge::{ArrayProfile, Bite, BridgeEvent, Calibration, DeviceUid, FaultWords, Wiring};
 
 const UID: DeviceUid = DeviceUid(*b"selvedge-emu");
 
@@ -27,6 +27,9 @@ pub(super) struct Stage {
     port: String,
     copy_name: String,
     ports: PortsView,
+    pub(super) sources: SourcesView,
+    pub(super) faults: Option<FaultWords>,
+    pub(super) chosen_faults: FaultWords,
 }
 
 impl Stage {
@@ -64,6 +67,9 @@ impl Stage {
             port: String::new(),
             copy_name: String::new(),
             ports: PortsView::default(),
+            sources: SourcesView::default(),
+            faults: Some(FaultWords::default()),
+            chosen_faults: FaultWords::default(),
         }
     }
 
@@ -82,19 +88,21 @@ impl Stage {
                 wizard: self.wizard.as_ref(),
                 folder: None,
             },
-            sources: &SourcesView::default(),
+            sources: &self.sources,
             plant: None,
+            faults: self.faults.as_ref(),
             stops_on_focus_loss: false,
         };
         let mut typed = BridgeTyped {
             port: &mut self.port,
             copy_name: &mut self.copy_name,
+            faults: &mut self.chosen_faults,
         };
         show(ui, &view, &mut typed, wishes);
     }
 }
 
-fn window(mut stage: Stage) -> Harness<'static, Wishes> {
+pub(super) fn window(mut stage: Stage) -> Harness<'static, Wishes> {
     let mut is_styled = false;
     let mut harness = Harness::builder()
         .with_size(vec2(340.0, 1000.0))
@@ -113,7 +121,7 @@ fn window(mut stage: Stage) -> Harness<'static, Wishes> {
     harness
 }
 
-fn click(harness: &mut Harness<'_, Wishes>, role: Role, name: &str) -> Vec<Command> {
+pub(super) fn click(harness: &mut Harness<'_, Wishes>, role: Role, name: &str) -> Vec<Command> {
     harness.state_mut().clear();
     harness.get_by_role_and_label(role, name).click();
     harness.run();
@@ -253,6 +261,10 @@ fn the_pane_is_drawn_in_every_state() {
         ("open", calibrated),
         ("walking", walking),
         ("found", found),
+        ("faults", faulty(true)),
+        ("faults-light", faulty(true)),
+        ("faults-none", faulty(false)),
+        ("surface", tablet()),
     ];
     for (name, mut stage) in stages {
         let pixels = picture(name, &mut stage);
@@ -262,12 +274,54 @@ fn the_pane_is_drawn_in_every_state() {
     }
 }
 
-/// The pane in the dark theme, 340 × 900 points, everything unfolded unless it is called "folded".
+/// A tablet that was laid over a part of the workspace, and a log.
+fn tablet() -> Stage {
+    let mut stage = Stage::new(BridgePhase::Ready);
+    stage.sources.surface = Some(SurfaceView {
+        name: "Wacom Intuos Pro M Pen".to_owned(),
+        area_mm: [-22.0, 62.5, 216.0, 135.0],
+        is_own: true,
+    });
+    if let Some(bridge) = &mut stage.live.bridge {
+        bridge.timing.log = Some("/home/ada/.local/share/selvedge/logs/bridge.csv".to_owned());
+    }
+    stage
+}
+
+#[test]
+fn the_folder_of_the_log_is_opened_by_a_button() {
+    let mut harness = window(tablet());
+    click(&mut harness, Role::Button, "Timing");
+    let opened = click(&mut harness, Role::Button, "Open folder");
+    assert_eq!(opened, [DeviceCommand::OpenLogFolder.into()]);
+}
+
+/// An emulator whose cable is bad, or whose faults are none.
+fn faulty(is_bad: bool) -> Stage {
+    let mut stage = Stage::new(BridgePhase::Ready);
+    if is_bad {
+        let bad = [
+            ("seed", "7"),
+            ("drop", "0.01%"),
+            ("unplug-at", "soon"),
+            ("chatter", "on"),
+        ];
+        stage.chosen_faults = FaultWords::of(&bad);
+        stage.faults = Some(FaultWords::of(&bad[..2]));
+    }
+    stage
+}
+
+/// The pane, 340 × 900 points, in the dark theme unless it is called after the light one.
 fn picture(name: &str, stage: &mut Stage) -> Vec<u8> {
     use eframe::egui::{self, Pos2, RawInput, Rect};
     let ctx = egui::Context::default();
     theme::install(&ctx);
-    ctx.set_theme(egui::Theme::Dark);
+    ctx.set_theme(if name.ends_with("light") {
+        egui::Theme::Light
+    } else {
+        egui::Theme::Dark
+    });
     let size = vec2(340.0, 900.0);
     let mut rasteriser = crate::app::raster::Rasteriser::default();
     let mut run = |rasteriser: &mut crate::app::raster::Rasteriser| {
@@ -279,11 +333,22 @@ fn picture(name: &str, stage: &mut Stage) -> Vec<u8> {
             let palette = theme::Palette::in_ui(ui);
             let frame = egui::Frame::new().fill(palette.panel).inner_margin(12);
             egui::CentralPanel::default().frame(frame).show(ui, |ui| {
-                if name == "open" {
-                    for title in ["Array", "Calibration", "Wiring"] {
-                        let id = ui.scope_id().with(("fold", title));
-                        ui.data_mut(|data| data.insert_temp(id, true));
-                    }
+                let folds: &[(&str, bool)] = match name {
+                    "open" => &[("Array", true), ("Calibration", true), ("Wiring", true)],
+                    "faults" | "faults-light" => &[
+                        ("Link", false),
+                        ("Faults", true),
+                        ("Bytes", true),
+                        ("Clock", true),
+                        ("Stalls and cable", true),
+                    ],
+                    "faults-none" => &[("Faults", true)],
+                    "surface" => &[("Link", false), ("Timing", true), ("Input", true)],
+                    _ => &[],
+                };
+                for (title, is_open) in folds {
+                    let id = ui.scope_id().with(("fold", *title));
+                    ui.data_mut(|data| data.insert_temp(id, *is_open));
                 }
                 stage.show(ui, &mut Wishes::new());
             });

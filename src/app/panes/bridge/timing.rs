@@ -10,7 +10,7 @@ use crate::app::panes::Wishes;
 use crate::app::panes::spectrogram::paint_sentence;
 use crate::app::theme::{self, Palette};
 use crate::app::view::{BridgeView, LinkTiming};
-use crate::app::widgets::{Axis, Side, Tick, button, paint_ticks, quiet_pair, row};
+use crate::app::widgets::{Axis, Side, Tick, button, field_row, paint_ticks, quiet_pair};
 use crate::bridge::{BridgeState, Distribution, Spread};
 use crate::quantity;
 
@@ -146,19 +146,27 @@ fn paint_bars(ui: &Ui, plot: Rect, axis: &Axis, distribution: &Distribution) {
 fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
     let Some(path) = &timing.log else { return };
     let palette = Palette::in_ui(ui);
-    row(ui, "Session log", |ui| {
+    field_row(ui, "Session log", |ui| {
         let tip = "Copy the path of the log: every setting, arming, stop, fault, refusal and \
                    change of a counter, one line each; five files of 1 MB are kept";
         if button(ui, "Copy path", tip, None) {
             wishes.push(DeviceCommand::CopyLogPath.into());
         }
-        let (words, ink) = match &timing.log_failure {
-            Some(why) => (format!("not written: {why}"), palette.danger),
-            None => (path.clone(), palette.dim),
-        };
-        let label = Label::new(RichText::new(&words).font(theme::small()).color(ink));
-        ui.add(label.truncate()).on_hover_text(words);
+        if button(
+            ui,
+            "Open folder",
+            "Show the log's folder in the file manager",
+            None,
+        ) {
+            wishes.push(DeviceCommand::OpenLogFolder.into());
+        }
     });
+    let (words, ink) = match &timing.log_failure {
+        Some(why) => (format!("not written: {why}"), palette.danger),
+        None => (path.clone(), palette.dim),
+    };
+    let label = Label::new(RichText::new(&words).font(theme::small()).color(ink));
+    ui.add(label.truncate()).on_hover_text(words);
 }
 
 /// Whether another window that comes to the front stops the device.

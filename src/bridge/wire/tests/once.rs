@@ -95,6 +95,46 @@ fn sensors_show_what_breaks_while_it_lasts() {
 }
 
 #[test]
+fn a_supply_that_is_measured_trips_on_what_the_codes_take_and_can_be_armed_softer() {
+    let above = |most_ma| Faults {
+        over_current_ma: Some(most_ma),
+        ..Faults::default()
+    };
+    let trial = Simulation::streaming_over(&above(u16::MAX), 3000);
+    let status = *trial.host.status().unwrap();
+    let codes = trial.device.output();
+    let load = crate::bridge::plant::ContactorModel::default().load();
+    let ma = load.ma(codes.into_iter());
+    assert!(ma > 2.0, "{ma}");
+    assert!(
+        (f64::from(status.i_ma) - ma).abs() <= 0.5,
+        "{status:?}, {ma}"
+    );
+    assert_eq!(
+        Simulation::streaming(3000).host.status().unwrap().i_ma,
+        0,
+        "not measured"
+    );
+
+    let mut trial = Simulation::streaming_over(&above(status.i_ma - 1), 3000);
+    let fault = trial.events.iter().find_map(|event| match event {
+        crate::bridge::BridgeEvent::Fault(fault) => Some(*fault),
+        _ => None,
+    });
+    let fault = fault.expect("it trips");
+    assert_eq!(fault.faults, fault_bit::OVER_CURRENT);
+    assert_eq!(fault.value, i32::from(status.i_ma));
+    assert!(trial.is_at_rest() && trial.arms_written == 1);
+    trial.host.clear_faults(trial.now());
+    trial.run(200);
+    assert_eq!(trial.host.state(), BridgeState::Ready);
+    trial.amplitude_um = [1.0, 2.0];
+    assert!(trial.host.arm(trial.now()));
+    trial.run(1500);
+    assert_eq!(trial.host.state(), BridgeState::Streaming);
+}
+
+#[test]
 fn a_reboot_starts_tick_and_counters_anew_and_keeps_no_session() {
     let mut trial = Simulation::streaming_over(&with(OneOffKind::Reboot, 300_000), 2800);
     let before = trial.device.core().tick();

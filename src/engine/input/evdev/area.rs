@@ -68,6 +68,27 @@ impl Area {
             self.corner.y_mm + (1.0 - down) * self.size_mm[1],
         )
     }
+
+    /// The area of `[x, y, width, height]`, mm of the workspace.
+    ///
+    /// # Errors
+    /// A number that is none, or nothing between the edges.
+    pub fn of(numbers: [f64; 4]) -> Result<Self, InputError> {
+        let [x_mm, y_mm, width_mm, height_mm] = numbers;
+        let is_area = numbers.iter().all(|n| n.is_finite()) && width_mm > 0.0 && height_mm > 0.0;
+        let text = || numbers.map(|n| n.to_string()).join(",");
+        let area = is_area.then_some(Self {
+            corner: Point::new(x_mm, y_mm),
+            size_mm: [width_mm, height_mm],
+        });
+        area.ok_or_else(|| InputError::Area(text()))
+    }
+
+    /// `[x, y, width, height]`, mm of the workspace.
+    pub fn numbers(&self) -> [f64; 4] {
+        let [width_mm, height_mm] = self.size_mm;
+        [self.corner.x_mm, self.corner.y_mm, width_mm, height_mm]
+    }
 }
 
 impl FromStr for Area {
@@ -77,21 +98,11 @@ impl FromStr for Area {
     fn from_str(text: &str) -> Result<Self, InputError> {
         let wrong = || InputError::Area(text.to_owned());
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
-        match numbers.as_deref() {
-            Ok(&[x_mm, y_mm, width_mm, height_mm])
-                if [x_mm, y_mm, width_mm, height_mm]
-                    .iter()
-                    .all(|n| n.is_finite())
-                    && width_mm > 0.0
-                    && height_mm > 0.0 =>
-            {
-                Ok(Self {
-                    corner: Point::new(x_mm, y_mm),
-                    size_mm: [width_mm, height_mm],
-                })
-            }
-            _ => Err(wrong()),
-        }
+        let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
+        // What is refused is told as it was written.
+        numbers
+            .and_then(|numbers| Self::of(numbers).ok())
+            .ok_or_else(wrong)
     }
 }
 
