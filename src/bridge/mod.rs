@@ -58,11 +58,11 @@ pub use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
 pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
-pub use handle::{Bridge, Target};
+pub use handle::{Bridge, SampleStream, Target};
 pub use hjif::{HjifSpec, HjifWriter};
 pub use host::{
-    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
-    HostSession, SOFT_START_TICKS, SentFrame, Sequence,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, CutSamples, DeviceCounters,
+    DisarmedBy, HostSession, SOFT_START_TICKS, SentFrame, Sequence, Waveform,
 };
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{

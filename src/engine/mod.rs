@@ -65,7 +65,7 @@ pub use snapshot::{
     RecordingView, Snapshot, SourceKind,
 };
 pub use stop::StopSwitch;
-pub use synth::SampleSynth;
+pub use synth::{DeviceWaveform, SampleSynth};
 pub use tap::Tap;
 pub use velocity::{Estimate, REST, VelocityEstimator};
 

@@ -6,6 +6,7 @@
 
 mod array;
 mod notes;
+mod samples;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
@@ -26,6 +27,8 @@ use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
 use notes::Notes;
+use samples::Sampling;
+pub use samples::SampleStream;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -71,6 +74,7 @@ pub struct Bridge {
     session: HostSession,
     link: Option<Link>,
     plant: Option<PlantWatch>,
+    sampling: Option<Sampling>,
     notes: Notes,
 }
 
@@ -106,6 +110,7 @@ impl Bridge {
             session,
             link,
             plant,
+            sampling: None,
             notes: Notes::default(),
         }
     }
@@ -114,6 +119,9 @@ impl Bridge {
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
         let event = self.next();
+        if matches!(event, Some(BridgeEvent::Ready(_))) {
+            self.open_samples();
+        }
         self.heed(event.as_ref());
         event
     }
@@ -184,7 +192,8 @@ impl Bridge {
         self.flush();
     }
 
-    /// Sends one FRAME for the coming tick, limits and soft start applied; `None` unless armed.
+    /// Sends one FRAME for the coming tick, limits and soft start applied, or the samples of that
+    /// tick where they are played; `None` unless armed.
     ///
     /// `amplitudes_um` are `[A40, A320]` in µm in contactor order. `stamp` is the time of the input
     /// that they follow from, for [`timings`](Self::timings). Neither allocates, locks nor waits.
@@ -193,6 +202,9 @@ impl Bridge {
         amplitudes_um: &[[f32; 2]],
         stamp: Option<Instant>,
     ) -> Option<SentFrame> {
+        if self.session.plays_samples() {
+            return self.send_samples(amplitudes_um, stamp);
+        }
         let link = self.link.as_mut()?;
         let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
         link.send_frame(&QueuedFrame {
@@ -257,6 +269,7 @@ impl Bridge {
         BridgeCounters {
             frames_sent: link.frames_sent,
             frames_superseded: link.frames_superseded,
+            samples_sent: link.samples_sent,
             bad_received: link.bad_received,
             events_dropped: link.events_dropped,
             write_timeouts: link.write_timeouts,

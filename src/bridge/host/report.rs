@@ -192,9 +192,12 @@ pub struct BridgeCounters {
     pub device: DeviceCounters,
     /// Amplitudes that had to be changed before they became codes.
     pub codes: CodeCounters,
-    /// Frames written to the port.
+    /// Frames written to the port; in mode B whole ticks of samples.
     pub frames_sent: u64,
-    /// Frames that a newer one replaced, or a STOP discarded, before they were written.
+    /// SAMPLES packets written to the port (mode B).
+    pub samples_sent: u64,
+    /// Frames that a newer one replaced, or a STOP discarded, before they were written; in mode B
+    /// ticks of samples without room or after their time.
     pub frames_superseded: u64,
     /// Frames that the device answered with a refusal.
     pub frames_rejected: u64,

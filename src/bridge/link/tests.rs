@@ -42,7 +42,9 @@ fn desk() -> Desk {
     let (failed, failures) = RingBuffer::new(FRAMES);
     let (controls, controls_out) = RingBuffer::new(CONTROLS);
     let (frames, frames_out) = RingBuffer::new(FRAMES);
-    let writer = Writer::new(Arc::clone(&shared), controls_out, frames_out, failed);
+    let (rings, rings_out) = RingBuffer::new(FRAMES);
+    let outgoing = Outgoing::new(controls_out, frames_out, rings_out);
+    let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
     Desk {
         link: Link {
             shared,
@@ -50,6 +52,8 @@ fn desk() -> Desk {
             failures,
             controls,
             frames,
+            samples: None,
+            rings,
         },
         writer,
         port: Notes::default(),
