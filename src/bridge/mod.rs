@@ -50,7 +50,8 @@ mod wire;
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{Bite, CodeCounters, Coder, FULL_CODE};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Miswiring, Moment, Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Miswiring, Moment,
+    SampleCount, SampledTick, Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;

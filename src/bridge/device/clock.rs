@@ -90,6 +90,7 @@ impl DeviceCore {
                 self.apply_frame(sink);
             }
         }
+        self.tell_samples(sink);
         self.report_change(sink);
         if self
             .session

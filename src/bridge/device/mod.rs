@@ -23,7 +23,7 @@ pub use model::DeviceModel;
 use output::OutputStage;
 use queue::FrameQueue;
 use samples::SampleRing;
-pub use sink::{AppliedFrame, DeviceSink, Moment};
+pub use sink::{AppliedFrame, DeviceSink, Moment, SampleCount, SampledTick};
 pub use trouble::Sense;
 
 const MS_US: u64 = 1000;
