@@ -36,7 +36,12 @@ impl Ability {
 #[derive(Debug, Args)]
 pub(super) struct AbilityArgs {
     /// What the device offers: a, b (samples), ident, interpolate
-    #[arg(long, value_name = "MODES", value_delimiter = ',', default_value = "a,ident")]
+    #[arg(
+        long,
+        value_name = "MODES",
+        value_delimiter = ',',
+        default_value = "a,ident"
+    )]
     modes: Vec<Ability>,
     /// Largest body of a packet that the device takes, bytes: 256 to 1024 (enough for a frame)
     #[arg(
@@ -87,7 +92,11 @@ mod tests {
 
     #[test]
     fn an_ability_or_a_size_that_there_is_not_says_which_there_are() {
-        assert!(model(&["--modes", "c"]).unwrap_err().contains("interpolate"));
+        assert!(
+            model(&["--modes", "c"])
+                .unwrap_err()
+                .contains("interpolate")
+        );
         assert!(model(&["--max-body", "40"]).unwrap_err().contains("256"));
     }
 }

@@ -133,7 +133,8 @@ mod tests {
         let text = report.to_string();
         assert!(text.starts_with("./array: 81 frames in 2.0"), "{text}");
         assert!(text.contains("missed 1, late 0, underruns 0"), "{text}");
-        let samples = "samples           8000 Hz in 0 packets of at most 21, ring 75 ms here and 100";
+        let samples =
+            "samples           8000 Hz in 0 packets of at most 21, ring 75 ms here and 100";
         assert!(text.contains(samples), "{text}");
         let positions = "positions         200.0 Hz, jitter 0.4 ms, gaps 3, dropped 4";
         assert!(text.contains(positions), "{text}");

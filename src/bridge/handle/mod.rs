@@ -27,8 +27,8 @@ use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
 use notes::Notes;
-use samples::Sampling;
 pub use samples::SampleStream;
+use samples::Sampling;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);

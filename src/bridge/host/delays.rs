@@ -1,9 +1,9 @@
 //! What tells how long that which is sent takes until the device has it.
 //!
 //! STATUS names the last FRAME that was accepted and says how long ago that was. Samples have no
-//! such name: when the device's ring holds all of them at the start of their tick, the age is that
-//! of their last packet; when it does not, they took longer than to that start. A device that says
-//! nothing of its ring is measured by its answers to PINGs, there and back.
+//! such name: how many ticks of them wait in the device's ring says which came last, and the age is
+//! theirs; those that are not there when their tick begins took longer than until then. A device
+//! that says nothing of its ring is measured by its answers to PINGs, there and back.
 
 use std::time::{Duration, Instant};
 
@@ -41,8 +41,9 @@ impl DelaySource {
 /// What was sent and is not known to have arrived.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Evidence {
-    /// Numbers of frames and when they were due, newest first.
-    unconfirmed: [Option<(u16, Instant)>; UNCONFIRMED],
+    /// What names them (the number of a frame, the tick of samples) and when they were due, newest
+    /// first.
+    unconfirmed: [Option<(u32, Instant)>; UNCONFIRMED],
     /// Whether the device was seen to count the samples in its ring.
     tells_ring: bool,
     source: Option<DelaySource>,
@@ -50,23 +51,17 @@ pub(super) struct Evidence {
 
 impl Evidence {
     /// Frame or samples that were due then go to the link.
-    pub(super) fn sent(&mut self, seq: u16, due: Instant) {
+    pub(super) fn sent(&mut self, name: u32, due: Instant) {
         self.unconfirmed.rotate_right(1);
-        self.unconfirmed[0] = Some((seq, due));
+        self.unconfirmed[0] = Some((name, due));
     }
 
-    /// When the frame of that number was due; older ones say nothing any more.
-    fn confirmed(&mut self, seq: u16) -> Option<Instant> {
-        let is_it = |sent: &Option<(u16, Instant)>| sent.is_some_and(|(of, _)| of == seq);
+    /// When what has this name was due; older ones say nothing any more.
+    fn confirmed(&mut self, name: u32) -> Option<Instant> {
+        let is_it = |sent: &Option<(u32, Instant)>| sent.is_some_and(|(of, _)| of == name);
         let place = self.unconfirmed.iter().position(is_it)?;
         let (_, due) = self.unconfirmed[place]?;
         self.unconfirmed[place..].fill(None);
-        Some(due)
-    }
-
-    /// When the newest samples were due.
-    fn take_newest(&mut self) -> Option<Instant> {
-        let (_, due) = std::mem::take(&mut self.unconfirmed)[0]?;
         Some(due)
     }
 }
@@ -74,12 +69,15 @@ impl Evidence {
 impl HostSession {
     /// A tick began at `start`, and its STATUS says what the device had by then.
     pub(super) fn learn_from_status(&mut self, now: Instant, start: Instant, status: &Status) {
-        let age = (status.age_ms < u16::MAX)
-            .then(|| Duration::from_millis(u64::from(status.age_ms)));
+        let age =
+            (status.age_ms < u16::MAX).then(|| Duration::from_millis(u64::from(status.age_ms)));
         let (delay, source) = if self.plays_samples() {
-            (self.delay_of_samples(start, age, status.queued), DelaySource::Ring)
+            (self.delay_of_samples(start, age, status), DelaySource::Ring)
         } else {
-            (self.delay_of_frame(start, age, status.last_seq), DelaySource::LastSeq)
+            (
+                self.delay_of_frame(start, age, status.last_seq),
+                DelaySource::LastSeq,
+            )
         };
         if let Some(delay) = delay {
             self.learn(now, delay, source);
@@ -100,7 +98,7 @@ impl HostSession {
         seq: u16,
     ) -> Option<Duration> {
         let age = age?;
-        let due = self.evidence.confirmed(seq)?;
+        let due = self.evidence.confirmed(seq.into())?;
         let accepted = start.checked_sub(age).unwrap_or(start);
         Some(accepted.saturating_duration_since(due))
     }
@@ -109,15 +107,19 @@ impl HostSession {
         &mut self,
         start: Instant,
         age: Option<Duration>,
-        queued: u8,
+        status: &Status,
     ) -> Option<Duration> {
-        let due = self.evidence.take_newest()?;
-        let until_start = start.saturating_duration_since(due);
-        if queued < self.latching.depth() {
+        let Status { tick, queued, .. } = *status;
+        if queued == 0 {
+            let due = self.evidence.confirmed(tick)?;
+            let until_start = start.saturating_duration_since(due);
             return self.evidence.tells_ring.then_some(until_start + MORE);
         }
         self.evidence.tells_ring = true;
-        until_start.checked_sub(age?)
+        let newest = tick.wrapping_add(u32::from(queued) - 1);
+        let due = self.evidence.confirmed(newest)?;
+        let accepted = start.checked_sub(age?).unwrap_or(start);
+        Some(accepted.saturating_duration_since(due))
     }
 
     fn learn(&mut self, now: Instant, delay: Duration, source: DelaySource) {

@@ -48,7 +48,9 @@ impl HostSession {
         self.last_sent = Some(now);
         let due = self.due.take().map(|due| due.min(now));
         if let Some(due) = due {
-            self.evidence.sent(seq, due);
+            let by_tick = self.plays_samples();
+            let name = if by_tick { apply_tick } else { seq.into() };
+            self.evidence.sent(name, due);
         }
         Some(SentFrame {
             seq,

@@ -67,11 +67,7 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    pub(super) fn new(
-        shared: Arc<Shared>,
-        outgoing: Outgoing,
-        failed: Producer<String>,
-    ) -> Self {
+    pub(super) fn new(shared: Arc<Shared>, outgoing: Outgoing, failed: Producer<String>) -> Self {
         Self {
             shared,
             outgoing,
