@@ -83,9 +83,10 @@ impl SampleRing {
         self.missing = false;
     }
 
-    /// Empty; what sounds stays.
+    /// Empty; what sounds stays, and none is expected any more.
     pub(super) fn clear(&mut self) {
         self.numbers.fill(None);
+        self.has_begun = false;
     }
 
     /// Takes the payload of a SAMPLES packet at the device's time `now_us`. Values are limited to
