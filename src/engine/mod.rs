@@ -44,7 +44,7 @@ mod track;
 mod velocity;
 
 pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
-pub use clip::{ClipKind, ClipWriter, Written, side_by_side, write_clip};
+pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, InputSource, Notice, VelocityMethod};
 pub use engine_core::EngineCore;
 pub use error::EngineError;

@@ -359,4 +359,4 @@ fn wrapped_u32(count: u64) -> u32 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

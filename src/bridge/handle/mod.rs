@@ -71,6 +71,7 @@ impl Target {
 #[derive(Debug)]
 pub struct Bridge {
     target: String,
+    is_emulator: bool,
     session: HostSession,
     link: Option<Link>,
     plant: Option<PlantWatch>,
@@ -92,8 +93,9 @@ impl Bridge {
         let sequence = Sequence::default();
         let name = target.name();
         let shape = profile.clone();
-        let plant = (target == Target::Emulator)
-            .then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
+        let is_emulator = target == Target::Emulator;
+        let plant =
+            is_emulator.then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
         let (feed, plant) = plant.unzip();
         let opener = Box::new(move || target.open(&shape, feed));
         let waker: Waker = Arc::new(waker);
@@ -107,6 +109,7 @@ impl Bridge {
         };
         Self {
             target: name,
+            is_emulator,
             session,
             link,
             plant,

@@ -25,6 +25,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
+use super::array::DeviceUid;
 use super::codes::{ArrayProfile, Bite, Coder};
 use super::framing::Packet;
 use super::message::{
@@ -93,6 +94,8 @@ pub struct HostSession {
     last_played_tick: Option<u32>,
     clock: DeviceClock,
     latching: Latching,
+    /// The device that the link before this one had.
+    before: Option<DeviceUid>,
     /// Start of the last STATUS's tick, by our clock.
     tick_start: Option<Instant>,
     /// When the answer to the last STATUS is due; taken by the frame that is it.
@@ -136,6 +139,7 @@ impl HostSession {
             last_played_tick: None,
             clock: DeviceClock::new(),
             latching: Latching::new(),
+            before: None,
             tick_start: None,
             due: None,
             evidence: Evidence::default(),

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::checks::refusal;
 use super::latching::Deepened;
 use super::{BridgeEvent, BridgeState, DisarmedBy, HostSession, TICK};
+use crate::bridge::array::DeviceUid;
 use crate::bridge::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
@@ -50,6 +51,7 @@ impl HostSession {
         }
         self.caps = Some(*caps);
         self.event(BridgeEvent::Connected(*caps));
+        self.compare_device(received, DeviceUid(caps.uid));
         self.configure(received);
     }
 

@@ -90,6 +90,9 @@ pub enum DisarmedBy {
 pub enum BridgeEvent {
     /// The device answered; its CAPS were accepted.
     Connected(Caps),
+    /// It is another device than the link before had; one line says so, and what to do where the
+    /// profile was measured on one.
+    OtherDevice(String),
     /// The device is configured, with these effective values, and may be armed.
     Ready(Config),
     /// The device cannot be driven; one line says why.
