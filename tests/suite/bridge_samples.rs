@@ -119,8 +119,8 @@ fn when_the_host_is_killed_samples_end_within_100_ms_of_the_last_ones() {
     host.kill().unwrap();
     host.wait().unwrap();
     wait_for_log(&lab, |log| {
-        let states = log.lines().filter(|line| line.contains(",state,"));
-        let last = states.last().unwrap_or_default();
+        let mut states = log.lines().filter(|line| line.contains(",state,"));
+        let last = states.next_back().unwrap_or_default();
         last.contains(",state,READY,") || last.contains(",state,IDLE,")
     });
     let rows = device.end(&lab);

@@ -102,7 +102,7 @@ impl Bridge {
         let now = Instant::now();
         let session = &mut self.session;
         session.play(now, amplitudes_um, sampling.wave.as_mut(), |cut| {
-            link.send_samples(QueuedSamples {
+            link.send_samples(&QueuedSamples {
                 frame: QueuedFrame {
                     packet: cut.packet,
                     due: cut.due,

@@ -286,11 +286,11 @@ impl Link {
     }
 
     /// Queues one SAMPLES packet; there is room when [`has_room`](Self::has_room) said so.
-    pub(super) fn send_samples(&mut self, samples: QueuedSamples) {
+    pub(super) fn send_samples(&mut self, samples: &QueuedSamples) {
         let is_pushed = self
             .samples
             .as_mut()
-            .is_some_and(|ring| ring.push(samples).is_ok());
+            .is_some_and(|ring| ring.push(*samples).is_ok());
         if is_pushed {
             self.shared.unpark_writer();
         }

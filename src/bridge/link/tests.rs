@@ -210,7 +210,7 @@ fn samples_are_written_in_turn_and_a_tick_of_them_counts_as_one_frame() {
     assert!(desk.link.open_samples(4));
     let tick = tick_of_samples(4, LONG);
     for samples in &tick {
-        desk.link.send_samples(*samples);
+        desk.link.send_samples(samples);
     }
     let ping = Ping { token: 1 }.packet(0).unwrap();
     desk.link.send_control(&ping);
@@ -229,9 +229,9 @@ fn a_ring_holds_three_ticks_of_samples_and_says_when_there_is_no_room() {
     assert!(desk.link.open_samples(4));
     for _ in 0..2 {
         assert!(desk.link.has_room(4));
-        let tick = tick_of_samples(4, LONG);
-        tick.into_iter()
-            .for_each(|samples| desk.link.send_samples(samples));
+        for samples in &tick_of_samples(4, LONG) {
+            desk.link.send_samples(samples);
+        }
     }
     assert!(desk.link.has_room(4) && !desk.link.has_room(5));
     assert_eq!(desk.link.counters().frames_superseded, 1);
@@ -244,15 +244,15 @@ fn samples_after_their_time_and_samples_before_a_stop_are_not_written() {
     let mut desk = desk();
     assert!(desk.link.open_samples(4));
     for worth in [Duration::ZERO, LONG] {
-        let tick = tick_of_samples(2, worth);
-        tick.into_iter()
-            .for_each(|samples| desk.link.send_samples(samples));
+        for samples in &tick_of_samples(2, worth) {
+            desk.link.send_samples(samples);
+        }
     }
     desk.write_all();
     assert_eq!(desk.port.written.len(), 2, "those of the second tick");
-    let tick = tick_of_samples(4, LONG);
-    tick.into_iter()
-        .for_each(|samples| desk.link.send_samples(samples));
+    for samples in &tick_of_samples(4, LONG) {
+        desk.link.send_samples(samples);
+    }
     let stop = Stop {
         reason: 0,
         how: StopHow::Ramp,

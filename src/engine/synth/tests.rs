@@ -27,7 +27,8 @@ fn by_samples(ms: u64) -> Simulation {
 
 #[test]
 fn what_is_played_is_what_mode_a_would_play_sample_for_sample() {
-    let [by_samples, by_frames] = [by_samples(2000), streaming(Caps::MODE_A, 2000)];
+    let by_samples = by_samples(2000);
+    let by_frames = streaming(Caps::MODE_A, 2000);
     assert_eq!(by_samples.host.state(), BridgeState::Streaming);
     let counters = by_samples.host.counters().device;
     assert_eq!(
