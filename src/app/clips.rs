@@ -90,6 +90,7 @@ impl Workbench {
         let profile = self.engine.profile().clone();
         let (rendering, title) = (self.rendering, self.document.scene().name.clone());
         let (exploration, place) = (Arc::clone(take.path()), path.to_owned());
+        let applied = Arc::clone(take.apply_ticks());
         self.transient.clips.last = path.parent().map(Path::to_owned);
         let work = move |progress: &mut crate::progress::Progress<'_>| {
             let what = Replay {
@@ -98,7 +99,8 @@ impl Workbench {
                 accuracy: rendering.accuracy(),
                 measures_error: false,
             };
-            let clip = ClipWriter::create(&place, kind, (&profile, n_contactors), &title);
+            let array = (&profile, n_contactors);
+            let clip = ClipWriter::of_played(&place, kind, array, &title, applied);
             clip.and_then(|clip| write_clip(clip, &what, &exploration, progress))
                 .map_err(|error| error.to_string())
         };

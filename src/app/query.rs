@@ -275,7 +275,9 @@ pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
 
 fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
     match event {
-        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) => Some(format!("{device}: {why}")),
+        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) | BridgeEvent::OtherDevice(why) => {
+            Some(format!("{device}: {why}"))
+        }
         BridgeEvent::Disarmed {
             by: DisarmedBy::Device,
             reason,

@@ -51,7 +51,7 @@ pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wir
 pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
 pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
-    Sense,
+    SampleCount, SampledTick, Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
@@ -59,11 +59,11 @@ pub use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
 pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
-pub use handle::{Bridge, Target};
+pub use handle::{Bridge, SampleStream, Target};
 pub use hjif::{HjifSpec, HjifWriter};
 pub use host::{
-    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
-    HostSession, SOFT_START_TICKS, SentFrame, Sequence,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, CutSamples, DeviceCounters,
+    DisarmedBy, HostSession, SOFT_START_TICKS, SentFrame, Sequence, Waveform,
 };
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
+use super::bridge_abilities::AbilityArgs;
 use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::identify::{self, IdentifyArgs};
@@ -55,6 +56,8 @@ pub(super) struct EmulateArgs {
     #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
           value_parser = array::profile)]
     array: Box<ArrayProfile>,
+    #[command(flatten)]
+    abilities: AbilityArgs,
     #[command(flatten)]
     plant: PlantArgs,
     #[command(flatten)]
@@ -123,7 +126,7 @@ fn card_line(AudioEntry { name, n_channels }: &AudioEntry) -> String {
 
 #[cfg(unix)]
 fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
-    let model = crate::bridge::DeviceModel::for_array(&args.array);
+    let model = args.abilities.model(&args.array);
     let faults = args.faults.faults().map_err(CliError::Input)?;
     faults.check(model.n_channels()).map_err(CliError::Input)?;
     let contactors = args.plant.model()?;

@@ -12,6 +12,7 @@
 
 mod array;
 mod bridge;
+mod bridge_abilities;
 mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;

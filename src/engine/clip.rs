@@ -6,6 +6,7 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::EngineError;
 use crate::bridge::{
@@ -58,8 +59,12 @@ pub struct ClipWriter {
 enum To {
     Wav(Box<Waveform>),
     Hjif(Box<HjifWriter>),
-    Frames(Box<FrameTable>, PathBuf),
+    Frames(Box<FrameTable>, PathBuf, ApplyTicks),
 }
+
+/// The device's tick at which each tick of a recording was felt, as far as it was sent; none at all
+/// of an exploration that no device played.
+pub type ApplyTicks = Arc<[Option<u32>]>;
 
 /// What became of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +86,26 @@ impl ClipWriter {
         kind: ClipKind,
         (profile, n_contactors): (&ArrayProfile, usize),
         title: &str,
+    ) -> Result<Self, EngineError> {
+        Self::of_played(
+            path,
+            kind,
+            (profile, n_contactors),
+            title,
+            ApplyTicks::default(),
+        )
+    }
+
+    /// The same of what a device played at these ticks, which frames then say.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of_played(
+        path: &Path,
+        kind: ClipKind,
+        (profile, n_contactors): (&ArrayProfile, usize),
+        title: &str,
+        apply_ticks: ApplyTicks,
     ) -> Result<Self, EngineError> {
         let to = match kind {
             ClipKind::Wav { rate_hz, format } => {
@@ -110,8 +135,9 @@ impl ClipWriter {
                 To::Hjif(Box::new(HjifWriter::create(path, spec)?))
             }
             ClipKind::Frames => {
-                let frames = FrameTable::create(path, (profile, n_contactors), false)?;
-                To::Frames(Box::new(frames), path.to_owned())
+                let was_played = apply_ticks.iter().any(Option::is_some);
+                let frames = FrameTable::create(path, (profile, n_contactors), was_played)?;
+                To::Frames(Box::new(frames), path.to_owned(), apply_ticks)
             }
         };
         Ok(Self { to })
@@ -125,7 +151,11 @@ impl ClipWriter {
         match &mut self.to {
             To::Wav(waveform) => waveform.take(tick, amplitudes_um),
             To::Hjif(writer) => writer.take(amplitudes_um),
-            To::Frames(frames, _) => frames.take(tick, None, amplitudes_um),
+            To::Frames(frames, _, apply_ticks) => {
+                let nth = usize::try_from(tick).unwrap_or(usize::MAX);
+                let apply_tick = apply_ticks.get(nth).copied().flatten();
+                frames.take(tick, apply_tick, amplitudes_um)
+            }
         }
     }
 
@@ -140,7 +170,7 @@ impl ClipWriter {
                 peak: Some(waveform.peak),
             }),
             To::Hjif(writer) => writer.finish(progress).map(Written::at),
-            To::Frames(frames, path) => {
+            To::Frames(frames, path, _) => {
                 frames.finish()?;
                 Ok(Written::at(path))
             }
@@ -232,6 +262,33 @@ mod tests {
     fn clip(path: &Path, kind: ClipKind) -> ClipWriter {
         let profile = ArrayProfile::default();
         ClipWriter::create(path, kind, (&profile, 24), "test").unwrap()
+    }
+
+    #[test]
+    fn frames_of_what_a_device_played_say_at_which_of_its_ticks() {
+        let profile = ArrayProfile::default();
+        let header_of = |apply_ticks: &[Option<u32>]| {
+            let path = place(&format!("{}.csv", apply_ticks.len()));
+            let array = (&profile, 2);
+            let mut writer =
+                ClipWriter::of_played(&path, ClipKind::Frames, array, "", apply_ticks.into())
+                    .unwrap();
+            for tick in 0..3 {
+                writer.take(tick, &[[1.0, 2.0]; 2]).unwrap();
+            }
+            unheard(|progress| writer.finish(progress)).unwrap();
+            let text = std::fs::read_to_string(&path).unwrap();
+            std::fs::remove_file(&path).unwrap();
+            let rows = text.lines().filter(|line| !line.starts_with('#'));
+            let start = |row: &str| row.split(',').take(3).map(str::to_owned).collect();
+            rows.map(start).collect::<Vec<Vec<String>>>()
+        };
+        let played = header_of(&[Some(77), None]);
+        assert_eq!(played[0], ["tick", "t_s", "apply_tick"]);
+        let told: Vec<&str> = played[1..].iter().map(|row| row[2].as_str()).collect();
+        assert_eq!(told, ["77", "", ""]);
+        let unplayed = header_of(&[None, None, None]);
+        assert_eq!(unplayed[0], ["tick", "t_s", "code40_0"]);
     }
 
     #[test]

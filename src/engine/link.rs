@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use super::{LinkView, Notice, TICK};
-use crate::bridge::{ArrayChange, Bridge, BridgeEvent, SentFrame, StopHow, Timings};
+use crate::bridge::{ArrayChange, Bridge, BridgeEvent, DeviceUid, SentFrame, StopHow, Timings};
 
 /// Ticks between two looks at the timings of the link: one second.
 const TIMINGS_EVERY: u64 = 40;
@@ -16,6 +16,8 @@ const LAST_WORD: Duration = Duration::from_millis(250);
 #[derive(Default)]
 pub(super) struct Link {
     bridge: Option<Box<Bridge>>,
+    /// The device that was last on a port.
+    last_device: Option<DeviceUid>,
     sent: Option<SentFrame>,
     /// Whether channels are being identified, so that no frame may go out.
     is_identifying: bool,
@@ -40,7 +42,14 @@ impl Link {
     pub(super) fn connect(&mut self, bridge: Option<Box<Bridge>>) -> Option<Box<Bridge>> {
         if let Some(last) = &mut self.bridge {
             last.stop(StopHow::Ramp);
+            self.last_device = last.device_uid().or(self.last_device);
         }
+        let bridge = bridge.map(|mut bridge| {
+            if let Some(last) = self.last_device {
+                bridge.came_after(last);
+            }
+            bridge
+        });
         self.sent = None;
         self.timings = Timings::default();
         std::mem::replace(&mut self.bridge, bridge)

@@ -44,7 +44,7 @@ mod track;
 mod velocity;
 
 pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
-pub use clip::{ClipKind, ClipWriter, Written, side_by_side, write_clip};
+pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, InputSource, Notice, VelocityMethod};
 pub use engine_core::EngineCore;
 pub use error::EngineError;
@@ -65,7 +65,7 @@ pub use snapshot::{
     RecordingView, Snapshot, SourceKind,
 };
 pub use stop::StopSwitch;
-pub use synth::SampleSynth;
+pub use synth::{DeviceWaveform, SampleSynth};
 pub use tap::Tap;
 pub use velocity::{Estimate, REST, VelocityEstimator};
 

@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
+use super::ApplyTicks;
 use crate::bridge::SentFrame;
 use crate::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
 
@@ -188,6 +189,17 @@ impl Recording {
             velocity: Some(recorded.pose.velocity),
         };
         ExplorationPath::new(self.ticks.iter().enumerate().map(row).collect())
+    }
+
+    /// The device's tick at which each row of [`to_path`](Self::to_path) was felt; none at all when
+    /// nothing was sent to a device.
+    pub fn apply_ticks(&self) -> ApplyTicks {
+        let applied = |recorded: &RecordedTick| recorded.sent.map(|sent| sent.apply_tick);
+        if self.ticks.iter().any(|recorded| recorded.sent.is_some()) {
+            self.ticks.iter().map(applied).collect()
+        } else {
+            ApplyTicks::default()
+        }
     }
 
     /// Whether this is the other side of it.

@@ -120,20 +120,36 @@ impl<'a> Bench<'a> {
         n_units: usize,
         works: Vec<impl FnMut() -> T>,
     ) -> Vec<(Timing, f64)> {
-        let least_s = self.least_s();
-        let runs = |work| Runs::new(least_s, n_units, work);
-        let mut all: Vec<_> = works.into_iter().map(runs).collect();
-        for _ in 0..self.effort.pick(5, 15) {
-            all.iter_mut().for_each(Runs::run);
-        }
-        let first_s = all.first().map(|runs| runs.cpu_s.clone());
+        let rounds = (self.effort.pick(5, 15), self.least_s());
+        let all = self.time_rounds(rounds, n_units, works);
+        let first_s = all.first().map(|(_, cpu_s)| cpu_s.clone());
         let first_s = first_s.unwrap_or_default();
-        let with_multiple = |runs: Runs<_>| {
-            let pairs = runs.cpu_s.iter().zip(&first_s);
+        let with_multiple = |(timing, cpu_s): (Timing, Vec<f64>)| {
+            let pairs = cpu_s.iter().zip(&first_s);
             let mut multiples: Vec<f64> = pairs.map(|(own_s, first_s)| own_s / first_s).collect();
-            (runs.timing(), median(&mut multiples))
+            (timing, median(&mut multiples))
         };
         all.into_iter().map(with_multiple).collect()
+    }
+
+    /// The same in so many rounds, each of which repeats every work until it took `least_s`. Beside
+    /// each timing stand its CPU times, round by round, s.
+    pub fn time_rounds<T>(
+        &mut self,
+        (n_rounds, least_s): (usize, f64),
+        n_units: usize,
+        works: Vec<impl FnMut() -> T>,
+    ) -> Vec<(Timing, Vec<f64>)> {
+        let runs = |work| Runs::new(least_s, n_units, work);
+        let mut all: Vec<_> = works.into_iter().map(runs).collect();
+        for _ in 0..n_rounds {
+            all.iter_mut().for_each(Runs::run);
+        }
+        let with_rounds = |runs: Runs<_>| {
+            let cpu_s = runs.cpu_s.clone();
+            (runs.timing(), cpu_s)
+        };
+        all.into_iter().map(with_rounds).collect()
     }
 
     /// Least time of one measurement, s.

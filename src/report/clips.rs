@@ -1,14 +1,17 @@
 //! The study of clips: what it costs to write an exploration for other programs, by its length.
 //!
 //! The cost of a second must not grow with what was written before it: the time for the ninety
-//! seconds from 10 to 100 is set beside that for the nine from 1 to 10.
+//! seconds from 10 to 100 is set beside that for the nine from 1 to 10. The three lengths are
+//! measured in turn, round by round, so that a machine that changes its pace changes it for all.
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-use super::{Bench, Effort, Findings, ReportError, Row, Study, Timing};
+use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use crate::bridge::ArrayProfile;
 use crate::engine::{ClipKind, ClipWriter, EngineError};
 use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::numerics::{median, quantile};
 use crate::progress::unheard;
 use crate::quantity;
 
@@ -48,13 +51,14 @@ impl Study for ClipsStudy {
         let mut series = Vec::new();
         for (number, file) in FILES.iter().enumerate() {
             bench.step(number as f64 / FILES.len() as f64, file.name)?;
-            let mut points = Vec::new();
-            for length_s in LENGTHS_S {
-                let row = row(bench, file, length_s)?;
-                points.extend(row.cost.map(|cost| [f64::from(length_s), cost.cpu_s]));
-                findings.rows.push(row);
-            }
-            findings.notes.extend(note(file, &points));
+            let (rows, rounds) = measure(bench, file)?;
+            let points = rows.iter().filter_map(|row| {
+                let cost = row.cost?;
+                Some([row.size?, cost.cpu_s])
+            });
+            let points = points.collect();
+            findings.notes.push(note(file, &rounds));
+            findings.rows.extend(rows);
             series.push(Series {
                 name: file.name.to_owned(),
                 points,
@@ -109,28 +113,49 @@ impl File {
     }
 }
 
-/// The cost of one file of one length.
-fn row(bench: &mut Bench<'_>, file: &File, length_s: u32) -> Result<Row, ReportError> {
+/// CPU times of the three lengths, round by round, s.
+type Rounds = [Vec<f64>; 3];
+
+/// The cost of one file in all lengths, measured in turn.
+fn measure(bench: &mut Bench<'_>, file: &File) -> Result<(Vec<Row>, Rounds), ReportError> {
     let place = file.place();
-    let mut outcome = Ok(());
-    let n_repeats = match (bench.effort, length_s) {
-        (_, 100) => 1,
-        (Effort::Quick, _) => 3,
-        (Effort::Full, 10) => 5,
-        (Effort::Full, _) => 15,
-    };
-    let cost = bench.time_repeated(n_repeats, 1, || {
-        if let Err(error) = write(&place, file.kind, length_s) {
-            outcome = Err(error);
+    let failed = RefCell::new(None);
+    let work = |length_s| {
+        let (place, failed) = (&place, &failed);
+        move || {
+            if let Err(error) = write(place, file.kind, length_s) {
+                failed.borrow_mut().get_or_insert(error);
+            }
         }
-    });
-    let bytes = place.metadata().ok().filter(|_| !file.goes_nowhere);
-    let bytes = bytes.map(|meta| meta.len());
-    if !file.goes_nowhere {
-        drop(std::fs::remove_file(&place));
+    };
+    let rounds = (bench.effort.pick(1, 9), bench.effort.pick(0.01, 0.1));
+    let timed = bench.time_rounds(rounds, 1, LENGTHS_S.map(work).into());
+    let mut rows = Vec::new();
+    for (length_s, (cost, _)) in LENGTHS_S.into_iter().zip(&timed) {
+        rows.push(measured(
+            file,
+            length_s,
+            *cost,
+            bytes_of(file, &place, length_s)?,
+        ));
     }
-    outcome?;
-    Ok(measured(file, length_s, cost, bytes))
+    if let Some(error) = failed.into_inner() {
+        return Err(error.into());
+    }
+    let mut times = timed.into_iter().map(|(_, cpu_s)| cpu_s);
+    let rounds = LENGTHS_S.map(|_| times.next().unwrap_or_default());
+    Ok((rows, rounds))
+}
+
+/// How large a file is; `None` where its bytes go nowhere.
+fn bytes_of(file: &File, place: &Path, length_s: u32) -> Result<Option<u64>, ReportError> {
+    if file.goes_nowhere {
+        return Ok(None);
+    }
+    write(place, file.kind, length_s)?;
+    let bytes = place.metadata().ok().map(|meta| meta.len());
+    drop(std::fs::remove_file(place));
+    Ok(bytes)
 }
 
 fn measured(file: &File, length_s: u32, cost: Timing, bytes: Option<u64>) -> Row {
@@ -164,19 +189,27 @@ fn write(place: &Path, kind: ClipKind, length_s: u32) -> Result<(), EngineError>
     Ok(())
 }
 
-/// How much the later seconds cost beside the earlier ones.
-fn note(file: &File, points: &[[f64; 2]]) -> Option<String> {
-    let &[[_, first_s], [_, middle_s], [_, last_s]] = points else {
-        return None;
-    };
-    let early_s = (middle_s - first_s) / 9.0;
-    let late_s = (last_s - middle_s) / 90.0;
-    Some(format!(
-        "{}: a second costs {} ms from 10 to 100 s, {} times that from 1 to 10 s.",
+/// How much the later seconds cost beside the earlier ones: in the median over the rounds, and
+/// between the quartiles.
+fn note(file: &File, [first_s, middle_s, last_s]: &Rounds) -> String {
+    let times = first_s.iter().zip(middle_s).zip(last_s);
+    let (mut late, mut ratios) = (Vec::new(), Vec::new());
+    for ((first_s, middle_s), last_s) in times {
+        let early_s = (middle_s - first_s) / 9.0;
+        let late_s = (last_s - middle_s) / 90.0;
+        late.push(1e3 * late_s);
+        ratios.push(late_s / early_s);
+    }
+    let quartiles = [0.25, 0.75].map(|q| quantity::fixed(quantile(&mut ratios, q), 2));
+    format!(
+        "{}: a second costs {} ms from 10 to 100 s, {} times that from 1 to 10 s ({} to {} in half \
+         of the rounds).",
         file.name,
-        quantity::fixed(1e3 * late_s, 3),
-        quantity::fixed(late_s / early_s, 2)
-    ))
+        quantity::fixed(median(&mut late), 3),
+        quantity::fixed(median(&mut ratios), 2),
+        quartiles[0],
+        quartiles[1]
+    )
 }
 
 fn plot(series: Vec<Series>) -> Plot {
@@ -200,12 +233,14 @@ mod tests {
 
     #[test]
     fn the_note_sets_late_seconds_beside_early_ones() {
-        let note = note(&FILES[0], &[[1.0, 0.5], [10.0, 5.0], [100.0, 95.0]]).unwrap();
+        // The second round is twice as slow all over.
+        let rounds = [[0.5, 1.0], [5.0, 10.0], [95.0, 190.0]].map(Vec::from);
+        let note = note(&FILES[0], &rounds);
+        assert!(note.contains("1500.000 ms"), "{note}");
         assert!(
-            note.contains("1000.000 ms") && note.contains(" 2.00 times"),
+            note.contains(" 2.00 times") && note.contains("(2.00 to 2.00"),
             "{note}"
         );
-        assert_eq!(super::note(&FILES[0], &[]), None);
     }
 
     #[test]

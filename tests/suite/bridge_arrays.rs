@@ -1,7 +1,8 @@
 //! Array profiles from the command line: identified channels, and what is played with them.
 #![cfg(unix)]
 
-use crate::bridge_end_to_end::{Device, undisturbed};
+use crate::bridge_device::Device;
+use crate::bridge_end_to_end::undisturbed;
 use crate::program::{Lab, Outcome};
 
 const IDENTIFY: [&str; 8] = [
@@ -18,7 +19,7 @@ const IDENTIFY: [&str; 8] = [
 /// Identifies the channels of a device of its own by the answers in the lab.
 fn identify(lab: &Lab) -> Outcome {
     undisturbed(|| {
-        let device = Device::start(lab);
+        let device = Device::start(lab, &[]);
         let outcome = lab.run(&IDENTIFY);
         device.end(lab);
         let is_disturbed = outcome.err.contains("no STATUS") || outcome.err.contains("did not");
@@ -57,7 +58,7 @@ fn identified_channels_are_named_kept_and_played() {
 
     let play = |array: &[&str]| {
         undisturbed(|| {
-            let device = Device::start(&lab);
+            let device = Device::start(&lab, &[]);
             let args = ["play", "a.scene.toml", "--path", "a.csv", "--port", "array"];
             let args: Vec<&str> = args.iter().chain(array).copied().collect();
             let outcome = lab.run(&args);
@@ -109,7 +110,7 @@ fn answers_that_are_none_and_terminals_that_are_none_are_one_line() {
     );
     assert!(!lab.path("rig.toml").exists(), "nothing was written");
 
-    let device = Device::start(&lab);
+    let device = Device::start(&lab, &[]);
     let piped = lab.run(&IDENTIFY[..6]);
     device.end(&lab);
     assert_eq!(piped.code, 2, "{piped:?}");
@@ -138,7 +139,7 @@ fn arrays_that_are_not_there_or_do_not_fit_are_refused_with_the_mend() {
     ]);
     assert_eq!(broken.code, 2, "{broken:?}");
     assert!(broken.err.contains("bad.toml:3: "), "{}", broken.err);
-    let device = Device::start(&lab);
+    let device = Device::start(&lab, &[]);
     let args = [
         "play",
         "a.scene.toml",

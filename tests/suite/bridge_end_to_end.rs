@@ -5,58 +5,12 @@
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
-use std::io::{BufRead as _, BufReader, Write as _};
-use std::process::{Child, Command, Stdio};
+use std::io::Write as _;
+use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::bridge_device::{Device, signal};
 use crate::program::{Lab, Outcome, Rows};
-
-/// An emulated device that runs until it is told to end.
-pub(crate) struct Device {
-    child: Child,
-}
-
-impl Device {
-    pub(crate) fn start(lab: &Lab) -> Self {
-        let args = [
-            "bridge",
-            "emulate",
-            "--link",
-            "array",
-            "--log",
-            "device.csv",
-        ];
-        let mut child = lab.command(&args).stdout(Stdio::piped()).spawn().unwrap();
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().unwrap())
-            .read_line(&mut line)
-            .unwrap();
-        assert!(line.starts_with("array -> /dev/"), "{line}");
-        Self { child }
-    }
-
-    /// SIGTERM: it must end cleanly and take its link away.
-    pub(crate) fn end(mut self, lab: &Lab) -> Rows {
-        signal("TERM", &self.child);
-        assert_eq!(self.child.wait().unwrap().code(), Some(0), "a clean end");
-        assert!(!lab.path("array").is_symlink(), "the link is gone");
-        Rows::read(&lab.path("device.csv"))
-    }
-}
-
-impl Drop for Device {
-    fn drop(&mut self) {
-        drop(self.child.kill());
-        drop(self.child.wait());
-    }
-}
-
-pub(crate) fn signal(name: &str, child: &Child) {
-    let sent = Command::new("kill")
-        .args([&format!("-{name}"), &child.id().to_string()])
-        .status();
-    assert!(sent.unwrap().success(), "kill -{name}");
-}
 
 const PLAY: [&str; 10] = [
     "play",
@@ -180,7 +134,7 @@ fn check_frames(host: &Rows, device: &Rows) -> usize {
 /// of a second lets the device disarm itself, as it should: then it is tried again.
 fn play_to_the_end(lab: &Lab, args: &[&str]) -> (Outcome, Rows, Rows) {
     undisturbed(|| {
-        let device = Device::start(lab);
+        let device = Device::start(lab, &[]);
         let outcome = lab.run(args);
         let rows = (Rows::read(&lab.path("host.csv")), device.end(lab));
         is_undisturbed(&outcome).then_some((outcome, rows.0, rows.1))
@@ -282,7 +236,7 @@ fn a_loop_ends_at_rest_when_it_is_told_to() {
     let lab = Lab::with_scene();
     let (host, device) = undisturbed(|| {
         let (back, kept) = std::sync::mpsc::sync_channel(1);
-        let outcome = play_in_a_loop(&lab, Device::start(&lab), |child, device| {
+        let outcome = play_in_a_loop(&lab, Device::start(&lab, &[]), |child, device| {
             signal("TERM", child);
             back.send(device).unwrap();
         });
@@ -308,7 +262,7 @@ fn a_loop_ends_at_rest_when_it_is_told_to() {
 fn a_device_that_vanishes_is_a_failure_with_its_reason() {
     let lab = Lab::with_scene();
     let outcome = undisturbed(|| {
-        let outcome = play_in_a_loop(&lab, Device::start(&lab), |_, device| drop(device));
+        let outcome = play_in_a_loop(&lab, Device::start(&lab, &[]), |_, device| drop(device));
         is_undisturbed(&outcome).then_some(outcome)
     });
     assert_eq!(outcome.code, 1, "{outcome:?}");
@@ -320,7 +274,7 @@ fn a_device_of_another_shape_is_refused() {
     let lab = Lab::with_scene();
     let scene = lab.read("a.scene.toml").replace("exeter-24", "5x5");
     lab.write("a.scene.toml", scene);
-    let device = Device::start(&lab);
+    let device = Device::start(&lab, &[]);
     let outcome = lab.run(&PLAY);
     assert_eq!(outcome.code, 1, "{outcome:?}");
     let line = outcome.one_line();
@@ -349,7 +303,7 @@ fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
         "host.csv",
     ];
     let (outcome, device) = undisturbed(|| {
-        let device = Device::start(&lab);
+        let device = Device::start(&lab, &[]);
         let mut command = lab.command(&args);
         command
             .stdin(Stdio::piped())
@@ -392,7 +346,7 @@ fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
 #[test]
 fn a_connected_device_passes_its_test() {
     let lab = Lab::with_scene();
-    let device = Device::start(&lab);
+    let device = Device::start(&lab, &[]);
     let outcome = lab.run(&["bridge", "test", "--port", "array"]);
     assert_eq!(outcome.code, 0, "{outcome:?}");
     assert!(outcome.out.contains("self-test passed"), "{}", outcome.out);

@@ -3,62 +3,10 @@
 //! What is compared is the device's log, by the device's own clock, and the words that people read.
 #![cfg(unix)]
 
-use std::io::{BufRead as _, BufReader};
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Child, Stdio};
 
-use crate::program::{Lab, Rows};
-
-/// An emulated device with faults.
-struct Device(Child);
-
-impl Device {
-    fn start(lab: &Lab, faults: &[&str]) -> Self {
-        let args = [
-            "bridge",
-            "emulate",
-            "--link",
-            "array",
-            "--log",
-            "device.csv",
-        ];
-        let args = [&args[..], faults].concat();
-        let mut child = lab.command(&args).stdout(Stdio::piped()).spawn().unwrap();
-        let mut line = String::new();
-        let out = child.stdout.take().unwrap();
-        BufReader::new(out).read_line(&mut line).unwrap();
-        assert!(line.starts_with("array -> /dev/"), "{line}");
-        Self(child)
-    }
-
-    fn end(mut self, lab: &Lab) -> Rows {
-        let id = self.0.id().to_string();
-        let told = Command::new("kill").args(["-TERM", &id]).status();
-        assert!(told.unwrap().success(), "kill -TERM");
-        assert_eq!(self.0.wait().unwrap().code(), Some(0), "a clean end");
-        Rows::read(&lab.path("device.csv"))
-    }
-}
-
-impl Drop for Device {
-    fn drop(&mut self) {
-        drop(self.0.kill());
-        drop(self.0.wait());
-    }
-}
-
-/// Waits until the device's log satisfies `is_so`.
-fn wait_for_log(lab: &Lab, is_so: impl Fn(&str) -> bool) {
-    let deadline = Instant::now() + Duration::from_secs(30);
-    while Instant::now() < deadline {
-        let log = std::fs::read_to_string(lab.path("device.csv")).unwrap_or_default();
-        if is_so(&log) {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    panic!("the device's log never said so");
-}
+use crate::bridge_device::{Device, at_each_rest, wait_for_log};
+use crate::program::Lab;
 
 fn n_frames(log: &str) -> usize {
     log.lines().filter(|line| line.contains(",frame,")).count()
@@ -80,22 +28,6 @@ fn play(lab: &Lab) -> Child {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap()
-}
-
-/// Ends of output in the log: rows of `column` at each change from output to rest.
-fn at_each_rest(rows: &Rows, column: &str) -> Vec<f64> {
-    let (events, states) = (rows.text("event"), rows.text("state"));
-    let numbers = rows.numbers(column);
-    let mut was_live = false;
-    let mut found = Vec::new();
-    for row in 0..rows.len() {
-        let is_live = ["ARMED", "RUN", "HOLD", "RAMP"].contains(&states[row]);
-        if was_live && !is_live && events[row] == "state" {
-            found.push(numbers[row]);
-        }
-        was_live = is_live;
-    }
-    found
 }
 
 #[test]

@@ -286,7 +286,11 @@ fn a_reader_that_goes_away_is_no_failure() {
         .unwrap()
         .read_to_string(&mut err)
         .unwrap();
-    assert_eq!((child.wait().unwrap().code(), err.as_str()), (Some(0), ""));
+    // A busy machine may need longer than the second after which progress is told.
+    let is_progress =
+        |line: &&str| line.starts_with("selvedge: rendering ") && line.contains(" %, ");
+    let said: Vec<&str> = err.lines().filter(|line| !is_progress(line)).collect();
+    assert_eq!((child.wait().unwrap().code(), said), (Some(0), vec![]));
 }
 
 #[cfg(unix)]

@@ -9,8 +9,10 @@
 
 mod bad_input;
 mod bridge_arrays;
+mod bridge_device;
 mod bridge_end_to_end;
 mod bridge_faults;
+mod bridge_samples;
 mod commands;
 mod firmware;
 mod import;

@@ -8,13 +8,13 @@ use std::process::Stdio;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::bridge_end_to_end::{Device, signal};
+use crate::bridge_device::{Device, signal};
 use crate::program::{Lab, Outcome};
 
 #[test]
 fn a_program_says_positions_and_hears_amplitudes_while_the_device_plays_them() {
     let lab = Lab::with_scene();
-    let device = Device::start(&lab);
+    let device = Device::start(&lab, &[]);
     let args = "play a.scene.toml --listen 127.0.0.1:0 --port array";
     let mut child = lab
         .command(&args.split(' ').collect::<Vec<_>>())

@@ -10,13 +10,15 @@ pub(crate) use strips::{Column, Extent, Felt, Strips};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::engine::Recording;
+use crate::engine::{ApplyTicks, Recording};
 use crate::scene::{ExplorationPath, SceneError};
 
 /// A finished exploration. Cheap to clone.
 #[derive(Debug, Clone)]
 pub(crate) struct Take {
     path: Arc<ExplorationPath>,
+    /// At which of its ticks a device played each row.
+    apply_ticks: ApplyTicks,
     strips: Arc<Strips>,
     name: String,
     file: Option<PathBuf>,
@@ -35,6 +37,7 @@ impl Take {
         );
         Ok(Self {
             path: Arc::new(path),
+            apply_ticks: recording.apply_ticks(),
             strips: Arc::new(strips),
             name: "New recording".to_owned(),
             file: None,
@@ -46,6 +49,7 @@ impl Take {
         Self {
             strips: Arc::new(Strips::moved(&path)),
             path: Arc::new(path),
+            apply_ticks: ApplyTicks::default(),
             name: name_of(&file),
             file: Some(file),
         }
@@ -54,6 +58,11 @@ impl Take {
     /// The exploration to replay.
     pub(crate) fn path(&self) -> &Arc<ExplorationPath> {
         &self.path
+    }
+
+    /// At which of its ticks a device played each row, as long as this program knows.
+    pub(crate) fn apply_ticks(&self) -> &ApplyTicks {
+        &self.apply_ticks
     }
 
     /// What is drawn of it over time.

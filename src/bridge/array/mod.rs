@@ -202,6 +202,29 @@ impl ArrayProfile {
             )
         })
     }
+
+    /// What is to be said when the device with the number `now` follows the one with `before`, in
+    /// one line; `None` when it is the same. What was measured on an array is not said of another.
+    pub fn other_device(&self, before: DeviceUid, now: DeviceUid) -> Option<String> {
+        let is_wired_for = |wiring: &Wiring| wiring.device_uid == now;
+        let is_its_own = self.wiring.as_ref().is_some_and(is_wired_for);
+        let measured = match (self.calibration.is_empty(), self.wiring.is_none()) {
+            _ if is_its_own => None,
+            (true, true) => None,
+            (false, true) => Some("calibration"),
+            (true, false) => Some("wiring"),
+            (false, false) => Some("calibration and wiring"),
+        };
+        let mend = measured.map_or_else(String::new, |what| {
+            format!(
+                "; {what} in \"{}\" may be of the other one: choose this device's own profile, or \
+                 identify its channels and measure its gains",
+                self.name
+            )
+        });
+        let said = format!("another device than before: {now}, it was {before}{mend}");
+        (before != now).then_some(said)
+    }
 }
 
 impl Default for ArrayProfile {

@@ -23,7 +23,7 @@ pub use model::DeviceModel;
 use output::OutputStage;
 use queue::FrameQueue;
 use samples::SampleRing;
-pub use sink::{AppliedFrame, DeviceSink, Moment};
+pub use sink::{AppliedFrame, DeviceSink, Moment, SampleCount, SampledTick};
 pub use trouble::{Load, Sense};
 
 const MS_US: u64 = 1000;
@@ -359,4 +359,4 @@ fn wrapped_u32(count: u64) -> u32 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

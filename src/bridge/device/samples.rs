@@ -6,6 +6,7 @@
 
 use super::model::SAMPLE_HZ;
 use super::requests::Answer;
+use super::sink::{SampleCount, SampledTick};
 use super::{DeviceCore, DeviceSink};
 use crate::bridge::fields::FieldReader;
 use crate::bridge::message::{AckCode, Config, DeviceState};
@@ -48,6 +49,9 @@ pub(super) struct SampleRing {
     /// Whether a sample sounded since the ring was reset: before, none is missing.
     has_begun: bool,
     missing: bool,
+    /// What happened since the last tick began, and the largest sample of each channel.
+    count: SampleCount,
+    peaks: Vec<u16>,
 }
 
 impl SampleRing {
@@ -65,6 +69,8 @@ impl SampleRing {
             next: 0,
             has_begun: false,
             missing: false,
+            count: SampleCount::default(),
+            peaks: vec![0; n_channels],
         }
     }
 
@@ -77,9 +83,10 @@ impl SampleRing {
         self.missing = false;
     }
 
-    /// Empty; what sounds stays.
+    /// Empty; what sounds stays, and none is expected any more.
     pub(super) fn clear(&mut self) {
         self.numbers.fill(None);
+        self.has_begun = false;
     }
 
     /// Takes the payload of a SAMPLES packet at the device's time `now_us`. Values are limited to
@@ -125,6 +132,11 @@ impl SampleRing {
             }
         }
         let is_late = first < playable;
+        let late = playable.saturating_sub(first).min(u64::from(n));
+        self.count.packets = self.count.packets.wrapping_add(1);
+        self.count.received += u32::from(n);
+        self.count.late += low_word(late);
+        self.count.clipped = self.count.clipped.wrapping_add(clipped);
         Taken::Yes { clipped, is_late }
     }
 
@@ -138,7 +150,10 @@ impl SampleRing {
             let place = usize::try_from(self.next % self.capacity).unwrap_or(0);
             let is_there = self.numbers[place] == Some(self.next);
             self.has_begun |= is_there;
-            self.missing |= self.has_begun && !is_there;
+            let is_missing = self.has_begun && !is_there;
+            self.missing |= is_missing;
+            self.count.missing += u32::from(is_missing);
+            self.count.played += u32::from(is_there);
             for channel in 0..self.n_channels {
                 let now = &mut self.now[channel];
                 if is_there {
@@ -148,7 +163,10 @@ impl SampleRing {
                     let reached = i32::from(wanted).clamp(least, most);
                     *now = i16::try_from(reached).unwrap_or(wanted);
                 }
-                self.block.push(scaled(*now, gain));
+                let sounding = scaled(*now, gain);
+                self.block.push(sounding);
+                let peak = &mut self.peaks[channel];
+                *peak = (*peak).max(2 * sounding.unsigned_abs().min(FULL));
             }
             if is_there {
                 self.numbers[place] = None;
@@ -220,6 +238,20 @@ impl DeviceCore {
             self.samples
                 .play(self.now_us, step.unsigned_abs(), self.output.gain());
         sink.played(first, samples);
+    }
+
+    /// At the start of a tick: tells what the one before brought.
+    pub(super) fn tell_samples(&mut self, sink: &mut impl DeviceSink) {
+        let count = std::mem::take(&mut self.samples.count);
+        if count != SampleCount::default() {
+            let moment = self.moment();
+            sink.sampled(&SampledTick {
+                moment,
+                count,
+                peaks: &self.samples.peaks,
+            });
+        }
+        self.samples.peaks.fill(0);
     }
 
     /// At the start of a tick: one in which samples were missing is an underrun, and holds.

@@ -13,7 +13,7 @@ use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 use super::BridgeError;
-use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment};
+use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment, SampledTick};
 use super::plant::PlantFeed;
 use super::port::{PairPort, Port, pair};
 use super::wire::{Faults, Injection, WiredDevice};
@@ -179,6 +179,12 @@ impl DeviceSink for LiveSink<'_> {
     fn applied(&mut self, frame: &AppliedFrame<'_>) {
         if let Some(log) = &mut self.log {
             log.frame(frame);
+        }
+    }
+
+    fn sampled(&mut self, tick: &SampledTick<'_>) {
+        if let Some(log) = &mut self.log {
+            log.samples(tick);
         }
     }
 

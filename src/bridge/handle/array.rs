@@ -3,9 +3,24 @@
 use std::time::Instant;
 
 use super::Bridge;
+use crate::bridge::array::DeviceUid;
 use crate::bridge::host::ArrayChange;
 
 impl Bridge {
+    /// Tells when another device answers than `last` had, both on a port: call it before the first
+    /// [`poll`](Self::poll).
+    pub fn came_after(&mut self, last: DeviceUid) {
+        if !self.is_emulator {
+            self.session.came_after(last);
+        }
+    }
+
+    /// The number of the device on the port; `None` before it answered, and within this process.
+    pub fn device_uid(&self) -> Option<DeviceUid> {
+        let caps = self.session.caps().filter(|_| !self.is_emulator);
+        caps.map(|caps| DeviceUid(caps.uid))
+    }
+
     /// Follows another profile from the next frame on, as
     /// [`HostSession::set_array`](crate::bridge::HostSession::set_array).
     ///

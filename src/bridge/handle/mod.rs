@@ -6,6 +6,7 @@
 
 mod array;
 mod notes;
+mod samples;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
@@ -26,6 +27,8 @@ use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
 use notes::Notes;
+pub use samples::SampleStream;
+use samples::Sampling;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -78,9 +81,11 @@ impl Target {
 #[derive(Debug)]
 pub struct Bridge {
     target: String,
+    is_emulator: bool,
     session: HostSession,
     link: Option<Link>,
     plant: Option<PlantWatch>,
+    sampling: Option<Sampling>,
     notes: Notes,
 }
 
@@ -98,9 +103,9 @@ impl Bridge {
         let sequence = Sequence::default();
         let name = target.name();
         let shape = profile.clone();
-        let plant = target
-            .is_emulator()
-            .then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
+        let is_emulator = target.is_emulator();
+        let plant =
+            is_emulator.then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
         let (feed, plant) = plant.unzip();
         let opener = Box::new(move || target.open(&shape, feed));
         let waker: Waker = Arc::new(waker);
@@ -114,9 +119,11 @@ impl Bridge {
         };
         Self {
             target: name,
+            is_emulator,
             session,
             link,
             plant,
+            sampling: None,
             notes: Notes::default(),
         }
     }
@@ -125,6 +132,9 @@ impl Bridge {
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
         let event = self.next();
+        if matches!(event, Some(BridgeEvent::Ready(_))) {
+            self.open_samples();
+        }
         self.heed(event.as_ref());
         event
     }
@@ -195,7 +205,8 @@ impl Bridge {
         self.flush();
     }
 
-    /// Sends one FRAME for the coming tick, limits and soft start applied; `None` unless armed.
+    /// Sends one FRAME for the coming tick, limits and soft start applied, or the samples of that
+    /// tick where they are played; `None` unless armed.
     ///
     /// `amplitudes_um` are `[A40, A320]` in µm in contactor order. `stamp` is the time of the input
     /// that they follow from, for [`timings`](Self::timings). Neither allocates, locks nor waits.
@@ -204,6 +215,9 @@ impl Bridge {
         amplitudes_um: &[[f32; 2]],
         stamp: Option<Instant>,
     ) -> Option<SentFrame> {
+        if self.session.plays_samples() {
+            return self.send_samples(amplitudes_um, stamp);
+        }
         let link = self.link.as_mut()?;
         let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
         link.send_frame(&QueuedFrame {
@@ -268,6 +282,7 @@ impl Bridge {
         BridgeCounters {
             frames_sent: link.frames_sent,
             frames_superseded: link.frames_superseded,
+            samples_sent: link.samples_sent,
             bad_received: link.bad_received,
             events_dropped: link.events_dropped,
             write_timeouts: link.write_timeouts,

@@ -14,6 +14,8 @@ use crate::files::Staged;
 /// Ticks in a block: 26 s.
 const BLOCK_TICKS: usize = 1024;
 const NUMBER_BYTES: usize = 4;
+/// A row's numbers of a block.
+const ROW_BYTES: usize = BLOCK_TICKS * NUMBER_BYTES;
 
 /// Ticks of `n_rows` numbers.
 #[derive(Debug)]
@@ -73,8 +75,8 @@ impl Spool {
                 take(last)?;
             }
         }
-        for tick in self.ticks.chunks_exact(self.n_rows) {
-            last = tick.get(row).copied().unwrap_or_default();
+        for &number in self.ticks.iter().skip(row).step_by(self.n_rows) {
+            last = number;
             take(last)?;
         }
         Ok(last)
@@ -82,11 +84,11 @@ impl Spool {
 
     /// Turns the block round and writes it.
     fn put_away(&mut self) -> Result<(), SinkError> {
-        self.bytes.clear();
-        for row in 0..self.n_rows {
-            for tick in self.ticks.chunks_exact(self.n_rows) {
-                let number = tick.get(row).copied().unwrap_or_default();
-                self.bytes.extend(number.to_le_bytes());
+        self.bytes.resize(self.n_rows * ROW_BYTES, 0);
+        for (row, bytes) in self.bytes.chunks_exact_mut(ROW_BYTES).enumerate() {
+            let numbers = self.ticks.iter().skip(row).step_by(self.n_rows);
+            for (place, number) in bytes.chunks_exact_mut(NUMBER_BYTES).zip(numbers) {
+                place.copy_from_slice(&number.to_le_bytes());
             }
         }
         self.ticks.clear();
@@ -105,9 +107,8 @@ impl Spool {
 
     /// Reads a row's numbers of a block.
     fn fetch(&mut self, block: u64, row: usize) -> Result<(), SinkError> {
-        let row_bytes = BLOCK_TICKS * NUMBER_BYTES;
-        let at = block * (self.n_rows * row_bytes) as u64 + (row * row_bytes) as u64;
-        self.bytes.resize(row_bytes, 0);
+        let at = block * (self.n_rows * ROW_BYTES) as u64 + (row * ROW_BYTES) as u64;
+        self.bytes.resize(ROW_BYTES, 0);
         let Some((_, out)) = &mut self.file else {
             return Ok(());
         };

@@ -5,8 +5,10 @@
 
 use std::time::Instant;
 
-use super::{BridgeState, HostSession};
+use super::{BridgeEvent, BridgeState, HostSession};
+use crate::bridge::array::DeviceUid;
 use crate::bridge::codes::{ArrayProfile, Coder};
+use crate::bridge::session_log::Note;
 
 /// A profile made ready for a session. After it took effect, what was there before: to be dropped
 /// where dropping is cheap.
@@ -27,6 +29,25 @@ impl ArrayChange {
 }
 
 impl HostSession {
+    /// The link before this one had this device: another one is told. Before it is opened.
+    pub fn came_after(&mut self, device: DeviceUid) {
+        self.before = Some(device);
+    }
+
+    /// Tells when the device is not the one of before, and writes down when it is not the one that
+    /// the profile was measured on.
+    pub(super) fn compare_device(&mut self, now: Instant, device: DeviceUid) {
+        let before = self.before;
+        let other = before.and_then(|before| self.profile.other_device(before, device));
+        if let Some(words) = other {
+            self.note(now, Note::Said("other-device", words.clone()));
+            self.event(BridgeEvent::OtherDevice(words));
+        }
+        if let Some(doubt) = self.profile.wiring_doubt(device) {
+            self.note(now, Note::Said("wiring-doubt", doubt));
+        }
+    }
+
     /// Follows another profile from the next frame on; a device at rest is configured anew. Neither
     /// allocates nor waits.
     ///

@@ -47,9 +47,10 @@ impl HostSession {
         self.state = BridgeState::Streaming;
         self.last_sent = Some(now);
         let due = self.due.take().map(|due| due.min(now));
-        if let Some(due) = due.filter(|_| !self.plays_samples()) {
-            self.unconfirmed.rotate_right(1);
-            self.unconfirmed[0] = Some((seq, due));
+        if let Some(due) = due {
+            let by_tick = self.plays_samples();
+            let name = if by_tick { apply_tick } else { seq.into() };
+            self.evidence.sent(name, due);
         }
         Some(SentFrame {
             seq,

@@ -9,6 +9,7 @@
 mod array;
 mod checks;
 mod clock;
+mod delays;
 mod frames;
 mod ident;
 mod latching;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
+use super::array::DeviceUid;
 use super::codes::{ArrayProfile, Bite, Coder};
 use super::framing::Packet;
 use super::message::{
@@ -34,18 +36,20 @@ use super::session_log::Note;
 pub use array::ArrayChange;
 pub use clock::ClockFit;
 use clock::DeviceClock;
+pub(super) use delays::DelaySource;
+use delays::Evidence;
 pub use frames::SOFT_START_TICKS;
 use ident::Identifying;
 use latching::Latching;
 use notes::Notes;
 use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
+pub(super) use samples::MOST_TICKS;
+pub use samples::{CutSamples, Waveform};
 
 const TICK: Duration = Duration::from_millis(25);
 const MOST_EVENTS: usize = 64;
 const MOST_PACKETS: usize = 16;
-/// Frames under way whose acceptance is still to be told.
-const UNCONFIRMED: usize = 4;
 
 /// The host's packet counter, shared by everything that may send on one link.
 #[derive(Clone, Debug, Default)]
@@ -86,13 +90,17 @@ pub struct HostSession {
     last_ping: Option<Instant>,
     ident: Option<Identifying>,
     first_apply_tick: Option<u32>,
+    /// The last tick whose samples were made since ARM (mode B).
+    last_played_tick: Option<u32>,
     clock: DeviceClock,
     latching: Latching,
+    /// The device that the link before this one had.
+    before: Option<DeviceUid>,
     /// Start of the last STATUS's tick, by our clock.
     tick_start: Option<Instant>,
     /// When the answer to the last STATUS is due; taken by the frame that is it.
     due: Option<Instant>,
-    unconfirmed: [Option<(u16, Instant)>; UNCONFIRMED],
+    evidence: Evidence,
     last_sent: Option<Instant>,
     last_time: Option<Instant>,
     silent_for: Duration,
@@ -128,11 +136,13 @@ impl HostSession {
             last_ping: None,
             ident: None,
             first_apply_tick: None,
+            last_played_tick: None,
             clock: DeviceClock::new(),
             latching: Latching::new(),
+            before: None,
             tick_start: None,
             due: None,
-            unconfirmed: [None; UNCONFIRMED],
+            evidence: Evidence::default(),
             last_sent: None,
             last_time: None,
             silent_for: Duration::ZERO,
@@ -165,6 +175,7 @@ impl HostSession {
         }
         self.state = BridgeState::Arming;
         self.first_apply_tick = None;
+        self.last_played_tick = None;
         self.request(kind::ARM, now);
         true
     }

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::checks::refusal;
 use super::latching::Deepened;
 use super::{BridgeEvent, BridgeState, DisarmedBy, HostSession, TICK};
+use crate::bridge::array::DeviceUid;
 use crate::bridge::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
@@ -49,8 +50,8 @@ impl HostSession {
             return;
         }
         self.caps = Some(*caps);
-        self.latching.set_queue(caps.queue);
         self.event(BridgeEvent::Connected(*caps));
+        self.compare_device(received, DeviceUid(caps.uid));
         self.configure(received);
     }
 
@@ -67,6 +68,7 @@ impl HostSession {
         self.note(received, Note::Effective(*config));
         self.coder.set_link_limit(config.comp_limit);
         self.config = Some(*config);
+        self.latching.set_queue(self.deepest());
         self.state = BridgeState::Ready;
         self.event(BridgeEvent::Ready(*config));
     }
@@ -166,20 +168,7 @@ impl HostSession {
         let earliest = received.checked_sub(TICK).unwrap_or(received);
         let start = start.max(earliest);
         self.tick_start = Some(start);
-        let age = Duration::from_millis(u64::from(status.age_ms));
-        let is_ours = |sent: &Option<(u16, Instant)>| {
-            sent.is_some_and(|(seq, _)| seq == status.last_seq) && status.age_ms < u16::MAX
-        };
-        let Some(place) = self.unconfirmed.iter().position(is_ours) else {
-            return;
-        };
-        // Older ones were replaced by this one and say nothing any more.
-        if let Some((_, due)) = self.unconfirmed[place] {
-            let accepted = start.checked_sub(age).unwrap_or(start);
-            self.latching
-                .accepted(accepted.saturating_duration_since(due));
-        }
-        self.unconfirmed[place..].fill(None);
+        self.learn_from_status(received, start, status);
     }
 
     fn latch(&mut self, now: Instant, lost: [u64; 2]) {
@@ -235,6 +224,7 @@ impl HostSession {
                 // What was measured by the old line is wrong by as much.
                 self.latching.forget();
             }
+            self.learn_from_answer(received, round_trip);
             self.event(BridgeEvent::Pong {
                 round_trip,
                 phase_us: pong.phase_us,

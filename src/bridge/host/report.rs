@@ -90,6 +90,9 @@ pub enum DisarmedBy {
 pub enum BridgeEvent {
     /// The device answered; its CAPS were accepted.
     Connected(Caps),
+    /// It is another device than the link before had; one line says so, and what to do where the
+    /// profile was measured on one.
+    OtherDevice(String),
     /// The device is configured, with these effective values, and may be armed.
     Ready(Config),
     /// The device cannot be driven; one line says why.
@@ -192,9 +195,12 @@ pub struct BridgeCounters {
     pub device: DeviceCounters,
     /// Amplitudes that had to be changed before they became codes.
     pub codes: CodeCounters,
-    /// Frames written to the port.
+    /// Frames written to the port; in mode B whole ticks of samples.
     pub frames_sent: u64,
-    /// Frames that a newer one replaced, or a STOP discarded, before they were written.
+    /// SAMPLES packets written to the port (mode B).
+    pub samples_sent: u64,
+    /// Frames that a newer one replaced, or a STOP discarded, before they were written; in mode B
+    /// ticks of samples without room or after their time.
     pub frames_superseded: u64,
     /// Frames that the device answered with a refusal.
     pub frames_rejected: u64,

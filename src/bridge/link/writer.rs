@@ -1,5 +1,5 @@
-//! The writer's thread: STOP first, then control packets, then the newest frame; one packet a
-//! write.
+//! The writer's thread: STOP first, then control packets, then the newest frame or the next
+//! samples; one packet a write.
 
 use std::io;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer};
 
-use super::{QueuedFrame, Shared};
+use super::{QueuedFrame, QueuedSamples, Shared};
 use crate::bridge::framing::Packet;
 use crate::bridge::port::Port;
 
@@ -26,11 +26,40 @@ pub(super) enum Written {
     Gone,
 }
 
+/// What waits for the port, most urgent first.
+pub(super) struct Outgoing {
+    controls: Consumer<Packet>,
+    frames: Consumer<QueuedFrame>,
+    samples: Option<Consumer<QueuedSamples>>,
+    rings: Consumer<Consumer<QueuedSamples>>,
+}
+
+impl Outgoing {
+    pub(super) fn new(
+        controls: Consumer<Packet>,
+        frames: Consumer<QueuedFrame>,
+        rings: Consumer<Consumer<QueuedSamples>>,
+    ) -> Self {
+        Self {
+            controls,
+            frames,
+            samples: None,
+            rings,
+        }
+    }
+
+    fn next_samples(&mut self) -> Option<QueuedSamples> {
+        while let Ok(ring) = self.rings.pop() {
+            self.samples = Some(ring);
+        }
+        self.samples.as_mut()?.pop().ok()
+    }
+}
+
 /// What the writing thread owns.
 pub(super) struct Writer {
     shared: Arc<Shared>,
-    controls: Consumer<Packet>,
-    frames: Consumer<QueuedFrame>,
+    outgoing: Outgoing,
     failed: Producer<String>,
     timed_out: bool,
     /// When the last frame was written, since the last STOP.
@@ -38,16 +67,10 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    pub(super) fn new(
-        shared: Arc<Shared>,
-        controls: Consumer<Packet>,
-        frames: Consumer<QueuedFrame>,
-        failed: Producer<String>,
-    ) -> Self {
+    pub(super) fn new(shared: Arc<Shared>, outgoing: Outgoing, failed: Producer<String>) -> Self {
         Self {
             shared,
-            controls,
-            frames,
+            outgoing,
             failed,
             timed_out: false,
             last_frame: None,
@@ -77,8 +100,11 @@ impl Writer {
             }
             return Some(written);
         }
-        if let Ok(packet) = self.controls.pop() {
+        if let Ok(packet) = self.outgoing.controls.pop() {
             return Some(self.write(port, &packet));
+        }
+        if let Some(samples) = self.timely_samples() {
+            return Some(self.write_samples(port, &samples));
         }
         let frame = self.newest_frame()?;
         let written = self.write(port, &frame.packet);
@@ -91,7 +117,10 @@ impl Writer {
     /// Nothing queued before a STOP may follow it: an ARM would undo it.
     fn discard(&mut self) {
         self.last_frame = None;
-        while self.controls.pop().is_ok() {}
+        while self.outgoing.controls.pop().is_ok() {}
+        while let Some(samples) = self.outgoing.next_samples() {
+            self.supersede(&samples);
+        }
         if self.newest_frame().is_some() {
             self.shared
                 .frames_superseded
@@ -100,14 +129,44 @@ impl Writer {
     }
 
     fn newest_frame(&mut self) -> Option<QueuedFrame> {
-        let mut newest = self.frames.pop().ok()?;
-        while let Ok(newer) = self.frames.pop() {
+        let mut newest = self.outgoing.frames.pop().ok()?;
+        while let Ok(newer) = self.outgoing.frames.pop() {
             self.shared
                 .frames_superseded
                 .fetch_add(1, Ordering::Relaxed);
             newest = newer;
         }
         Some(newest)
+    }
+
+    /// The next samples whose tick is not over yet: a port that was stuck gets no old ones.
+    fn timely_samples(&mut self) -> Option<QueuedSamples> {
+        loop {
+            let samples = self.outgoing.next_samples()?;
+            if Instant::now() < samples.until {
+                return Some(samples);
+            }
+            self.supersede(&samples);
+        }
+    }
+
+    fn write_samples(&mut self, port: &mut dyn Port, samples: &QueuedSamples) -> Written {
+        let written = self.write(port, &samples.frame.packet);
+        if written == Written::Yes {
+            self.shared.samples_sent.fetch_add(1, Ordering::Relaxed);
+            if samples.ends_tick {
+                self.record(&samples.frame, Instant::now());
+            }
+        }
+        written
+    }
+
+    /// Samples that are not written: a tick of them counts as one frame.
+    fn supersede(&self, samples: &QueuedSamples) {
+        let n_frames = u64::from(samples.ends_tick);
+        self.shared
+            .frames_superseded
+            .fetch_add(n_frames, Ordering::Relaxed);
     }
 
     fn record(&mut self, frame: &QueuedFrame, written: Instant) {

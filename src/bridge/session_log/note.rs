@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::bridge::host::DeviceCounters;
+use crate::bridge::host::{DelaySource, DeviceCounters};
 use crate::bridge::message::{AckCode, Caps, Config, Fault, StopHow};
 
 /// One thing that happened on a link.
@@ -55,6 +55,8 @@ pub(in crate::bridge) enum Note {
     HostCounters(HostCounters),
     /// How many ticks ahead frames are sent, and how long before them they are due.
     Depth(u8, Duration),
+    /// What delays, and so the lead, are learned from now on.
+    Delays(DelaySource),
     /// Something with words of its own: an event's name and its text.
     Said(&'static str, String),
     /// So many entries found no room.

@@ -1,16 +1,20 @@
 //! A host and a device at the two ends of a failing link, in virtual time: what tests and studies
 //! try the protocol with.
 //!
-//! The host acts whenever something arrives and every 5 ms, answers each tick with one frame, and
-//! does nothing else by itself: whoever runs the simulation arms, opens anew and clears faults.
+//! The host acts whenever something arrives and every 5 ms, answers each tick with one frame (or its
+//! samples, where it has a waveform and the device plays them), and does nothing else by itself: whoever runs the simulation arms, opens anew and clears faults.
 
 use std::time::{Duration, Instant};
 
 use super::{Faults, Injection, WiredDevice};
 use crate::bridge::codes::ArrayProfile;
-use crate::bridge::device::{AppliedFrame, DeviceModel, DeviceSink, Moment};
+use crate::bridge::device::{
+    AppliedFrame, DeviceModel, DeviceSink, Moment, SampleCount, SampledTick,
+};
 use crate::bridge::framing::{Decoder, LARGEST_BODY, Packet};
-use crate::bridge::host::{BridgeEvent, BridgeState, DisarmedBy, HostSession, SentFrame, Sequence};
+use crate::bridge::host::{
+    BridgeEvent, BridgeState, CutSamples, DisarmedBy, HostSession, SentFrame, Sequence, Waveform,
+};
 use crate::bridge::message::{DeviceMessage, kind};
 
 /// Contactors of the simulated display, and channels of the usual device.
@@ -48,6 +52,7 @@ pub(crate) struct Simulation {
     pub(crate) bad_received: u64,
     /// ARM packets that the host wrote.
     pub(crate) arms_written: u32,
+    wave: Option<Box<dyn Waveform>>,
     decoder: Decoder,
     n_visits: u32,
 }
@@ -58,6 +63,10 @@ pub(crate) struct SimulationLog {
     arrived: Vec<u8>,
     /// Tick, seq and codes of every frame that took effect.
     pub(crate) frames: Vec<(u32, u16, Vec<[u16; 2]>)>,
+    /// Every sample that was played, from this number on, interleaved (mode B).
+    pub(crate) played: (Option<u64>, Vec<i16>),
+    /// What became of the samples of every tick (mode B).
+    pub(crate) sampled: Vec<SampleCount>,
     /// Every change of state.
     pub(crate) changes: Vec<Moment>,
     /// Every injected fault.
@@ -72,6 +81,15 @@ impl DeviceSink for SimulationLog {
     fn applied(&mut self, frame: &AppliedFrame<'_>) {
         self.frames
             .push((frame.moment.tick, frame.seq, frame.codes.to_vec()));
+    }
+
+    fn played(&mut self, first: u64, samples: &[i16]) {
+        self.played.0.get_or_insert(first);
+        self.played.1.extend_from_slice(samples);
+    }
+
+    fn sampled(&mut self, tick: &SampledTick<'_>) {
+        self.sampled.push(tick.count);
     }
 
     fn changed(&mut self, moment: &Moment) {
@@ -110,6 +128,7 @@ impl Simulation {
             loudest_age_us: 0,
             bad_received: 0,
             arms_written: 0,
+            wave: None,
             decoder: Decoder::new(LARGEST_BODY),
             n_visits: 0,
         }
@@ -123,10 +142,24 @@ impl Simulation {
     /// The same over a link and with a device that have these faults.
     pub(crate) fn streaming_over(faults: &Faults, ms: u64) -> Self {
         let mut simulation = Self::of(DeviceModel::default(), faults);
-        simulation.run_until(5000, |it| it.host.state() == BridgeState::Ready);
-        simulation.host.arm(simulation.now());
-        simulation.run(ms);
+        simulation.arm_and_run(ms);
         simulation
+    }
+
+    /// The same over a good link with a device of this model, by samples where it plays them.
+    #[cfg(test)]
+    pub(crate) fn playing(model: DeviceModel, wave: Box<dyn Waveform>, ms: u64) -> Self {
+        let mut simulation = Self::of(model, &Faults::default());
+        simulation.host.prefer_samples();
+        simulation.wave = Some(wave);
+        simulation.arm_and_run(ms);
+        simulation
+    }
+
+    fn arm_and_run(&mut self, ms: u64) {
+        self.run_until(5000, |it| it.host.state() == BridgeState::Ready);
+        self.host.arm(self.now());
+        self.run(ms);
     }
 
     /// The host's clock.
@@ -264,15 +297,33 @@ impl Simulation {
     fn hear(&mut self, event: BridgeEvent) {
         match event {
             BridgeEvent::Tick { .. } if self.is_unheard => {}
-            BridgeEvent::Tick { .. } => {
-                let amplitudes = [self.amplitude_um; N_CONTACTORS];
-                if let Some((stamp, packet)) = self.host.frame(self.now(), &amplitudes) {
-                    self.sent.push(stamp);
-                    self.write(&packet);
+            BridgeEvent::Tick { .. } => self.answer(),
+            BridgeEvent::Ready(_) => {
+                let rate_hz = self.host.caps().map_or(0, |caps| caps.sample_hz.into());
+                if let Some(wave) = &mut self.wave {
+                    wave.prepare(rate_hz, N_CONTACTORS);
                 }
+                self.events.push(event);
             }
             BridgeEvent::Pong { .. } => {}
             other => self.events.push(other),
+        }
+    }
+
+    fn answer(&mut self) {
+        let (now, amplitudes) = (self.now(), [self.amplitude_um; N_CONTACTORS]);
+        let mut packets = Vec::new();
+        if let Some(wave) = &mut self.wave {
+            let out = |cut: CutSamples| packets.push(cut.packet);
+            let played = self.host.play(now, &amplitudes, wave.as_mut(), out);
+            self.sent.extend(played);
+        }
+        if let Some((stamp, packet)) = self.host.frame(now, &amplitudes) {
+            self.sent.push(stamp);
+            packets.push(packet);
+        }
+        for packet in &packets {
+            self.write(packet);
         }
     }
 

@@ -4,7 +4,8 @@ use super::clock::DeviceClock;
 use super::faults::{Direction, Faults, Injection, InjectionKind, OneOff, OneOffKind};
 use super::lane::{BOOT_BANNER, Lane};
 use crate::bridge::device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, SampledTick,
+    Sense,
 };
 use crate::bridge::message::{DeviceState, fault_bit};
 use crate::bridge::plant::ContactorModel;
@@ -364,6 +365,14 @@ impl<S: DeviceSink> DeviceSink for Outlet<'_, S> {
         #[cfg(test)]
         self.tap.applied(frame);
         self.sink.applied(frame);
+    }
+
+    fn played(&mut self, first: u64, samples: &[i16]) {
+        self.sink.played(first, samples);
+    }
+
+    fn sampled(&mut self, tick: &SampledTick<'_>) {
+        self.sink.sampled(tick);
     }
 
     fn changed(&mut self, moment: &Moment) {

@@ -3,6 +3,7 @@
 //! The waveform is that of [`DriveSynth`], which WAV files have too; the amplitudes are codes, so
 //! that every limit and the soft start are in them. A code of 65535 is a sample of 32767.
 
+use crate::bridge::Waveform;
 use crate::render::RenderError;
 use crate::render::array::DriveSynth;
 
@@ -15,7 +16,6 @@ const FULL_CODE: f64 = 65535.0;
 #[derive(Debug, Clone)]
 pub struct SampleSynth {
     drive: DriveSynth,
-    per_tick: u32,
     amplitudes: Vec<[f32; 2]>,
     wave: Vec<f32>,
     samples: Vec<i16>,
@@ -40,16 +40,10 @@ impl SampleSynth {
         let n_values = usize::try_from(per_tick).unwrap_or(0) * n_channels;
         Ok(Self {
             drive,
-            per_tick,
             amplitudes: vec![[0.0; 2]; n_channels],
             wave: vec![0.0; n_values],
             samples: vec![0; n_values],
         })
-    }
-
-    /// The number of a tick's first sample; wraps as it does on the wire.
-    pub fn first_of(&self, tick: u32) -> u32 {
-        tick.wrapping_mul(self.per_tick)
     }
 
     /// The samples of the next tick, interleaved. Allocates nothing.
@@ -63,6 +57,24 @@ impl SampleSynth {
             *sample = sample_of(*value);
         }
         &self.samples
+    }
+}
+
+/// The waveform for a device whose rate is not known yet.
+#[derive(Debug, Default)]
+pub struct DeviceWaveform(Option<SampleSynth>);
+
+impl Waveform for DeviceWaveform {
+    fn prepare(&mut self, rate_hz: u32, n_channels: usize) -> bool {
+        self.0 = SampleSynth::prepare(rate_hz, n_channels).ok();
+        self.0.is_some()
+    }
+
+    fn tick(&mut self, codes: &[[u16; 2]]) -> &[i16] {
+        match &mut self.0 {
+            Some(synth) => synth.tick(codes),
+            None => &[],
+        }
     }
 }
 

@@ -1,47 +1,11 @@
 //! Ports that are busy and devices that vanish: a notice with the mend, and the last state stays.
 
-use std::io::{BufRead as _, BufReader};
-use std::process::{Child, Command, Stdio};
-
 use eframe::egui::Event;
 use eframe::egui::accesskit::Role;
 use serialport::{SerialPort as _, TTYPort};
 
 use super::*;
-
-/// An emulated device in a process of its own, behind a pseudo-terminal.
-struct Device(Child);
-
-impl Device {
-    fn start(link: &Path) -> Self {
-        drop(fs::remove_file(link));
-        let mut child = Command::new(env!("CARGO_BIN_EXE_selvedge"))
-            .args(["bridge", "emulate", "--link"])
-            .arg(link)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        let out = child.stdout.take().unwrap();
-        BufReader::new(out).read_line(&mut line).unwrap();
-        assert!(line.contains(" -> /dev/"), "{line}");
-        Self(child)
-    }
-
-    /// As when the cable is pulled.
-    fn vanish(&mut self) {
-        self.0.kill().unwrap();
-        self.0.wait().unwrap();
-    }
-}
-
-impl Drop for Device {
-    fn drop(&mut self) {
-        drop(self.0.kill());
-        drop(self.0.wait());
-    }
-}
+use crate::bridge_device::Device;
 
 /// Types a port into the bridge pane and asks to connect.
 fn connect(harness: &mut Harness<'_, Workbench>, port: &str) {
@@ -88,7 +52,7 @@ fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
     let folder = Folder::new("vanishing");
     let link = folder.0.join("array");
     let port = link.to_str().unwrap();
-    let mut device = Device::start(&link);
+    let mut device = Device::behind(&link);
     let mut harness = window(&folder.scene());
     harness.run();
     connect(&mut harness, port);
@@ -108,7 +72,7 @@ fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
     stroke(&mut harness, 20);
     assert!(loudest_um(&harness) > 0.1, "the scene is still felt");
     assert!(!harness.state().is_ready(), "and arming is refused");
-    let _again = Device::start(&link);
+    let _again = Device::behind(&link);
     connect(&mut harness, port);
     wait(&mut harness, Workbench::is_ready);
     harness.get_by_role_and_label(Role::Button, "Arm").click();
@@ -119,7 +83,7 @@ fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
 fn a_device_that_comes_back_under_another_name_is_told_and_connects_with_one_click() {
     let folder = Folder::new("replugged");
     let (link, other) = (folder.0.join("array"), folder.0.join("array-2"));
-    let mut device = Device::start(&link);
+    let mut device = Device::behind(&link);
     let mut harness = window(&folder.scene());
     harness.run();
     connect(&mut harness, link.to_str().unwrap());
@@ -134,7 +98,7 @@ fn a_device_that_comes_back_under_another_name_is_told_and_connects_with_one_cli
     });
     let again = harness.query_by_role_and_label(Role::Button, "Connect again");
     assert!(again.is_none(), "it is away");
-    let _back = Device::start(&other);
+    let _back = Device::behind(&other);
     wait(&mut harness, |bench| {
         let is_back = |notice: &String| notice.contains("The array is back as");
         bench.notices().iter().any(is_back)

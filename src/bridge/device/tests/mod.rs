@@ -12,7 +12,7 @@ use crate::bridge::message::{
     Ping, Stop, StopHow, frame, kind,
 };
 
-const SESSION: u32 = 0x00c0_ffee;
+pub(in crate::bridge) const SESSION: u32 = 0x00c0_ffee;
 
 /// A device on a bench: what it sends and logs, decoded.
 struct Bench {
@@ -42,7 +42,8 @@ impl DeviceSink for Collected {
     }
 }
 
-fn wish() -> Config {
+/// What a host of 24 contactors asks for.
+pub(in crate::bridge) fn wish() -> Config {
     Config {
         mode: 0,
         flags: 0,
@@ -53,6 +54,16 @@ fn wish() -> Config {
         comp_limit: [65535; 2],
         mask: ChannelMask::first(24),
     }
+}
+
+/// HELLO, CONFIG and ARM of such a host.
+pub(in crate::bridge) fn opening() -> [Packet; 3] {
+    let packets = [
+        Hello::new(SESSION).packet(1),
+        wish().request(2, 24),
+        Arm::new(SESSION).packet(3),
+    ];
+    packets.map(Option::unwrap)
 }
 
 impl Bench {

@@ -1,7 +1,8 @@
 //! Another profile, and one channel alone, against the device in virtual time.
 
 use super::*;
-use crate::bridge::array::Calibration;
+use crate::bridge::array::{Calibration, DeviceUid, Wiring};
+use crate::bridge::session_log::Note;
 
 fn limited(limit_um: [f64; 2]) -> ArrayProfile {
     ArrayProfile {
@@ -187,7 +188,7 @@ fn calibration_and_wiring_reach_the_device() {
         is_off: false,
     };
     profile.set_calibration(0, strong);
-    profile.wiring = Some(crate::bridge::Wiring {
+    profile.wiring = Some(Wiring {
         device_uid: crate::bridge::DeviceUid(*b"selvedge-emu"),
         channels: (0..24).rev().collect(),
     });
@@ -203,4 +204,55 @@ fn calibration_and_wiring_reach_the_device() {
         "contactor 0 on the last channel"
     );
     assert_eq!(output[..23], vec![[13107, 26214]; 23]);
+}
+
+/// What a host says that comes after a device with the number 7… and meets the emulator.
+fn told_of_another(profile: ArrayProfile, before: [u8; 12]) -> Option<String> {
+    let now = Instant::now();
+    let mut host = HostSession::new(NONCE, profile, 24, Sequence::default());
+    host.keep_notes();
+    host.came_after(DeviceUid(before));
+    host.opened(now);
+    let caps = DeviceModel::default().caps(NONCE, 1);
+    host.on_message(now, &DeviceMessage::Caps(caps));
+    let told = std::iter::from_fn(|| host.next_event()).find_map(|event| match event {
+        BridgeEvent::OtherDevice(words) => Some(words),
+        _ => None,
+    });
+    let noted = std::iter::from_fn(|| host.next_note()).find_map(|entry| match entry.note {
+        Note::Said("other-device", words) => Some(words),
+        _ => None,
+    });
+    assert_eq!(told, noted, "the log says what people are told");
+    told
+}
+
+#[test]
+fn another_device_than_before_is_always_told_and_with_the_mend_where_it_was_measured() {
+    let caps = DeviceModel::default().caps(NONCE, 1);
+    assert_eq!(told_of_another(ArrayProfile::default(), caps.uid), None);
+    let plain = told_of_another(ArrayProfile::default(), [7; 12]).unwrap();
+    assert!(
+        plain.ends_with("it was 070707070707070707070707"),
+        "{plain}"
+    );
+    let mut measured = ArrayProfile {
+        calibration: vec![Calibration::default(); 24],
+        ..ArrayProfile::default()
+    };
+    let warned = told_of_another(measured.clone(), [7; 12]).unwrap();
+    assert!(warned.starts_with(&plain), "{warned}");
+    assert!(
+        warned.contains("calibration in") && warned.contains("own profile"),
+        "{warned}"
+    );
+    measured.wiring = Some(Wiring {
+        device_uid: DeviceUid([7; 12]),
+        channels: (0..24).collect(),
+    });
+    let warned = told_of_another(measured.clone(), [7; 12]).unwrap();
+    assert!(warned.contains("calibration and wiring"), "{warned}");
+    measured.wiring.as_mut().unwrap().device_uid = DeviceUid(caps.uid);
+    let own = told_of_another(measured, [7; 12]).unwrap();
+    assert_eq!(own, plain, "it is the one that was measured");
 }

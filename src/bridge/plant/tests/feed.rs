@@ -1,9 +1,8 @@
 //! A device in told time whose plant is looked at.
 
 use super::*;
-use crate::bridge::message::{
-    ARM_KEY, Arm, ChannelMask, Config, DeviceState, Hello, Message as _, NEXT_TICK, frame,
-};
+use crate::bridge::device::tests::opening;
+use crate::bridge::message::{DeviceState, NEXT_TICK, frame};
 use crate::bridge::{DeviceCore, DeviceModel, DeviceSink};
 
 /// Feeds a plant and drops the packets.
@@ -22,25 +21,9 @@ fn play(until_ms: u64, is_looking: bool) -> (PlantWatch, DeviceCore) {
     let (feed, watch) = plant_watch(ContactorModel::default(), 24);
     watch.look(is_looking);
     let (mut device, mut fed) = (DeviceCore::new(DeviceModel::default()), Fed(feed));
-    let hello = Hello::new(7).packet(1).unwrap();
-    let config = Config {
-        mode: 0,
-        flags: 0,
-        hold_ms: 60,
-        ramp_ms: 40,
-        slew: 0,
-        hv_dv: 600,
-        comp_limit: [u16::MAX; 2],
-        mask: ChannelMask::first(24),
-    };
-    let arm = Arm {
-        session: 7,
-        key: 7 ^ ARM_KEY,
-    };
-    device.receive(10_000, hello.as_bytes(), &mut fed);
-    let config = config.request(2, 24).unwrap();
-    device.receive(10_000, config.as_bytes(), &mut fed);
-    device.receive(10_000, arm.packet(3).unwrap().as_bytes(), &mut fed);
+    for packet in opening() {
+        device.receive(10_000, packet.as_bytes(), &mut fed);
+    }
     let mut seq = 3;
     for ms in 11..=until_ms {
         if ms < 500 && ms % 25 == 5 {

@@ -7,15 +7,14 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::bridge::codes::ArrayProfile;
 use crate::bridge::device::DeviceCore;
+use crate::bridge::device::tests::{SESSION, opening, wish};
 use crate::bridge::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::bridge::host::{HostSession, Sequence};
 use crate::bridge::message::{
-    Ack, AckCode, Arm, ChannelMask, Clear, Config, DeviceMessage, Fault, Hello, Ident,
-    Message as _, Ping, Pong, Status, Stop, StopHow, frame, kind,
+    Ack, AckCode, Arm, Clear, DeviceMessage, Fault, Hello, Ident, Message as _, Ping, Pong, Status,
+    Stop, StopHow, frame, kind,
 };
 use crate::numerics::Random;
-
-const SESSION: u32 = 0x00c0_ffee;
 
 fn n_mutations() -> u64 {
     let said = std::env::var("SELVEDGE_MUTATIONS").ok();
@@ -154,19 +153,6 @@ fn wire(packet: Option<Packet>) -> Vec<u8> {
     packet.unwrap().as_bytes().to_vec()
 }
 
-fn wish() -> Config {
-    Config {
-        mode: 0,
-        flags: 0,
-        hold_ms: 60,
-        ramp_ms: 40,
-        slew: 0,
-        hv_dv: 500,
-        comp_limit: [u16::MAX; 2],
-        mask: ChannelMask::first(24),
-    }
-}
-
 fn to_device() -> Mutator {
     let stop = Stop {
         reason: 0,
@@ -202,8 +188,9 @@ fn a_million_mutated_packets_neither_arm_nor_grow_a_device() {
     let mut mutator = to_device();
     let mut core = DeviceCore::new(DeviceModel::default());
     let mut answers: Vec<u8> = Vec::new();
-    core.receive(0, &wire(Hello::new(SESSION).packet(1)), &mut answers);
-    core.receive(0, &wire(wish().request(2, 24)), &mut answers);
+    for packet in &opening()[..2] {
+        core.receive(0, packet.as_bytes(), &mut answers);
+    }
     let held = core.held();
     let mut now_us = 0;
     for nth in 0..n_mutations() {
@@ -227,9 +214,9 @@ fn an_armed_device_under_mutated_packets_keeps_its_bounds_and_falls_silent() {
     let mut n_loud = 0;
     for nth in 0..n_mutations() / 10 {
         if nth % 500 == 0 {
-            core.receive(now_us, &wire(Hello::new(SESSION).packet(1)), &mut answers);
-            core.receive(now_us, &wire(wish().request(2, 24)), &mut answers);
-            core.receive(now_us, &wire(Arm::new(SESSION).packet(3)), &mut answers);
+            for packet in opening() {
+                core.receive(now_us, packet.as_bytes(), &mut answers);
+            }
         }
         answers.clear();
         now_us += 700;

@@ -1,34 +1,18 @@
 //! When output ends after the last frame, and clocks that differ for an hour.
 
 use super::*;
+use crate::bridge::device::tests::opening;
 use crate::bridge::framing::Packet;
 use crate::bridge::host::DeviceCounters;
-use crate::bridge::message::{Arm, ChannelMask, Config, Hello, Message as _, frame};
-
-const SESSION: u32 = 0x00c0_ffee;
+use crate::bridge::message::frame;
 
 /// A device that is armed through its link, without a host that would answer.
 fn armed(faults: &Faults) -> (WiredDevice, Vec<u8>, u64) {
     let mut device = WiredDevice::new(DeviceModel::default(), faults);
     let mut sink = Vec::new();
-    let config = Config {
-        mode: 0,
-        flags: 0,
-        hold_ms: 60,
-        ramp_ms: 40,
-        slew: 0,
-        hv_dv: 500,
-        comp_limit: [u16::MAX; 2],
-        mask: ChannelMask::first(24),
-    };
-    let packets = [
-        Hello::new(SESSION).packet(1),
-        config.request(2, 24),
-        Arm::new(SESSION).packet(3),
-    ];
     let mut at_us = 100_000;
-    for packet in packets {
-        device.host_wrote(at_us, packet.unwrap().as_bytes());
+    for packet in opening() {
+        device.host_wrote(at_us, packet.as_bytes());
         at_us += 10_000;
         device.advance(at_us, &mut sink);
     }
