@@ -20,7 +20,12 @@ fn the_study_repeats_and_errors_shrink_with_trials() {
     }
     let error = |method: &str, n_trials: f64| {
         let is_it = |row: &&Row| row.method == method && row.size == Some(n_trials);
-        first.rows.iter().find(is_it).and_then(|row| row.error).unwrap()
+        first
+            .rows
+            .iter()
+            .find(is_it)
+            .and_then(|row| row.error)
+            .unwrap()
     };
     for way in Way::ALL {
         let (few, many) = (error(way.name(), 20.0), error(way.name(), 80.0));
@@ -32,6 +37,12 @@ fn the_study_repeats_and_errors_shrink_with_trials() {
 #[test]
 fn lapses_and_trials_without_a_threshold_are_counted() {
     let tally = Tally::of([Some(1.0), None, Some(-1.0), Some(3.0)].into_iter());
-    assert_eq!((tally.n_runs, tally.n_undefined, tally.bias_db), (4, 1, 1.0));
-    assert!((tally.rms_db - (11.0_f64 / 3.0).sqrt()).abs() < 1e-14, "{tally:?}");
+    assert_eq!(
+        (tally.n_runs, tally.n_undefined, tally.bias_db),
+        (4, 1, 1.0)
+    );
+    assert!(
+        (tally.rms_db - (11.0_f64 / 3.0).sqrt()).abs() < 1e-14,
+        "{tally:?}"
+    );
 }
