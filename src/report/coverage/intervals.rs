@@ -1,6 +1,6 @@
 //! Intervals of numbers that are known.
 
-use super::{Trial, normals, successes};
+use super::{Trial, normals, successes, unpromised};
 use crate::numerics::Random;
 use crate::statistics::adaptive::{Procedure as _, QuestGrid, QuestPlus, Stop};
 use crate::statistics::detection::{Answers, Correction, forced_choice, share_of_d_prime, yes_no};
@@ -29,16 +29,10 @@ const fn interval(
     }
 }
 
-const fn unpromised(trial: Trial) -> Trial {
-    Trial {
-        is_promised: false,
-        ..trial
-    }
-}
-
 const MANY: [usize; 2] = [1000, 5000];
 const SOME: [usize; 2] = [200, 1000];
 const FEW: [usize; 2] = [24, 200];
+const MIDDLE: [usize; 2] = [60, 500];
 
 pub(super) const ALL: &[Trial] = &[
     interval("mean, Student t", "8 subjects", MANY, |random| {
@@ -116,7 +110,7 @@ pub(super) const ALL: &[Trial] = &[
     interval(
         "threshold, posterior",
         "7 stimuli × 20 trials",
-        SOME,
+        MIDDLE,
         |random| {
             let found = of_alternatives(random)?
                 .posterior()
@@ -154,7 +148,7 @@ pub(super) const ALL: &[Trial] = &[
     interval(
         "JND, posterior",
         "two-sided, 7 stimuli × 20 trials",
-        SOME,
+        MIDDLE,
         |random| {
             let posterior = of_comparison(random)?.posterior();
             let found = posterior.interval(Psychometric::jnd, LEVEL)?;
@@ -198,7 +192,7 @@ fn drawn_anew<const M: usize>(
 }
 
 fn threshold(curve: &Psychometric) -> Computed {
-    Ok(curve.threshold)
+    curve.stimulus_at_shape(0.5)
 }
 
 /// Right answers of three alternatives; decibels about the threshold.

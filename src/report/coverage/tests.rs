@@ -59,7 +59,7 @@ fn a_tally_is_the_same_on_any_number_of_threads_and_counts_what_is_undefined() {
     };
     let found = tally(&trial, 4000, 7);
     assert_eq!(found, tally(&trial, 4000, 7));
-    assert!((900..1100).contains(&found.n_undefined), "{found:?}");
+    assert!((900..1100).contains(&found.undefined), "{found:?}");
     assert!((found.percent() - 66.7).abs() < 3.0, "{found:?}");
     let row = found.row(&trial, "", 95.0, COVERAGE_BAND);
     assert_eq!(row.is_kept(), Some(false));

@@ -43,7 +43,7 @@ impl Study for StaircasesStudy {
     }
 
     fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let n_runs = bench.effort.pick(24, 150);
+        let n_runs = bench.effort.pick(16, 150);
         let n_checkpoints = bench.effort.pick(3, CHECKPOINTS.len());
         let checkpoints = &CHECKPOINTS[..n_checkpoints];
         let observers = Observer::all();
@@ -209,71 +209,74 @@ fn large_grid(bench: &mut Bench<'_>) -> Result<Row, ReportError> {
     })
 }
 
-/// Error over trials, and bias where observers are less steep than assumed.
+/// Error and bias over trials, a plot of each for every observer.
 fn plots(findings: &mut Findings, observers: &[Observer]) {
-    let axis = |label: &str, scale: Scale| Axis {
-        label: label.to_owned(),
-        scale,
-        range: None,
-    };
-    for (file, observer) in ["steady", "lapses", "shallow", "shallow-lapses"]
-        .iter()
-        .zip(observers)
-    {
-        let of = |value: fn(&Row) -> Option<f64>| -> Vec<Series> {
-            let series = |way: Way| Series {
-                name: way.name().to_owned(),
-                points: findings
-                    .rows
-                    .iter()
-                    .filter(|row| row.method == way.name() && row.case == observer.name)
-                    .filter_map(|row| Some([row.size?, value(row)?]))
-                    .collect(),
-                style: Style::LineAndDots,
-                ..Series::default()
+    let files = ["steady", "lapses", "shallow", "shallow-lapses"];
+    for (file, observer) in files.iter().zip(observers) {
+        let kinds = [
+            ("error", "rms error, dB", Scale::Log, rms_db as Value),
+            ("bias", "mean error, dB", Scale::Linear, bias_db),
+        ];
+        for (kind, label, scale, value) in kinds {
+            let axis = |label: &str, scale: Scale| Axis {
+                label: label.to_owned(),
+                scale,
+                range: None,
             };
-            Way::ALL.into_iter().map(series).collect()
-        };
-        let bias = |row: &Row| {
-            let (_, text) = row.more.iter().find(|(name, _)| *name == "bias_db")?;
-            text.parse().ok()
-        };
-        let footnote = || format!("{}. Numbers: staircases.csv.", observer.name);
-        let error = Plot {
-            title: "Staircases: error of the threshold over trials".to_owned(),
-            x: axis("trials", Scale::Log),
-            y: axis("rms error, dB", Scale::Log),
-            series: of(|row| row.error),
-            footnote: footnote(),
-        };
-        let bias = Plot {
-            title: "Staircases: bias of the threshold over trials".to_owned(),
-            x: axis("trials", Scale::Log),
-            y: axis("mean error, dB", Scale::Linear),
-            series: of(bias),
-            footnote: footnote(),
-        };
-        findings
-            .plots
-            .push((format!("staircases-error-{file}"), error));
-        findings
-            .plots
-            .push((format!("staircases-bias-{file}"), bias));
+            let plot = Plot {
+                title: format!("Staircases: {kind} of the threshold over trials"),
+                x: axis("trials", Scale::Log),
+                y: axis(label, scale),
+                series: series(&findings.rows, observer, value),
+                footnote: format!("{}. Numbers: staircases.csv.", observer.name),
+            };
+            let name = format!("staircases-{kind}-{file}");
+            findings.plots.push((name, plot));
+        }
     }
-    let worst = |observer: &Observer| {
-        let last = findings.rows.iter().filter(|row| row.case == observer.name);
-        let best = last.filter(|row| row.size == Some(80.0) && row.error.is_some());
-        let least = best.min_by(|a, b| {
-            a.error
-                .partial_cmp(&b.error)
-                .unwrap_or(std::cmp::Ordering::Equal)
-        })?;
-        let error_db = quantity::fixed(least.error?, 2);
-        Some(format!(
-            "{}: least error after 80 trials {error_db} dB, {}.",
-            observer.name, least.method
-        ))
+    let notes: Vec<String> = observers
+        .iter()
+        .filter_map(|observer| least(&findings.rows, observer))
+        .collect();
+    findings.notes.extend(notes);
+}
+
+/// What of a row is drawn.
+type Value = fn(&Row) -> Option<f64>;
+
+fn rms_db(row: &Row) -> Option<f64> {
+    row.error
+}
+
+fn bias_db(row: &Row) -> Option<f64> {
+    let (_, text) = row.more.iter().find(|(name, _)| *name == "bias_db")?;
+    text.parse().ok()
+}
+
+fn series(rows: &[Row], observer: &Observer, value: Value) -> Vec<Series> {
+    let of = |way: Way| Series {
+        name: way.name().to_owned(),
+        points: rows
+            .iter()
+            .filter(|row| row.method == way.name() && row.case == observer.name)
+            .filter_map(|row| Some([row.size?, value(row)?]))
+            .collect(),
+        style: Style::LineAndDots,
+        ..Series::default()
     };
-    let said: Vec<String> = observers.iter().filter_map(worst).collect();
-    findings.notes.extend(said);
+    Way::ALL.into_iter().map(of).collect()
+}
+
+/// Which way came nearest after eighty trials.
+fn least(rows: &[Row], observer: &Observer) -> Option<String> {
+    let of_observer = rows.iter().filter(|row| row.case == observer.name);
+    let at_eighty = of_observer.filter(|row| row.setting == "80 trials");
+    let (error_db, way) = at_eighty
+        .filter_map(|row| Some((row.error?, &row.method)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let error_db = quantity::fixed(error_db, 2);
+    Some(format!(
+        "{}: least error after 80 trials {error_db} dB, {way}.",
+        observer.name
+    ))
 }

@@ -5,7 +5,7 @@ use super::{Fit, Psychometric};
 use crate::statistics::{Computed, Interval, Undefined};
 
 /// Cells along threshold, width and lapse rate.
-const CELLS: [usize; 3] = [48, 40, 11];
+const CELLS: [usize; 3] = [40, 32, 9];
 /// Likewise while the grid closes in.
 const COARSE: [usize; 3] = [24, 24, 5];
 /// A row of cells with less than this share of the largest row is left out.
@@ -139,7 +139,7 @@ impl Fit {
             ],
             counts: [COARSE[0], COARSE[1], n_lapses(COARSE[2])],
         };
-        for _ in 0..3 {
+        for _ in 0..2 {
             grid.ends = grid.closer(&grid.masses(&target), mode);
         }
         grid.counts = [CELLS[0], CELLS[1], n_lapses(CELLS[2])];
