@@ -91,7 +91,7 @@ pub(super) const ALL: &[Trial] = &[
     interval(
         "d′, four alternatives",
         "d′ 1, 80 trials",
-        SOME,
+        MIDDLE,
         |random| {
             let correct = successes(random, 80, share_of_d_prime(1.0, 4)?);
             let found = forced_choice(u64::from(correct), 80, 4, Correction::LogLinear)?;
@@ -187,7 +187,7 @@ fn drawn_anew<const M: usize>(
 ) -> Computed<bool> {
     let values = normals::<M>(random, 41.3, 4.5);
     let of_drawn = |drawn: &[usize]| mean(&drawn.iter().map(|&i| values[i]).collect::<Vec<_>>());
-    let found = bootstrap(M, of_drawn, how(random, 1000))?;
+    let found = bootstrap(M, of_drawn, how(random, 500))?;
     Ok(of(found)?.holds(41.3))
 }
 
