@@ -90,9 +90,9 @@ fn notes() -> String {
     let [low, high] = COVERAGE_BAND.map(|percent| quantity::fixed(percent, 0));
     let [least, most] = FALSE_POSITIVE_BAND.map(|percent| quantity::fixed(percent, 1));
     format!(
-        "Promised: coverage of {low}–{high} %, false positives of {least}–{most} %, give or take two \
-         standard errors of the simulation, which stand beside each share. Rows without a promise \
-         are known to miss their level with so few subjects, and say by how much."
+        "Promised: coverage of {low}–{high} %, false positives of {least}–{most} %, give or \
+         take two standard errors of the simulation, which stand beside each share. Rows without \
+         a promise are known to miss their level with so few subjects, and say by how much."
     )
 }
 
