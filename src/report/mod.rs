@@ -19,6 +19,7 @@ mod bimorph;
 mod chart;
 mod clips;
 mod columns;
+mod coverage;
 mod drive_updates;
 mod error;
 mod findings;
@@ -38,6 +39,7 @@ mod runner;
 mod shading;
 mod spectral_model;
 mod stability;
+mod staircases;
 mod study;
 #[cfg(test)]
 mod tests;
@@ -48,6 +50,7 @@ pub use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
 pub use bimorph::BimorphStudy;
 pub use clips::ClipsStudy;
+pub use coverage::CoverageStudy;
 pub use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
@@ -63,6 +66,7 @@ pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use shading::ShadingStudy;
 pub use spectral_model::SpectralModelStudy;
+pub use staircases::StaircasesStudy;
 pub use study::Study;
 pub use velocity::VelocityStudy;
 
@@ -89,6 +93,8 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(BimorphStudy),
         Box::new(ReadersStudy),
         Box::new(MdsStudy),
+        Box::new(StaircasesStudy),
+        Box::new(CoverageStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),
     ]

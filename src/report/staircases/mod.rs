@@ -1,9 +1,9 @@
 //! The study of thresholds: how near each way to find one comes, by trials, lapses and slope.
 
 mod observers;
-mod ways;
 #[cfg(test)]
 mod tests;
+mod ways;
 
 use crate::figure::{Axis, Plot, Scale, Series, Style};
 use crate::numerics::{in_pieces, n_threads};
@@ -43,7 +43,7 @@ impl Study for StaircasesStudy {
     }
 
     fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let n_runs = bench.effort.pick(24, 250);
+        let n_runs = bench.effort.pick(16, 150);
         let n_checkpoints = bench.effort.pick(3, CHECKPOINTS.len());
         let checkpoints = &CHECKPOINTS[..n_checkpoints];
         let observers = Observer::all();
@@ -58,7 +58,9 @@ impl Study for StaircasesStudy {
                 for (at, n_trials) in checkpoints.iter().enumerate() {
                     let of_run = errors.iter().map(|run| run[at]);
                     let tally = Tally::of(of_run);
-                    findings.rows.push(tally.row(way, observer, *n_trials, cost));
+                    findings
+                        .rows
+                        .push(tally.row(way, observer, *n_trials, cost));
                 }
             }
         }
@@ -82,13 +84,25 @@ fn notes() -> String {
 /// Errors of one run at every checkpoint, dB; `None` without a threshold.
 type Run = Vec<Option<f64>>;
 
-fn errors(way: Way, observer: &Observer, checkpoints: &[u32], n_runs: usize, seed: u64) -> Vec<Run> {
+fn errors(
+    way: Way,
+    observer: &Observer,
+    checkpoints: &[u32],
+    n_runs: usize,
+    seed: u64,
+) -> Vec<Run> {
     let mut runs: Vec<Run> = vec![Vec::new(); n_runs];
-    in_pieces(&mut runs, 1, n_threads(), || (), |(), number, piece| {
-        for run in piece {
-            *run = way.errors_db(observer, checkpoints, (seed, number));
-        }
-    });
+    in_pieces(
+        &mut runs,
+        1,
+        n_threads(),
+        || (),
+        |(), number, piece| {
+            for run in piece {
+                *run = way.errors_db(observer, checkpoints, (seed, number));
+            }
+        },
+    );
     runs
 }
 
@@ -118,7 +132,13 @@ impl Tally {
         let n_known = self.n_runs - self.n_undefined;
         let is_known = 2 * n_known > self.n_runs;
         let scatter = (self.rms_db.powi(2) - self.bias_db.powi(2)).max(0.0).sqrt();
-        let said = |value: f64| if is_known { format!("{value:.3}") } else { String::new() };
+        let said = |value: f64| {
+            if is_known {
+                format!("{value:.3}")
+            } else {
+                String::new()
+            }
+        };
         Row {
             method: way.name().to_owned(),
             setting: format!("{n_trials} trials"),
@@ -129,7 +149,10 @@ impl Tally {
             more: vec![
                 ("bias_db", said(self.bias_db)),
                 ("bias_error_db", said(scatter / (n_known as f64).sqrt())),
-                ("undefined", format!("{} of {}", self.n_undefined, self.n_runs)),
+                (
+                    "undefined",
+                    format!("{} of {}", self.n_undefined, self.n_runs),
+                ),
                 ("estimate_ms", format!("{:.4}", 1e3 * cost.estimate.cpu_s)),
             ],
             ..Row::default()
@@ -157,7 +180,10 @@ fn cost(bench: &mut Bench<'_>, way: Way) -> Result<Cost, ReportError> {
     let each = |of: fn(&Timing) -> f64| (of(&all) - of(&making)).max(0.0) / f64::from(n_trials);
     let trial = Timing {
         cpu_s: each(|t| t.cpu_s),
-        cpu_quartiles_s: [each(|t| t.cpu_quartiles_s[0]), each(|t| t.cpu_quartiles_s[1])],
+        cpu_quartiles_s: [
+            each(|t| t.cpu_quartiles_s[0]),
+            each(|t| t.cpu_quartiles_s[1]),
+        ],
         wall_s: each(|t| t.wall_s),
         n_repeats: all.n_repeats,
     };
@@ -183,57 +209,74 @@ fn large_grid(bench: &mut Bench<'_>) -> Result<Row, ReportError> {
     })
 }
 
-/// Error over trials, and bias where observers are less steep than assumed.
+/// Error and bias over trials, a plot of each for every observer.
 fn plots(findings: &mut Findings, observers: &[Observer]) {
-    let axis = |label: &str, scale: Scale| Axis {
-        label: label.to_owned(),
-        scale,
-        range: None,
-    };
-    for (file, observer) in ["steady", "lapses", "shallow", "shallow-lapses"].iter().zip(observers) {
-        let of = |value: fn(&Row) -> Option<f64>| -> Vec<Series> {
-            let series = |way: Way| Series {
-                name: way.name().to_owned(),
-                points: findings
-                    .rows
-                    .iter()
-                    .filter(|row| row.method == way.name() && row.case == observer.name)
-                    .filter_map(|row| Some([row.size?, value(row)?]))
-                    .collect(),
-                style: Style::LineAndDots,
-                ..Series::default()
+    let files = ["steady", "lapses", "shallow", "shallow-lapses"];
+    for (file, observer) in files.iter().zip(observers) {
+        let kinds = [
+            ("error", "rms error, dB", Scale::Log, rms_db as Value),
+            ("bias", "mean error, dB", Scale::Linear, bias_db),
+        ];
+        for (kind, label, scale, value) in kinds {
+            let axis = |label: &str, scale: Scale| Axis {
+                label: label.to_owned(),
+                scale,
+                range: None,
             };
-            Way::ALL.into_iter().map(series).collect()
-        };
-        let bias = |row: &Row| {
-            let (_, text) = row.more.iter().find(|(name, _)| *name == "bias_db")?;
-            text.parse().ok()
-        };
-        let footnote = || format!("{}. Numbers: staircases.csv.", observer.name);
-        let error = Plot {
-            title: "Staircases: error of the threshold over trials".to_owned(),
-            x: axis("trials", Scale::Log),
-            y: axis("rms error, dB", Scale::Log),
-            series: of(|row| row.error),
-            footnote: footnote(),
-        };
-        let bias = Plot {
-            title: "Staircases: bias of the threshold over trials".to_owned(),
-            x: axis("trials", Scale::Log),
-            y: axis("mean error, dB", Scale::Linear),
-            series: of(bias),
-            footnote: footnote(),
-        };
-        findings.plots.push((format!("staircases-error-{file}"), error));
-        findings.plots.push((format!("staircases-bias-{file}"), bias));
+            let plot = Plot {
+                title: format!("Staircases: {kind} of the threshold over trials"),
+                x: axis("trials", Scale::Log),
+                y: axis(label, scale),
+                series: series(&findings.rows, observer, value),
+                footnote: format!("{}. Numbers: staircases.csv.", observer.name),
+            };
+            let name = format!("staircases-{kind}-{file}");
+            findings.plots.push((name, plot));
+        }
     }
-    let worst = |observer: &Observer| {
-        let last = findings.rows.iter().filter(|row| row.case == observer.name);
-        let best = last.filter(|row| row.size == Some(80.0) && row.error.is_some());
-        let least = best.min_by(|a, b| a.error.partial_cmp(&b.error).unwrap_or(std::cmp::Ordering::Equal))?;
-        let error_db = quantity::fixed(least.error?, 2);
-        Some(format!("{}: least error after 80 trials {error_db} dB, {}.", observer.name, least.method))
+    let notes: Vec<String> = observers
+        .iter()
+        .filter_map(|observer| least(&findings.rows, observer))
+        .collect();
+    findings.notes.extend(notes);
+}
+
+/// What of a row is drawn.
+type Value = fn(&Row) -> Option<f64>;
+
+fn rms_db(row: &Row) -> Option<f64> {
+    row.error
+}
+
+fn bias_db(row: &Row) -> Option<f64> {
+    let (_, text) = row.more.iter().find(|(name, _)| *name == "bias_db")?;
+    text.parse().ok()
+}
+
+fn series(rows: &[Row], observer: &Observer, value: Value) -> Vec<Series> {
+    let of = |way: Way| Series {
+        name: way.name().to_owned(),
+        points: rows
+            .iter()
+            .filter(|row| row.method == way.name() && row.case == observer.name)
+            .filter_map(|row| Some([row.size?, value(row)?]))
+            .collect(),
+        style: Style::LineAndDots,
+        ..Series::default()
     };
-    let said: Vec<String> = observers.iter().filter_map(worst).collect();
-    findings.notes.extend(said);
+    Way::ALL.into_iter().map(of).collect()
+}
+
+/// Which way came nearest after eighty trials.
+fn least(rows: &[Row], observer: &Observer) -> Option<String> {
+    let of_observer = rows.iter().filter(|row| row.case == observer.name);
+    let at_eighty = of_observer.filter(|row| row.setting == "80 trials");
+    let (error_db, way) = at_eighty
+        .filter_map(|row| Some((row.error?, &row.method)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let error_db = quantity::fixed(error_db, 2);
+    Some(format!(
+        "{}: least error after 80 trials {error_db} dB, {way}.",
+        observer.name
+    ))
 }

@@ -84,12 +84,14 @@ impl Way {
             Ok(Session::Quest(Box::new(quest)))
         };
         match self {
-            Self::TwoDownReversals | Self::TwoDownFit => {
-                staircase(Rule::one_up(2), vec![stage(4.0, 4.0, 2), stage(2.0, 2.0, 0)])
-            }
-            Self::WeightedReversals | Self::WeightedFit => {
-                staircase(Rule::one_up(1), vec![stage(6.0, 2.0, 2), stage(3.0, 1.0, 0)])
-            }
+            Self::TwoDownReversals | Self::TwoDownFit => staircase(
+                Rule::one_up(2),
+                vec![stage(4.0, 4.0, 2), stage(2.0, 2.0, 0)],
+            ),
+            Self::WeightedReversals | Self::WeightedFit => staircase(
+                Rule::one_up(1),
+                vec![stage(6.0, 2.0, 2), stage(3.0, 1.0, 0)],
+            ),
             Self::QuestSlopeFree => quest(vec![5.0, 7.0, 10.0, 14.0, 20.0, 28.0]),
             Self::QuestSlopeAssumed => quest(vec![ASSUMED_WIDTH_DB]),
             Self::ConstantFit => {

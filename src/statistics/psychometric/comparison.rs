@@ -40,6 +40,28 @@ impl Fit {
         resamples: &Resamples,
     ) -> Computed<Measured> {
         let delta = self.delta(&quantity, resamples.level);
+        self.measured_by(delta, quantity, resamples)
+    }
+
+    /// Likewise of a quantity above zero; see [`Self::delta_positive`].
+    ///
+    /// # Errors
+    /// As [`Self::measured`].
+    pub fn measured_positive(
+        &self,
+        quantity: impl Fn(&Psychometric) -> Computed,
+        resamples: &Resamples,
+    ) -> Computed<Measured> {
+        let delta = self.delta_positive(&quantity, resamples.level);
+        self.measured_by(delta, quantity, resamples)
+    }
+
+    fn measured_by(
+        &self,
+        delta: Computed<(f64, Interval)>,
+        quantity: impl Fn(&Psychometric) -> Computed,
+        resamples: &Resamples,
+    ) -> Computed<Measured> {
         Ok(Measured {
             value: quantity(&self.curve)?,
             se: delta.clone().map(|(se, _)| se),
@@ -66,8 +88,8 @@ impl Fit {
         Ok(Comparison {
             constant_error: pse.value - reference,
             pse,
-            jnd: self.measured(Psychometric::jnd, resamples)?,
-            weber_fraction: self.measured(per_reference, resamples),
+            jnd: self.measured_positive(Psychometric::jnd, resamples)?,
+            weber_fraction: self.measured_positive(per_reference, resamples),
         })
     }
 }

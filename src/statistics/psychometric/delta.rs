@@ -49,6 +49,27 @@ impl Fit {
         Ok((se, Interval { low, high, level }))
     }
 
+    /// Likewise of a quantity above zero, with an interval that is symmetric in its logarithm:
+    /// widths and what is a multiple of them.
+    ///
+    /// # Errors
+    /// As [`Self::delta`], and a quantity that is not above zero.
+    pub fn delta_positive(
+        &self,
+        quantity: impl Fn(&Psychometric) -> Computed,
+        level: f64,
+    ) -> Computed<(f64, Interval)> {
+        let ln_quantity = |curve: &Psychometric| {
+            let value = quantity(curve)?;
+            (value > 0.0).then(|| value.ln()).ok_or_else(|| {
+                Undefined::because(format!("{value} has no logarithm to be symmetric in"))
+            })
+        };
+        let (se, Interval { low, high, level }) = self.delta(ln_quantity, level)?;
+        let [low, high] = [low.exp(), high.exp()];
+        Ok((se * quantity(&self.curve)?, Interval { low, high, level }))
+    }
+
     /// The axes along which the mode can move.
     fn free(&self) -> Vec<usize> {
         let (most, is_fixed) = self.model.lapse.most();

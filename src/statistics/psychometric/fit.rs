@@ -123,7 +123,8 @@ impl Fit {
     pub(super) fn again(&self, blocks: &[Block]) -> Computed<Psychometric> {
         checked(self.model.family, blocks)?;
         let target = Target::new(self.model, &self.priors, blocks);
-        Ok(target.curve(mode(&target, point(&self.curve))?))
+        // As likely as the fit itself: near it, and one search is enough.
+        Ok(target.curve(walked(&target, point(&self.curve), 0.5)))
     }
 
     pub(super) fn target(&self) -> Target<'_> {
@@ -169,29 +170,31 @@ fn start(target: &Target<'_>) -> Point {
 
 /// The mode of the posterior near a point.
 fn mode(target: &Target<'_>, start: Point) -> Computed<Point> {
-    let (most, is_fixed) = target.model.lapse.most();
-    let range = target.priors.threshold[1] - target.priors.threshold[0];
-    let [threshold, ln_width, lapse] = start;
-    let found = if is_fixed {
-        let at = |p: &[f64; 2]| -target.ln_posterior([p[0], p[1], most]);
-        let first = lowest(at, [threshold, ln_width], [0.1 * range, 0.3]);
-        let [threshold, ln_width] = lowest(at, first.place, [-0.03 * range, 0.1]).place;
-        [threshold, ln_width, most]
-    } else {
-        // The rate as an angle: its ends are no walls to a search.
-        let rate = |angle: f64| most * angle.sin().powi(2);
-        let at = |p: &[f64; 3]| -target.ln_posterior([p[0], p[1], rate(p[2])]);
-        let angle = (lapse / most)
-            .clamp(0.0, 1.0)
-            .sqrt()
-            .asin()
-            .clamp(0.2, 1.37);
-        let first = lowest(at, [threshold, ln_width, angle], [0.1 * range, 0.3, 0.3]);
-        let again = lowest(at, first.place, [-0.03 * range, 0.1, -0.2]).place;
-        [again[0], again[1], rate(again[2])]
-    };
+    let found = walked(target, walked(target, start, 1.0), -0.3);
     let is_found = target.ln_posterior(found).is_finite();
     is_found.then_some(found).ok_or_else(|| {
         Undefined::because("these answers are impossible under the model: lapses or guesses")
     })
+}
+
+/// Uphill from a point with steps of this share of the usual ones.
+fn walked(target: &Target<'_>, [threshold, ln_width, lapse]: Point, size: f64) -> Point {
+    let (most, is_fixed) = target.model.lapse.most();
+    let range = target.priors.threshold[1] - target.priors.threshold[0];
+    let steps = [0.1 * range, 0.3, 0.3].map(|step| size * step);
+    if is_fixed {
+        let at = |p: &[f64; 2]| -target.ln_posterior([p[0], p[1], most]);
+        let [threshold, ln_width] = lowest(at, [threshold, ln_width], [steps[0], steps[1]]).place;
+        return [threshold, ln_width, most];
+    }
+    // The rate as an angle: its ends are no walls to a search.
+    let rate = |angle: f64| most * angle.sin().powi(2);
+    let at = |p: &[f64; 3]| -target.ln_posterior([p[0], p[1], rate(p[2])]);
+    let angle = (lapse / most)
+        .clamp(0.0, 1.0)
+        .sqrt()
+        .asin()
+        .clamp(0.2, 1.37);
+    let found = lowest(at, [threshold, ln_width, angle], steps).place;
+    [found[0], found[1], rate(found[2])]
 }

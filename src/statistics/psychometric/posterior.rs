@@ -5,7 +5,7 @@ use super::{Fit, Psychometric};
 use crate::statistics::{Computed, Interval, Undefined};
 
 /// Cells along threshold, width and lapse rate.
-const CELLS: [usize; 3] = [48, 40, 11];
+const CELLS: [usize; 3] = [40, 32, 9];
 /// Likewise while the grid closes in.
 const COARSE: [usize; 3] = [24, 24, 5];
 /// A row of cells with less than this share of the largest row is left out.
@@ -68,13 +68,18 @@ impl Grid {
     /// Masses of all cells, 1 together, the lapse rate innermost.
     fn masses(&self, target: &Target<'_>) -> Vec<f64> {
         let mut masses = Vec::with_capacity(self.counts.iter().product());
+        let mut shares = Vec::with_capacity(target.blocks.len());
         for i in 0..self.counts[0] {
             for j in 0..self.counts[1] {
-                let ln_width = self.along(1, j);
+                let place = [self.along(0, i), self.along(1, j)];
+                shares.clear();
+                shares.extend(target.shares(place));
+                // Cells are even in the logarithm of the width, the prior in the width.
+                let ln_prior = target.priors.ln_prior(place[0], place[1].exp()) + place[1];
                 for k in 0..self.counts[2] {
-                    let place = [self.along(0, i), ln_width, self.along(2, k)];
-                    // Cells are even in the logarithm of the width, the prior in the width.
-                    masses.push(target.ln_posterior(place) + ln_width);
+                    let lapse = self.along(2, k);
+                    let ln_likelihood = target.ln_likelihood_of(shares.iter().copied(), lapse);
+                    masses.push(ln_prior + target.model.lapse.ln_prior(lapse) + ln_likelihood);
                 }
             }
         }
@@ -134,7 +139,7 @@ impl Fit {
             ],
             counts: [COARSE[0], COARSE[1], n_lapses(COARSE[2])],
         };
-        for _ in 0..3 {
+        for _ in 0..2 {
             grid.ends = grid.closer(&grid.masses(&target), mode);
         }
         grid.counts = [CELLS[0], CELLS[1], n_lapses(CELLS[2])];

@@ -41,14 +41,27 @@ impl<'a> Target<'a> {
 
     /// Σ k ln p + (n − k) ln(1 − p).
     pub(super) fn ln_likelihood(&self, [threshold, ln_width, lapse]: Point) -> f64 {
+        self.ln_likelihood_of(self.shares([threshold, ln_width]), lapse)
+    }
+
+    /// F and 1 − F of every block.
+    pub(super) fn shares(&self, [threshold, ln_width]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let per_width = (-ln_width).exp();
+        let family = self.model.family;
+        let places = self.places.iter();
+        places.map(move |place| family.shares((place - threshold) * per_width))
+    }
+
+    /// The log-likelihood where F of every block is known.
+    pub(super) fn ln_likelihood_of(
+        &self,
+        shares: impl Iterator<Item = [f64; 2]>,
+        lapse: f64,
+    ) -> f64 {
         let guess = self.model.guess.rate(lapse);
-        let mut sum = 0.0;
-        for (place, block) in self.places.iter().zip(self.blocks) {
-            let shares = self.model.family.shares((place - threshold) * per_width);
-            sum += of_block(block, scaled(shares, guess, lapse));
-        }
-        sum
+        let both = shares.zip(self.blocks);
+        both.map(|(shares, block)| of_block(block, scaled(shares, guess, lapse)))
+            .sum()
     }
 
     pub(super) fn curve(&self, [threshold, ln_width, lapse]: Point) -> Psychometric {
