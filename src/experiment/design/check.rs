@@ -189,10 +189,9 @@ fn adjusting_flaw(adjusting: &Adjusting) -> Option<Flaw> {
                 let mend = "give from below to, and a step between";
                 return Some(Flaw::new(place("from"), what, mend));
             }
-            let is_share = parameter.what == Tunable::Compression && !(0.0..=1.0).contains(&from)
-                || parameter.what == Tunable::Compression && to > 1.0;
+            let is_outside = parameter.what == Tunable::Compression && (from < 0.0 || to > 1.0);
             let what = format!("compression goes from {from} to {to}");
-            is_share.then(|| Flaw::new(place("from"), what, "stay between 0 and 1"))
+            is_outside.then(|| Flaw::new(place("from"), what, "stay between 0 and 1"))
         })
 }
 
@@ -200,10 +199,8 @@ fn judging_flaw(design: &Design, judging: &Judging) -> Option<Flaw> {
     let is_real = |at: &usize| design.stimuli[*at].condition == judging.real;
     let (real, generated): (Vec<usize>, Vec<usize>) = (0..design.stimuli.len()).partition(is_real);
     if real.is_empty() || generated.is_empty() {
-        let what = match real.is_empty() {
-            true => format!("no stimulus has the condition {:?}", judging.real),
-            false => format!("every stimulus has the condition {:?}", judging.real),
-        };
+        let which = if real.is_empty() { "no" } else { "every" };
+        let what = format!("{which} stimulus has the condition {:?}", judging.real);
         let mend = "give each [[stimulus]] its condition, at least one of them another";
         return Some(Flaw::new(("judgement", 0, "real"), what, mend));
     }

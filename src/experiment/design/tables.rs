@@ -292,12 +292,13 @@ impl QuestPlusKeys {
             (self.widths_db, self.widths_ln, vec![2.0, 4.0, 8.0, 16.0])
         };
         if other.is_some() {
-            let (key, mend) = match is_difference {
-                true => (
+            let (key, mend) = if is_difference {
+                (
                     "widths_db",
                     "with reference_db give widths_ln: logarithms of dB",
-                ),
-                false => ("widths_ln", "without reference_db give widths_db"),
+                )
+            } else {
+                ("widths_ln", "without reference_db give widths_db")
             };
             let place = ("levels.quest_plus", 0, key);
             return Err(Flaw::new(place, format!("{key} has no meaning here"), mend));

@@ -116,11 +116,7 @@ fn adjustment(n: usize, adjusting: &Adjusting, random: &Random) -> Vec<Vec<Task>
         };
         round.into_iter().map(task).collect()
     };
-    rounds
-        .into_iter()
-        .enumerate()
-        .map(|round| block(round))
-        .collect()
+    rounds.into_iter().enumerate().map(block).collect()
 }
 
 /// A value in a third of a parameter's range, a whole number of steps from its lower end.
@@ -199,5 +195,5 @@ fn constant(levels: &Levels, random: &Random) -> Vec<Vec<Task>> {
         };
         round.into_iter().map(task).collect()
     };
-    rounds.into_iter().map(|round| block(round)).collect()
+    rounds.into_iter().map(block).collect()
 }

@@ -202,7 +202,7 @@ impl Record {
 
 /// Response and confidence as cells.
 fn told(answer: &Answer) -> (String, String) {
-    let sure = |confidence: &Option<u8>| confidence.map_or_else(String::new, |c| c.to_string());
+    let sure = |confidence: Option<u8>| confidence.map_or_else(String::new, |c| c.to_string());
     match answer {
         Answer::Ranks(ranks) => {
             let first = ranks.iter().position(|&rank| rank == 1);
@@ -214,12 +214,12 @@ fn told(answer: &Answer) -> (String, String) {
             confidence,
         } => {
             let said = if *is_real { "real" } else { "generated" };
-            (said.to_owned(), sure(confidence))
+            (said.to_owned(), sure(*confidence))
         }
         Answer::Chosen {
             position: at,
             confidence,
-        } => (position(*at), sure(confidence)),
+        } => (position(*at), sure(*confidence)),
         Answer::Magnitude(value) => (number(*value), String::new()),
         Answer::Adjusted { .. } | Answer::Ratings(_) => Default::default(),
     }
