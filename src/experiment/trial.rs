@@ -223,7 +223,7 @@ impl Task {
                 },
                 Answer::Ranks(ranks),
             ) => {
-                check_ranks(ranks)?;
+                check_ranks(*ranks)?;
                 let first = ranks.iter().position(|&rank| rank == 1);
                 Ok(Some(first.is_some_and(|at| alternatives[at] == *target)))
             }
@@ -268,7 +268,7 @@ fn told(position: usize) -> String {
     format!("there is no number {}", position.saturating_add(1))
 }
 
-fn check_ranks(ranks: &[u8; N_RANKED]) -> Result<(), AnswerError> {
+fn check_ranks(ranks: [u8; N_RANKED]) -> Result<(), AnswerError> {
     let is_once = (1..=4).all(|rank| ranks.contains(&rank));
     let what = || format!("the ranks are {ranks:?}");
     is_once

@@ -101,7 +101,7 @@ fn adjustment(n: usize, adjusting: &Adjusting, random: &Random) -> Vec<Vec<Task>
     let n_parameters = adjusting.parameters.len();
     let turned: Vec<usize> = (0..n).map(|_| starts.index(1 << n_parameters)).collect();
     let rounds = rounds(n, adjusting.repeats, &mut random.branch("order"));
-    let mut block = |(nth, round): (usize, Vec<usize>)| {
+    let block = |(nth, round): (usize, Vec<usize>)| {
         let task = |item: usize| {
             // Counts 00, 01, 10, 11 where two are turned: all four after four rounds.
             let is_high = |parameter: usize| ((nth ^ turned[item]) >> parameter) & 1 == 1;
@@ -187,7 +187,7 @@ fn constant(levels: &Levels, random: &Random) -> Vec<Vec<Task>> {
     random.branch("positions").shuffle(&mut signals);
     let mut signals = signals.into_iter();
     let rounds = rounds(n, *repeats, &mut random.branch("order"));
-    let mut block = |round: Vec<usize>| {
+    let block = |round: Vec<usize>| {
         let task = |level: usize| Task::Interval {
             track: 0,
             level_db: levels_db[level],
