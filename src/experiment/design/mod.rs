@@ -5,6 +5,7 @@
 
 mod check;
 mod file;
+mod library;
 mod method;
 mod shipped;
 mod stimulus;
