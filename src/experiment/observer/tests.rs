@@ -90,13 +90,7 @@ fn without_anything_to_go_by_a_quarter_of_rankings_and_a_third_of_triads_are_rig
             ("real-or-generated", 60, 0.5),
         ] {
             let (found, n) = share(&records(&shipped(name), &observer, n));
-            let is_judged_real = name == "real-or-generated" && observer != guesser;
-            // With no difference felt all is called the same: half is right to the last trial.
-            let within = if is_judged_real {
-                0.1
-            } else {
-                bound(chance, n)
-            };
+            let within = bound(chance, n);
             assert!((found - chance).abs() < within, "{name}: {found}");
         }
     }

@@ -43,7 +43,10 @@ fn every_shipped_design_is_simulated_to_its_end_and_read_back() {
                 "{name}: what is read is what was answered"
             );
         }
-        let again = Session::resume(&logs[0], "none").unwrap();
+        let mut again = Session::resume(&logs[0], "none").unwrap();
+        while !matches!(again.step(), Step::Trial(_) | Step::Finished) {
+            again.pass();
+        }
         assert_eq!(again.step(), Step::Finished, "{name}");
     }
 }
