@@ -1,8 +1,9 @@
 //! Turning parameters until a stimulus is as asked.
 //!
 //! The observer turns, a stride at a time, whichever parameter brings the percept nearer to that
-//! of the standard, and stops once it is satisfied or no stride helps. One look at the standard
-//! and one at what is turned, as errors of the whole trial, are what makes it miss.
+//! of the standard, and stops once it is satisfied or nothing helps; where a stride changes nothing,
+//! as when neither end of it is felt, it turns farther. One look at the standard and one at what is
+//! turned, as errors of the whole trial, are what makes it miss.
 
 use super::answer::Participant;
 use super::percept::{distance, look};
@@ -12,6 +13,8 @@ use crate::numerics::Random;
 
 /// Strides that a range is crossed in, where a step is finer than that.
 const MOST_STRIDES: f64 = 100.0;
+/// How far is turned at once: the first that helps.
+const STRIDES: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// Turns after which anybody stops.
 const MOST_TURNS: usize = 1000;
 
@@ -38,7 +41,9 @@ impl Participant<'_> {
         let mut turned = Vec::new();
         let mut now = off(&values);
         while now > self.observer.habits.satisfied_jnd && turned.len() < MOST_TURNS {
-            let Some((parameter, value, next)) = self.best_turn(&values, now, &off) else {
+            let farther = STRIDES.iter();
+            let mut turns = farther.filter_map(|by| self.best_turn(&values, now, (*by, &off)));
+            let Some((parameter, value, next)) = turns.next() else {
                 break;
             };
             values[parameter] = value;
@@ -49,19 +54,20 @@ impl Participant<'_> {
         Answer::Adjusted { values, steps }
     }
 
-    /// The turn by a stride that brings the percept nearest: parameter, value, distance then.
+    /// The turn by so many strides that brings the percept nearest: parameter, value, distance
+    /// then.
     fn best_turn(
         &self,
         values: &[f64],
         now: f64,
-        off: &impl Fn(&[f64]) -> f64,
+        (strides, off): (f64, &impl Fn(&[f64]) -> f64),
     ) -> Option<(usize, f64, f64)> {
         let mut best = None;
         let mut nearest = now;
         for (at, parameter) in self.parameters().iter().enumerate() {
             for way in [-1.0, 1.0] {
                 let mut tried = values.to_vec();
-                let to = values.get(at)? + way * stride(parameter);
+                let to = values.get(at)? + way * strides * stride(parameter);
                 *tried.get_mut(at)? = to.clamp(parameter.from, parameter.to);
                 let then = off(&tried);
                 if then < nearest {
