@@ -9,7 +9,7 @@ use crate::app;
 use crate::cli::terminal::Meter;
 use crate::cli::{CliError, output, signals};
 use crate::experiment::design::Design;
-use crate::experiment::observer::{Jnd, Observer, Stimuli, Strategy};
+use crate::experiment::observer::{Jnd, Observer, Stimuli, Strategy, Weighting};
 use crate::experiment::{ExperimentError, Simulation};
 use crate::progress::{CancelFlag, Progress};
 
@@ -31,6 +31,12 @@ pub(super) struct SimulateArgs {
     /// over the textile or over directions, or all
     #[arg(long, value_enum, default_value_t = StrategyArg::Level)]
     strategy: StrategyArg,
+    /// What each of these counts: as much as any other, or as much as it tells (practised)
+    #[arg(long, value_enum, default_value_t = WeightingArg::Equal)]
+    weighting: WeightingArg,
+    /// Independent looks that exploring a stimulus is worth
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    looks: u32,
     /// Share of trials that are answered by a guess
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     lapse: f64,
@@ -66,6 +72,12 @@ enum StrategyArg {
     All,
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum WeightingArg {
+    Equal,
+    Learnt,
+}
+
 fn two_numbers(text: &str) -> Result<[f64; 2], String> {
     let mut parts = text.split(',').map(|part| part.trim().parse().ok());
     match (parts.next(), parts.next(), parts.next()) {
@@ -85,6 +97,11 @@ impl SimulateArgs {
                 StrategyArg::Direction => Strategy::Direction,
                 StrategyArg::All => Strategy::All,
             },
+            weighting: match self.weighting {
+                WeightingArg::Equal => Weighting::Equal,
+                WeightingArg::Learnt => Weighting::Learnt,
+            },
+            looks: self.looks,
             jnd: self.jnd_db.map_or(Jnd::Published, Jnd::Fixed),
             jnd_spread: self.spread,
             lapse: self.lapse,

@@ -6,7 +6,7 @@
 //! turned, as errors of the whole trial, are what makes it miss.
 
 use super::answer::Participant;
-use super::percept::{distance, look};
+use super::percept::look;
 use crate::experiment::design::{Adjusting, Method, TunedParameter};
 use crate::experiment::trial::{Adjustment, Answer};
 use crate::numerics::Random;
@@ -27,15 +27,15 @@ impl Participant<'_> {
         random: &Random,
     ) -> Answer {
         let mut looks = random.branch("percepts");
-        let standard = look(&self.standards[item], self.noise, &mut looks);
+        let standard = look(&self.standards[item], self.explored, &mut looks);
         let standard = self.kept(&standard, &mut random.branch("memory"));
         let zeros = vec![0.0; standard.len()];
         // The same error of the turned one's percept all through the trial.
-        let error = look(&zeros, self.noise, &mut looks);
+        let error = look(&zeros, self.explored, &mut looks);
         let off = |values: &[f64]| {
             let place = self.tuned_place(item, values);
             let percept: Vec<f64> = place.iter().zip(&error).map(|(x, e)| x + e).collect();
-            distance(&percept, &standard) / self.root_n()
+            self.apart(&percept, &standard) / self.root_n()
         };
         let mut values = starts.to_vec();
         let mut turned = Vec::new();

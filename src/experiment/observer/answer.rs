@@ -27,8 +27,12 @@ pub struct Participant<'a> {
     pub(super) person: Random,
     /// The generator of its session.
     session: Random,
-    /// Of the noise of a look, relative to everybody's.
-    pub(super) noise: f64,
+    /// Of the noise of one look, relative to everybody's.
+    noise: f64,
+    /// Of the noise of what was explored.
+    pub(super) explored: f64,
+    /// By coordinate.
+    pub(super) weights: Vec<f64>,
     /// By stimulus, as it is presented.
     pub(super) places: Vec<Vec<f64>>,
     /// By stimulus, as the standard that it is compared with.
@@ -73,6 +77,7 @@ impl<'a> Participant<'a> {
                 .map(|item| place(observer, stimuli, item, stimuli.cloth_gains_db(item)))
                 .collect(),
         };
+        let explored = noise / f64::from(observer.looks.max(1)).sqrt();
         Self {
             design,
             stimuli,
@@ -80,6 +85,8 @@ impl<'a> Participant<'a> {
             person,
             session,
             noise,
+            explored,
+            weights: observer.weighting.weights(&places, explored),
             places,
             standards,
         }
@@ -125,7 +132,7 @@ impl<'a> Participant<'a> {
 
     /// A fresh look at a stimulus as it is presented.
     pub(super) fn seen(&self, item: usize, random: &mut Random) -> Vec<f64> {
-        look(&self.places[item], self.noise, random)
+        look(&self.places[item], self.explored, random)
     }
 
     /// A percept that was kept in mind.
@@ -133,21 +140,25 @@ impl<'a> Participant<'a> {
         look(percept, self.observer.memory_noise_jnd / NOISE_JND, random)
     }
 
-    /// The root of the number of coordinates: distances over it are a coordinate's.
+    pub(super) fn apart(&self, one: &[f64], other: &[f64]) -> f64 {
+        distance(one, other, &self.weights)
+    }
+
+    /// The root of all weights: distances over it are a coordinate's.
     pub(super) fn root_n(&self) -> f64 {
-        let n = self.places.first().map_or(1, Vec::len);
-        (n.max(1) as f64).sqrt()
+        let n: f64 = self.weights.iter().sum();
+        n.max(1e-12).sqrt()
     }
 
     /// In the order of their distances from the target.
     fn rank(&self, target: usize, alternatives: [usize; N_RANKED], random: &Random) -> Answer {
         let mut looks = random.branch("percepts");
-        let target = look(&self.standards[target], self.noise, &mut looks);
+        let target = look(&self.standards[target], self.explored, &mut looks);
         let target = self.kept(&target, &mut random.branch("memory"));
         let mut rank_noise = random.branch("rank noise");
         let distances = alternatives.map(|item| {
             let noise = self.observer.rank_noise_jnd * rank_noise.normal();
-            distance(&target, &self.seen(item, &mut looks)) + noise
+            self.apart(&target, &self.seen(item, &mut looks)) + noise
         });
         let mut order = [0, 1, 2, 3];
         // Those that are equally far come in an order by chance.
@@ -165,7 +176,7 @@ impl<'a> Participant<'a> {
         let mut looks = random.branch("percepts");
         let percepts = items.map(|item| self.seen(item, &mut looks));
         // By the position that each pair leaves out.
-        let across = [[1, 2], [0, 2], [0, 1]].map(|[a, b]| distance(&percepts[a], &percepts[b]));
+        let across = [[1, 2], [0, 2], [0, 1]].map(|[a, b]| self.apart(&percepts[a], &percepts[b]));
         let mut order = [0, 1, 2];
         random.branch("ties").shuffle(&mut order);
         order.sort_by(|&a, &b| across[a].total_cmp(&across[b]));
@@ -226,7 +237,7 @@ impl<'a> Participant<'a> {
         let mean = |axis: usize| of.iter().map(|&at| self.places[at][axis]).sum::<f64>() / n;
         let middle: Vec<f64> = (0..self.places[item].len()).map(mean).collect();
         let middle = self.kept(&middle, &mut random.branch("memory"));
-        distance(&self.seen(item, looks), &middle) / self.root_n()
+        self.apart(&self.seen(item, looks), &middle) / self.root_n()
     }
 
     /// One grade more for every so much of a margin, where grades are asked for.

@@ -6,7 +6,7 @@
 //!
 //! What sets the noise is published ([`Jnd::Published`]) and is not tuned to any outcome. All else
 //! that an observer needs in order to answer is assumed, and stands in [`Habits`] and in
-//! [`Strategy`] with that word. Every presentation is one look; nothing is learnt, nobody tires.
+//! [`Strategy`] with that word. Nobody tires, and nothing changes from trial to trial.
 //! How a hand moves is not simulated: levels are those at one speed.
 //!
 //! # Invariants
@@ -24,7 +24,7 @@ mod times;
 
 pub use answer::{Participant, Reply};
 pub use measure::Stimuli;
-pub use percept::Strategy;
+pub use percept::{Strategy, Weighting};
 pub use scale::{Jnd, NOISE_JND};
 
 use super::ExperimentError;
@@ -34,8 +34,13 @@ use super::ExperimentError;
 pub struct Observer {
     /// What is gone by.
     pub strategy: Strategy,
+    /// What each coordinate of that counts.
+    pub weighting: Weighting,
     /// How small a difference of level is noticed.
     pub jnd: Jnd,
+    /// Independent looks that exploring a stimulus is worth, averaged; an interval of a threshold
+    /// is always one. Published differences are those of one.
+    pub looks: u32,
     /// How much subjects differ in that: standard deviation of the logarithm of their noise.
     pub jnd_spread: f64,
     /// The share of trials that are answered by a guess.
@@ -53,12 +58,14 @@ pub struct Observer {
 }
 
 impl Default for Observer {
-    /// Levels alone, published differences, and nothing else: no lapses, no further noise, no
+    /// Levels alone, published differences, one look, and nothing else: no lapses, no further noise, no
     /// error of the model.
     fn default() -> Self {
         Self {
             strategy: Strategy::LevelOnly,
+            weighting: Weighting::Equal,
             jnd: Jnd::Published,
+            looks: 1,
             jnd_spread: 0.0,
             lapse: 0.0,
             rank_noise_jnd: 0.0,
@@ -130,6 +137,9 @@ impl Observer {
                 return wrong(what, "give two numbers above 0, such as 2.4,2.4");
             }
         }
+        if self.looks == 0 {
+            return wrong("nothing is looked at".to_owned(), "give 1 look or more");
+        }
         let noises = [
             ("the spread of noise between subjects", self.jnd_spread),
             ("the noise of ranks", self.rank_noise_jnd),
@@ -153,6 +163,7 @@ impl Observer {
             Jnd::Fixed([low, high]) => format!("{low} and {high} dB"),
         };
         let Self {
+            looks,
             jnd_spread,
             lapse,
             rank_noise_jnd,
@@ -161,10 +172,11 @@ impl Observer {
             ..
         } = self;
         format!(
-            "strategy {}, just noticeable differences {jnd}, spread {jnd_spread}, lapse {lapse}, \
-             rank noise {rank_noise_jnd}, memory noise {memory_noise_jnd}, real error \
+            "strategy {}, weights {}, just noticeable differences {jnd}, looks {looks}, spread \
+             {jnd_spread}, lapse {lapse}, rank noise {rank_noise_jnd}, memory noise {memory_noise_jnd}, real error \
              {real_error_db} dB",
-            self.strategy.name()
+            self.strategy.name(),
+            self.weighting.name()
         )
     }
 }

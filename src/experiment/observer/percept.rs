@@ -4,6 +4,7 @@
 use super::scale::{Jnd, NOISE_JND};
 use crate::numerics::Random;
 use crate::quantity::level_db;
+use crate::statistics::Summary;
 use crate::surface::Direction;
 use crate::tactile::{Band, Levels};
 
@@ -104,10 +105,48 @@ pub(super) fn look(place: &[f64], times: f64, random: &mut Random) -> Vec<f64> {
     place.iter().map(noisy).collect()
 }
 
-/// How far apart two percepts are, in just noticeable differences.
-pub(super) fn distance(one: &[f64], other: &[f64]) -> f64 {
+/// How far apart two percepts are, in just noticeable differences, each coordinate by its weight.
+pub(super) fn distance(one: &[f64], other: &[f64], weights: &[f64]) -> f64 {
     let squares = one.iter().zip(other).map(|(a, b)| (a - b).powi(2));
-    squares.sum::<f64>().sqrt()
+    let weighted = squares.zip(weights).map(|(square, weight)| square * weight);
+    weighted.sum::<f64>().sqrt()
+}
+
+/// What each coordinate counts in a distance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Weighting {
+    /// As much as any other.
+    #[default]
+    Equal,
+    /// As much as it tells, which who knows the stimuli has learnt: the variance of the stimuli
+    /// along it over that of noisy looks at them. It is what the ratio of likelihoods of "the
+    /// same" and "another of these" weighs squares with, were the stimuli spread normally.
+    Learnt,
+}
+
+impl Weighting {
+    /// As the command line spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equal => "equal",
+            Self::Learnt => "learnt",
+        }
+    }
+
+    /// By coordinate, for stimuli at these places and looks with `times` the noise of one.
+    pub(super) fn weights(self, places: &[Vec<f64>], times: f64) -> Vec<f64> {
+        let n = places.first().map_or(0, Vec::len);
+        let noise = (times * NOISE_JND).powi(2);
+        let weight = |axis: usize| {
+            let along: Vec<f64> = places.iter().map(|place| place[axis]).collect();
+            let spread = Summary::of(&along).map_or(0.0, |summary| summary.sd.powi(2));
+            match self {
+                Self::Equal => 1.0,
+                Self::Learnt => spread / (spread + noise),
+            }
+        };
+        (0..n).map(weight).collect()
+    }
 }
 
 #[cfg(test)]
@@ -144,6 +183,17 @@ mod tests {
         let across = level_db(3.0) / 2.0 / 2.0_f64.sqrt();
         assert!((plain[5] - across).abs() < 1e-12, "{plain:?}");
         assert_eq!(plain[6], 0.0, "the same both ways");
+    }
+
+    #[test]
+    fn what_is_learnt_is_to_leave_out_what_tells_nothing() {
+        let places = [[-10.0, 3.0], [0.0, 3.0], [10.0, 3.0]].map(Vec::from);
+        assert_eq!(Weighting::Equal.weights(&places, 1.0), [1.0, 1.0]);
+        let learnt = Weighting::Learnt.weights(&places, 1.0);
+        assert_eq!(learnt[1], 0.0);
+        let expected = 100.0 / (100.0 + NOISE_JND.powi(2));
+        assert!((learnt[0] - expected).abs() < 1e-12, "{learnt:?}");
+        assert_eq!(distance(&[0.0, 9.0], &[4.0, -9.0], &[0.25, 0.0]), 2.0);
     }
 
     #[test]

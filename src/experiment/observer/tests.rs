@@ -122,6 +122,29 @@ fn the_smaller_the_difference_that_is_noticed_the_more_is_recognised() {
 }
 
 #[test]
+fn more_looks_are_less_noise_but_not_in_intervals() {
+    let design = shipped("ranking-virtual-target");
+    let looking = |looks: u32| Observer {
+        looks,
+        ..fixed(6.0)
+    };
+    let found = [1, 4, 16].map(|looks| share(&records(&design, &looking(looks), 8)).0);
+    assert!(found.windows(2).all(|p| p[0] + 0.05 < p[1]), "{found:?}");
+    // Half the difference is noticed with four looks.
+    let (halved, n) = share(&records(&design, &fixed(3.0), 8));
+    assert!(
+        (found[1] - halved).abs() < bound(halved, n),
+        "{found:?} {halved}"
+    );
+    let threshold = constant("intervals = 2", -20.0, 8.0);
+    let answers = |looks: u32| -> Vec<_> {
+        let records = records(&threshold, &looking(looks), 1);
+        records.into_iter().map(|record| record.outcome).collect()
+    };
+    assert_eq!(answers(1), answers(16));
+}
+
+#[test]
 fn more_noise_of_any_kind_is_fewer_right() {
     let design = shipped("ranking-virtual-target");
     let plain = fixed(3.0);
@@ -385,6 +408,7 @@ fn what_no_observer_can_have_is_refused() {
             real_error_db: f64::INFINITY,
             ..plain
         },
+        Observer { looks: 0, ..plain },
         fixed(0.0),
         fixed(f64::NAN),
     ] {

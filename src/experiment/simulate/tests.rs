@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::*;
-use crate::experiment::observer::{Strategy, tests::stimuli};
+use crate::experiment::observer::{Strategy, Weighting, tests::stimuli};
 use crate::experiment::session::{Circumstances, Session, find, tests::Folder};
 use crate::progress::unheard;
 use crate::textile::Library;
@@ -134,49 +134,32 @@ fn a_textile_that_is_not_in_the_library_is_named_in_one_line() {
 
 /// Prints what the shipped ranking gives; nothing is tuned to it.
 #[test]
-#[ignore = "loads the shipped library: half a minute; prints, for people to read"]
+#[ignore = "loads the shipped library, and prints for people to read"]
 #[expect(clippy::print_stdout, reason = "that is what it is for")]
 fn what_the_shipped_ranking_gives() {
     let library = Library::shipped().unwrap();
-    for name in [
-        "ranking-virtual-target",
-        "ranking-real-target",
-        "odd-one-out",
-    ] {
-        let design = Design::shipped(name).unwrap();
-        let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
-        for item in 0..design.stimuli.len() {
-            let db = stimuli.felt_um(item).map(crate::quantity::level_db);
-            println!(
-                "{:>22} {:6.1} {:6.1} dB",
-                design.stimuli[item].id, db[0], db[1]
-            );
-        }
-        for strategy in Strategy::ALL {
-            for real_error_db in [0.0, 3.0, 6.0] {
+    let design = Design::shipped("ranking-virtual-target").unwrap();
+    let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
+    for weighting in [Weighting::Equal, Weighting::Learnt] {
+        for looks in [1, 2, 4, 8, 16] {
+            for strategy in Strategy::ALL {
                 let observer = Observer {
                     strategy,
-                    real_error_db,
+                    weighting,
+                    looks,
                     ..Observer::default()
                 };
-                let mut shares = Vec::new();
-                for nth in 0..8 {
-                    let simulation = simulation(&design, &stimuli, &observer);
+                let simulation = simulation(&design, &stimuli, &observer);
+                let share = |nth: usize| {
                     let records = simulation.records(&simulated_subject(nth, 1)).unwrap();
-                    let counted: Vec<_> = records.iter().filter(|r| !r.trial.is_practice).collect();
-                    let right = counted
-                        .iter()
-                        .filter(|r| r.is_correct == Some(true))
-                        .count();
-                    shares.push(100.0 * right as f64 / counted.len() as f64);
-                }
+                    let counted = records.iter().filter(|record| !record.trial.is_practice);
+                    let right = counted.filter(|record| record.is_correct == Some(true));
+                    100.0 * right.count() as f64 / 80.0
+                };
+                let shares: Vec<f64> = (0..8).map(share).collect();
                 let summary = crate::statistics::Summary::of(&shares).unwrap();
-                println!(
-                    "{name} {} error {real_error_db} dB: {:.1} % ± {:.1} (SE) {shares:.0?}",
-                    strategy.name(),
-                    summary.mean,
-                    summary.sd / 8.0_f64.sqrt()
-                );
+                let se = summary.sd / 8.0_f64.sqrt();
+                println!("{:.1} % ± {se:.1} SE: {}", summary.mean, observer.told());
             }
         }
     }
