@@ -15,7 +15,7 @@ use crate::progress::{CancelFlag, Progress};
 
 /// A design, and who takes part.
 #[derive(Debug, Args)]
-pub(super) struct SimulateArgs {
+pub(in crate::cli) struct SimulateArgs {
     /// Design file, or the name of a design of the program
     design: PathBuf,
     /// How many observers take part
@@ -35,7 +35,8 @@ pub(super) struct SimulateArgs {
     #[arg(long, value_enum, default_value_t = WeightingArg::Equal)]
     weighting: WeightingArg,
     /// Independent looks that exploring a stimulus is worth
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u32).range(1..))]
     looks: u32,
     /// Share of trials that are answered by a guess
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]

@@ -58,8 +58,8 @@ pub struct Observer {
 }
 
 impl Default for Observer {
-    /// Levels alone, published differences, one look, and nothing else: no lapses, no further noise, no
-    /// error of the model.
+    /// Levels alone, published differences, one look, and nothing else: no lapses, no further
+    /// noise, no error of the model.
     fn default() -> Self {
         Self {
             strategy: Strategy::LevelOnly,
@@ -173,8 +173,8 @@ impl Observer {
         } = self;
         format!(
             "strategy {}, weights {}, just noticeable differences {jnd}, looks {looks}, spread \
-             {jnd_spread}, lapse {lapse}, rank noise {rank_noise_jnd}, memory noise {memory_noise_jnd}, real error \
-             {real_error_db} dB",
+             {jnd_spread}, lapse {lapse}, rank noise {rank_noise_jnd}, memory noise \
+             {memory_noise_jnd}, real error {real_error_db} dB",
             self.strategy.name(),
             self.weighting.name()
         )
