@@ -119,7 +119,7 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let observer = args.observer();
     observer.check()?;
     let design = design(&args.design)?;
-    let folder = args.design.parent().unwrap_or(Path::new(""));
+    let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
     let library = design
         .open_library(folder, app::build_cache().as_ref())
         .map_err(ExperimentError::from)?;

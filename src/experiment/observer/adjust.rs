@@ -1,9 +1,9 @@
 //! Turning parameters until a stimulus is as asked.
 //!
 //! The observer turns, a stride at a time, whichever parameter brings the percept nearer to that
-//! of the standard, and stops once it is satisfied or nothing helps; where a stride changes nothing,
-//! as when neither end of it is felt, it turns farther. One look at the standard and one at what is
-//! turned, as errors of the whole trial, are what makes it miss.
+//! of the standard, and stops once it is satisfied or nothing helps; where a stride changes
+//! nothing, as when neither end of it is felt, it turns farther. One look at the standard and one
+//! at what is turned, as errors of the whole trial, are what makes it miss.
 
 use super::answer::Participant;
 use super::percept::look;

@@ -9,13 +9,12 @@ use crate::numerics::Random;
 fn median_s(task: &Task) -> f64 {
     match task {
         Task::Rank { .. } => 50.0,
-        Task::OddOne { .. } => 20.0,
+        Task::OddOne { .. } | Task::Rate { .. } => 20.0,
         Task::Adjust { .. } => 30.0,
         Task::Judge { .. } => 8.0,
         Task::JudgePair { .. } => 12.0,
         Task::Interval { .. } => 1.0,
         Task::Estimate { .. } => 5.0,
-        Task::Rate { .. } => 20.0,
     }
 }
 
