@@ -135,7 +135,6 @@ fn a_textile_that_is_not_in_the_library_is_named_in_one_line() {
 /// Prints what the shipped ranking gives; nothing is tuned to it.
 #[test]
 #[ignore = "loads the shipped library, and prints for people to read"]
-#[expect(clippy::print_stdout, reason = "that is what it is for")]
 fn what_the_shipped_ranking_gives() {
     let library = Library::shipped().unwrap();
     let design = Design::shipped("ranking-virtual-target").unwrap();
