@@ -155,9 +155,15 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
 
 /// A design by its file, or by its name where there is no such file.
 fn design(name: &Path) -> Result<Design, CliError> {
-    let shipped = name.to_str().and_then(Design::shipped);
-    match shipped {
-        Some(design) if !name.exists() => Ok(design),
-        _ => Ok(Design::read(name)?),
+    if name.exists() {
+        return Ok(Design::read(name)?);
     }
+    name.to_str().and_then(Design::shipped).ok_or_else(|| {
+        let names: Vec<&str> = Design::shipped_names().collect();
+        CliError::Input(format!(
+            "there is no design {}; give a file, or one of {}",
+            name.display(),
+            names.join(", ")
+        ))
+    })
 }
