@@ -8,6 +8,7 @@ use std::io;
 use crate::app::AppError;
 use crate::bridge::{BridgeError, SinkError};
 use crate::engine::{AudioError, EngineError};
+use crate::experiment::ExperimentError;
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::render::RenderError;
@@ -55,6 +56,9 @@ pub enum CliError {
     /// A report.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A design, a session or a log.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
     /// The window.
     #[error(transparent)]
     App(#[from] AppError),
@@ -75,6 +79,7 @@ impl CliError {
             Self::Engine(error) => code_of_engine(error),
             Self::Sink(error) => code_of_sink(error),
             Self::Report(error) => code_of_report(error),
+            Self::Experiment(error) => code_of_experiment(error),
             Self::App(error) => code_of_app(error),
         }
     }
@@ -171,6 +176,15 @@ fn code_of_report(error: &ReportError) -> u8 {
     match error {
         ReportError::Unknown { .. } => 2,
         _ => 1,
+    }
+}
+
+fn code_of_experiment(error: &ExperimentError) -> u8 {
+    match error {
+        ExperimentError::File(error) => code_of_file(error),
+        ExperimentError::Textile(error) => code_of_textile(error),
+        ExperimentError::Cancelled(_) => 1,
+        _ => 2,
     }
 }
 

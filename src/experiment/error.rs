@@ -3,6 +3,8 @@
 use super::schedule::ScheduleError;
 use super::trial::AnswerError;
 use crate::files::FileError;
+use crate::progress::Cancelled;
+use crate::textile::TextileError;
 
 /// What can be wrong with a design, a session or a log.
 #[derive(Debug, thiserror::Error)]
@@ -16,6 +18,12 @@ pub enum ExperimentError {
     /// An answer that does not answer the question.
     #[error(transparent)]
     Answer(#[from] AnswerError),
+    /// A textile or a library.
+    #[error(transparent)]
+    Textile(#[from] TextileError),
+    /// Work that was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// A value that did not come from a file.
     #[error("{what}; {mend}")]
     Value {

@@ -16,14 +16,17 @@
 mod course;
 pub mod design;
 mod error;
+pub mod observer;
 mod procedure;
 mod record;
 pub mod schedule;
 pub mod session;
+mod simulate;
 mod trial;
 
 pub use course::{Course, Step};
 pub use error::ExperimentError;
 pub use procedure::Procedure;
 pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
+pub use simulate::{SIMULATED, Simulation, simulated_subject};
 pub use trial::{Adjustment, Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task, Trial};

@@ -18,6 +18,8 @@ pub struct Levels {
     /// `20 log₁₀` of the largest over the smallest of the four directional means, dB; 0 when all
     /// are silent.
     pub anisotropy_db: [f64; 2],
+    /// Mean amplitude by [`Direction::index`], µm peak.
+    pub direction_mean_um: [[f64; 2]; 4],
 }
 
 impl Levels {
@@ -40,6 +42,7 @@ impl Levels {
             mean_um: [0.0; 2],
             cv: [0.0; 2],
             anisotropy_db: [0.0; 2],
+            direction_mean_um: [[0.0; 2]; 4],
         };
         for b in Band::ALL.map(Band::index) {
             let of_band = |points: &[[f64; 2]]| points.iter().map(|a| a[b]).collect::<Vec<_>>();
@@ -49,11 +52,14 @@ impl Levels {
                 .collect();
             let (mean, deviation) = mean_and_deviation(&all);
             levels.mean_um[b] = mean;
+            let means = by_direction
+                .each_ref()
+                .map(|points| mean_and_deviation(&of_band(points)).0);
+            for (of_direction, mean) in levels.direction_mean_um.iter_mut().zip(means) {
+                of_direction[b] = mean;
+            }
             if mean > 0.0 {
                 levels.cv[b] = deviation / mean;
-                let means = by_direction
-                    .each_ref()
-                    .map(|points| mean_and_deviation(&of_band(points)).0);
                 let largest = means.into_iter().fold(0.0, f64::max);
                 let smallest = means.into_iter().fold(f64::INFINITY, f64::min);
                 levels.anisotropy_db[b] = level_db(largest / smallest);

@@ -6,6 +6,7 @@
 mod check;
 mod check_levels;
 mod file;
+mod library;
 mod method;
 mod shipped;
 mod stimulus;

@@ -11,6 +11,7 @@
 
 mod found;
 mod sidecar;
+mod whole;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,7 @@ use std::time::SystemTime;
 
 pub use found::{Found, find};
 pub use sidecar::{Opening, Sidecar};
+pub use whole::{unwritten, write_whole};
 
 use super::ExperimentError;
 use super::course::{Course, Step};
@@ -268,4 +270,4 @@ pub(super) fn told_utc(at: SystemTime) -> String {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -1,0 +1,169 @@
+//! `selvedge experiment simulate`: sessions of observers that are simulated, as those of people are
+//! written.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use crate::app;
+use crate::cli::terminal::Meter;
+use crate::cli::{CliError, output, signals};
+use crate::experiment::design::Design;
+use crate::experiment::observer::{Jnd, Observer, Stimuli, Strategy, Weighting};
+use crate::experiment::{ExperimentError, Simulation};
+use crate::progress::{CancelFlag, Progress};
+
+/// A design, and who takes part.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SimulateArgs {
+    /// Design file, or the name of a design of the program
+    design: PathBuf,
+    /// How many observers take part
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    observers: u16,
+    /// What the chance of observers begins with; schedules have that of the design
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Folder for the logs; one that is there already is never overwritten
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// What observers go by: nothing, the levels of both bands, these and their balance, variation
+    /// over the textile or over directions, or all
+    #[arg(long, value_enum, default_value_t = StrategyArg::Level)]
+    strategy: StrategyArg,
+    /// What each of these counts: as much as any other, or as much as it tells (practised)
+    #[arg(long, value_enum, default_value_t = WeightingArg::Equal)]
+    weighting: WeightingArg,
+    /// Independent looks that exploring a stimulus is worth
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u32).range(1..))]
+    looks: u32,
+    /// Share of trials that are answered by a guess
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    lapse: f64,
+    /// Just noticeable differences at 40 and 320 Hz, dB, the same at all levels (as published, by
+    /// level, if not given)
+    #[arg(long, value_name = "DB,DB", value_parser = two_numbers)]
+    jnd_db: Option<[f64; 2]>,
+    /// Standard deviation of the differences between real cloth and its virtual one, dB
+    #[arg(long, value_name = "DB", default_value_t = 0.0)]
+    real_error_db: f64,
+    /// Noise on every distance that is ranked, in just noticeable differences
+    #[arg(long, value_name = "JND", default_value_t = 0.0)]
+    rank_noise: f64,
+    /// Noise of a target that is kept in mind, in just noticeable differences
+    #[arg(long, value_name = "JND", default_value_t = 0.0)]
+    memory_noise: f64,
+    /// How much observers differ in their noise: standard deviation of its logarithm
+    #[arg(long, value_name = "SD", default_value_t = 0.0)]
+    spread: f64,
+    /// Sessions of every observer
+    #[arg(long, value_name = "K", default_value_t = 1,
+        value_parser = clap::value_parser!(u32).range(1..=1000))]
+    sessions: u32,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum StrategyArg {
+    None,
+    Level,
+    Spectrum,
+    Space,
+    Direction,
+    All,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum WeightingArg {
+    Equal,
+    Learnt,
+}
+
+fn two_numbers(text: &str) -> Result<[f64; 2], String> {
+    let mut parts = text.split(',').map(|part| part.trim().parse().ok());
+    match (parts.next(), parts.next(), parts.next()) {
+        (Some(Some(low)), Some(Some(high)), None) => Ok([low, high]),
+        _ => Err("give two numbers of dB, such as 2.4,2.4".to_owned()),
+    }
+}
+
+impl SimulateArgs {
+    fn observer(&self) -> Observer {
+        Observer {
+            strategy: match self.strategy {
+                StrategyArg::None => Strategy::None,
+                StrategyArg::Level => Strategy::LevelOnly,
+                StrategyArg::Spectrum => Strategy::Spectrum,
+                StrategyArg::Space => Strategy::Space,
+                StrategyArg::Direction => Strategy::Direction,
+                StrategyArg::All => Strategy::All,
+            },
+            weighting: match self.weighting {
+                WeightingArg::Equal => Weighting::Equal,
+                WeightingArg::Learnt => Weighting::Learnt,
+            },
+            looks: self.looks,
+            jnd: self.jnd_db.map_or(Jnd::Published, Jnd::Fixed),
+            jnd_spread: self.spread,
+            lapse: self.lapse,
+            rank_noise_jnd: self.rank_noise,
+            memory_noise_jnd: self.memory_noise,
+            real_error_db: self.real_error_db,
+            ..Observer::default()
+        }
+    }
+}
+
+/// Simulates, and writes the logs.
+pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
+    let observer = args.observer();
+    observer.check()?;
+    let design = design(&args.design)?;
+    let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
+    let library = design
+        .open_library(folder, app::build_cache().as_ref())
+        .map_err(ExperimentError::from)?;
+    let stop = signals::stop_flag()?;
+    let stimuli = {
+        let mut meter = Meter::new("reading");
+        let mut report = |share: f64, id: &str| meter.show(share, id);
+        let mut progress = Progress::new(&mut report, CancelFlag::shared(stop.clone()));
+        Stimuli::of(&design, &library, &mut progress)?
+    };
+    let simulation = Simulation {
+        design: &design,
+        stimuli: &stimuli,
+        observer: &observer,
+        seed: args.seed,
+    };
+    let mut meter = Meter::new("simulating");
+    let mut report = |share: f64, subject: &str| meter.show(share, subject);
+    let mut progress = Progress::new(&mut report, CancelFlag::shared(stop));
+    let numbers = (usize::from(args.observers), args.sessions);
+    let logs = simulation.write(&args.out, numbers, &mut progress)?;
+    drop(meter);
+    let told = format!(
+        "{} sessions of {} {} in {}; {}\n",
+        logs.len(),
+        design.study,
+        design.experiment,
+        args.out.display(),
+        observer.told()
+    );
+    output::print(&told)
+}
+
+/// A design by its file, or by its name where there is no such file.
+fn design(name: &Path) -> Result<Design, CliError> {
+    if name.exists() {
+        return Ok(Design::read(name)?);
+    }
+    name.to_str().and_then(Design::shipped).ok_or_else(|| {
+        let names: Vec<&str> = Design::shipped_names().collect();
+        CliError::Input(format!(
+            "there is no design {}; give a file, or one of {}",
+            name.display(),
+            names.join(", ")
+        ))
+    })
+}
