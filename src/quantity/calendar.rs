@@ -61,7 +61,10 @@ pub fn moment_of(text: &str) -> Option<SystemTime> {
 
 /// Three numbers between two separators.
 fn numbers(text: &str, separator: char) -> Option<[u64; 3]> {
-    let parts: Option<Vec<u64>> = text.split(separator).map(|part| part.parse().ok()).collect();
+    let parts: Option<Vec<u64>> = text
+        .split(separator)
+        .map(|part| part.parse().ok())
+        .collect();
     parts?.try_into().ok()
 }
 
@@ -87,7 +90,12 @@ mod tests {
 
     #[test]
     fn moments_are_read_back_and_what_is_none_is_not() {
-        for us in [0, 951_827_696_000_789, 951_868_799_999_999, 1_798_761_600_000_001] {
+        for us in [
+            0,
+            951_827_696_000_789,
+            951_868_799_999_999,
+            1_798_761_600_000_001,
+        ] {
             let at = UNIX_EPOCH + Duration::from_micros(us);
             assert_eq!(moment_of(&rfc3339(at)), Some(at), "{us}");
         }

@@ -157,6 +157,11 @@ impl Session {
         self.course.progress()
     }
 
+    /// Which attempt at the trial that waits this is, from 1.
+    pub fn attempt(&self) -> u32 {
+        self.course.attempt()
+    }
+
     /// Goes on from instructions, a movement or a break.
     pub fn pass(&mut self) {
         self.course.pass();
