@@ -130,3 +130,84 @@ fn named(design: &Design, item: usize) -> String {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(name: &str, task: &Task) -> Vec<String> {
+        let design = Design::shipped(name).unwrap();
+        let placed = to_present(&design, task).into_iter();
+        placed
+            .map(|placed| format!("{}: {}", placed.place, placed.what))
+            .collect()
+    }
+
+    #[test]
+    fn cloth_lies_at_its_position_and_the_target_by_itself() {
+        let task = Task::Rank {
+            target: 1,
+            alternatives: [0, 1, 2, 3],
+        };
+        let real = told("ranking-real-target", &task);
+        assert_eq!(real[0], "target: the real wool-twill");
+        assert_eq!(real[2], "position 2: wool-twill");
+        assert_eq!(real.len(), 5);
+        let virtually = told("ranking-virtual-target", &task);
+        assert_eq!(virtually[0], "target: wool-twill");
+    }
+
+    #[test]
+    fn the_interval_with_the_signal_is_told_to_whoever_presents_it() {
+        let task = Task::Interval {
+            track: 0,
+            level_db: -1.5,
+            signal: 1,
+        };
+        let threshold = told("threshold-40", &task);
+        assert!(
+            threshold[0].starts_with("interval 1: nothing for "),
+            "{threshold:?}"
+        );
+        assert!(threshold[1].contains("40 Hz at −1.50"), "{threshold:?}");
+        let jnd = told("jnd-40", &task);
+        assert!(jnd[0].contains("40 Hz at "), "{jnd:?}");
+        assert_ne!(
+            jnd[0].replace("interval 1", ""),
+            jnd[1].replace("interval 2", "")
+        );
+    }
+
+    #[test]
+    fn an_adjustment_says_where_its_parameters_begin() {
+        let task = Task::Adjust {
+            item: 0,
+            starts: vec![20.0, -13.0],
+        };
+        let expected = [
+            "to be adjusted: silk-crepe",
+            "compared with: the real silk-crepe",
+            "begins at: gain_40_db = 20",
+            "begins at: gain_320_db = -13",
+        ];
+        assert_eq!(told("adjustment-two-gains", &task), expected);
+    }
+
+    #[test]
+    fn only_questions_about_cloth_do_without_an_array() {
+        for name in Design::shipped_names() {
+            assert!(needs_array(&Design::shipped(name).unwrap()), "{name}");
+        }
+        let head = "study = \"s\"\nexperiment = \"e\"\nmedium = \"real-cloth\"\nseed = 1\n";
+        let design = |text: &str| {
+            let text = format!("{head}{text}");
+            Design::from_toml(&text, std::path::Path::new("a.toml")).unwrap()
+        };
+        assert!(!needs_array(&design(
+            "textiles = [\"a\", \"b\"]\n[magnitude]\n"
+        )));
+        let vibration = "[[stimulus]]\nid = \"v\"\nband_hz = 40\nlevel_db = 0\n";
+        let mixed = format!("textiles = [\"a\"]\n[magnitude]\n{vibration}");
+        assert!(needs_array(&design(&mixed)));
+    }
+}

@@ -247,7 +247,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             "\n{kind} {number}, block {block}{attempt}: {done} of {all} done"
         )];
         let placed = to_present(self.session.design(), &trial.task).into_iter();
-        lines.extend(placed.map(|placed| format!("  {:<14}{}", placed.place, placed.what)));
+        lines.extend(placed.map(|placed| format!("  {:<16}{}", placed.place, placed.what)));
         lines.push("Enter when the participant begins".to_owned());
         lines.join("\n")
     }

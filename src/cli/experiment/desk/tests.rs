@@ -94,7 +94,7 @@ fn a_session_goes_from_instructions_to_its_end() {
     assert!(said.contains("read out:\n  Find the odd one."), "{said}");
     assert!(said.contains("practice 1, block 1: 0 of 4 done"), "{said}");
     assert!(said.contains("trial 3, block 1: 3 of 4 done"), "{said}");
-    assert!(said.contains("  position 1    "), "{said}");
+    assert!(said.contains("  position 1      "), "{said}");
     let records = records(&session);
     assert_eq!(records.len(), 4);
     let answer = Answer::Odd {
