@@ -175,7 +175,7 @@ impl Participants {
             .collect();
         let mut rows: Vec<Participant> = Vec::new();
         for nth in 0..table.n_rows() {
-            let cell = |column: usize| columns[column][nth].to_owned();
+            let cell = |at: usize| columns.get(at).map_or("", |cells| cells[nth]).to_owned();
             let participant = Participant {
                 pseudonym: cell(0),
                 particulars: std::array::from_fn(|particular| cell(particular + 1)),

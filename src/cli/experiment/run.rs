@@ -111,7 +111,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
             terminal::notice(&format!("{left}; go on with --resume"));
             Ok(())
         }
-        Ended::InputEnded => Err(CliError::Failed(format!(
+        Ended::Silent => Err(CliError::Failed(format!(
             "nothing more was typed: {left}; go on with --resume"
         ))),
     }
@@ -156,7 +156,7 @@ fn library(file: &Path, design: &Design) -> Result<Library, CliError> {
         None => Library::shipped()?,
         Some(named) if is_of_the_program(named) => Library::named(named, None)?,
         Some(named) => {
-            let beside = file.parent().unwrap_or(Path::new("")).join(named);
+            let beside = file.parent().unwrap_or_else(|| Path::new("")).join(named);
             Library::named(&beside, None)?
         }
     };
@@ -236,9 +236,10 @@ fn begun(
     let (nth, who) = (found.subject.session, &found.subject.pseudonym);
     let told = format!("session {nth} of {who} has {done} of {all} trials done{gap}");
     if !args.resume {
-        let what = match done == all {
-            true => format!("{told}: it is finished; --restart begins another"),
-            false => format!("{told}; give --resume to go on, or --restart to begin another"),
+        let what = if done == all {
+            format!("{told}: it is finished; --restart begins another")
+        } else {
+            format!("{told}; give --resume to go on, or --restart to begin another")
         };
         return Err(CliError::Input(what));
     }

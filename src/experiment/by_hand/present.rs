@@ -95,9 +95,10 @@ fn intervals(design: &Design, level_db: f64, signal: usize) -> Vec<Placed> {
         vibration,
     );
     let placed = |at: usize| {
-        let what = match at == signal {
-            true => vibration(level_db),
-            false => others.clone(),
+        let what = if at == signal {
+            vibration(level_db)
+        } else {
+            others.clone()
         };
         Placed::new(format!("interval {}", at + 1), what)
     };
@@ -122,7 +123,7 @@ fn named(design: &Design, item: usize) -> String {
     };
     match &stimulus.source {
         Source::RealCloth(cloth) => cloth.clone(),
-        Source::Textile { id, gain_db } if *gain_db == 0.0 => id.clone(),
+        Source::Textile { id, gain_db } if gain_db.abs() < f64::EPSILON => id.clone(),
         Source::Textile { id, gain_db } => format!("{id} at {} more", with_unit(*gain_db, 1, "dB")),
         Source::Vibration { band, level_db } => {
             let level = with_unit(*level_db, 2, "dB re 1 µm");

@@ -113,8 +113,8 @@ impl Told<'_> {
             .map(|c| c.to_digit(10).and_then(|digit| u8::try_from(digit).ok()))
             .collect::<Option<_>>()
             .ok_or_else(|| self.wrong())?;
-        let ranks: [u8; N_RANKED] = digits.try_into().map_err(|_: Vec<u8>| self.wrong())?;
-        Ok(Answer::Ranks(ranks))
+        let ranks: Option<[u8; N_RANKED]> = digits.try_into().ok();
+        ranks.map(Answer::Ranks).ok_or_else(|| self.wrong())
     }
 
     fn odd(&self) -> Result<Answer, AnswerError> {
@@ -188,7 +188,8 @@ impl Told<'_> {
 
     fn parsed<T: FromStr>(&self, at: usize) -> Result<T, AnswerError> {
         let word = self.words.get(at).ok_or_else(|| self.wrong())?;
-        word.replace('−', "-").parse().map_err(|_| self.wrong())
+        let value = word.replace('−', "-").parse().ok();
+        value.ok_or_else(|| self.wrong())
     }
 }
 

@@ -226,7 +226,7 @@ impl Session {
 
     fn write_path(&self, path: &ExplorationPath, record: &Record) -> Result<(), ExperimentError> {
         let file = path_file(self.log(), &record.trial, record.attempt);
-        let folder = file.parent().unwrap_or(Path::new("."));
+        let folder = file.parent().unwrap_or_else(|| Path::new("."));
         fs::create_dir_all(folder).map_err(|source| FileError::Write {
             path: folder.to_owned(),
             source,

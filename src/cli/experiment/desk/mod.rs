@@ -35,7 +35,7 @@ pub(super) enum Ended {
     /// The experimenter said so.
     Quit,
     /// There is nothing more to read.
-    InputEnded,
+    Silent,
 }
 
 /// A session, somebody who types, and what they noted of the trial that waits.
@@ -88,7 +88,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
                 }
             };
             if let Err(ended) = went_on {
-                self.keep_notes(ended)?;
+                self.keep_notes()?;
                 return Ok(ended);
             }
             if !matches!(self.session.step(), Step::Trial(_) | Step::Finished) {
@@ -109,7 +109,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             self.typed.read_until(b'\n', &mut line)?;
             if line.last() != Some(&b'\n') {
                 // A line that was cut off is nobody's answer.
-                return Ok(Err(Ended::InputEnded));
+                return Ok(Err(Ended::Silent));
             }
             let line = String::from_utf8_lossy(&line);
             let (first, rest) = split(&line);
@@ -303,21 +303,18 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
     }
 
     /// A note of a trial that was not answered is kept with the trial as given up.
-    fn keep_notes(&mut self, ended: Ended) -> io::Result<()> {
+    fn keep_notes(&mut self) -> io::Result<()> {
         let is_trial = matches!(self.session.step(), Step::Trial(_));
         if self.notes.is_empty() || !is_trial {
             return Ok(());
         }
         let now = self.bench.now();
         let timing = Timing::between([now.utc; 2], [now.since_ns; 2]);
-        match self.put(None, &timing) {
-            Ok(()) => Ok(()),
-            Err(error) if ended == Ended::Quit => {
-                let notes = self.notes.join("; ");
-                self.say(&format!("{error}; your note was not kept: {notes}"))
-            }
-            Err(_) => Ok(()),
-        }
+        let Err(error) = self.put(None, &timing) else {
+            return Ok(());
+        };
+        let notes = self.notes.join("; ");
+        self.say(&format!("{error}; your note was not kept: {notes}"))
     }
 }
 

@@ -120,7 +120,7 @@ fn nonsense_is_asked_again_in_one_line_and_costs_nothing() {
     let folder = Folder::new("nonsense");
     let mut session = session(&folder, CLOTH);
     let (ended, said, _) = held(&mut session, "x\n\n\n7\n\n9 easy\nhello\n\n3 normal\n");
-    assert_eq!(ended, Ended::InputEnded);
+    assert_eq!(ended, Ended::Silent);
     assert!(said.contains("press Enter to go on"), "{said}");
     assert!(said.contains("the trial has not begun"), "{said}");
     for wrong in ["\"9 easy\" is no answer", "\"hello\" is no answer"] {
@@ -175,7 +175,7 @@ fn a_note_of_a_trial_that_is_left_is_kept_and_a_line_cut_off_is_no_answer() {
     drop(session);
     let mut session = Session::resume(&log, "none").unwrap();
     let (ended, said, _) = held(&mut session, "\n\n\n2 easy");
-    assert_eq!(ended, Ended::InputEnded);
+    assert_eq!(ended, Ended::Silent);
     assert!(said.contains("read out"), "instructions come again: {said}");
     assert_eq!(records(&session).len(), 1);
 }
