@@ -13,10 +13,12 @@
 //!   answers: what was not yet answered can always be found again
 //! - no window here, and no clock that a caller does not hand in
 
+pub mod by_hand;
 mod course;
 pub mod design;
 mod error;
 pub mod observer;
+mod participants;
 mod procedure;
 mod record;
 pub mod schedule;
@@ -26,6 +28,7 @@ mod trial;
 
 pub use course::{Course, Step};
 pub use error::ExperimentError;
+pub use participants::{Participant, Participants, Particulars};
 pub use procedure::Procedure;
 pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
 pub use simulate::{SIMULATED, Simulation, simulated_subject};

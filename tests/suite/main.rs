@@ -14,6 +14,7 @@ mod bridge_end_to_end;
 mod bridge_faults;
 mod bridge_samples;
 mod commands;
+mod experiment;
 mod firmware;
 mod import;
 mod import_kes;

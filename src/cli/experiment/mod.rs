@@ -1,20 +1,48 @@
-//! `selvedge experiment`: studies on people.
+//! `selvedge experiment`: experiments on people without a window.
 
+mod designs;
+mod desk;
+mod run;
 mod simulate;
+
+use std::path::Path;
 
 use clap::Subcommand;
 
 use super::CliError;
+use crate::experiment::design::Design;
 
-/// What is done with experiments.
+/// What to do with experiments.
 #[derive(Debug, Subcommand)]
 pub(super) enum ExperimentCommand {
+    /// Hold a session: what is to be laid is said, answers are typed
+    Run(Box<run::RunArgs>),
+    /// The designs that are part of the program
+    Designs(designs::DesignsArgs),
     /// Sessions of simulated observers, written as those of people are
     Simulate(simulate::SimulateArgs),
 }
 
+/// Does it.
 pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
     match command {
+        ExperimentCommand::Run(args) => run::run(args),
+        ExperimentCommand::Designs(args) => designs::run(args),
         ExperimentCommand::Simulate(args) => simulate::run(args),
     }
+}
+
+/// The design of a file, or of the program where no file has that name.
+fn design(named: &Path) -> Result<Design, CliError> {
+    if named.exists() {
+        return Ok(Design::read(named)?);
+    }
+    named.to_str().and_then(Design::shipped).ok_or_else(|| {
+        let names: Vec<&str> = Design::shipped_names().collect();
+        CliError::Input(format!(
+            "there is no design {}; give a file, or one of {}",
+            named.display(),
+            names.join(", ")
+        ))
+    })
 }

@@ -8,7 +8,6 @@ use clap::{Args, ValueEnum};
 use crate::app;
 use crate::cli::terminal::Meter;
 use crate::cli::{CliError, output, signals};
-use crate::experiment::design::Design;
 use crate::experiment::observer::{Jnd, Observer, Stimuli, Strategy, Weighting};
 use crate::experiment::{ExperimentError, Simulation};
 use crate::progress::{CancelFlag, Progress};
@@ -118,7 +117,7 @@ impl SimulateArgs {
 pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let observer = args.observer();
     observer.check()?;
-    let design = design(&args.design)?;
+    let design = super::design(&args.design)?;
     let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
     let library = design
         .open_library(folder, app::build_cache().as_ref())
@@ -151,19 +150,4 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
         observer.told()
     );
     output::print(&told)
-}
-
-/// A design by its file, or by its name where there is no such file.
-fn design(name: &Path) -> Result<Design, CliError> {
-    if name.exists() {
-        return Ok(Design::read(name)?);
-    }
-    name.to_str().and_then(Design::shipped).ok_or_else(|| {
-        let names: Vec<&str> = Design::shipped_names().collect();
-        CliError::Input(format!(
-            "there is no design {}; give a file, or one of {}",
-            name.display(),
-            names.join(", ")
-        ))
-    })
 }

@@ -31,7 +31,7 @@ fn every_shipped_design_is_read_and_has_a_title() {
 fn an_unknown_medium_is_refused_with_those_that_are_known() {
     let text = HEAD.replace("array", "stylus");
     let told = told(&format!("{text}[magnitude]\n"));
-    assert!(told.contains("line 3"), "{told}");
+    assert!(told.contains("a.toml:3:"), "{told}");
     assert!(told.contains("\"array\" or \"real-cloth\""), "{told}");
 }
 
@@ -54,7 +54,7 @@ fn fifteen_textiles_cannot_be_ranked_in_fours() {
     );
     let told = told(&text);
     assert!(
-        told.contains("line 7: 15 stimuli cannot be ranked"),
+        told.contains("a.toml:7: 15 stimuli cannot be ranked"),
         "{told}"
     );
 }
@@ -64,7 +64,7 @@ fn two_stimuli_of_one_name_are_refused_at_the_second() {
     let stimuli = "[[stimulus]]\nid = \"a\"\n[[stimulus]]\nid = \"a\"\n";
     let told = told(&format!("{HEAD}{stimuli}[magnitude]\n"));
     assert!(
-        told.contains("line 8: two stimuli are called \"a\""),
+        told.contains("a.toml:8: two stimuli are called \"a\""),
         "{told}"
     );
 }
@@ -81,7 +81,7 @@ fn a_series_that_nothing_ends_is_refused() {
 fn a_misspelt_key_is_named_with_its_line() {
     let told = told(&format!("{HEAD}[magnitude]\nrepeat = 3\n"));
     assert!(
-        told.contains("line 6") && told.contains("`repeat`"),
+        told.contains("a.toml:6:") && told.contains("`repeat`"),
         "{told}"
     );
 }
