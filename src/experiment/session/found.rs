@@ -58,7 +58,7 @@ impl Found {
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let table = Table::read(&text[..complete], log, &names, &[])?;
         let records = read_records(&design, &table, log)?;
-        Ok(Found {
+        Ok(Self {
             log: log.to_owned(),
             subject,
             design,
