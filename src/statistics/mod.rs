@@ -42,6 +42,7 @@ pub use wilcoxon::{wilcoxon_pairs, wilcoxon_signed_rank};
 pub mod mds;
 pub mod procrustes;
 pub mod properties;
+pub mod ranking;
 
 use thiserror::Error;
 

@@ -37,7 +37,8 @@ impl Correction {
         }
     }
 
-    fn share(self, count: u64, trials: u64) -> f64 {
+    /// The share as it is corrected.
+    pub(super) fn share(self, count: u64, trials: u64) -> f64 {
         let (k, n) = (count as f64, trials as f64);
         match self {
             Self::LogLinear => (k + 0.5) / (n + 1.0),
