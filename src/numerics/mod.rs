@@ -14,6 +14,7 @@ mod parallel;
 mod plane;
 mod random;
 mod series;
+mod simplex;
 
 pub use correlation::overlap_autocorrelation;
 pub use fft::{ChirpTransform, Complex, RealTransform};
@@ -23,6 +24,7 @@ pub use parallel::{in_pieces, n_threads};
 pub use plane::PlaneTransform;
 pub use random::Random;
 pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
+pub use simplex::{Lowest, lowest};
 
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.
 ///

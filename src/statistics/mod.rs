@@ -39,9 +39,11 @@ pub use summary::{Summary, mean};
 pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
 pub use wilcoxon::{wilcoxon_pairs, wilcoxon_signed_rank};
 
+pub mod adaptive;
 pub mod mds;
 pub mod procrustes;
 pub mod properties;
+pub mod psychometric;
 pub mod ranking;
 
 use thiserror::Error;

@@ -115,7 +115,11 @@ impl Relation<'_> {
 }
 
 /// The place where a rising function reaches `target`, by halving to 1e-12.
-fn inverted(function: impl Fn(f64) -> f64, target: f64, [mut low, mut high]: [f64; 2]) -> f64 {
+pub(super) fn inverted(
+    function: impl Fn(f64) -> f64,
+    target: f64,
+    [mut low, mut high]: [f64; 2],
+) -> f64 {
     while high - low > 1e-12 * high.abs().max(1.0) {
         let middle = 0.5 * (low + high);
         if function(middle) < target {

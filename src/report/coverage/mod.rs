@@ -1,0 +1,5 @@
+//! Coverage.
+use super::*;
+/// C.
+#[derive(Debug)]
+pub struct CoverageStudy;
