@@ -1,0 +1,345 @@
+//! The odd one of three (Allerkamp et al.): how often it was found and how easily, which fabrics
+//! were mistaken, and the distances that follow.
+
+use super::Options;
+use super::draw::{Bar, bars};
+use super::kept::{Experiment, Subject};
+use super::map::Mapping;
+use super::model::{Cell, Section, Table, ends, matrix, summaries, tests};
+use super::properties::Measures;
+use crate::experiment::{self as exp, Answer, Record, Task};
+use crate::progress::{Cancelled, Progress};
+use crate::statistics::detection::{Correction, triangle};
+use crate::statistics::mds::{Loss, Ties};
+use crate::statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
+use crate::statistics::variance::friedman;
+use crate::statistics::{
+    Computed, Outcome, Ranks, Sides, Summary, Undefined, exact_binomial, one_sample_t, pearson_r,
+    wilcoxon_signed_rank, wilson,
+};
+
+const CHANCE: f64 = 1.0 / 3.0;
+const CHANCE_PERCENT: f64 = 100.0 / 3.0;
+/// Weights that distances are tried with besides the design's.
+const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
+
+/// The answer to a triad.
+fn triad(record: &Record) -> Option<TriadAnswer> {
+    let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
+        (&record.trial.task, record.answer())
+    else {
+        return None;
+    };
+    Some(TriadAnswer {
+        pair: [items[*odd], items[(*odd + 1) % items.len()]],
+        is_correct: record.is_correct?,
+        grade: match grade {
+            exp::Grade::Easy => Grade::Easy,
+            exp::Grade::Normal => Grade::Normal,
+            exp::Grade::Hard => Grade::Hard,
+        },
+    })
+}
+
+fn triads(subject: &Subject<'_>) -> Vec<TriadAnswer> {
+    subject.trials().filter_map(triad).collect()
+}
+
+fn n_right(answers: &[TriadAnswer]) -> u64 {
+    answers.iter().filter(|a| a.is_correct).count() as u64
+}
+
+fn percent(answers: &[TriadAnswer]) -> f64 {
+    100.0 * n_right(answers) as f64 / answers.len() as f64
+}
+
+fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
+    GradeWeights { easy, normal, hard }
+}
+
+pub(super) fn sections(
+    experiment: &Experiment<'_>,
+    own_weights: [f64; 3],
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Section>, Cancelled> {
+    let names = experiment.ids();
+    let all: Vec<TriadAnswer> = experiment.subjects.iter().flat_map(triads).collect();
+    let mut sections = vec![accuracy(experiment), grades(experiment)];
+    let found = match OddOneOut::of(names.len(), &all, weights(own_weights)) {
+        Ok(found) => found,
+        Err(why) => {
+            sections[0].note(format!("No distances: {}.", why.reason));
+            return Ok(sections);
+        }
+    };
+    sections.push(distances(experiment, &found, &all, &names));
+    let measures = Measures::of(experiment, options, progress)?;
+    let of_subject = |subject: &Subject<'_>| {
+        let own = OddOneOut::of(names.len(), &triads(subject), weights(own_weights)).ok()?;
+        Some(own.mean_weights())
+    };
+    let subjects: Vec<Vec<Option<f64>>> = experiment.subjects.iter().filter_map(of_subject).collect();
+    // Sums compare only where every pair was asked as often.
+    let is_balanced = found.is_balanced();
+    let mapping = Mapping {
+        key: experiment.key("map"),
+        title: format!("{}: map", experiment.design.title),
+        names,
+        values: if is_balanced { found.distances() } else { found.mean_weights() },
+        subjects,
+        loss: Loss::Stress1,
+        ties: Ties::Primary,
+        measures: &measures,
+    };
+    let mut map = mapping.section(options, progress)?;
+    map.note("Primary ties: sums of weights pile up at their ceiling and floor.");
+    if !is_balanced {
+        map.note("Pairs were not asked equally often: mapped is the mean weight, not the sum.");
+    }
+    sections.push(map);
+    Ok(sections)
+}
+
+const SHARES: [(&str, &str); 11] = [
+    ("subject", "subject"),
+    ("session", "session"),
+    ("triads", "triads"),
+    ("right", "right"),
+    ("percent", "%"),
+    ("ci_low_percent", "95 % CI from"),
+    ("ci_high_percent", "to"),
+    ("p", "exact binomial p, above ⅓"),
+    ("d_prime", "d′, triangle"),
+    ("d_prime_ci_low", "95 % CI from"),
+    ("d_prime_ci_high", "to"),
+];
+
+fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell> {
+    let (right, n) = (n_right(answers), answers.len() as u64);
+    let choice = triangle(right, n, Correction::LogLinear);
+    let mut row = vec![subject.into(), session, n.into(), right.into()];
+    row.push(if n > 0 { percent(answers).into() } else { Cell::none("no triads") });
+    row.extend(ends(&interval(right, n)));
+    row.push(Cell::of(&exact_binomial(right, n, CHANCE, Sides::Greater).map(|o| o.p)));
+    row.push(Cell::of(&choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone)));
+    row.extend(ends(&choice.and_then(|c| c.interval)));
+    row
+}
+
+fn interval(right: u64, n: u64) -> Computed<crate::statistics::Interval> {
+    wilson(right, n, 0.95).map(|mut interval| {
+        interval.low *= 100.0;
+        interval.high *= 100.0;
+        interval
+    })
+}
+
+fn accuracy(experiment: &Experiment<'_>) -> Section {
+    let title = format!("{}: accuracy", experiment.design.title);
+    let mut section = Section::new(experiment.key("accuracy"), title);
+    section.note(
+        "Chance is ⅓. d′ is that of the triangle test without bias; below chance it is 0. Intervals \
+         of shares are Wilson's, p is exact (binomial). Comparisons of distances in the manner of \
+         Craven are left out.",
+    );
+    let mut table = Table::new("subjects", "Right answers by subject and session", &SHARES);
+    let mut shown = Vec::new();
+    for subject in &experiment.subjects {
+        for session in &subject.sessions {
+            let own: Vec<TriadAnswer> = session.trials.iter().filter_map(|r| triad(r)).collect();
+            let number = Cell::from(f64::from(session.found.subject.session));
+            table.push(share_row(subject.name, number, &own));
+        }
+        let all = triads(subject);
+        if subject.sessions.len() > 1 {
+            table.push(share_row(subject.name, "all".into(), &all));
+        }
+        let ends = interval(n_right(&all), all.len() as u64).ok();
+        shown.push(Bar {
+            name: subject.name.to_owned(),
+            group: String::new(),
+            value: percent(&all),
+            interval: ends.map(|i| [i.low, i.high]),
+        });
+    }
+    section.tables.push(table);
+    let own = |f: &dyn Fn(&[TriadAnswer]) -> f64| -> Vec<f64> {
+        experiment.subjects.iter().map(|s| f(&triads(s))).collect()
+    };
+    let percents = own(&percent);
+    let d_primes: Vec<f64> = experiment
+        .subjects
+        .iter()
+        .filter_map(|s| {
+            let all = triads(s);
+            Some(triangle(n_right(&all), all.len() as u64, Correction::LogLinear).ok()?.d_prime)
+        })
+        .collect();
+    section.tables.push(summaries(
+        "group",
+        "Over subjects",
+        &[("right, %".to_owned(), percents.clone()), ("d′".to_owned(), d_primes)],
+    ));
+    let mut found = vec![
+        (
+            "right, % against 33.3".to_owned(),
+            Summary::of(&percents).and_then(|s| one_sample_t(&s, CHANCE_PERCENT)),
+        ),
+        ("right, % against 33.3".to_owned(), wilcoxon_signed_rank(&percents, CHANCE_PERCENT)),
+    ];
+    found.push(("sessions, right, %".to_owned(), over_sessions(experiment)));
+    section.tables.push(tests("tests", "Against chance, and session against session", &found));
+    if let Ok(s) = Summary::of(&percents) {
+        shown.push(Bar {
+            name: "mean ± SE".to_owned(),
+            group: String::new(),
+            value: s.mean,
+            interval: Some([s.mean - s.se, s.mean + s.se]),
+        });
+    }
+    let title = format!("{}: right answers", experiment.design.title);
+    let label = "right, % (95 % interval)";
+    let range = Some([0.0, 100.0]);
+    section.figures.push(bars("subjects-bars", &title, label, (&shown, range), &[(CHANCE_PERCENT, "chance")]));
+    section
+}
+
+/// Whether sessions differ, over subjects who took part in as many.
+fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
+    let most = experiment.subjects.iter().map(|s| s.sessions.len()).max().unwrap_or(0);
+    if most < 2 {
+        return Err(Undefined::because("one session each"));
+    }
+    let with_all = experiment.subjects.iter().filter(|s| s.sessions.len() == most);
+    let rows: Vec<Vec<f64>> = with_all
+        .map(|subject| {
+            let of = |session: &super::kept::Session<'_>| {
+                let own: Vec<TriadAnswer> = session.trials.iter().filter_map(|r| triad(r)).collect();
+                percent(&own)
+            };
+            subject.sessions.iter().map(of).collect()
+        })
+        .collect();
+    friedman(&rows)
+}
+
+/// Easy, normal and hard, of right and of wrong answers.
+fn grades(experiment: &Experiment<'_>) -> Section {
+    let title = format!("{}: easy, normal, hard", experiment.design.title);
+    let mut section = Section::new(experiment.key("grades"), title);
+    section.note("Shares of a subject's right (or wrong) answers with each grade; mean ± SE over subjects.");
+    let columns = [
+        ("answers", "answers"), ("grade", "grade"), ("count", "count"), ("subjects", "n"),
+        ("mean_percent", "mean share, %"), ("se_percent", "SE"),
+    ];
+    let mut table = Table::new("grades", "Grades of right and wrong answers", &columns);
+    let mut shown = Vec::new();
+    for (name, is_correct) in [("right", true), ("wrong", false)] {
+        for grade in [Grade::Easy, Grade::Normal, Grade::Hard] {
+            let mut count = 0_usize;
+            let mut shares = Vec::new();
+            for subject in &experiment.subjects {
+                let all = triads(subject);
+                let own: Vec<&TriadAnswer> = all.iter().filter(|a| a.is_correct == is_correct).collect();
+                let n = own.iter().filter(|a| a.grade == grade).count();
+                count += n;
+                if !own.is_empty() {
+                    shares.push(100.0 * n as f64 / own.len() as f64);
+                }
+            }
+            let told = exp::Grade::ALL[grade as usize].name();
+            let summary = Summary::of(&shares);
+            let mean = crate::statistics::mean(&shares);
+            table.push([
+                name.into(),
+                told.into(),
+                count.into(),
+                shares.len().into(),
+                Cell::of(&mean),
+                Cell::of(&summary.as_ref().map(|s| s.se).map_err(Clone::clone)),
+            ]);
+            if let Ok(mean) = mean {
+                shown.push(Bar {
+                    name: told.to_owned(),
+                    group: format!("{name} answers"),
+                    value: mean,
+                    interval: summary.ok().map(|s| [mean - s.se, mean + s.se]),
+                });
+            }
+        }
+    }
+    section.tables.push(table);
+    let title = format!("{}: how hard right and wrong answers were", experiment.design.title);
+    section.figures.push(bars("bars", &title, "share of answers, % (± SE)", (&shown, Some([0.0, 100.0])), &[]));
+    section
+}
+
+fn distances(
+    experiment: &Experiment<'_>,
+    found: &OddOneOut,
+    all: &[TriadAnswer],
+    names: &[String],
+) -> Section {
+    let title = format!("{}: distances", experiment.design.title);
+    let mut section = Section::new(experiment.key("distances"), title);
+    let GradeWeights { easy, normal, hard } = found.weights;
+    section.note(format!(
+        "A right answer counts {easy}, {normal} or {hard} as it was easy, normal or hard, a wrong one \
+         0; the distance of two fabrics is the sum over all answers. {} pairs are at the ceiling \
+         (always right and easy), {} at the floor, {} were never asked.",
+        found.n_ceiling, found.n_floor, found.n_missing
+    ));
+    let cells = found.distances().into_iter();
+    let cells = cells.map(|d| d.map_or_else(|| Cell::none("itself, or never asked"), Cell::from));
+    section.tables.push(matrix("distances", "Sums of weights", names, cells.collect()));
+    section.tables.push(errors(found, names));
+    let columns = [
+        ("weights", "weights"), ("ceiling", "pairs at the ceiling"), ("floor", "at the floor"),
+        ("n", "pairs"), ("spearman", "rank correlation with the design's"),
+    ];
+    let mut table = Table::new("weights", "The same with other weights", &columns);
+    for other in OTHER_WEIGHTS {
+        let told = other.map(|w| w.to_string()).join(" / ");
+        let row = match OddOneOut::of(names.len(), all, weights(other)) {
+            Ok(with) => {
+                let of = |o: &OddOneOut| o.pairs.iter().map(|p| p.distance).collect::<Vec<f64>>();
+                let rank = |o: &OddOneOut| Ranks::of(&of(o)).ranks;
+                let r = pearson_r(&rank(found), &rank(&with));
+                vec![
+                    told.into(), with.n_ceiling.into(), with.n_floor.into(),
+                    with.pairs.len().into(), Cell::of(&r),
+                ]
+            }
+            Err(why) => {
+                let mut row = vec![Cell::from(told)];
+                row.extend(super::map::undefined(&why, 4));
+                row
+            }
+        };
+        table.push(row);
+    }
+    section.tables.push(table);
+    section
+}
+
+fn errors(found: &OddOneOut, names: &[String]) -> Table {
+    let columns = [
+        ("item", "fabric"), ("triads", "triads with it"), ("wrong", "wrong"), ("percent", "%"),
+        ("ci_low_percent", "95 % CI from"), ("ci_high_percent", "to"),
+    ];
+    let title = "Wrong answers by fabric; both fabrics of a triad count";
+    let mut table = Table::new("errors", title, &columns);
+    for (name, errors) in names.iter().zip(&found.errors) {
+        let (wrong, n) = (errors.n_wrong as u64, errors.n_triads as u64);
+        let mut row = vec![Cell::from(name.as_str()), n.into(), wrong.into()];
+        row.push(if n > 0 {
+            (100.0 * wrong as f64 / n as f64).into()
+        } else {
+            Cell::none("never asked")
+        });
+        row.extend(ends(&interval(wrong, n)));
+        table.push(row);
+    }
+    table
+}
