@@ -8,6 +8,7 @@ use std::io;
 use crate::app::AppError;
 use crate::bridge::{BridgeError, SinkError};
 use crate::engine::{AudioError, EngineError};
+use crate::experiment::ExperimentError;
 use crate::files::FileError;
 use crate::progress::Cancelled;
 use crate::render::RenderError;
@@ -52,6 +53,9 @@ pub enum CliError {
     /// A file for other programs.
     #[error(transparent)]
     Sink(#[from] SinkError),
+    /// An experiment.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
     /// A report.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -74,6 +78,7 @@ impl CliError {
             Self::Bridge(error) => code_of_bridge(error),
             Self::Engine(error) => code_of_engine(error),
             Self::Sink(error) => code_of_sink(error),
+            Self::Experiment(error) => code_of_experiment(error),
             Self::Report(error) => code_of_report(error),
             Self::App(error) => code_of_app(error),
         }
@@ -163,6 +168,13 @@ fn code_of_sink(error: &SinkError) -> u8 {
         SinkError::File(error) => code_of_file(error),
         SinkError::Bridge(error) => code_of_bridge(error),
         SinkError::Cancelled(_) => 1,
+    }
+}
+
+fn code_of_experiment(error: &ExperimentError) -> u8 {
+    match error {
+        ExperimentError::File(error) => code_of_file(error),
+        _ => 2,
     }
 }
 

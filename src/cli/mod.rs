@@ -15,6 +15,7 @@ mod bridge;
 mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
+mod experiment;
 mod failure;
 mod identify;
 mod input;
@@ -86,6 +87,9 @@ enum Command {
     Input(input::InputCommand),
     /// A map from dissimilarities: non-metric multidimensional scaling
     Mds(mds::MdsArgs),
+    /// Experiments on people
+    #[command(subcommand)]
+    Experiment(experiment::ExperimentCommand),
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
@@ -122,6 +126,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Picture(args)) => picture::run(&args),
         Some(Command::Input(command)) => input::run(&command),
         Some(Command::Mds(args)) => mds::run(&args),
+        Some(Command::Experiment(command)) => experiment::run(&command),
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

@@ -14,9 +14,11 @@
 //! - no window here, and no clock that a caller does not hand in
 
 pub mod analysis;
+pub mod by_hand;
 mod course;
 pub mod design;
 mod error;
+mod participants;
 mod procedure;
 mod record;
 pub mod schedule;
@@ -25,6 +27,7 @@ mod trial;
 
 pub use course::{Course, Step};
 pub use error::ExperimentError;
+pub use participants::{Participant, Participants, Particulars};
 pub use procedure::Procedure;
 pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
 pub use trial::{Adjustment, Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task, Trial};

@@ -9,7 +9,7 @@
 
 mod calendar;
 
-pub use calendar::{date_of, rfc3339};
+pub use calendar::{date_of, moment_of, rfc3339};
 
 /// Level of an amplitude, dB re 1 µm: `20 log₁₀ a`. Zero gives −∞.
 pub fn level_db(amplitude_um: f64) -> f64 {

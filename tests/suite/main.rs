@@ -12,6 +12,7 @@ mod bridge_arrays;
 mod bridge_end_to_end;
 mod bridge_faults;
 mod commands;
+mod experiment;
 mod firmware;
 mod import;
 mod import_kes;

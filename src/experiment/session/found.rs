@@ -40,24 +40,30 @@ pub fn find(folder: &Path) -> Result<Vec<Found>, ExperimentError> {
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
     let mut logs: Vec<PathBuf> = paths.filter(is_log).collect();
     logs.sort();
-    logs.into_iter().map(|log| read(&log)).collect()
+    logs.into_iter().map(|log| Found::read(&log)).collect()
 }
 
-fn read(log: &Path) -> Result<Found, ExperimentError> {
-    let sidecar = Sidecar::read(log)?;
-    let (design, subject) = (sidecar.design(log)?, sidecar.subject());
-    let text = files::read_text(log)?;
-    // A session that is being held may be in the middle of a row.
-    let complete = text.rfind('\n').map_or(0, |end| end + 1);
-    let names = column_names(&design);
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let table = Table::read(&text[..complete], log, &names, &[])?;
-    let records = read_records(&design, &table, log)?;
-    Ok(Found {
-        log: log.to_owned(),
-        subject,
-        design,
-        records,
-        has_torn_row: complete < text.len(),
-    })
+impl Found {
+    /// The session of a log, which another process may be writing.
+    ///
+    /// # Errors
+    /// The log or the file beside it cannot be read.
+    pub fn read(log: &Path) -> Result<Self, ExperimentError> {
+        let sidecar = Sidecar::read(log)?;
+        let (design, subject) = (sidecar.design(log)?, sidecar.subject());
+        let text = files::read_text(log)?;
+        // A session that is being held may be in the middle of a row.
+        let complete = text.rfind('\n').map_or(0, |end| end + 1);
+        let names = column_names(&design);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let table = Table::read(&text[..complete], log, &names, &[])?;
+        let records = read_records(&design, &table, log)?;
+        Ok(Found {
+            log: log.to_owned(),
+            subject,
+            design,
+            records,
+            has_torn_row: complete < text.len(),
+        })
+    }
 }

@@ -72,7 +72,12 @@ impl Session {
         let path = log_path(folder, &design, &subject);
         let names = column_names(&design);
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let journal = Journal::create(&path, &names)?;
+        let journal = match Journal::create(&path, &names) {
+            Err(FileError::Exists { .. }) if !path.with_extension("json").exists() => {
+                never_begun(&path, &names)?
+            }
+            journal => journal?,
+        };
         let mut sidecar = Sidecar::of(&design, &subject, course.progress().1);
         sidecar.open(Opening::at(SystemTime::now(), device, 0));
         sidecar.write(&path)?;
@@ -150,6 +155,11 @@ impl Session {
     /// Trials answered and trials there will be at most, practice included.
     pub fn progress(&self) -> (usize, usize) {
         self.course.progress()
+    }
+
+    /// Which attempt at the trial that waits this is, from 1.
+    pub fn attempt(&self) -> u32 {
+        self.course.attempt()
     }
 
     /// Goes on from instructions, a movement or a break.
@@ -251,6 +261,17 @@ pub fn log_path(folder: &Path, design: &Design, subject: &Subject) -> PathBuf {
     ))
 }
 
+/// A log whose sidecar was never written, since the program ended between the two: it has no row.
+fn never_begun(path: &Path, names: &[&str]) -> Result<Journal, FileError> {
+    let reopened = Journal::reopen(path, names)?;
+    if reopened.table.n_rows() == 0 {
+        return Ok(reopened.journal);
+    }
+    Err(FileError::Exists {
+        path: path.to_owned(),
+    })
+}
+
 fn check_pseudonym(pseudonym: &str) -> Result<(), ExperimentError> {
     if is_name(pseudonym) {
         return Ok(());
@@ -268,4 +289,6 @@ pub(super) fn told_utc(at: SystemTime) -> String {
 }
 
 #[cfg(test)]
-mod tests;
+mod crash_tests;
+#[cfg(test)]
+pub(super) mod tests;

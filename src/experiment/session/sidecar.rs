@@ -88,6 +88,11 @@ impl Sidecar {
     /// It is missing, cannot be read, or was written by a later version.
     pub fn read(log: &Path) -> Result<Self, ExperimentError> {
         let path = log.with_extension("json");
+        if !path.exists() {
+            let what = "the file beside the log, which holds its design, is missing";
+            let mend = "restore it from a copy, or begin another session";
+            return Err(FileError::whole(&path, what, mend).into());
+        }
         let text = files::read_text(&path)?;
         let sidecar: Self = files::from_json_str(&text, &path)?;
         if sidecar.schema_version > SCHEMA_VERSION {

@@ -25,7 +25,7 @@ impl Drop for Folder {
     }
 }
 
-fn subject() -> Subject {
+pub(super) fn subject() -> Subject {
     Subject {
         pseudonym: "p01".to_owned(),
         nth: 0,
@@ -77,7 +77,7 @@ fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
     }
 }
 
-fn circumstances(nth: u64) -> Circumstances<'static> {
+pub(super) fn circumstances(nth: u64) -> Circumstances<'static> {
     let ns = nth * 1_000_000_007;
     Circumstances {
         timing: Timing::between([UNIX_EPOCH, UNIX_EPOCH], [ns, ns + 1_234_567]),
@@ -91,7 +91,7 @@ fn circumstances(nth: u64) -> Circumstances<'static> {
 }
 
 /// Answers up to so many trials; gives every seventh up first.
-fn go_on(session: &mut Session, most: usize, random: &mut Random) {
+pub(super) fn go_on(session: &mut Session, most: usize, random: &mut Random) {
     for nth in 0..most {
         while !matches!(session.step(), Step::Trial(_) | Step::Finished) {
             session.pass();
@@ -140,7 +140,7 @@ fn every_shipped_design_can_be_held_to_its_end_and_read_back() {
     }
 }
 
-fn files_text(path: &Path) -> String {
+pub(super) fn files_text(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 

@@ -1,0 +1,39 @@
+//! `selvedge experiment designs`: what can be held without writing a file.
+
+use clap::Args;
+
+use super::super::{CliError, output};
+use crate::experiment::design::Design;
+
+/// Which designs to show.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct DesignsArgs {
+    /// Print the file of this design, to begin one's own with
+    #[arg(long, value_name = "NAME")]
+    show: Option<String>,
+}
+
+/// Prints a line a design, or the file of one.
+pub(super) fn run(args: &DesignsArgs) -> Result<(), CliError> {
+    let Some(name) = &args.show else {
+        return output::print(&table());
+    };
+    let text = Design::shipped_text(name).ok_or_else(|| {
+        let known: Vec<&str> = Design::shipped_names().collect();
+        let what = format!("no design is called {name:?}; give {}", known.join(", "));
+        CliError::Input(what)
+    })?;
+    output::print(text)
+}
+
+fn table() -> String {
+    let line = |name: &str| {
+        let design = Design::shipped(name)?;
+        let (medium, method) = (design.medium.name(), design.method.name());
+        Some(format!(
+            "{name:<24}{medium:<8}{method:<14}{}\n",
+            design.title
+        ))
+    };
+    Design::shipped_names().filter_map(line).collect()
+}

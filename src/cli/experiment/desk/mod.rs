@@ -1,0 +1,332 @@
+//! A session as lines: what is to be laid and asked goes out, what was typed comes in.
+//!
+//! Knows no terminal and no clock: a [`Bench`] hands both in, so that a test can hold a session.
+
+use std::io::{self, BufRead, Write};
+use std::time::SystemTime;
+
+use crate::experiment::by_hand::{form, to_present, typed_answer};
+use crate::experiment::design::{Familiarisation, Movement};
+use crate::experiment::session::{Circumstances, Session};
+use crate::experiment::{Answer, Apparatus, ExperimentError, Step, Timing, Trial};
+
+/// What a session needs from the world.
+pub(super) trait Bench {
+    /// What time it is.
+    fn now(&mut self) -> Moment;
+    /// Waits for so many seconds, and shows those that are left.
+    fn count_down(&mut self, seconds: f64) -> io::Result<()>;
+}
+
+/// A moment on two clocks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Moment {
+    /// On the wall.
+    pub(super) utc: SystemTime,
+    /// Since the session was opened, ns; never jumps.
+    pub(super) since_ns: u64,
+}
+
+/// How it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// Every trial is answered.
+    Finished,
+    /// The experimenter said so.
+    Quit,
+    /// There is nothing more to read.
+    InputEnded,
+}
+
+/// A session, somebody who types, and what they noted of the trial that waits.
+pub(super) struct Desk<'a, R, W, B> {
+    pub(super) session: &'a mut Session,
+    pub(super) typed: R,
+    pub(super) out: W,
+    pub(super) bench: B,
+    pub(super) apparatus: Apparatus,
+    pub(super) notes: Vec<String>,
+}
+
+/// What was typed.
+enum Line {
+    /// Nothing but Enter.
+    Empty,
+    Abort,
+    Break,
+    Text(String),
+}
+
+const COMMANDS: &str = "abort, note TEXT, break or quit";
+
+impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
+    /// Holds the session to its end, or until somebody quits.
+    ///
+    /// # Errors
+    /// The lines cannot be read or written. What was answered is on disk.
+    pub(super) fn hold(&mut self) -> io::Result<Ended> {
+        loop {
+            let went_on = match self.session.step() {
+                Step::Finished => {
+                    let (n, log) = (self.session.n_rows(), self.session.log().display());
+                    let told = format!("finished: {n} rows in {log}; thank you");
+                    self.say(&told)?;
+                    return Ok(Ended::Finished);
+                }
+                Step::Instructions(text) => {
+                    let told = format!("read out:\n  {text}\nEnter goes on");
+                    self.asked(&told)?
+                }
+                Step::Familiarisation(movement) => self.practise(movement)?,
+                Step::Break {
+                    after_block,
+                    least_s,
+                } => self.rest(after_block, least_s)?,
+                Step::Trial(trial) => {
+                    let trial = trial.clone();
+                    self.trial(&trial)?
+                }
+            };
+            if let Err(ended) = went_on {
+                self.keep_notes(ended)?;
+                return Ok(ended);
+            }
+            if !matches!(self.session.step(), Step::Trial(_) | Step::Finished) {
+                self.session.pass();
+            }
+        }
+    }
+
+    fn say(&mut self, text: &str) -> io::Result<()> {
+        writeln!(self.out, "{text}")?;
+        self.out.flush()
+    }
+
+    /// The next line that is no note, or how the session ends.
+    fn line(&mut self) -> io::Result<Result<Line, Ended>> {
+        loop {
+            let mut line = Vec::new();
+            self.typed.read_until(b'\n', &mut line)?;
+            if line.last() != Some(&b'\n') {
+                // A line that was cut off is nobody's answer.
+                return Ok(Err(Ended::InputEnded));
+            }
+            let line = String::from_utf8_lossy(&line);
+            let (first, rest) = split(&line);
+            match first {
+                "" => return Ok(Ok(Line::Empty)),
+                "quit" => return Ok(Err(Ended::Quit)),
+                "abort" => return Ok(Ok(Line::Abort)),
+                "break" => return Ok(Ok(Line::Break)),
+                "note" if rest.is_empty() => self.say("type note and what is to be noted")?,
+                "note" => {
+                    self.notes.push(rest.to_owned());
+                    self.say("noted with the trial that waits")?;
+                }
+                _ => return Ok(Ok(Line::Text(line.trim().to_owned()))),
+            }
+        }
+    }
+
+    /// Says something and waits for Enter.
+    fn asked(&mut self, what: &str) -> io::Result<Result<(), Ended>> {
+        self.say(what)?;
+        loop {
+            match self.line()? {
+                Err(ended) => return Ok(Err(ended)),
+                Ok(Line::Empty) => return Ok(Ok(())),
+                Ok(_) => self.say("press Enter to go on; note TEXT and quit work here too")?,
+            }
+        }
+    }
+
+    fn practise(&mut self, movement: Familiarisation) -> io::Result<Result<(), Ended>> {
+        let course = match movement.movement {
+            Movement::Circular => "in circles",
+            Movement::Linear => "to and fro on a line",
+        };
+        let Familiarisation {
+            for_s,
+            speed_mm_per_s,
+            ..
+        } = movement;
+        let told = format!(
+            "the participant practises moving {course} at {speed_mm_per_s} mm/s for {for_s} s: \
+             Enter begins"
+        );
+        if let Err(ended) = self.asked(&told)? {
+            return Ok(Err(ended));
+        }
+        self.bench.count_down(for_s)?;
+        Ok(Ok(()))
+    }
+
+    fn rest(&mut self, after_block: usize, least_s: f64) -> io::Result<Result<(), Ended>> {
+        let block = after_block + 1;
+        if least_s > 0.0 {
+            self.say(&format!(
+                "a break of {least_s} s at least after block {block}"
+            ))?;
+            self.bench.count_down(least_s)?;
+            return self.asked("Enter ends the break");
+        }
+        self.asked(&format!("a break after block {block}: Enter ends it"))
+    }
+
+    /// A trial until it is answered or given up.
+    fn trial(&mut self, trial: &Trial) -> io::Result<Result<(), Ended>> {
+        loop {
+            let start = match self.begun(trial)? {
+                Ok(Some(start)) => start,
+                Ok(None) => return Ok(Ok(())),
+                Err(ended) => return Ok(Err(ended)),
+            };
+            let ask = form(self.session.design(), &trial.task);
+            self.say(&ask)?;
+            loop {
+                match self.line()? {
+                    Err(ended) => return Ok(Err(ended)),
+                    Ok(Line::Abort) => return self.give_up(start),
+                    Ok(Line::Break) => {
+                        if let Err(ended) = self.pause()? {
+                            return Ok(Err(ended));
+                        }
+                        break;
+                    }
+                    Ok(Line::Empty) => self.say(&ask)?,
+                    Ok(Line::Text(text)) => {
+                        let design = self.session.design();
+                        match typed_answer(design, &trial.task, &text) {
+                            Ok(answer) => return self.write(Some(&answer), start),
+                            Err(error) => self.say(&format!("{error} (or {COMMANDS})"))?,
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Says what to lay; the moment at which the participant begins, or none for a trial that was
+    /// given up before.
+    fn begun(&mut self, trial: &Trial) -> io::Result<Result<Option<Moment>, Ended>> {
+        let told = self.told(trial);
+        loop {
+            self.say(&told)?;
+            match self.line()? {
+                Err(ended) => return Ok(Err(ended)),
+                Ok(Line::Empty) => return Ok(Ok(Some(self.bench.now()))),
+                Ok(Line::Abort) => {
+                    let now = self.bench.now();
+                    return Ok(self.give_up(now)?.map(|()| None));
+                }
+                Ok(Line::Break) => {
+                    if let Err(ended) = self.pause()? {
+                        return Ok(Err(ended));
+                    }
+                }
+                Ok(Line::Text(_)) => {
+                    self.say(&format!("the trial has not begun: Enter, {COMMANDS}"))?;
+                }
+            }
+        }
+    }
+
+    fn told(&self, trial: &Trial) -> String {
+        let (done, all) = self.session.progress();
+        let kind = if trial.is_practice {
+            "practice"
+        } else {
+            "trial"
+        };
+        let attempt = match self.session.attempt() {
+            1 => String::new(),
+            nth => format!(", attempt {nth}"),
+        };
+        let (number, block) = (trial.number + 1, trial.block + 1);
+        let mut lines = vec![format!(
+            "\n{kind} {number}, block {block}{attempt}: {done} of {all} done"
+        )];
+        let placed = to_present(self.session.design(), &trial.task).into_iter();
+        lines.extend(placed.map(|placed| format!("  {:<14}{}", placed.place, placed.what)));
+        lines.push("Enter when the participant begins".to_owned());
+        lines.join("\n")
+    }
+
+    /// A break that the experimenter asked for; the trial begins anew after it.
+    fn pause(&mut self) -> io::Result<Result<(), Ended>> {
+        let began = self.bench.now();
+        if let Err(ended) = self.asked("a break: Enter ends it, and the trial begins anew")? {
+            return Ok(Err(ended));
+        }
+        let spent_ns = self.bench.now().since_ns.saturating_sub(began.since_ns);
+        let seconds = spent_ns / 1_000_000_000;
+        self.notes.push(format!("break of {seconds} s before this"));
+        Ok(Ok(()))
+    }
+
+    fn give_up(&mut self, start: Moment) -> io::Result<Result<(), Ended>> {
+        let written = self.write(None, start)?;
+        if written.is_ok() {
+            self.say("given up; it comes again")?;
+        }
+        Ok(written)
+    }
+
+    /// Puts an answer on disk, or that the trial was given up; asks again while the disk refuses.
+    fn write(&mut self, answer: Option<&Answer>, start: Moment) -> io::Result<Result<(), Ended>> {
+        let end = self.bench.now();
+        let timing = Timing::between([start.utc, end.utc], [start.since_ns, end.since_ns]);
+        loop {
+            let Err(error) = self.put(answer, &timing) else {
+                self.notes.clear();
+                return Ok(Ok(()));
+            };
+            let told = format!("{error}; nothing is lost: Enter writes the same answer again");
+            if let Err(ended) = self.asked(&told)? {
+                return Ok(Err(ended));
+            }
+        }
+    }
+
+    fn put(&mut self, answer: Option<&Answer>, timing: &Timing) -> Result<(), ExperimentError> {
+        let note = self.notes.join("; ");
+        let circumstances = Circumstances {
+            timing: timing.clone(),
+            apparatus: self.apparatus.clone(),
+            note: &note,
+            path: None,
+        };
+        match answer {
+            Some(answer) => self.session.answer(answer, &circumstances).map(drop),
+            None => self.session.abort(&circumstances),
+        }
+    }
+
+    /// A note of a trial that was not answered is kept with the trial as given up.
+    fn keep_notes(&mut self, ended: Ended) -> io::Result<()> {
+        let is_trial = matches!(self.session.step(), Step::Trial(_));
+        if self.notes.is_empty() || !is_trial {
+            return Ok(());
+        }
+        let now = self.bench.now();
+        let timing = Timing::between([now.utc; 2], [now.since_ns; 2]);
+        match self.put(None, &timing) {
+            Ok(()) => Ok(()),
+            Err(error) if ended == Ended::Quit => {
+                let notes = self.notes.join("; ");
+                self.say(&format!("{error}; your note was not kept: {notes}"))
+            }
+            Err(_) => Ok(()),
+        }
+    }
+}
+
+/// The first word of a line, and the rest.
+fn split(line: &str) -> (&str, &str) {
+    let line = line.trim();
+    let (first, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    (first, rest.trim())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,8 @@
+//! Sessions without a window: what somebody lays before the participant, and answers as they are
+//! typed.
+
+mod present;
+mod typed;
+
+pub use present::{Placed, needs_array, to_present};
+pub use typed::{form, typed_answer};

@@ -1,0 +1,132 @@
+//! What is to be laid where. The right answer is not marked; whoever lays the cloth can often
+//! tell it from what lies where.
+
+use crate::experiment::design::{Design, Medium, Method, Source, Standard, Stimulus};
+use crate::experiment::trial::Task;
+use crate::quantity::with_unit;
+
+/// Something at a place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Placed {
+    /// Where it lies, or when it comes.
+    pub place: String,
+    /// What it is.
+    pub what: String,
+}
+
+impl Placed {
+    fn new(place: impl Into<String>, what: impl Into<String>) -> Self {
+        Self {
+            place: place.into(),
+            what: what.into(),
+        }
+    }
+}
+
+/// Whether only a tactile array presents what the design asks about.
+pub fn needs_array(design: &Design) -> bool {
+    let is_virtual = |stimulus: &Stimulus| !matches!(stimulus.source, Source::RealCloth(_));
+    design.medium == Medium::Array
+        || matches!(design.method, Method::Levels(_) | Method::Adjustment(_))
+        || design.stimuli.iter().any(is_virtual)
+}
+
+/// What a trial needs, place by place.
+pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
+    match task {
+        Task::Rank {
+            target,
+            alternatives,
+        } => {
+            let target = match design.method {
+                Method::Ranking(ranking) if ranking.target == Standard::RealCloth => {
+                    cloth(design, *target)
+                }
+                _ => named(design, *target),
+            };
+            let mut placed = vec![Placed::new("target", target)];
+            placed.extend(positions(design, alternatives));
+            placed
+        }
+        Task::OddOne { items, .. } => positions(design, items),
+        Task::JudgePair { items, .. } => positions(design, items),
+        Task::Adjust { item, starts } => adjusted(design, *item, starts),
+        Task::Judge { item, .. } | Task::Estimate { item } | Task::Rate { item } => {
+            vec![Placed::new("to be felt", named(design, *item))]
+        }
+        Task::Interval {
+            level_db, signal, ..
+        } => intervals(design, *level_db, *signal),
+    }
+}
+
+fn positions(design: &Design, items: &[usize]) -> Vec<Placed> {
+    let placed = |(at, item): (usize, &usize)| {
+        Placed::new(format!("position {}", at + 1), named(design, *item))
+    };
+    items.iter().enumerate().map(placed).collect()
+}
+
+fn adjusted(design: &Design, item: usize, starts: &[f64]) -> Vec<Placed> {
+    let Method::Adjustment(adjusting) = &design.method else {
+        return Vec::new();
+    };
+    let mut placed = vec![Placed::new("to be adjusted", named(design, item))];
+    if adjusting.standard == Standard::RealCloth {
+        placed.push(Placed::new("compared with", cloth(design, item)));
+    }
+    let keys = adjusting.parameters.iter().map(|turned| turned.what.name());
+    let begun = keys.zip(starts);
+    placed.extend(begun.map(|(key, start)| Placed::new("begins at", format!("{key} = {start}"))));
+    placed
+}
+
+fn intervals(design: &Design, level_db: f64, signal: usize) -> Vec<Placed> {
+    let Method::Levels(levels) = &design.method else {
+        return Vec::new();
+    };
+    let hz = levels.band.carrier_hz();
+    let vibration = |db: f64| {
+        let level = with_unit(db, 2, "dB re 1 µm");
+        format!("{hz} Hz at {level} for {} ms", levels.interval_ms)
+    };
+    let others = levels.reference_db.map_or_else(
+        || format!("nothing for {} ms", levels.interval_ms),
+        vibration,
+    );
+    let placed = |at: usize| {
+        let what = match at == signal {
+            true => vibration(level_db),
+            false => others.clone(),
+        };
+        Placed::new(format!("interval {}", at + 1), what)
+    };
+    (0..levels.intervals).map(placed).collect()
+}
+
+/// The real cloth that a stimulus is or stands for.
+fn cloth(design: &Design, item: usize) -> String {
+    let material = design
+        .stimuli
+        .get(item)
+        .map(|stimulus| match &stimulus.source {
+            Source::RealCloth(cloth) => cloth.as_str(),
+            _ => stimulus.material.as_str(),
+        });
+    format!("the real {}", material.unwrap_or_default())
+}
+
+fn named(design: &Design, item: usize) -> String {
+    let Some(stimulus) = design.stimuli.get(item) else {
+        return String::new();
+    };
+    match &stimulus.source {
+        Source::RealCloth(cloth) => cloth.clone(),
+        Source::Textile { id, gain_db } if *gain_db == 0.0 => id.clone(),
+        Source::Textile { id, gain_db } => format!("{id} at {} more", with_unit(*gain_db, 1, "dB")),
+        Source::Vibration { band, level_db } => {
+            let level = with_unit(*level_db, 2, "dB re 1 µm");
+            format!("{} Hz at {level}", band.carrier_hz())
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! What interrupts a session costs at most the trial that waits.
+
+use super::tests::{Folder, circumstances, files_text, go_on, subject};
+use super::*;
+use crate::experiment::Grade;
+use crate::numerics::Random;
+use crate::scene::PathRow;
+
+/// Twenty-one triads of cloth on the table.
+const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
+    textiles = [\"a\", \"b\", \"c\", \"d\"]\n[odd_one_out]\n[course]\npractice_trials = 2\n";
+
+fn cloth() -> Design {
+    Design::from_toml(CLOTH, Path::new("cloth.toml")).unwrap()
+}
+
+/// A session of several trials that was closed: its log and the bytes of it.
+fn held(folder: &Folder) -> (PathBuf, Vec<u8>) {
+    let mut session = Session::create(&folder.0, cloth(), subject(), "none").unwrap();
+    go_on(&mut session, usize::MAX, &mut Random::new(4));
+    assert_eq!(session.step(), Step::Finished);
+    let log = session.log().to_owned();
+    drop(session);
+    let bytes = fs::read(&log).unwrap();
+    (log, bytes)
+}
+
+/// Where rows end, the header first.
+fn ends(bytes: &[u8]) -> Vec<usize> {
+    let breaks = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+    breaks.map(|(at, _)| at + 1).collect()
+}
+
+#[test]
+fn killed_at_any_byte_a_session_goes_on_with_the_trial_that_was_not_on_disk() {
+    let folder = Folder::new("bytes");
+    let (log, bytes) = held(&folder);
+    let sidecar = fs::read(log.with_extension("json")).unwrap();
+    let ends = ends(&bytes);
+    let trials: Vec<(Trial, u32)> = Found::read(&log)
+        .unwrap()
+        .records
+        .iter()
+        .map(|record| (record.trial.clone(), record.attempt))
+        .collect();
+    let tail = ends[ends.len() - 3];
+    let sampled = (ends[0]..tail).step_by(37);
+    for cut in sampled.chain(tail..=bytes.len()) {
+        fs::write(&log, &bytes[..cut]).unwrap();
+        fs::write(log.with_extension("json"), &sidecar).unwrap();
+        let n_rows = ends.iter().filter(|end| **end <= cut).count() - 1;
+        let mut session = Session::resume(&log, "none").unwrap();
+        assert_eq!(session.n_rows(), n_rows, "cut at {cut}");
+        let whole = &bytes[..ends[n_rows]];
+        assert_eq!(fs::read(&log).unwrap(), whole, "earlier rows are untouched");
+        let opening = session.openings().last().unwrap().clone();
+        match opening.set_aside {
+            None => assert_eq!(cut, ends[n_rows], "nothing was torn"),
+            Some(aside) => {
+                assert_eq!(fs::read(&aside).unwrap(), &bytes[ends[n_rows]..cut]);
+                fs::remove_file(aside).unwrap();
+            }
+        }
+        while !matches!(session.step(), Step::Trial(_) | Step::Finished) {
+            session.pass();
+        }
+        let attempt = session.course.attempt();
+        let next = match session.step() {
+            Step::Trial(trial) => Some((trial.clone(), attempt)),
+            _ => None,
+        };
+        assert_eq!(next.as_ref(), trials.get(n_rows), "cut at {cut}");
+    }
+}
+
+#[test]
+fn a_session_that_was_killed_is_finished_with_the_rows_of_one_that_was_not() {
+    let folder = Folder::new("finish");
+    let (log, bytes) = held(&folder);
+    let ends = ends(&bytes);
+    for cut in [ends[0], ends[3] + 5, bytes.len() - 1] {
+        fs::write(&log, &bytes[..cut]).unwrap();
+        let kept = Found::read(&log).unwrap().records;
+        let all = {
+            fs::write(folder.0.join("whole.csv"), &bytes).unwrap();
+            fs::copy(log.with_extension("json"), folder.0.join("whole.json")).unwrap();
+            Found::read(&folder.0.join("whole.csv")).unwrap().records
+        };
+        let mut session = Session::resume(&log, "none").unwrap();
+        for record in &all[kept.len()..] {
+            while !matches!(session.step(), Step::Trial(_)) {
+                session.pass();
+            }
+            let about = Circumstances {
+                timing: record.timing.clone(),
+                apparatus: record.apparatus.clone(),
+                note: &record.note,
+                path: None,
+            };
+            match &record.outcome {
+                Outcome::Aborted => session.abort(&about).unwrap(),
+                Outcome::Answered(answer) => {
+                    let is_correct = session.answer(answer, &about).unwrap();
+                    assert_eq!(is_correct, record.is_correct);
+                }
+            }
+        }
+        assert_eq!(session.step(), Step::Finished);
+        assert_eq!(fs::read(&log).unwrap(), bytes, "cut at {cut}");
+    }
+}
+
+#[test]
+fn killed_between_log_and_sidecar_the_session_begins_as_if_it_never_had() {
+    let folder = Folder::new("between");
+    let session = Session::create(&folder.0, cloth(), subject(), "none").unwrap();
+    let log = session.log().to_owned();
+    drop(session);
+    fs::remove_file(log.with_extension("json")).unwrap();
+    let mut session = Session::create(&folder.0, cloth(), subject(), "none").unwrap();
+    go_on(&mut session, 1, &mut Random::new(1));
+    drop(session);
+    assert_eq!(Found::read(&log).unwrap().records.len(), 1);
+    fs::remove_file(log.with_extension("json")).unwrap();
+    let again = Session::create(&folder.0, cloth(), subject(), "none").unwrap_err();
+    assert!(again.to_string().contains("not overwritten"), "{again}");
+    assert_eq!(fs::read_to_string(&log).unwrap().lines().count(), 2);
+}
+
+#[test]
+fn a_sidecar_that_is_missing_or_garbled_is_named_and_the_log_stays() {
+    let folder = Folder::new("sidecar");
+    let (log, bytes) = held(&folder);
+    let path = log.with_extension("json");
+    let text = files_text(&path);
+    let resumed = || Session::resume(&log, "none").unwrap_err().to_string();
+    fs::write(&path, &text[..text.len() / 2]).unwrap();
+    let told = resumed();
+    assert!(told.contains("cloth_odd_p01_1.json:"), "{told}");
+    assert!(!told.contains('\n'), "{told}");
+    fs::write(&path, text.replace("\\\"a\\\"", "\\\"z\\\"")).unwrap();
+    let told = resumed();
+    assert!(told.contains("its design was changed"), "{told}");
+    fs::remove_file(&path).unwrap();
+    let told = resumed();
+    assert!(
+        told.contains("is missing; restore it from a copy"),
+        "{told}"
+    );
+    assert_eq!(fs::read(&log).unwrap(), bytes);
+    fs::write(&path, text).unwrap();
+    assert!(Session::resume(&log, "none").is_ok());
+}
+
+#[test]
+fn a_row_of_a_later_version_or_of_another_schedule_is_refused_with_its_line() {
+    let folder = Folder::new("rows");
+    let (log, bytes) = held(&folder);
+    let text = String::from_utf8(bytes).unwrap();
+    let mut lines: Vec<&str> = text.lines().collect();
+    let later = lines[2].replacen("1,cloth", "2,cloth", 1);
+    lines[2] = &later;
+    fs::write(&log, lines.join("\n") + "\n").unwrap();
+    let told = Session::resume(&log, "none").unwrap_err().to_string();
+    assert!(told.contains("cloth_odd_p01_1.csv:3"), "{told}");
+    assert!(told.contains("knows up to 1"), "{told}");
+    let mut lines: Vec<&str> = text.lines().collect();
+    lines.remove(2);
+    fs::write(&log, lines.join("\n") + "\n").unwrap();
+    let told = Session::resume(&log, "none").unwrap_err().to_string();
+    assert!(
+        told.contains("row 2 of the log is not of this design"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_before_the_first_trial() {
+    let folder = Folder::new("closed");
+    fs::create_dir_all(&folder.0).unwrap();
+    let file = folder.0.join("a.csv");
+    fs::write(&file, "").unwrap();
+    let error = Session::create(&file, cloth(), subject(), "none").unwrap_err();
+    let told = error.to_string();
+    assert!(told.starts_with("cannot write "), "{told}");
+    assert_eq!(fs::read(&file).unwrap(), b"");
+}
+
+#[test]
+fn the_path_of_a_trial_is_a_path_and_is_there_before_its_row() {
+    let folder = Folder::new("paths");
+    let mut session = Session::create(&folder.0, cloth(), subject(), "none").unwrap();
+    let row = |t_s: f64| PathRow {
+        t_s,
+        position: crate::geometry::Point::new(100.0 * t_s, 5.0),
+        ..PathRow::default()
+    };
+    let explored = ExplorationPath::new(vec![row(0.0), row(0.5)]).unwrap();
+    let about = Circumstances {
+        path: Some(&explored),
+        ..circumstances(1)
+    };
+    let Step::Trial(trial) = session.step() else {
+        panic!("a trial waits");
+    };
+    let file = path_file(session.log(), trial, 1);
+    let answer = Answer::Odd {
+        position: 0,
+        grade: Grade::Hard,
+    };
+    session.answer(&answer, &about).unwrap();
+    assert_eq!(ExplorationPath::read(&file).unwrap(), explored);
+    // A path that cannot be written keeps its row out of the log.
+    let paths = file.parent().unwrap().to_owned();
+    fs::remove_dir_all(&paths).unwrap();
+    fs::write(&paths, "in the way").unwrap();
+    let told = session.answer(&answer, &about).unwrap_err().to_string();
+    assert!(told.contains("cannot write"), "{told}");
+    assert_eq!(session.n_rows(), 1);
+    fs::remove_file(&paths).unwrap();
+    session.answer(&answer, &about).unwrap();
+    assert_eq!(Found::read(session.log()).unwrap().records.len(), 2);
+}

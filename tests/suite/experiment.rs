@@ -1,0 +1,411 @@
+//! `selvedge experiment`, run as a person at a desk runs it, and interrupted as people are.
+
+use std::fs;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use selvedge::experiment::design::{Design, Subject};
+use selvedge::experiment::session::{Circumstances, Session, path_file};
+use selvedge::experiment::{Answer, Apparatus, Grade, Step, Timing};
+use selvedge::scene::ExplorationPath;
+
+use crate::program::{Lab, Outcome, PATH, Rows};
+
+const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
+    title = \"Odd cloth\"\ntextiles = [\"a\", \"b\", \"c\", \"d\", \"e\"]\n[odd_one_out]\n";
+const RUN: [&str; 5] = ["experiment", "run", "cloth.toml", "--subject", "p01"];
+const LOG: &str = "cloth/cloth_odd_p01_1.csv";
+/// Five cloths make ten pairs.
+const N_TRIALS: usize = 10;
+
+fn lab() -> Lab {
+    let lab = Lab::new();
+    lab.write("cloth.toml", CLOTH);
+    lab
+}
+
+/// The lines that answer some trials.
+fn answers(trials: std::ops::Range<usize>) -> String {
+    let grade = |trial: usize| Grade::ALL[trial % 3].name();
+    trials
+        .map(|trial| format!("\n{} {}\n", trial % 3 + 1, grade(trial)))
+        .collect()
+}
+
+/// A session that waits for lines.
+struct Desk {
+    child: Child,
+    typed: ChildStdin,
+    said: BufReader<ChildStdout>,
+}
+
+impl Desk {
+    fn of(mut command: Command) -> Self {
+        let command = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        Self {
+            typed: child.stdin.take().unwrap(),
+            said: BufReader::new(child.stdout.take().unwrap()),
+            child,
+        }
+    }
+
+    fn sit(lab: &Lab, more: &[&str]) -> Self {
+        Self::of(lab.command(&[&RUN[..], more].concat()))
+    }
+
+    fn types(&mut self, lines: &str) {
+        self.typed.write_all(lines.as_bytes()).unwrap();
+    }
+
+    /// Reads until a line holds this.
+    fn hears(&mut self, text: &str) -> String {
+        loop {
+            let mut line = String::new();
+            let n = self.said.read_line(&mut line).unwrap();
+            assert!(n > 0, "{text:?} was never said");
+            if line.contains(text) {
+                return line;
+            }
+        }
+    }
+
+    /// Nothing more is typed: how it ended.
+    fn ends(self) -> Outcome {
+        drop(self.typed);
+        drop(self.said);
+        Outcome::of(&self.child.wait_with_output().unwrap())
+    }
+}
+
+/// Runs a session on lines to its end.
+fn held(lab: &Lab, args: &[&str], lines: &str) -> Outcome {
+    let mut command = lab.command(args);
+    let command = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut typed = child.stdin.take().unwrap();
+    typed.write_all(lines.as_bytes()).unwrap();
+    drop(typed);
+    Outcome::of(&child.wait_with_output().unwrap())
+}
+
+/// The cells of a log without times.
+fn timeless(log: &Path) -> Vec<(String, Vec<String>)> {
+    let rows = Rows::read(log);
+    let header = rows.header();
+    let columns = header.split(',');
+    let is_time = |name: &&str| name.starts_with("t_") || *name == "rt_ms";
+    let cells = |name: &str| rows.text(name).into_iter().map(str::to_owned).collect();
+    columns
+        .filter(|name| !is_time(name))
+        .map(|name| (name.to_owned(), cells(name)))
+        .collect()
+}
+
+#[test]
+fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not() {
+    let whole = lab();
+    let outcome = held(&whole, &RUN, &answers(0..N_TRIALS));
+    assert_eq!((outcome.code, outcome.err.as_str()), (0, ""), "{outcome:?}");
+    assert!(outcome.out.contains("10 rows in"), "{outcome:?}");
+
+    let lab = lab();
+    let mut desk = Desk::sit(&lab, &[]);
+    desk.types(&answers(0..4));
+    desk.hears("trial 5, block 1: 4 of 10 done");
+    desk.types("\n");
+    desk.hears("type the odd position");
+    desk.child.kill().unwrap();
+    desk.child.wait().unwrap();
+    let before = fs::read(lab.path(LOG)).unwrap();
+    fs::write(lab.path(LOG), [&before[..], b"1,cloth,od"].concat()).unwrap();
+
+    let told = lab.refuse(&RUN);
+    assert!(
+        told.contains("session 1 of p01 has 4 of 10 trials done"),
+        "{told}"
+    );
+    assert!(told.contains("the last 0 min ago; give --resume"), "{told}");
+    let outcome = held(
+        &lab,
+        &[&RUN[..], &["--resume"]].concat(),
+        &answers(4..N_TRIALS),
+    );
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    assert!(outcome.err.contains("4 of 10 trials done"), "{outcome:?}");
+    assert!(outcome.err.contains("p01_1.csv.torn-1"), "{outcome:?}");
+    assert!(fs::read(lab.path(LOG)).unwrap().starts_with(&before));
+    assert_eq!(timeless(&lab.path(LOG)), timeless(&whole.path(LOG)));
+    let told = lab.refuse(&[&RUN[..], &["--session", "1"]].concat());
+    assert!(told.contains("it is finished"), "{told}");
+}
+
+#[test]
+fn a_session_that_ran_out_of_lines_fails_and_one_that_was_quit_does_not() {
+    let lab = lab();
+    let outcome = held(&lab, &RUN, &answers(0..2));
+    assert_eq!(outcome.code, 1, "{outcome:?}");
+    assert!(
+        outcome.one_line().contains("2 of 10 trials are in"),
+        "{outcome:?}"
+    );
+    let more = [&RUN[..], &["--resume", "--note", "late"]].concat();
+    let outcome = held(&lab, &more, "\n1 easy\nquit\n");
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    let log = Rows::read(&lab.path(LOG));
+    assert_eq!(log.text("note"), ["", "", "late"]);
+    assert_eq!(log.text("device"), ["cloth on the table"; 3]);
+}
+
+#[test]
+fn two_programs_cannot_hold_one_session() {
+    let lab = lab();
+    let mut desk = Desk::sit(&lab, &[]);
+    desk.types(&answers(0..1));
+    desk.hears("trial 2");
+    let outcome = lab.run(&[&RUN[..], &["--resume"]].concat());
+    assert_eq!(outcome.code, 1, "{outcome:?}");
+    assert!(
+        outcome.one_line().contains("another session"),
+        "{outcome:?}"
+    );
+    desk.types(&answers(1..N_TRIALS));
+    desk.hears("finished");
+    assert_eq!(desk.ends().code, 0);
+    assert_eq!(Rows::read(&lab.path(LOG)).len(), N_TRIALS);
+}
+
+#[test]
+fn restarting_begins_the_next_session_and_leaves_the_first() {
+    let lab = lab();
+    held(&lab, &RUN, &answers(0..3));
+    let before = fs::read(lab.path(LOG)).unwrap();
+    let outcome = held(&lab, &[&RUN[..], &["--restart"]].concat(), &answers(0..1));
+    assert!(outcome.out.contains("session 2: 0 of 10"), "{outcome:?}");
+    assert_eq!(fs::read(lab.path(LOG)).unwrap(), before);
+    let outcome = held(&lab, &[&RUN[..], &["--resume"]].concat(), "quit\n");
+    assert!(
+        outcome.err.contains("session 2 of p01 has 1 of 10"),
+        "{outcome:?}"
+    );
+    let first = [&RUN[..], &["--resume", "--session", "1"]].concat();
+    let outcome = held(&lab, &first, "quit\n");
+    assert!(
+        outcome.err.contains("session 1 of p01 has 3 of 10"),
+        "{outcome:?}"
+    );
+}
+
+#[test]
+fn participants_are_listed_once_and_sessions_go_by_their_number() {
+    let lab = lab();
+    let told = ["--age", "31", "--sex", "female", "--room", "B-214"];
+    held(&lab, &[&RUN[..], &told].concat(), "quit\n");
+    let second = ["experiment", "run", "cloth.toml", "--subject", "p02"];
+    held(&lab, &second, "quit\n");
+    held(&lab, &[&RUN[..], &["--resume"]].concat(), "quit\n");
+    let table = Rows::read(&lab.path("cloth/participants.csv"));
+    assert_eq!(table.text("pseudonym"), ["p01", "p02"]);
+    assert_eq!(table.text("age_years"), ["31", ""]);
+    for (subject, nth) in [("p01", 0), ("p02", 1)] {
+        let sidecar = lab.read(&format!("cloth/cloth_odd_{subject}_1.json"));
+        assert!(
+            sidecar.contains(&format!("\"nth_subject\": {nth}")),
+            "{sidecar}"
+        );
+    }
+    let older = [&RUN[..], &["--restart", "--age", "32"]].concat();
+    let told = lab.refuse(&older);
+    assert!(
+        told.contains("age_years was 31 then, and is 32 now"),
+        "{told}"
+    );
+    assert!(!lab.path("cloth/cloth_odd_p01_2.csv").exists());
+}
+
+#[test]
+fn what_cannot_be_held_is_told_in_one_line() {
+    let lab = lab();
+    let run = |design: &str, subject: &str, more: &[&str]| {
+        let args = ["experiment", "run", design, "--subject", subject];
+        lab.refuse(&[&args[..], more].concat())
+    };
+    let told = run("threshold-40", "p01", &[]);
+    assert!(told.contains("--presented-elsewhere"), "{told}");
+    let told = run("no-such", "p01", &[]);
+    assert!(told.contains("neither a file nor a design"), "{told}");
+    let told = run("cloth.toml", "Ada Lovelace", &[]);
+    assert!(told.contains("no real name"), "{told}");
+    let told = run("cloth.toml", "p01", &["--resume"]);
+    assert!(told.contains("no session 1 of p01"), "{told}");
+    let told = run("cloth.toml", "p01", &["--folder", "cloth.toml"]);
+    assert!(told.contains("--folder"), "{told}");
+    lab.write("bad.toml", CLOTH.replace("real-cloth", "stylus"));
+    let told = run("bad.toml", "p01", &[]);
+    assert!(told.contains("bad.toml:3"), "{told}");
+    assert!(!lab.path("cloth").exists(), "nothing was begun");
+}
+
+#[test]
+fn a_design_that_was_changed_in_between_is_refused() {
+    let lab = lab();
+    held(&lab, &RUN, &answers(0..3));
+    let before = fs::read(lab.path(LOG)).unwrap();
+    lab.write("cloth.toml", CLOTH.replace("seed = 3", "seed = 4"));
+    let told = lab.refuse(&[&RUN[..], &["--resume"]].concat());
+    assert!(
+        told.contains("cloth.toml was changed since session 1"),
+        "{told}"
+    );
+    assert_eq!(fs::read(lab.path(LOG)).unwrap(), before);
+}
+
+#[test]
+fn something_else_may_present_what_an_array_would() {
+    let lab = Lab::new();
+    let args = [
+        "experiment",
+        "run",
+        "odd-one-out",
+        "--subject",
+        "p01",
+        "--folder",
+        "here",
+        "--presented-elsewhere=rig 2",
+    ];
+    let outcome = held(&lab, &args, "\n\n2 hard\nquit\n");
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    let log = Rows::read(&lab.path("here/similar-fabrics_odd-one-out_p01_1.csv"));
+    assert_eq!(log.text("device"), ["rig 2"]);
+    assert_eq!(log.text("practice"), ["1"]);
+}
+
+#[test]
+fn the_designs_of_the_program_are_listed_and_shown_as_files() {
+    let lab = Lab::new();
+    let list = lab.print(&["experiment", "designs"]);
+    assert_eq!(list.lines().count(), Design::shipped_names().count());
+    let shown = lab.print(&["experiment", "designs", "--show", "rating"]);
+    assert_eq!(Some(shown.as_str()), Design::shipped_text("rating"));
+    let told = lab.refuse(&["experiment", "designs", "--show", "ratings"]);
+    assert!(told.contains("rating"), "{told}");
+}
+
+/// A session that may write no file longer than a few thousand bytes, as on a disk that is full.
+#[cfg(target_os = "linux")]
+fn on_a_small_disk(lab: &Lab) -> Desk {
+    let limited = "trap '' XFSZ; ulimit -S -f 40; exec \"$0\" \"$@\"";
+    let program = lab.command(&[]).get_program().to_owned();
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", limited])
+        .arg(program)
+        .args(RUN)
+        .current_dir(lab.path(""));
+    let mut desk = Desk::of(command);
+    desk.types(&answers(0..2));
+    desk.hears("trial 3");
+    desk.types(&format!("note {}\n\n3 hard\n", "x".repeat(50_000)));
+    let told = desk.hears("cannot write");
+    assert!(
+        told.contains("Enter writes the same answer again"),
+        "{told}"
+    );
+    desk
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn on_a_full_disk_nothing_is_lost_and_the_session_goes_on_elsewhen() {
+    let lab = lab();
+    let mut desk = on_a_small_disk(&lab);
+    assert_eq!(
+        Rows::read(&lab.path(LOG)).len(),
+        2,
+        "no piece of a row stays"
+    );
+    desk.types("\n");
+    desk.hears("cannot write");
+    desk.types("quit\n");
+    let told = desk.hears("your note was not kept");
+    assert!(told.contains("xxx"), "the note is told back");
+    assert_eq!(desk.ends().code, 0);
+    let outcome = held(
+        &lab,
+        &[&RUN[..], &["--resume"]].concat(),
+        &answers(2..N_TRIALS),
+    );
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    let whole = self::lab();
+    held(&whole, &RUN, &answers(0..N_TRIALS));
+    assert_eq!(timeless(&lab.path(LOG)), timeless(&whole.path(LOG)));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn once_the_disk_has_room_the_same_answer_is_written() {
+    if Command::new("prlimit").arg("--version").output().is_err() {
+        eprintln!("skipped: there is no prlimit");
+        return;
+    }
+    let lab = lab();
+    let mut desk = on_a_small_disk(&lab);
+    let pid = desk.child.id().to_string();
+    let room = Command::new("prlimit")
+        .args(["--pid", &pid, "--fsize=unlimited:"])
+        .status();
+    assert!(room.unwrap().success());
+    desk.types("\n");
+    desk.hears("trial 4");
+    desk.types("quit\n");
+    assert_eq!(desk.ends().code, 0);
+    let log = Rows::read(&lab.path(LOG));
+    assert_eq!(log.text("response"), ["1", "2", "3"]);
+    assert_eq!(log.text("grade"), ["easy", "normal", "hard"]);
+    assert_eq!(log.text("note")[2].len(), 50_000);
+}
+
+#[test]
+fn how_a_trial_was_explored_is_replayed_by_render() {
+    let lab = Lab::with_scene();
+    let design = Design::from_toml(CLOTH, Path::new("cloth.toml")).unwrap();
+    let subject = Subject {
+        pseudonym: "p01".to_owned(),
+        nth: 0,
+        session: 1,
+    };
+    let mut session = Session::create(&lab.path("held"), design, subject, "none").unwrap();
+    let explored = ExplorationPath::from_csv(PATH, Path::new("a.csv")).unwrap();
+    let circumstances = Circumstances {
+        timing: Timing::between([std::time::UNIX_EPOCH; 2], [0, 500_000_000]),
+        apparatus: Apparatus::default(),
+        note: "",
+        path: Some(&explored),
+    };
+    let Step::Trial(trial) = session.step() else {
+        panic!("a trial waits");
+    };
+    let file = path_file(session.log(), trial, 1);
+    let answer = Answer::Odd {
+        position: 0,
+        grade: Grade::Easy,
+    };
+    session.answer(&answer, &circumstances).unwrap();
+    let file = file.to_str().unwrap();
+    let replayed = lab.print(&["render", "a.scene.toml", "--path", file]);
+    let direct = lab.print(&["render", "a.scene.toml", "--path", "a.csv"]);
+    assert_eq!(replayed, direct);
+    assert!(
+        Rows::parse(&replayed)
+            .numbers("a40_um")
+            .iter()
+            .any(|a| *a > 0.0)
+    );
+}
