@@ -34,7 +34,12 @@ fn settings<'a>(experiment: &Experiment<'a>, nth: usize) -> Vec<Setting<'a>> {
                 (&record.trial.task, record.answer())
                 && let (Some(start), Some(value)) = (starts.get(nth), values.get(nth))
             {
-                all.push(Setting { subject: subject.name, item: *item, start: *start, value: *value });
+                all.push(Setting {
+                    subject: subject.name,
+                    item: *item,
+                    start: *start,
+                    value: *value,
+                });
             }
         }
     }
@@ -51,7 +56,8 @@ pub(super) fn sections(
     for (nth, parameter) in adjusting.parameters.iter().enumerate() {
         let all = settings(experiment, nth);
         sections.push(parameter_section(experiment, parameter, &all));
-        let is_matching = parameter.what == Tunable::Gain && adjusting.standard == Standard::RealCloth;
+        let is_matching =
+            parameter.what == Tunable::Gain && adjusting.standard == Standard::RealCloth;
         if is_matching {
             let measures = Measures::of(experiment, options, progress)?;
             sections.push(compression(experiment, &all, &measures));
@@ -90,7 +96,11 @@ fn parameter_section(
          from above: in the upper half. Logarithms where every setting is above 0.",
     );
     let names = experiment.ids();
-    let mut table = Table::new("stimuli", &format!("Settings of {key} by stimulus"), &STIMULI);
+    let mut table = Table::new(
+        "stimuli",
+        &format!("Settings of {key} by stimulus"),
+        &STIMULI,
+    );
     let mut shown = Vec::new();
     let middle = 0.5 * (parameter.from + parameter.to);
     for (item, name) in names.iter().enumerate() {
@@ -108,17 +118,25 @@ fn parameter_section(
     }
     section.tables.push(table);
     let title = format!("{}: {key}, mean ± sd", experiment.design.title);
-    section.figures.push(bars("bars", &title, key, (&shown, None), &[]));
+    section
+        .figures
+        .push(bars("bars", &title, key, (&shown, None), &[]));
     let (crossed, rows) = by_subject(all, &names);
     let variance = crossed.and_then(|table| repeated_one_way(&table));
-    section.tables.push(effects("anova", "Stimuli, within subjects", &variance));
+    section
+        .tables
+        .push(effects("anova", "Stimuli, within subjects", &variance));
     let mut found = vec![("stimuli".to_owned(), rows.and_then(|rows| friedman(&rows)))];
     let hysteresis = start_effect(experiment, all, middle);
     found.push((
         "begun high less begun low, subject by subject".to_owned(),
-        hysteresis.and_then(|d| Summary::of(&d)).and_then(|s| one_sample_t(&s, 0.0)),
+        hysteresis
+            .and_then(|d| Summary::of(&d))
+            .and_then(|s| one_sample_t(&s, 0.0)),
     ));
-    section.tables.push(tests("tests", "Stimuli, and where it began", &found));
+    section
+        .tables
+        .push(tests("tests", "Stimuli, and where it began", &found));
     section
 }
 
@@ -128,7 +146,10 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
         from.map(|s| s.value).collect()
     };
     let (ascending, descending) = (part(true), part(false));
-    let starts = Starts { ascending: &ascending, descending: &descending };
+    let starts = Starts {
+        ascending: &ascending,
+        descending: &descending,
+    };
     let linear = Adjustments::of(starts, Settings::Linear);
     let log = Adjustments::of(starts, Settings::Log);
     let mut row = vec![Cell::from(name), own.len().into()];
@@ -140,7 +161,9 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
         row.push(values.len().into());
         row.push(Cell::of(&crate::statistics::mean(values)));
     }
-    row.push(Cell::of(&of(&|a| a.difference.clone()?.estimate.map(|e| e.value))));
+    row.push(Cell::of(&of(&|a| {
+        a.difference.clone()?.estimate.map(|e| e.value)
+    })));
     row.push(Cell::of(&of(&|a| Ok(a.difference.clone()?.p))));
     row.push(Cell::of(&log.clone().map(|a| a.centre)));
     row.push(Cell::of(&log.map(|a| a.all.sd)));
@@ -164,7 +187,10 @@ fn by_subject(all: &[Setting<'_>], names: &[String]) -> (Computed<Crossed>, Rows
     let crossed = Crossed::of_answers(&["stimulus"], &answers);
     let rows = crossed.clone().and_then(|table| {
         let values = table.complete()?;
-        Ok(values.chunks(table.n_cells().max(1)).map(<[f64]>::to_vec).collect())
+        Ok(values
+            .chunks(table.n_cells().max(1))
+            .map(<[f64]>::to_vec)
+            .collect())
     });
     (crossed, rows)
 }
@@ -176,7 +202,9 @@ fn start_effect(
     middle: f64,
 ) -> Computed<Vec<f64>> {
     let mean_of = |name: &str, is_low: bool| {
-        let own = all.iter().filter(|s| s.subject == name && (s.start < middle) == is_low);
+        let own = all
+            .iter()
+            .filter(|s| s.subject == name && (s.start < middle) == is_low);
         crate::statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>())
     };
     let of = |subject: &super::kept::Subject<'_>| {
@@ -193,13 +221,20 @@ pub(super) fn slope(points: &[[f64; 2]]) -> Computed<(LineFit, Interval)> {
     let t = t_quantile_upper(0.025, df)
         .map_err(|_none| Undefined::because("two stimuli leave no scatter about a line"))?;
     let half = t * line.slope_error;
-    let interval = Interval { low: line.slope - half, high: line.slope + half, level: 0.95 };
+    let interval = Interval {
+        low: line.slope - half,
+        high: line.slope + half,
+        level: 0.95,
+    };
     Ok((line, interval))
 }
 
 /// The compression that the matched gains amount to: gain = offset − κ (level − reference).
 fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Measures) -> Section {
-    let title = format!("{}: compression from matched gains", experiment.design.title);
+    let title = format!(
+        "{}: compression from matched gains",
+        experiment.design.title
+    );
     let mut section = Section::new(experiment.key("compression"), title);
     section.note(
         "Matched gain over the textile's level, of both bands at 100 mm/s: a line of slope \
@@ -219,15 +254,21 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
     }
     let means = |name: Option<&str>| -> Vec<[f64; 2]> {
         let of = |(item, level): (usize, &f64)| {
-            let own = all.iter().filter(|s| s.item == item && name.is_none_or(|n| s.subject == n));
+            let own = all
+                .iter()
+                .filter(|s| s.item == item && name.is_none_or(|n| s.subject == n));
             let mean = crate::statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>());
             Some([*level, mean.ok()?])
         };
         level.values.iter().enumerate().filter_map(of).collect()
     };
     let columns = [
-        ("subject", "subject"), ("n", "stimuli"), ("kappa", "κ"), ("ci_low", "95 % CI from"),
-        ("ci_high", "to"), ("gain_at_0_db", "gain at 0 dB re 1 µm, dB"),
+        ("subject", "subject"),
+        ("n", "stimuli"),
+        ("kappa", "κ"),
+        ("ci_low", "95 % CI from"),
+        ("ci_high", "to"),
+        ("gain_at_0_db", "gain at 0 dB re 1 µm, dB"),
         ("amplitude_factor_at_0_db", "as a factor"),
     ];
     let mut table = Table::new("kappa", "Compression", &columns);
@@ -236,7 +277,10 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
     for name in names.chain([None]) {
         let points = means(name);
         let found = slope(&points);
-        let mut row = vec![Cell::from(name.unwrap_or("means over subjects")), points.len().into()];
+        let mut row = vec![
+            Cell::from(name.unwrap_or("means over subjects")),
+            points.len().into(),
+        ];
         match &found {
             Ok((line, interval)) => {
                 if name.is_some() {
@@ -251,7 +295,11 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
     }
     section.tables.push(table);
     let t = Summary::of(&kappas).and_then(|s| one_sample_t(&s, 0.0));
-    section.tables.push(tests("tests", "κ over subjects against none", &[("κ".to_owned(), t)]));
+    section.tables.push(tests(
+        "tests",
+        "κ over subjects against none",
+        &[("κ".to_owned(), t)],
+    ));
     section.figures.push(gain_plot(experiment, &means(None)));
     section
 }
@@ -269,12 +317,17 @@ fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> super::model::
         let kappa = crate::quantity::fixed(-line.slope, 2);
         series.push(Series {
             name: format!("κ = {kappa}"),
-            points: [low, high].map(|x| [x, line.offset + line.slope * x]).to_vec(),
+            points: [low, high]
+                .map(|x| [x, line.offset + line.slope * x])
+                .to_vec(),
             style: Style::Line,
             ..Series::default()
         });
     }
     let title = format!("{}: matched gain over level", experiment.design.title);
-    let axes = [axis("level of the textile, dB re 1 µm"), axis("matched gain, dB")];
+    let axes = [
+        axis("level of the textile, dB re 1 µm"),
+        axis("matched gain, dB"),
+    ];
     scatter("gain", &title, axes, series)
 }

@@ -40,11 +40,13 @@ pub(super) fn bars(
             groups.push(&bar.group);
         }
     }
+    // Rows from the top, on an axis that rises.
+    let n = names.len() as f64;
     let place = |bar: &Bar| {
         let row = names.iter().position(|name| *name == bar.name);
         let group = groups.iter().position(|group| *group == bar.group);
         let within = (group.unwrap_or(0) as f64 + 0.5) / groups.len() as f64 - 0.5;
-        row.unwrap_or(0) as f64 + 1.0 + 0.6 * within
+        n - row.unwrap_or(0) as f64 - 0.6 * within
     };
     let mut series = Vec::new();
     for bar in bars {
@@ -61,43 +63,74 @@ pub(super) fn bars(
     for group in &groups {
         let own = bars.iter().filter(|bar| bar.group == *group);
         series.push(Series {
-            name: if groups.len() > 1 { (*group).to_owned() } else { String::new() },
+            name: if groups.len() > 1 {
+                (*group).to_owned()
+            } else {
+                String::new()
+            },
             points: own.map(|bar| [bar.value, place(bar)]).collect(),
             ..Series::default()
         });
     }
-    let n = names.len() as f64;
     let ends = range.unwrap_or_else(|| span(bars));
-    let names_panel = Panel {
-        width: 0.35,
-        x: Axis { range: Some([0.0, 1.0]), scale: Scale::Whole, ..Axis::default() },
-        y: rows_axis(n),
-        upright: Upright::Downward,
-        ..Panel::default()
-    };
-    let words = names.iter().enumerate().map(|(at, name)| Words {
-        at: [ends[0] + 0.01 * (ends[1] - ends[0]), at as f64 + 0.72],
-        text: (*name).to_owned(),
-        tone: Tone::Aside,
-    });
     let panel = Panel {
-        x: Axis { label: label.to_owned(), range: Some(ends), ..Axis::default() },
+        x: Axis {
+            label: label.to_owned(),
+            range: Some(ends),
+            ..Axis::default()
+        },
+        y: rows_axis(n),
+        upright: Upright::Shared,
         series,
-        words: words.collect(),
-        rules: rules.iter().map(|(at, label)| dashed(At::X(*at), label)).collect(),
+        rules: rules
+            .iter()
+            .map(|(at, label)| dashed(At::X(*at), label))
+            .collect(),
         width: 1.0,
-        ..names_panel
+        ..Panel::default()
     };
     let height_px = (90.0 + 26.0 * n * (1.0 + 0.3 * (groups.len() as f64 - 1.0))).max(160.0);
     Drawn {
         key: key.to_owned(),
-        figure: figure(title, vec![panel], height_px, None),
+        figure: figure(title, vec![list(&names), panel], height_px, None),
         points: bar_table(bars, label),
     }
 }
 
+/// A panel with names one under the other, beside a panel with their rows.
+fn list(names: &[&str]) -> Panel {
+    let n = names.len() as f64;
+    let longest = names
+        .iter()
+        .map(|name| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    let words = names.iter().enumerate().map(|(at, name)| Words {
+        at: [0.1, n - at as f64 + 0.28],
+        text: (*name).to_owned(),
+        tone: Tone::Aside,
+    });
+    Panel {
+        // No whole number lies between, so that nothing stands below it.
+        x: Axis {
+            range: Some([0.1, 0.9]),
+            scale: Scale::Whole,
+            ..Axis::default()
+        },
+        y: rows_axis(n),
+        upright: Upright::Shared,
+        words: words.collect(),
+        width: (0.06 + 0.012 * longest as f64).clamp(0.1, 0.5),
+        ..Panel::default()
+    }
+}
+
 fn rows_axis(n: f64) -> Axis {
-    Axis { scale: Scale::Whole, range: Some([0.4, n + 0.6]), ..Axis::default() }
+    Axis {
+        scale: Scale::Whole,
+        range: Some([0.4, n + 0.6]),
+        ..Axis::default()
+    }
 }
 
 fn span(bars: &[Bar]) -> [f64; 2] {
@@ -109,11 +142,21 @@ fn span(bars: &[Bar]) -> [f64; 2] {
         (low.min(v), high.max(v))
     });
     let margin = if high > low { 0.08 * (high - low) } else { 1.0 };
-    if low.is_finite() { [low - margin, high + margin] } else { [0.0, 1.0] }
+    if low.is_finite() {
+        [low - margin, high + margin]
+    } else {
+        [0.0, 1.0]
+    }
 }
 
 fn bar_table(bars: &[Bar], label: &str) -> Table {
-    let columns = [("name", ""), ("group", "group"), ("value", label), ("low", "from"), ("high", "to")];
+    let columns = [
+        ("name", ""),
+        ("group", "group"),
+        ("value", label),
+        ("low", "from"),
+        ("high", "to"),
+    ];
     let mut table = Table::new("points", "", &columns);
     for bar in bars {
         let ends = match bar.interval {
@@ -121,19 +164,34 @@ fn bar_table(bars: &[Bar], label: &str) -> Table {
             None => [(); 2].map(|()| Cell::none("no interval")),
         };
         let [low, high] = ends;
-        table.push([bar.name.as_str().into(), bar.group.as_str().into(), bar.value.into(), low, high]);
+        table.push([
+            bar.name.as_str().into(),
+            bar.group.as_str().into(),
+            bar.value.into(),
+            low,
+            high,
+        ]);
     }
     table
 }
 
 fn dashed(at: At, label: &str) -> Rule {
-    Rule { at, label: label.to_owned(), ink: Ink::Grey, extent: Extent::Dashed }
+    Rule {
+        at,
+        label: label.to_owned(),
+        ink: Ink::Grey,
+        extent: Extent::Dashed,
+    }
 }
 
 fn figure(title: &str, panels: Vec<Panel>, height_px: f64, bar: Option<ColourBar>) -> Figure {
     Figure {
         title: title.to_owned(),
-        rows: vec![Row { panels, height_px, bar }],
+        rows: vec![Row {
+            panels,
+            height_px,
+            bar,
+        }],
         ..Figure::default()
     }
 }
@@ -151,7 +209,12 @@ pub(super) struct MapDrawing<'a> {
 impl MapDrawing<'_> {
     /// The drawing of a plane map; on a line, the second axis is 0.
     pub(super) fn drawn(&self, key: &str, title: &str, notes: Vec<String>) -> Drawn {
-        let at = |p: &[f64]| [p.first().copied().unwrap_or(0.0), p.get(1).copied().unwrap_or(0.0)];
+        let at = |p: &[f64]| {
+            [
+                p.first().copied().unwrap_or(0.0),
+                p.get(1).copied().unwrap_or(0.0),
+            ]
+        };
         let places: Vec<[f64; 2]> = self.points.iter().map(|p| at(p)).collect();
         let mut series: Vec<Series> = self.ellipses.iter().map(outline).collect();
         let mut words = Vec::new();
@@ -164,9 +227,17 @@ impl MapDrawing<'_> {
                 ..Series::default()
             });
         }
-        series.push(Series { points: places.clone(), ink: Ink::Black, ..Series::default() });
+        series.push(Series {
+            points: places.clone(),
+            ink: Ink::Black,
+            ..Series::default()
+        });
         for (name, place) in self.names.iter().zip(&places) {
-            words.push(Words { at: *place, text: name.clone(), tone: Tone::Aside });
+            words.push(Words {
+                at: *place,
+                text: name.clone(),
+                tone: Tone::Aside,
+            });
         }
         let corners = series.iter().flat_map(|s| s.points.iter().flatten());
         let reach = 1.12 * corners.fold(0.5_f64, |most, x| most.max(x.abs()));
@@ -187,14 +258,23 @@ impl MapDrawing<'_> {
         };
         let mut figure = figure(title, vec![panel], height_px, None);
         figure.notes = notes;
-        Drawn { key: key.to_owned(), figure, points: self.table() }
+        Drawn {
+            key: key.to_owned(),
+            figure,
+            points: self.table(),
+        }
     }
 
     fn table(&self) -> Table {
         let columns = [
-            ("name", ""), ("x1", "x₁"), ("x2", "x₂"), ("ellipse_x1", "middle x₁"),
-            ("ellipse_x2", "middle x₂"), ("half_axis_1", "half axis"),
-            ("half_axis_2", "half axis"), ("angle_deg", "angle, °"),
+            ("name", ""),
+            ("x1", "x₁"),
+            ("x2", "x₂"),
+            ("ellipse_x1", "middle x₁"),
+            ("ellipse_x2", "middle x₂"),
+            ("half_axis_1", "half axis"),
+            ("half_axis_2", "half axis"),
+            ("angle_deg", "angle, °"),
         ];
         let mut table = Table::new("points", "", &columns);
         for (i, name) in self.names.iter().enumerate() {
@@ -204,15 +284,25 @@ impl MapDrawing<'_> {
                 coordinate(axis).map_or_else(|| Cell::none("a line has one axis"), |x| (*x).into())
             }));
             row.extend(match self.ellipses.get(i) {
-                Some(e) => [e.middle[0], e.middle[1], e.half_axes[0], e.half_axes[1], e.angle_rad.to_degrees()]
-                    .map(Cell::from),
+                Some(e) => [
+                    e.middle[0],
+                    e.middle[1],
+                    e.half_axes[0],
+                    e.half_axes[1],
+                    e.angle_rad.to_degrees(),
+                ]
+                .map(Cell::from),
                 None => [(); 5].map(|()| Cell::none("no ellipse")),
             });
             table.push(row);
         }
         for (name, direction) in self.directions {
             let blank = [(); 5].map(|()| Cell::none("a direction"));
-            let mut row = vec![Cell::from(name.as_str()), direction[0].into(), direction[1].into()];
+            let mut row = vec![
+                Cell::from(name.as_str()),
+                direction[0].into(),
+                direction[1].into(),
+            ];
             row.extend(blank);
             table.push(row);
         }
@@ -224,8 +314,14 @@ fn outline(ellipse: &Ellipse) -> Series {
     let (sin, cos) = ellipse.angle_rad.sin_cos();
     let corner = |nth: u32| {
         let turn = f64::from(nth) / f64::from(N_CORNERS) * std::f64::consts::TAU;
-        let [a, b] = [ellipse.half_axes[0] * turn.cos(), ellipse.half_axes[1] * turn.sin()];
-        [ellipse.middle[0] + a * cos - b * sin, ellipse.middle[1] + a * sin + b * cos]
+        let [a, b] = [
+            ellipse.half_axes[0] * turn.cos(),
+            ellipse.half_axes[1] * turn.sin(),
+        ];
+        [
+            ellipse.middle[0] + a * cos - b * sin,
+            ellipse.middle[1] + a * sin + b * cos,
+        ]
     };
     Series {
         points: (0..=N_CORNERS).map(corner).collect(),
@@ -250,33 +346,63 @@ pub(super) fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Serie
         }
     }
     let [x, y] = axes;
-    let panel = Panel { x, y, series, ..Panel::default() };
-    Drawn { key: key.to_owned(), figure: figure(title, vec![panel], HEIGHT_PX, None), points }
+    let panel = Panel {
+        x,
+        y,
+        series,
+        ..Panel::default()
+    };
+    Drawn {
+        key: key.to_owned(),
+        figure: figure(title, vec![panel], HEIGHT_PX, None),
+        points,
+    }
 }
 
 /// An axis with a label.
 pub(super) fn axis(label: &str) -> Axis {
-    Axis { label: label.to_owned(), ..Axis::default() }
+    Axis {
+        label: label.to_owned(),
+        ..Axis::default()
+    }
 }
 
 /// A square of colours, darker for more, with names beside the rows.
-pub(super) fn heat(key: &str, title: &str, label: &str, names: &[String], values: &[Option<f64>]) -> Drawn {
+pub(super) fn heat(
+    key: &str,
+    title: &str,
+    label: &str,
+    names: &[String],
+    values: &[Option<f64>],
+) -> Drawn {
     let n = names.len();
     let known = values.iter().flatten().copied();
     let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
         (low.min(v), high.max(v))
     });
-    let (low, high) = if high > low { (low, high) } else { (0.0, 1.0_f64.max(high)) };
+    let (low, high) = if high > low {
+        (low, high)
+    } else {
+        (0.0, 1.0_f64.max(high))
+    };
     let colour = |value: f64| shade((value - low) / (high - low));
     let range = Some([0.5, n as f64 + 0.5]);
-    let of_names = || Axis { scale: Scale::Whole, range, ..Axis::default() };
-    let words = names.iter().enumerate().map(|(at, name)| Words {
-        at: [n as f64 + 0.5, at as f64 + 0.75],
-        text: format!("{} {name}", at + 1),
-        tone: Tone::Aside,
-    });
+    let of_names = || Axis {
+        scale: Scale::Whole,
+        range,
+        ..Axis::default()
+    };
+    let numbered: Vec<String> = names
+        .iter()
+        .zip(1_u32..)
+        .map(|(name, at)| format!("{at} {name}"))
+        .collect();
+    let numbered: Vec<&str> = numbered.iter().map(String::as_str).collect();
     let square = Panel {
-        x: Axis { label: "as in the list".to_owned(), ..of_names() },
+        x: Axis {
+            label: "as in the list".to_owned(),
+            ..of_names()
+        },
         y: of_names(),
         upright: Upright::Downward,
         raster: Some(Raster {
@@ -286,27 +412,30 @@ pub(super) fn heat(key: &str, title: &str, label: &str, names: &[String], values
         width: 1.0,
         ..Panel::default()
     };
-    let list = Panel {
-        x: Axis { range: Some([n as f64 + 0.4, n as f64 + 1.4]), label: "".to_owned(), scale: Scale::Whole },
-        y: of_names(),
-        upright: Upright::Downward,
-        words: words.collect(),
-        width: 0.45,
-        ..Panel::default()
-    };
     let bar = ColourBar {
-        axis: Axis { label: label.to_owned(), range: Some([low, high]), ..Axis::default() },
+        axis: Axis {
+            label: label.to_owned(),
+            range: Some([low, high]),
+            ..Axis::default()
+        },
         colours: (0..=32).map(|i| shade(f64::from(i) / 32.0)).collect(),
     };
     let mut points = Table::new("points", "", &[("row", "row"), ("column", "column")]);
-    points.columns.push(Column { name: "value".to_owned(), heading: label.to_owned() });
+    points.columns.push(Column {
+        name: "value".to_owned(),
+        heading: label.to_owned(),
+    });
     for (at, value) in values.iter().enumerate() {
         let value = value.map_or_else(|| Cell::none("never met, or itself"), Cell::from);
-        points.push([names[at / n].as_str().into(), names[at % n].as_str().into(), value]);
+        points.push([
+            names[at / n].as_str().into(),
+            names[at % n].as_str().into(),
+            value,
+        ]);
     }
     Drawn {
         key: key.to_owned(),
-        figure: figure(title, vec![square, list], 420.0, Some(bar)),
+        figure: figure(title, vec![square, list(&numbered)], 420.0, Some(bar)),
         points,
     }
 }

@@ -42,7 +42,9 @@ pub(super) fn compared(experiments: &[Experiment<'_>]) -> Option<Section> {
     if all.is_empty() {
         return None;
     }
-    section.tables.push(summaries("means", "Right answers", &means));
+    section
+        .tables
+        .push(summaries("means", "Right answers", &means));
     section.tables.push(tests("tests", "Differences", &all));
     Some(section)
 }
@@ -52,7 +54,8 @@ fn values(scores: &Scores) -> Vec<f64> {
 }
 
 fn two(what: &str, first: &Scores, second: &Scores) -> Vec<(String, Computed<Outcome>)> {
-    let summaries = Summary::of(&values(first)).and_then(|a| Ok((a, Summary::of(&values(second))?)));
+    let summaries =
+        Summary::of(&values(first)).and_then(|a| Ok((a, Summary::of(&values(second))?)));
     let both = summaries.and_then(|(a, b)| two_sample_t(&a, &b));
     let part = |of: fn(crate::statistics::TwoSamples) -> Outcome| both.clone().map(of);
     let common: Vec<[f64; 2]> = first
@@ -88,7 +91,10 @@ fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
     let of = |subject: &super::kept::Subject<'_>| {
         let right: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
         let n = right.iter().filter(|is_right| **is_right).count();
-        (subject.name.to_owned(), 100.0 * n as f64 / right.len() as f64)
+        (
+            subject.name.to_owned(),
+            100.0 * n as f64 / right.len() as f64,
+        )
     };
     is_scored.then(|| experiment.subjects.iter().map(of).collect())
 }

@@ -5,7 +5,7 @@ use super::Options;
 use super::draw::{Bar, axis, bars, scatter};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, summaries, tests};
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use super::variance::effects;
 use crate::experiment::design::{Judging, JudgingProtocol};
 use crate::experiment::{Answer, Record, Task};
@@ -30,7 +30,13 @@ struct Said {
 
 fn said(record: &Record) -> Vec<Said> {
     match (&record.trial.task, record.answer()) {
-        (Task::Judge { item, is_real }, Some(Answer::Judged { is_real: said, confidence })) => {
+        (
+            Task::Judge { item, is_real },
+            Some(Answer::Judged {
+                is_real: said,
+                confidence,
+            }),
+        ) => {
             vec![Said {
                 item: *item,
                 is_real: *is_real,
@@ -38,7 +44,13 @@ fn said(record: &Record) -> Vec<Said> {
                 confidence: *confidence,
             }]
         }
-        (Task::JudgePair { items, real }, Some(Answer::Chosen { position, confidence })) => {
+        (
+            Task::JudgePair { items, real },
+            Some(Answer::Chosen {
+                position,
+                confidence,
+            }),
+        ) => {
             let of = |at: usize| Said {
                 item: items[at],
                 is_real: at == *real,
@@ -66,7 +78,10 @@ pub(super) fn sections(
 
 fn right_of(subject: &Subject<'_>) -> (u64, u64) {
     let verdicts: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
-    (verdicts.iter().filter(|r| **r).count() as u64, verdicts.len() as u64)
+    (
+        verdicts.iter().filter(|r| **r).count() as u64,
+        verdicts.len() as u64,
+    )
 }
 
 fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options) -> Section {
@@ -82,7 +97,8 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
             yes_no_table(experiment)
         }
         JudgingProtocol::Pair => {
-            section.note("The real one of two was to be found: d′ of two alternatives without bias.");
+            section
+                .note("The real one of two was to be found: d′ of two alternatives without bias.");
             pair_table(experiment)
         }
     };
@@ -93,8 +109,14 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
         .map(right_of)
         .map(|(right, n)| 100.0 * right as f64 / n as f64)
         .collect();
-    let means = [("right, %".to_owned(), percents.clone()), ("d′".to_owned(), d_primes.clone())];
-    section.tables.push(summaries("group", "Over subjects", &means));
+    let means = [
+        ("right, %".to_owned(), percents.clone()),
+        ("d′".to_owned(), d_primes.clone()),
+    ];
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
     let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
     let from_half: Vec<f64> = percents.iter().map(|p| p - 50.0).collect();
     let pooled: (u64, u64) = experiment
@@ -114,7 +136,9 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
             exact_binomial(pooled.0, pooled.1, 0.5, Sides::Two),
         ),
     ];
-    section.tables.push(tests("tests", "Against guessing", &all));
+    section
+        .tables
+        .push(tests("tests", "Against guessing", &all));
     section.tables.push(equivalence(&percents));
     section.note(format!(
         "No difference found is not equivalence: two one-sided tests ask whether the share of right \
@@ -141,7 +165,12 @@ const YES_NO: [(&str, &str); 14] = [
 ];
 
 fn counts(subject: &Subject<'_>) -> Answers {
-    let mut answers = Answers { hits: 0, n_signal: 0, false_alarms: 0, n_noise: 0 };
+    let mut answers = Answers {
+        hits: 0,
+        n_signal: 0,
+        false_alarms: 0,
+        n_noise: 0,
+    };
     for said in subject.trials().flat_map(said) {
         let (n, yes) = if said.is_real {
             (&mut answers.n_signal, &mut answers.hits)
@@ -171,7 +200,9 @@ fn yes_no_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
                 d_primes.push(found.d_prime);
                 row.extend([found.hit_rate.into(), found.false_alarm_rate.into()]);
                 row.push(found.correction.name().into());
-                row.extend([found.d_prime, found.interval.low, found.interval.high].map(Cell::from));
+                row.extend(
+                    [found.d_prime, found.interval.low, found.interval.high].map(Cell::from),
+                );
                 row.extend([found.criterion, found.ln_beta].map(Cell::from));
                 row.push(Cell::of(&found.uncorrected_d_prime));
             }
@@ -200,7 +231,9 @@ fn pair_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
         let (right, n) = right_of(subject);
         let mut row = vec![Cell::from(subject.name), n.into(), right.into()];
         row.push((100.0 * right as f64 / n as f64).into());
-        row.push(Cell::of(&exact_binomial(right, n, 0.5, Sides::Two).map(|o| o.p)));
+        row.push(Cell::of(
+            &exact_binomial(right, n, 0.5, Sides::Two).map(|o| o.p),
+        ));
         match forced_choice(right, n, 2, Correction::LogLinear) {
             Ok(choice) => {
                 d_primes.push(choice.d_prime);
@@ -229,28 +262,34 @@ fn equivalence(percents: &[f64]) -> Table {
         ("ci_high_percent", "to"),
         ("power", "power if it were 50 %"),
     ];
-    let mut table = Table::new("equivalence", "Equivalence to guessing (two one-sided tests)", &columns);
+    let mut table = Table::new(
+        "equivalence",
+        "Equivalence to guessing (two one-sided tests)",
+        &columns,
+    );
     let bounds = [50.0 - BOUNDS_PERCENT, 50.0 + BOUNDS_PERCENT];
-    table.push(match Summary::of(percents).and_then(|s| tost(&s, bounds, 0.05)) {
-        Ok(found) => vec![
-            found.n.into(),
-            found.mean.into(),
-            bounds[0].into(),
-            bounds[1].into(),
-            found.t[0].into(),
-            found.t[1].into(),
-            found.df.into(),
-            found.p.into(),
-            found.interval.low.into(),
-            found.interval.high.into(),
-            Cell::of(&found.power),
-        ],
-        Err(why) => {
-            let mut row = vec![Cell::from(percents.len())];
-            row.extend(undefined(&why, 10));
-            row
-        }
-    });
+    table.push(
+        match Summary::of(percents).and_then(|s| tost(&s, bounds, 0.05)) {
+            Ok(found) => vec![
+                found.n.into(),
+                found.mean.into(),
+                bounds[0].into(),
+                bounds[1].into(),
+                found.t[0].into(),
+                found.t[1].into(),
+                found.df.into(),
+                found.p.into(),
+                found.interval.low.into(),
+                found.interval.high.into(),
+                Cell::of(&found.power),
+            ],
+            Err(why) => {
+                let mut row = vec![Cell::from(percents.len())];
+                row.extend(undefined(&why, 10));
+                row
+            }
+        },
+    );
     table
 }
 
@@ -260,10 +299,18 @@ fn ratings(answers: impl Iterator<Item = Said>, grades: u8) -> [Vec<u64>; 2] {
     let n = usize::from(grades);
     let mut counts = [vec![0; 2 * n], vec![0; 2 * n]];
     for said in answers {
-        let Some(sure) = said.confidence.map(usize::from).filter(|c| (1..=n).contains(c)) else {
+        let Some(sure) = said
+            .confidence
+            .map(usize::from)
+            .filter(|c| (1..=n).contains(c))
+        else {
             continue;
         };
-        let at = if said.said_real { n + sure - 1 } else { n - sure };
+        let at = if said.said_real {
+            n + sure - 1
+        } else {
+            n - sure
+        };
         counts[usize::from(!said.is_real)][at] += 1;
     }
     counts
@@ -278,8 +325,13 @@ fn confidence(experiment: &Experiment<'_>, judging: &Judging) -> Section {
          together: pooled ratings, which make the area too small where subjects differ.",
     );
     let columns = [
-        ("subject", "subject"), ("n_real", "real"), ("n_generated", "generated"),
-        ("area", "area"), ("se", "SE"), ("ci_low", "95 % CI from"), ("ci_high", "to"),
+        ("subject", "subject"),
+        ("n_real", "real"),
+        ("n_generated", "generated"),
+        ("area", "area"),
+        ("se", "SE"),
+        ("ci_low", "95 % CI from"),
+        ("ci_high", "to"),
         ("d_a", "d_a"),
     ];
     let mut table = Table::new("areas", "Areas under the curve", &columns);
@@ -291,15 +343,24 @@ fn confidence(experiment: &Experiment<'_>, judging: &Judging) -> Section {
         areas.extend(found.as_ref().ok().map(|r| r.area));
         table.push(roc_row(subject.name, &found));
     }
-    let everyone = experiment.subjects.iter().flat_map(Subject::trials).flat_map(said);
+    let everyone = experiment
+        .subjects
+        .iter()
+        .flat_map(Subject::trials)
+        .flat_map(said);
     let [real, others] = ratings(everyone, grades);
     let pooled = roc(&real, &others);
     table.push(roc_row("all together", &pooled));
     section.tables.push(table);
     let t = Summary::of(&areas).and_then(|s| one_sample_t(&s, 0.5));
-    section.tables.push(tests("tests", "Areas against ½", &[("area".to_owned(), t)]));
+    section
+        .tables
+        .push(tests("tests", "Areas against ½", &[("area".to_owned(), t)]));
     if let Ok(pooled) = &pooled {
-        let points = pooled.points.iter().map(|p| [p.false_alarm_rate, p.hit_rate]);
+        let points = pooled
+            .points
+            .iter()
+            .map(|p| [p.false_alarm_rate, p.hit_rate]);
         let series = vec![
             Series {
                 name: "all together".to_owned(),
@@ -319,7 +380,10 @@ fn confidence(experiment: &Experiment<'_>, judging: &Judging) -> Section {
             axis.range = Some([0.0, 1.0]);
             axis
         });
-        let title = format!("{}: receiver operating characteristic", experiment.design.title);
+        let title = format!(
+            "{}: receiver operating characteristic",
+            experiment.design.title
+        );
         section.figures.push(scatter("roc", &title, axes, series));
     }
     section
@@ -329,7 +393,12 @@ fn roc_row(name: &str, found: &Computed<Roc>) -> Vec<Cell> {
     let mut row = vec![Cell::from(name)];
     match found {
         Ok(roc) => {
-            row.extend([roc.n[0].into(), roc.n[1].into(), Cell::from(roc.area), Cell::of(&roc.se)]);
+            row.extend([
+                roc.n[0].into(),
+                roc.n[1].into(),
+                Cell::from(roc.area),
+                Cell::of(&roc.se),
+            ]);
             row.extend(ends(&roc.interval));
             row.push(Cell::of(&roc.d_a));
         }
@@ -340,7 +409,10 @@ fn roc_row(name: &str, found: &Computed<Roc>) -> Vec<Cell> {
 
 /// What was called real, by material and condition (Table 3 and Fig. 9 of the paper).
 fn percentages(experiment: &Experiment<'_>) -> Section {
-    let title = format!("{}: called real, by material and condition", experiment.design.title);
+    let title = format!(
+        "{}: called real, by material and condition",
+        experiment.design.title
+    );
     let mut section = Section::new(experiment.key("called-real"), title);
     section.note(
         "Percentages of trials in which it was called real. Of few trials a cell they take few \
@@ -349,7 +421,10 @@ fn percentages(experiment: &Experiment<'_>) -> Section {
     let answers = cell_answers(experiment);
     let crossed = Crossed::of_answers(&["material", "condition"], &answers);
     let (materials, conditions) = match &crossed {
-        Ok(table) => (table.factors[0].levels.clone(), table.factors[1].levels.clone()),
+        Ok(table) => (
+            table.factors[0].levels.clone(),
+            table.factors[1].levels.clone(),
+        ),
         Err(_) => Default::default(),
     };
     let of = |material: Option<&str>, condition: Option<&str>| -> Vec<f64> {
@@ -382,9 +457,16 @@ fn percentages(experiment: &Experiment<'_>) -> Section {
             }
             rows.push((format!("{material}, {condition}, %"), values));
         }
-        rows.push((format!("all materials, {condition}, %"), of(None, Some(condition))));
+        rows.push((
+            format!("all materials, {condition}, %"),
+            of(None, Some(condition)),
+        ));
     }
-    section.tables.push(summaries("cells", "Called real (as Table 3 of the paper)", &rows));
+    section.tables.push(summaries(
+        "cells",
+        "Called real (as Table 3 of the paper)",
+        &rows,
+    ));
     let variance = crossed.and_then(|table| repeated_two_way(&table));
     section.tables.push(effects(
         "anova",
@@ -392,10 +474,18 @@ fn percentages(experiment: &Experiment<'_>) -> Section {
         &variance,
     ));
     let all = differences(&conditions, |condition| of(None, Some(condition)));
-    section.tables.push(tests("differences", "Conditions, subject by subject", &all));
+    section
+        .tables
+        .push(tests("differences", "Conditions, subject by subject", &all));
     let title = format!("{}: called real by material", experiment.design.title);
     let label = "called real, % (± SE)";
-    section.figures.push(bars("materials", &title, label, (&shown, Some([0.0, 100.0])), &[(50.0, "half")]));
+    section.figures.push(bars(
+        "materials",
+        &title,
+        label,
+        (&shown, Some([0.0, 100.0])),
+        &[(50.0, "half")],
+    ));
     section
 }
 

@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use super::model::{Cell, Section, Table};
-use crate::experiment::{Course, Step};
 use crate::experiment::design::Design;
 use crate::experiment::record::{Outcome, Record};
 use crate::experiment::session::Found;
+use crate::experiment::{Course, Step};
 
 /// One experiment: a design, and the subjects whose trials count.
 #[derive(Debug)]
@@ -76,7 +76,11 @@ pub(super) fn experiments(all: &[Found]) -> Vec<Experiment<'_>> {
     for ((study, experiment), versions) in groups {
         let n_versions = versions.len();
         for (nth, (_, sessions)) in versions.into_iter().enumerate() {
-            let version = if n_versions > 1 { format!("-design-{}", nth + 1) } else { String::new() };
+            let version = if n_versions > 1 {
+                format!("-design-{}", nth + 1)
+            } else {
+                String::new()
+            };
             let own = super::model::file_name(&format!("{experiment}{version}"), '-');
             let is_taken = experiments.iter().any(|e| e.key == own);
             let key = if is_taken || own.is_empty() {
@@ -105,24 +109,37 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
         key(a).cmp(&key(b))
     });
     let design = &sessions[0].design;
-    let mut section = Section::new(format!("{key}-sessions"), format!("{}: sessions", design.title));
+    let mut section = Section::new(
+        format!("{key}-sessions"),
+        format!("{}: sessions", design.title),
+    );
     rules_told(design, &mut section);
     let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
     let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);
     let mut subjects: Vec<Subject<'_>> = Vec::new();
     for &found in &sessions {
-        let session = Session { found, trials: answered(found) };
+        let session = Session {
+            found,
+            trials: answered(found),
+        };
         table.push(held_row(&session));
         let (n, least) = (session.trials.len(), design.rules.least_trials);
         if n < least {
-            left_out.push(out_row(found, &session.trials, &format!("{n} trials, fewer than {least}")));
+            left_out.push(out_row(
+                found,
+                &session.trials,
+                &format!("{n} trials, fewer than {least}"),
+            ));
             continue;
         }
         let session = without_fast(session, &mut left_out);
         let name = found.subject.pseudonym.as_str();
         match subjects.last_mut().filter(|subject| subject.name == name) {
             Some(subject) => subject.sessions.push(session),
-            None => subjects.push(Subject { name, sessions: vec![session] }),
+            None => subjects.push(Subject {
+                name,
+                sessions: vec![session],
+            }),
         }
     }
     let least = design.rules.least_share_correct;
@@ -134,7 +151,13 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
     } else {
         section.tables.push(left_out);
     }
-    Experiment { key, design, subjects, sessions, found: section }
+    Experiment {
+        key,
+        design,
+        subjects,
+        sessions,
+        found: section,
+    }
 }
 
 const HELD: [(&str, &str); 9] = [
@@ -170,14 +193,22 @@ fn rules_told(design: &Design, section: &mut Section) {
         n => format!("{n} subjects planned"),
     }];
     if rules.least_trials > 0 {
-        told.push(format!("a session with fewer than {} trials is left out", rules.least_trials));
+        told.push(format!(
+            "a session with fewer than {} trials is left out",
+            rules.least_trials
+        ));
     }
     if rules.least_response_s > 0.0 {
-        told.push(format!("a trial answered in less than {} s is left out", rules.least_response_s));
+        told.push(format!(
+            "a trial answered in less than {} s is left out",
+            rules.least_response_s
+        ));
     }
     if rules.least_share_correct > 0.0 {
         let share = 100.0 * rules.least_share_correct;
-        told.push(format!("a subject with less than {share} % right is left out"));
+        told.push(format!(
+            "a subject with less than {share} % right is left out"
+        ));
     }
     section.note(format!(
         "Settled in the design before the first subject: {}. Practice and aborted trials never \
@@ -209,9 +240,15 @@ fn held_row(session: &Session<'_>) -> Vec<Cell> {
             };
             (Cell::from(planned), state)
         }
-        Err(error) => (Cell::none("the log does not follow its design"), error.to_string()),
+        Err(error) => (
+            Cell::none("the log does not follow its design"),
+            error.to_string(),
+        ),
     };
-    let device = found.records.last().map_or("", |r| r.apparatus.device.as_str());
+    let device = found
+        .records
+        .last()
+        .map_or("", |r| r.apparatus.device.as_str());
     vec![
         found.subject.pseudonym.as_str().into(),
         Cell::from(f64::from(found.subject.session)),
@@ -221,7 +258,13 @@ fn held_row(session: &Session<'_>) -> Vec<Cell> {
         n_aborted.into(),
         state.into(),
         device.into(),
-        found.log.file_name().unwrap_or_default().to_string_lossy().into_owned().into(),
+        found
+            .log
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+            .into(),
     ]
 }
 
@@ -255,7 +298,11 @@ fn numbers(trials: &[&Record]) -> String {
         }
     }
     let told = |[from, to]: &[usize; 2]| {
-        if from == to { from.to_string() } else { format!("{from}–{to}") }
+        if from == to {
+            from.to_string()
+        } else {
+            format!("{from}–{to}")
+        }
     };
     runs.iter().map(told).collect::<Vec<_>>().join(", ")
 }
@@ -283,10 +330,13 @@ fn is_right_enough(subject: &Subject<'_>, least: f64, left_out: &mut Table) -> b
     if share >= least {
         return true;
     }
-    let why = format!("{n_right} of {} right, less than {} %", verdicts.len(), 100.0 * least);
+    let why = format!(
+        "{n_right} of {} right, less than {} %",
+        verdicts.len(),
+        100.0 * least
+    );
     for session in &subject.sessions {
         left_out.push(out_row(session.found, &session.trials, &why));
     }
     false
 }
-

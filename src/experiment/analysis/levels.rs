@@ -5,7 +5,7 @@ use super::Options;
 use super::draw::{Bar, axis, bars, scatter};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, summaries, tests};
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use crate::experiment::design::{Levels, StaircaseTrack, Track};
 use crate::experiment::{Record, Task};
 use crate::figure::{Series, Style};
@@ -27,10 +27,17 @@ pub(super) struct Answered {
 }
 
 fn answered(record: &Record) -> Option<Answered> {
-    let Task::Interval { track, level_db, .. } = record.trial.task else {
+    let Task::Interval {
+        track, level_db, ..
+    } = record.trial.task
+    else {
         return None;
     };
-    Some(Answered { track, level_db, is_right: record.is_correct? })
+    Some(Answered {
+        track,
+        level_db,
+        is_right: record.is_correct?,
+    })
 }
 
 impl Levels {
@@ -72,10 +79,13 @@ pub(super) fn sections(
         levels.shape().name(),
         if levels.reference_db.is_some() { "the difference in dB" } else { "the level in dB" },
     ));
-    let (table, thresholds, fits) = fitted(experiment, levels, options);
+    let (table, thresholds, fits) = fitted(experiment, levels);
     section.tables.push(table);
     let means = [(levels.quantity().to_owned(), thresholds.clone())];
-    section.tables.push(summaries("group", "Over subjects", &means));
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
     if levels.reference_db.is_some() {
         let t = Summary::of(&thresholds).and_then(|s| one_sample_t(&s, 0.0));
         let named: [(String, Computed<Outcome>); 1] = [("difference against 0 dB".to_owned(), t)];
@@ -108,11 +118,7 @@ const FITS: [(&str, &str); 12] = [
 
 type Fits<'a> = Vec<(&'a str, Fit)>;
 
-fn fitted<'a>(
-    experiment: &Experiment<'a>,
-    levels: &Levels,
-    _options: &Options,
-) -> (Table, Vec<f64>, Fits<'a>) {
+fn fitted<'a>(experiment: &Experiment<'a>, levels: &Levels) -> (Table, Vec<f64>, Fits<'a>) {
     let title = format!("{}, fits of all trials", levels.quantity());
     let mut table = Table::new("fits", &title, &FITS);
     let (mut thresholds, mut fits) = (Vec::new(), Vec::new());
@@ -122,7 +128,11 @@ fn fitted<'a>(
         let trials = subject.trials().filter_map(answered);
         let of_levels = blocks(trials.map(|t| (levels.of_function(t.level_db), t.is_right)));
         let n: u32 = of_levels.iter().map(|b| b.n).sum();
-        let mut row = vec![Cell::from(subject.name), Cell::from(f64::from(n)), of_levels.len().into()];
+        let mut row = vec![
+            Cell::from(subject.name),
+            Cell::from(f64::from(n)),
+            of_levels.len().into(),
+        ];
         match model.fit(&of_levels) {
             Ok(fit) => {
                 row.extend(fit_cells(&fit, of_levels.len()));
@@ -152,8 +162,12 @@ fn curves(
     levels: &Levels,
     fits: &[(&str, Fit)],
 ) -> Option<super::model::Drawn> {
-    let x = fits.iter().flat_map(|(_, fit)| fit.blocks.iter().map(|b| b.x));
-    let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let x = fits
+        .iter()
+        .flat_map(|(_, fit)| fit.blocks.iter().map(|b| b.x));
+    let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+        (l.min(x), h.max(x))
+    });
     if !(low < high) {
         return None;
     }
@@ -162,7 +176,9 @@ fn curves(
         let at = |i: u32| low + (high - low) * f64::from(i) / f64::from(N_DRAWN);
         series.push(Series {
             name: (*name).to_owned(),
-            points: (0..=N_DRAWN).map(|i| [at(i), fit.curve.at(at(i))]).collect(),
+            points: (0..=N_DRAWN)
+                .map(|i| [at(i), fit.curve.at(at(i))])
+                .collect(),
             style: Style::Line,
             ..Series::default()
         });
@@ -180,16 +196,32 @@ fn curves(
     let mut y = axis("share right");
     y.range = Some([0.0, 1.0]);
     let title = format!("{}: psychometric functions", experiment.design.title);
-    let label = if levels.reference_db.is_some() { "difference, dB" } else { "level, dB re 1 µm" };
+    let label = if levels.reference_db.is_some() {
+        "difference, dB"
+    } else {
+        "level, dB re 1 µm"
+    };
     Some(scatter("curves", &title, [axis(label), y], series))
 }
 
 /// A series run again on the answers of its log.
-pub(super) fn run_again(levels: &Levels, track: &StaircaseTrack, nth: usize, trials: &[Answered]) -> Computed<Staircase> {
-    let stage = |&down: &f64| Stage { up: down * track.up_over_down, down, n_reversals: 1 };
+pub(super) fn run_again(
+    levels: &Levels,
+    track: &StaircaseTrack,
+    nth: usize,
+    trials: &[Answered],
+) -> Computed<Staircase> {
+    let stage = |&down: &f64| Stage {
+        up: down * track.up_over_down,
+        down,
+        n_reversals: 1,
+    };
     let start = track.starts_db.get(nth).copied();
     let mut staircase = Staircase::new(StaircasePlan {
-        rule: Rule { n_up: track.up, m_down: track.down },
+        rule: Rule {
+            n_up: track.up,
+            m_down: track.down,
+        },
         scale: StepScale::Linear,
         start: start.ok_or_else(|| Undefined::because("a series that the design does not have"))?,
         stages: track.steps_db.iter().map(stage).collect(),
@@ -217,7 +249,10 @@ const REVERSALS: [(&str, &str); 9] = [
 fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrack) -> Section {
     let title = format!("{}: staircases", experiment.design.title);
     let mut section = Section::new(experiment.key("staircases"), title);
-    let rule = Rule { n_up: track.up, m_down: track.down };
+    let rule = Rule {
+        n_up: track.up,
+        m_down: track.down,
+    };
     let target = rule.target(track.up_over_down, 1.0);
     section.note(format!(
         "{} up, {} down; the mean of the last {} reversals at the last step size aims at {} right.",
@@ -238,20 +273,33 @@ fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrac
         if let Ok(mean) = mean {
             means.push(mean);
             let ends = Summary::of(&own).ok().map(|s| [mean - s.sd, mean + s.sd]);
-            shown.push(Bar { name: subject.name.to_owned(), group: String::new(), value: mean, interval: ends });
+            shown.push(Bar {
+                name: subject.name.to_owned(),
+                group: String::new(),
+                value: mean,
+                interval: ends,
+            });
         }
     }
     section.tables.push(table);
     let what = format!("{}, mean of reversals", levels.quantity());
-    section.tables.push(summaries("group", "Over subjects, series averaged", &[(what, means)]));
+    section.tables.push(summaries(
+        "group",
+        "Over subjects, series averaged",
+        &[(what, means)],
+    ));
     if !series.is_empty() {
         let title = format!("{}: levels from trial to trial", experiment.design.title);
         let axes = [axis("trial of the series"), axis("level, dB re 1 µm")];
-        section.figures.push(scatter("tracks", &title, axes, series));
+        section
+            .figures
+            .push(scatter("tracks", &title, axes, series));
     }
     if !shown.is_empty() {
         let title = format!("{}: means of reversals", experiment.design.title);
-        section.figures.push(bars("bars", &title, levels.quantity(), (&shown, None), &[]));
+        section
+            .figures
+            .push(bars("bars", &title, levels.quantity(), (&shown, None), &[]));
     }
     section
 }
@@ -276,11 +324,16 @@ fn of_subject(
                 own.len().into(),
             ];
             match &staircase {
-                Ok(staircase) => row.extend(reversal_cells(staircase, track, levels, &mut thresholds)),
+                Ok(staircase) => {
+                    row.extend(reversal_cells(staircase, track, levels, &mut thresholds))
+                }
                 Err(why) => row.extend(undefined(why, REVERSALS.len() - 4)),
             }
             table.push(row);
-            let at = own.iter().zip(1_u32..).map(|(t, i)| [f64::from(i), t.level_db]);
+            let at = own
+                .iter()
+                .zip(1_u32..)
+                .map(|(t, i)| [f64::from(i), t.level_db]);
             series.push(Series {
                 name: format!("{}, session {number}, series {}", subject.name, nth + 1),
                 points: at.collect(),
@@ -304,7 +357,11 @@ fn reversal_cells(
         Ok(mean) => {
             let threshold = levels.of_function(mean.threshold);
             thresholds.push(threshold);
-            cells.extend([mean.n_reversals.into(), Cell::from(threshold), mean.sd.into()]);
+            cells.extend([
+                mean.n_reversals.into(),
+                Cell::from(threshold),
+                mean.sd.into(),
+            ]);
         }
         Err(why) => cells.extend(undefined(why, 3)),
     }

@@ -84,25 +84,39 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
         }
     }
     section.tables.push(table);
-    let exponents = |law: &Stevens| law.subjects.iter().map(|(_, l)| l.exponent).collect::<Vec<f64>>();
+    let exponents = |law: &Stevens| {
+        law.subjects
+            .iter()
+            .map(|(_, l)| l.exponent)
+            .collect::<Vec<f64>>()
+    };
     let means: Vec<(String, Vec<f64>)> = found
         .iter()
         .map(|(condition, law)| (format!("exponent, {condition}"), exponents(law)))
         .collect();
-    section.tables.push(summaries("group", "Exponents over subjects", &means));
+    section
+        .tables
+        .push(summaries("group", "Exponents over subjects", &means));
     if let [(first, a), (second, b)] = found.as_slice()
         && a.subjects.len() == b.subjects.len()
     {
         let what = format!("exponent, {first} less {second}");
         let all = [(what, paired_t(&exponents(a), &exponents(b)))];
-        section.tables.push(tests("tests", "Conditions, subject by subject", &all));
+        section
+            .tables
+            .push(tests("tests", "Conditions, subject by subject", &all));
     }
     draw(experiment, &found, &mut section);
     vec![section]
 }
 
 fn row(condition: &str, subject: &str, n: usize, law: &PowerLaw) -> Vec<Cell> {
-    let mut row = vec![Cell::from(condition), subject.into(), n.into(), law.exponent.into()];
+    let mut row = vec![
+        Cell::from(condition),
+        subject.into(),
+        n.into(),
+        law.exponent.into(),
+    ];
     row.extend(ends(&law.interval));
     row.extend([law.constant.into(), Cell::of(&law.r_squared)]);
     row
@@ -115,11 +129,19 @@ fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Se
         let line = |x: &f64| [*x, law.group.constant * x.powf(law.group.exponent)];
         series.push(Series {
             name: (*condition).to_owned(),
-            points: law.stimuli.iter().zip(&law.means).map(|(x, y)| [*x, *y]).collect(),
+            points: law
+                .stimuli
+                .iter()
+                .zip(&law.means)
+                .map(|(x, y)| [*x, *y])
+                .collect(),
             ..Series::default()
         });
         series.push(Series {
-            name: format!("{condition}, exponent {}", crate::quantity::fixed(law.group.exponent, 2)),
+            name: format!(
+                "{condition}, exponent {}",
+                crate::quantity::fixed(law.group.exponent, 2)
+            ),
             points: law.stimuli.iter().map(line).collect(),
             style: Style::Line,
             ..Series::default()
@@ -153,5 +175,11 @@ fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Se
     let title = format!("{}: numbers over amplitude", experiment.design.title);
     section.figures.push(scatter("law", &title, axes, series));
     let title = format!("{}: exponents", experiment.design.title);
-    section.figures.push(bars("bars", &title, "exponent (95 % interval)", (&shown, None), &[]));
+    section.figures.push(bars(
+        "bars",
+        &title,
+        "exponent (95 % interval)",
+        (&shown, None),
+        &[],
+    ));
 }

@@ -18,6 +18,7 @@ mod kept;
 mod levels;
 mod magnitude;
 mod map;
+mod map_turn;
 mod model;
 mod odd_one_out;
 mod properties;
@@ -126,7 +127,10 @@ pub fn analyse(
         sections.extend(sections_of(experiment, options, progress).map_err(cancelled)?);
     }
     sections.extend(groups::compared(&experiments));
-    let titles: Vec<&str> = experiments.iter().map(|e| e.design.title.as_str()).collect();
+    let titles: Vec<&str> = experiments
+        .iter()
+        .map(|e| e.design.title.as_str())
+        .collect();
     Ok(Analysis {
         title: titles.join(" · "),
         sections,

@@ -1,7 +1,9 @@
 //! What an analysis found, as plain data: sections of notes, tables and figures.
 
 use crate::figure::Figure;
-use crate::statistics::{Computed, Freedom, Interval, Named, Outcome, Sides, Summary};
+use crate::statistics::{
+    Computed, Freedom, Interval, Named, Outcome, Resampling, Sides, Summary, bootstrap, mean,
+};
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -303,7 +305,7 @@ pub(super) fn summary_cells(values: &[f64]) -> Vec<Cell> {
             cells.extend(ends(&summary.interval(0.95)));
         }
         Err(why) => {
-            cells.push(Cell::of(&crate::statistics::mean(values)));
+            cells.push(Cell::of(&mean(values)));
             cells.extend((0..4).map(|_| Cell::Undefined(why.reason.clone())));
         }
     }
@@ -323,10 +325,42 @@ pub(super) fn summaries(key: &str, title: &str, all: &[(String, Vec<f64>)]) -> T
     table
 }
 
+/// Intervals of means by drawing subjects again, one quantity a row.
+pub(super) fn resampled(all: &[(String, Vec<f64>)], how: Resampling) -> Table {
+    let columns = [
+        ("what", "of what"),
+        ("n", "n"),
+        ("mean", "mean"),
+        ("se", "SE"),
+        ("percentile_low", "95 % percentiles from"),
+        ("percentile_high", "to"),
+        ("bca_low", "bias-corrected and accelerated from"),
+        ("bca_high", "to"),
+        ("resamples", "resamples"),
+    ];
+    let title = "Means, their intervals by drawing subjects again";
+    let mut table = Table::new("bootstrap", title, &columns);
+    for (what, values) in all {
+        let of = |drawn: &[usize]| mean(&drawn.iter().map(|i| values[*i]).collect::<Vec<f64>>());
+        let mut row = vec![Cell::from(what.as_str()), values.len().into()];
+        match bootstrap(values.len(), of, how) {
+            Ok(found) => {
+                row.extend([found.estimate, found.se].map(Cell::from));
+                row.extend(ends(&Ok(found.percentile)));
+                row.extend(ends(&found.bca));
+                row.push(found.n_used.into());
+            }
+            Err(why) => row.extend((2..columns.len()).map(|_| Cell::none(&why.reason))),
+        }
+        table.push(row);
+    }
+    table
+}
+
 /// A square table with names down and across.
 pub(super) fn matrix(key: &str, title: &str, names: &[String], cells: Vec<Cell>) -> Table {
-    let mut table = Table::new(key, title, &[("item", "")])
-        .with_columns(names.iter().map(String::as_str));
+    let mut table =
+        Table::new(key, title, &[("item", "")]).with_columns(names.iter().map(String::as_str));
     let mut cells = cells.into_iter();
     for name in names {
         let mut row = vec![Cell::from(name.as_str())];

@@ -5,7 +5,7 @@ use super::Options;
 use super::draw::{Bar, bars};
 use super::kept::{Experiment, Subject};
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, ends, matrix, summaries, tests};
+use super::model::{Cell, Section, Table, ends, matrix, resampled, summaries, tests};
 use super::properties::Measures;
 use crate::experiment::{self as exp, Answer, Record, Task};
 use crate::progress::{Cancelled, Progress};
@@ -65,7 +65,7 @@ pub(super) fn sections(
 ) -> Result<Vec<Section>, Cancelled> {
     let names = experiment.ids();
     let all: Vec<TriadAnswer> = experiment.subjects.iter().flat_map(triads).collect();
-    let mut sections = vec![accuracy(experiment), grades(experiment)];
+    let mut sections = vec![accuracy(experiment, options), grades(experiment)];
     let found = match OddOneOut::of(names.len(), &all, weights(own_weights)) {
         Ok(found) => found,
         Err(why) => {
@@ -79,14 +79,19 @@ pub(super) fn sections(
         let own = OddOneOut::of(names.len(), &triads(subject), weights(own_weights)).ok()?;
         Some(own.mean_weights())
     };
-    let subjects: Vec<Vec<Option<f64>>> = experiment.subjects.iter().filter_map(of_subject).collect();
+    let subjects: Vec<Vec<Option<f64>>> =
+        experiment.subjects.iter().filter_map(of_subject).collect();
     // Sums compare only where every pair was asked as often.
     let is_balanced = found.is_balanced();
     let mapping = Mapping {
         key: experiment.key("map"),
         title: format!("{}: map", experiment.design.title),
         names,
-        values: if is_balanced { found.distances() } else { found.mean_weights() },
+        values: if is_balanced {
+            found.distances()
+        } else {
+            found.mean_weights()
+        },
         subjects,
         loss: Loss::Stress1,
         ties: Ties::Primary,
@@ -119,10 +124,18 @@ fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell>
     let (right, n) = (n_right(answers), answers.len() as u64);
     let choice = triangle(right, n, Correction::LogLinear);
     let mut row = vec![subject.into(), session, n.into(), right.into()];
-    row.push(if n > 0 { percent(answers).into() } else { Cell::none("no triads") });
+    row.push(if n > 0 {
+        percent(answers).into()
+    } else {
+        Cell::none("no triads")
+    });
     row.extend(ends(&interval(right, n)));
-    row.push(Cell::of(&exact_binomial(right, n, CHANCE, Sides::Greater).map(|o| o.p)));
-    row.push(Cell::of(&choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone)));
+    row.push(Cell::of(
+        &exact_binomial(right, n, CHANCE, Sides::Greater).map(|o| o.p),
+    ));
+    row.push(Cell::of(
+        &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
+    ));
     row.extend(ends(&choice.and_then(|c| c.interval)));
     row
 }
@@ -135,7 +148,7 @@ fn interval(right: u64, n: u64) -> Computed<crate::statistics::Interval> {
     })
 }
 
-fn accuracy(experiment: &Experiment<'_>) -> Section {
+fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     let title = format!("{}: accuracy", experiment.design.title);
     let mut section = Section::new(experiment.key("accuracy"), title);
     section.note(
@@ -173,23 +186,37 @@ fn accuracy(experiment: &Experiment<'_>) -> Section {
         .iter()
         .filter_map(|s| {
             let all = triads(s);
-            Some(triangle(n_right(&all), all.len() as u64, Correction::LogLinear).ok()?.d_prime)
+            Some(
+                triangle(n_right(&all), all.len() as u64, Correction::LogLinear)
+                    .ok()?
+                    .d_prime,
+            )
         })
         .collect();
-    section.tables.push(summaries(
-        "group",
-        "Over subjects",
-        &[("right, %".to_owned(), percents.clone()), ("d′".to_owned(), d_primes)],
-    ));
+    let means = [
+        ("right, %".to_owned(), percents.clone()),
+        ("d′".to_owned(), d_primes),
+    ];
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
     let mut found = vec![
         (
             "right, % against 33.3".to_owned(),
             Summary::of(&percents).and_then(|s| one_sample_t(&s, CHANCE_PERCENT)),
         ),
-        ("right, % against 33.3".to_owned(), wilcoxon_signed_rank(&percents, CHANCE_PERCENT)),
+        (
+            "right, % against 33.3".to_owned(),
+            wilcoxon_signed_rank(&percents, CHANCE_PERCENT),
+        ),
     ];
     found.push(("sessions, right, %".to_owned(), over_sessions(experiment)));
-    section.tables.push(tests("tests", "Against chance, and session against session", &found));
+    section.tables.push(tests(
+        "tests",
+        "Against chance, and session against session",
+        &found,
+    ));
     if let Ok(s) = Summary::of(&percents) {
         shown.push(Bar {
             name: "mean ± SE".to_owned(),
@@ -201,21 +228,36 @@ fn accuracy(experiment: &Experiment<'_>) -> Section {
     let title = format!("{}: right answers", experiment.design.title);
     let label = "right, % (95 % interval)";
     let range = Some([0.0, 100.0]);
-    section.figures.push(bars("subjects-bars", &title, label, (&shown, range), &[(CHANCE_PERCENT, "chance")]));
+    section.figures.push(bars(
+        "subjects-bars",
+        &title,
+        label,
+        (&shown, range),
+        &[(CHANCE_PERCENT, "chance")],
+    ));
     section
 }
 
 /// Whether sessions differ, over subjects who took part in as many.
 fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
-    let most = experiment.subjects.iter().map(|s| s.sessions.len()).max().unwrap_or(0);
+    let most = experiment
+        .subjects
+        .iter()
+        .map(|s| s.sessions.len())
+        .max()
+        .unwrap_or(0);
     if most < 2 {
         return Err(Undefined::because("one session each"));
     }
-    let with_all = experiment.subjects.iter().filter(|s| s.sessions.len() == most);
+    let with_all = experiment
+        .subjects
+        .iter()
+        .filter(|s| s.sessions.len() == most);
     let rows: Vec<Vec<f64>> = with_all
         .map(|subject| {
             let of = |session: &super::kept::Session<'_>| {
-                let own: Vec<TriadAnswer> = session.trials.iter().filter_map(|r| triad(r)).collect();
+                let own: Vec<TriadAnswer> =
+                    session.trials.iter().filter_map(|r| triad(r)).collect();
                 percent(&own)
             };
             subject.sessions.iter().map(of).collect()
@@ -228,10 +270,16 @@ fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
 fn grades(experiment: &Experiment<'_>) -> Section {
     let title = format!("{}: easy, normal, hard", experiment.design.title);
     let mut section = Section::new(experiment.key("grades"), title);
-    section.note("Shares of a subject's right (or wrong) answers with each grade; mean ± SE over subjects.");
+    section.note(
+        "Shares of a subject's right (or wrong) answers with each grade; mean ± SE over subjects.",
+    );
     let columns = [
-        ("answers", "answers"), ("grade", "grade"), ("count", "count"), ("subjects", "n"),
-        ("mean_percent", "mean share, %"), ("se_percent", "SE"),
+        ("answers", "answers"),
+        ("grade", "grade"),
+        ("count", "count"),
+        ("subjects", "n"),
+        ("mean_percent", "mean share, %"),
+        ("se_percent", "SE"),
     ];
     let mut table = Table::new("grades", "Grades of right and wrong answers", &columns);
     let mut shown = Vec::new();
@@ -241,7 +289,8 @@ fn grades(experiment: &Experiment<'_>) -> Section {
             let mut shares = Vec::new();
             for subject in &experiment.subjects {
                 let all = triads(subject);
-                let own: Vec<&TriadAnswer> = all.iter().filter(|a| a.is_correct == is_correct).collect();
+                let own: Vec<&TriadAnswer> =
+                    all.iter().filter(|a| a.is_correct == is_correct).collect();
                 let n = own.iter().filter(|a| a.grade == grade).count();
                 count += n;
                 if !own.is_empty() {
@@ -270,8 +319,17 @@ fn grades(experiment: &Experiment<'_>) -> Section {
         }
     }
     section.tables.push(table);
-    let title = format!("{}: how hard right and wrong answers were", experiment.design.title);
-    section.figures.push(bars("bars", &title, "share of answers, % (± SE)", (&shown, Some([0.0, 100.0])), &[]));
+    let title = format!(
+        "{}: how hard right and wrong answers were",
+        experiment.design.title
+    );
+    section.figures.push(bars(
+        "bars",
+        &title,
+        "share of answers, % (± SE)",
+        (&shown, Some([0.0, 100.0])),
+        &[],
+    ));
     section
 }
 
@@ -292,11 +350,19 @@ fn distances(
     ));
     let cells = found.distances().into_iter();
     let cells = cells.map(|d| d.map_or_else(|| Cell::none("itself, or never asked"), Cell::from));
-    section.tables.push(matrix("distances", "Sums of weights", names, cells.collect()));
+    section.tables.push(matrix(
+        "distances",
+        "Sums of weights",
+        names,
+        cells.collect(),
+    ));
     section.tables.push(errors(found, names));
     let columns = [
-        ("weights", "weights"), ("ceiling", "pairs at the ceiling"), ("floor", "at the floor"),
-        ("n", "pairs"), ("spearman", "rank correlation with the design's"),
+        ("weights", "weights"),
+        ("ceiling", "pairs at the ceiling"),
+        ("floor", "at the floor"),
+        ("n", "pairs"),
+        ("spearman", "rank correlation with the design's"),
     ];
     let mut table = Table::new("weights", "The same with other weights", &columns);
     for other in OTHER_WEIGHTS {
@@ -307,8 +373,11 @@ fn distances(
                 let rank = |o: &OddOneOut| Ranks::of(&of(o)).ranks;
                 let r = pearson_r(&rank(found), &rank(&with));
                 vec![
-                    told.into(), with.n_ceiling.into(), with.n_floor.into(),
-                    with.pairs.len().into(), Cell::of(&r),
+                    told.into(),
+                    with.n_ceiling.into(),
+                    with.n_floor.into(),
+                    with.pairs.len().into(),
+                    Cell::of(&r),
                 ]
             }
             Err(why) => {
@@ -325,8 +394,12 @@ fn distances(
 
 fn errors(found: &OddOneOut, names: &[String]) -> Table {
     let columns = [
-        ("item", "fabric"), ("triads", "triads with it"), ("wrong", "wrong"), ("percent", "%"),
-        ("ci_low_percent", "95 % CI from"), ("ci_high_percent", "to"),
+        ("item", "fabric"),
+        ("triads", "triads with it"),
+        ("wrong", "wrong"),
+        ("percent", "%"),
+        ("ci_low_percent", "95 % CI from"),
+        ("ci_high_percent", "to"),
     ];
     let title = "Wrong answers by fabric; both fabrics of a triad count";
     let mut table = Table::new("errors", title, &columns);

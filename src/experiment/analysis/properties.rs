@@ -62,7 +62,9 @@ impl Measures {
         let textiles = match loaded {
             Ok(textiles) => textiles,
             Err(error) => {
-                measures.notes.push(format!("No physical measures: {error}"));
+                measures
+                    .notes
+                    .push(format!("No physical measures: {error}"));
                 return Ok(measures);
             }
         };
@@ -91,7 +93,9 @@ impl Measures {
 
     fn add_levels(&mut self, levels: &[Levels], suffix: &str, heading: &str) {
         let um: [Vec<f64>; 2] = [0, 1].map(|b| levels.iter().map(|l| l.mean_um[b]).collect());
-        let db = um.each_ref().map(|um| um.iter().map(|a| level_db(*a)).collect::<Vec<f64>>());
+        let db = um
+            .each_ref()
+            .map(|um| um.iter().map(|a| level_db(*a)).collect::<Vec<f64>>());
         let of = |f: &dyn Fn(&Levels) -> f64| levels.iter().map(f).collect::<Vec<f64>>();
         let standard = db.each_ref().map(|db| standardised(db));
         let mut add = |name: &str, told: &str, values: Vec<f64>| {
@@ -117,11 +121,23 @@ impl Measures {
         let [z40, z320] = standard;
         let both = |sign: f64| z40.iter().zip(&z320).map(|(a, b)| a + sign * b).collect();
         add("sum", "sum of standardised levels", both(1.0));
-        add("difference", "difference of standardised levels (40 − 320 Hz)", both(-1.0));
+        add(
+            "difference",
+            "difference of standardised levels (40 − 320 Hz)",
+            both(-1.0),
+        );
         add("cv40", "spatial variation of A40", of(&|l| l.cv[0]));
         add("cv320", "spatial variation of A320", of(&|l| l.cv[1]));
-        add("anisotropy40_db", "anisotropy of A40, dB", of(&|l| l.anisotropy_db[0]));
-        add("anisotropy320_db", "anisotropy of A320, dB", of(&|l| l.anisotropy_db[1]));
+        add(
+            "anisotropy40_db",
+            "anisotropy of A40, dB",
+            of(&|l| l.anisotropy_db[0]),
+        );
+        add(
+            "anisotropy320_db",
+            "anisotropy of A320, dB",
+            of(&|l| l.anisotropy_db[1]),
+        );
     }
 
     /// Figures that every manifest has.
@@ -144,7 +160,11 @@ impl Measures {
     /// All of them, a row a stimulus.
     pub(super) fn table(&self, names: &[String]) -> Table {
         let mut columns = vec![("item", "textile")];
-        columns.extend(self.all.iter().map(|m| (m.name.as_str(), m.heading.as_str())));
+        columns.extend(
+            self.all
+                .iter()
+                .map(|m| (m.name.as_str(), m.heading.as_str())),
+        );
         let mut table = Table::new("measures", "Physical measures", &columns);
         for (i, name) in names.iter().enumerate() {
             let mut row = vec![Cell::from(name.as_str())];
@@ -184,7 +204,10 @@ fn library(experiment: &Experiment<'_>, options: &Options) -> Result<Library, Te
     if crate::textile::is_of_the_program(name) {
         return Library::named(name, options.cache.as_ref());
     }
-    let beside = experiment.sessions.first().and_then(|found| found.log.parent());
+    let beside = experiment
+        .sessions
+        .first()
+        .and_then(|found| found.log.parent());
     let path = beside.unwrap_or(Path::new(".")).join(name);
     Library::named(&path, options.cache.as_ref())
 }

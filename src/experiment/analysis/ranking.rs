@@ -5,7 +5,7 @@ use super::Options;
 use super::draw::{Bar, bars, heat};
 use super::kept::{Experiment, Subject};
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, ends, matrix, summaries, tests};
+use super::model::{Cell, Section, Table, ends, matrix, resampled, summaries, tests};
 use super::properties::Measures;
 use super::ranking_scale;
 use crate::experiment::design::{Ranking, Standard};
@@ -31,7 +31,10 @@ pub(super) struct Rankings<'a> {
 
 impl Rankings<'_> {
     pub(super) fn n_first(&self) -> u64 {
-        self.trials.iter().filter(|t| rank_of_target(t) == Some(1)).count() as u64
+        self.trials
+            .iter()
+            .filter(|t| rank_of_target(t) == Some(1))
+            .count() as u64
     }
 
     /// Targets ranked first, %.
@@ -60,8 +63,13 @@ pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
 }
 
 fn ranking(record: &crate::experiment::Record) -> Option<RankTrial> {
-    let (Task::Rank { target, alternatives }, Some(Answer::Ranks(ranks))) =
-        (&record.trial.task, record.answer())
+    let (
+        Task::Rank {
+            target,
+            alternatives,
+        },
+        Some(Answer::Ranks(ranks)),
+    ) = (&record.trial.task, record.answer())
     else {
         return None;
     };
@@ -81,7 +89,7 @@ pub(super) fn sections(
     let all = rankings(experiment);
     let names = experiment.ids();
     let trials: Vec<RankTrial> = all.iter().flat_map(|r| r.trials.iter().cloned()).collect();
-    let mut sections = vec![identification(experiment, &all)];
+    let mut sections = vec![identification(experiment, &all, options)];
     let ranks = match MeanRanks::of(names.len(), &trials) {
         Ok(ranks) => ranks,
         Err(why) => {
@@ -136,7 +144,7 @@ const SUBJECTS: [(&str, &str); 15] = [
     ("at_chance", "below chance"),
 ];
 
-fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>]) -> Section {
+fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Options) -> Section {
     let title = format!("{}: identification", experiment.design.title);
     let mut section = Section::new(experiment.key("identification"), title);
     section.note(
@@ -148,13 +156,26 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>]) -> Section 
     for one in all {
         let (hits, n) = (one.n_first(), one.trials.len() as u64);
         let choice = forced_choice(hits, n, 4, Correction::LogLinear);
-        let mut row = vec![one.subject.into(), n.into(), hits.into(), one.percent().into()];
+        let mut row = vec![
+            one.subject.into(),
+            n.into(),
+            hits.into(),
+            one.percent().into(),
+        ];
         row.extend(ends(&percent_interval(hits, n)));
         let greater = exact_binomial(hits, n, 0.25, Sides::Greater);
-        row.push(Cell::of(&greater.as_ref().map(|o| o.p).map_err(Clone::clone)));
-        row.push(Cell::of(&exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p)));
-        row.push(Cell::of(&greater.and_then(|o| o.effect).map(|effect| effect.value)));
-        row.push(Cell::of(&choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone)));
+        row.push(Cell::of(
+            &greater.as_ref().map(|o| o.p).map_err(Clone::clone),
+        ));
+        row.push(Cell::of(
+            &exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p),
+        ));
+        row.push(Cell::of(
+            &greater.and_then(|o| o.effect).map(|effect| effect.value),
+        ));
+        row.push(Cell::of(
+            &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
+        ));
         row.extend(ends(&choice.clone().and_then(|c| c.interval)));
         row.push(match &choice {
             Ok(choice) => choice.correction.map_or("none", Correction::name).into(),
@@ -172,16 +193,20 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>]) -> Section 
     section.tables.push(table);
     let percents: Vec<f64> = all.iter().map(Rankings::percent).collect();
     let ranks: Vec<f64> = all.iter().map(Rankings::mean_rank).collect();
-    section.tables.push(summaries(
-        "group",
-        "Over subjects",
-        &[
-            ("targets identified, %".to_owned(), percents.clone()),
-            ("d′".to_owned(), d_primes.clone()),
-            ("mean rank of the target".to_owned(), ranks.clone()),
-        ],
+    let means = [
+        ("targets identified, %".to_owned(), percents.clone()),
+        ("d′".to_owned(), d_primes.clone()),
+        ("mean rank of the target".to_owned(), ranks.clone()),
+    ];
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
+    section.tables.push(tests(
+        "tests",
+        "Against chance",
+        &against_chance(all, [&percents, &d_primes, &ranks]),
     ));
-    section.tables.push(tests("tests", "Against chance", &against_chance(all, [&percents, &d_primes, &ranks])));
     section.figures.push(by_subject(experiment, all, &percents));
     section
 }
@@ -202,17 +227,25 @@ fn against_chance(
     let hits: u64 = all.iter().map(Rankings::n_first).sum();
     let n: u64 = all.iter().map(|r| r.trials.len() as u64).sum();
     let pooled = exact_binomial(hits, n, 0.25, Sides::Greater).map(|mut outcome| {
-        outcome.notes.push("subjects pooled, as if trials were independent".to_owned());
+        outcome
+            .notes
+            .push("subjects pooled, as if trials were independent".to_owned());
         outcome
     });
     vec![
-        ("targets identified, % against 25".to_owned(), t(percents, CHANCE_PERCENT)),
+        (
+            "targets identified, % against 25".to_owned(),
+            t(percents, CHANCE_PERCENT),
+        ),
         (
             "targets identified, % against 25".to_owned(),
             wilcoxon_signed_rank(percents, CHANCE_PERCENT),
         ),
         ("d′ against 0".to_owned(), t(d_primes, 0.0)),
-        ("mean rank of the target against 2.5".to_owned(), t(ranks, CHANCE_RANK)),
+        (
+            "mean rank of the target against 2.5".to_owned(),
+            t(ranks, CHANCE_RANK),
+        ),
         (
             "mean rank of the target against 2.5".to_owned(),
             wilcoxon_signed_rank(ranks, CHANCE_RANK),
@@ -221,14 +254,20 @@ fn against_chance(
     ]
 }
 
-fn by_subject(experiment: &Experiment<'_>, all: &[Rankings<'_>], percents: &[f64]) -> super::model::Drawn {
+fn by_subject(
+    experiment: &Experiment<'_>,
+    all: &[Rankings<'_>],
+    percents: &[f64],
+) -> super::model::Drawn {
     let mut shown: Vec<Bar> = all
         .iter()
         .map(|r| Bar {
             name: r.subject.to_owned(),
             group: String::new(),
             value: r.percent(),
-            interval: percent_interval(r.n_first(), r.trials.len() as u64).ok().map(|i| [i.low, i.high]),
+            interval: percent_interval(r.n_first(), r.trials.len() as u64)
+                .ok()
+                .map(|i| [i.low, i.high]),
         })
         .collect();
     if let Ok(summary) = Summary::of(percents) {
@@ -241,7 +280,13 @@ fn by_subject(experiment: &Experiment<'_>, all: &[Rankings<'_>], percents: &[f64
     }
     let title = format!("{}: targets identified", experiment.design.title);
     let label = "targets identified, % (95 % interval)";
-    bars("subjects-bars", &title, label, (&shown, Some([0.0, 100.0])), &[(CHANCE_PERCENT, "chance")])
+    bars(
+        "subjects-bars",
+        &title,
+        label,
+        (&shown, Some([0.0, 100.0])),
+        &[(CHANCE_PERCENT, "chance")],
+    )
 }
 
 fn confusions(
@@ -264,11 +309,19 @@ fn confusions(
     let (counts, first) = (ranks.counts(), ranks.confusions());
     section.tables.push(targets(counts, first, names));
     let of = |values: &[usize]| values.iter().map(|v| Cell::from(*v)).collect::<Vec<Cell>>();
-    section.tables.push(matrix("first", "Ranked first, trials", names, of(first)));
-    section.tables.push(matrix("presented", "Presented, trials", names, of(counts)));
+    section
+        .tables
+        .push(matrix("first", "Ranked first, trials", names, of(first)));
+    section
+        .tables
+        .push(matrix("presented", "Presented, trials", names, of(counts)));
     let means = ranks.means();
-    let cells = means.iter().map(|m| m.map_or_else(|| Cell::none("never met"), Cell::from));
-    section.tables.push(matrix("mean-ranks", "Mean rank", names, cells.collect()));
+    let cells = means
+        .iter()
+        .map(|m| m.map_or_else(|| Cell::none("never met"), Cell::from));
+    section
+        .tables
+        .push(matrix("mean-ranks", "Mean rank", names, cells.collect()));
     section.figures.push(heat(
         "mean-ranks-map",
         &format!("{}: mean ranks, rows are targets", experiment.design.title),
@@ -289,10 +342,19 @@ fn confusions(
             });
         }
     }
-    let title = format!("{}: identified by target, subjects pooled", experiment.design.title);
+    let title = format!(
+        "{}: identified by target, subjects pooled",
+        experiment.design.title
+    );
     let label = "identified, % (95 % interval)";
     let range = Some([0.0, 100.0]);
-    section.figures.push(bars("targets-bars", &title, label, (&shown, range), &[(CHANCE_PERCENT, "chance")]));
+    section.figures.push(bars(
+        "targets-bars",
+        &title,
+        label,
+        (&shown, range),
+        &[(CHANCE_PERCENT, "chance")],
+    ));
     asymmetry(ranks, names, &mut section);
     section
 }
@@ -312,7 +374,10 @@ fn targets(counts: &[usize], first: &[usize], names: &[String]) -> Table {
     let n = names.len();
     for (target, name) in names.iter().enumerate() {
         let row = target * n..(target + 1) * n;
-        let (of, n_first) = (counts[row.clone()][target] as u64, first[row.clone()][target] as u64);
+        let (of, n_first) = (
+            counts[row.clone()][target] as u64,
+            first[row.clone()][target] as u64,
+        );
         let wrong = first[row].iter().enumerate().filter(|(a, _)| *a != target);
         let most = wrong.clone().map(|(_, v)| *v).max().unwrap_or(0);
         let taken: Vec<&str> = wrong
@@ -347,12 +412,24 @@ fn asymmetry(ranks: &MeanRanks, names: &[String], section: &mut Section) {
         crate::quantity::fixed(found.largest, 3),
         found.pairs.len()
     ));
-    let columns = [("one", "textile"), ("other", "and"), ("difference", "|M − Mᵀ|")];
-    let mut table = Table::new("asymmetry", "Asymmetry of mean ranks, largest first", &columns);
+    let columns = [
+        ("one", "textile"),
+        ("other", "and"),
+        ("difference", "|M − Mᵀ|"),
+    ];
+    let mut table = Table::new(
+        "asymmetry",
+        "Asymmetry of mean ranks, largest first",
+        &columns,
+    );
     let mut pairs = found.pairs;
     pairs.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     for ([i, j], difference) in pairs {
-        table.push([names[i].as_str().into(), names[j].as_str().into(), difference.into()]);
+        table.push([
+            names[i].as_str().into(),
+            names[j].as_str().into(),
+            difference.into(),
+        ]);
     }
     section.tables.push(table);
 }

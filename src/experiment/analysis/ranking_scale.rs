@@ -40,18 +40,31 @@ pub(super) fn section(experiment: &Experiment<'_>, all: &[Rankings<'_>]) -> Sect
             .collect();
         let fit = plackett_luce(names.len(), &rankings, Prior::Gamma(STRENGTH));
         for (alternative, other) in names.iter().enumerate().filter(|(a, _)| *a != target) {
-            let lead = fit.clone().and_then(|fit| fit.scale.difference(alternative, target));
-            let mut row = vec![Cell::from(name.as_str()), other.as_str().into(), rankings.len().into()];
-            row.push(Cell::of(&lead.as_ref().map(|l| l.value).map_err(Clone::clone)));
+            let lead = fit
+                .clone()
+                .and_then(|fit| fit.scale.difference(alternative, target));
+            let mut row = vec![
+                Cell::from(name.as_str()),
+                other.as_str().into(),
+                rankings.len().into(),
+            ];
+            row.push(Cell::of(
+                &lead.as_ref().map(|l| l.value).map_err(Clone::clone),
+            ));
             row.push(Cell::of(&lead.as_ref().map(|l| l.se).map_err(Clone::clone)));
             row.extend(ends(&lead.and_then(|l| l.interval(0.95))));
             table.push(row);
         }
         let without = plackett_luce(names.len(), &rankings, Prior::None);
-        against.push((format!("target {name}"), without.and_then(|fit| fit.against_chance())));
+        against.push((
+            format!("target {name}"),
+            without.and_then(|fit| fit.against_chance()),
+        ));
     }
     section.tables.push(table);
     let title = "Worths against rankings by chance, without a prior";
-    section.tables.push(tests("against-chance", title, &against));
+    section
+        .tables
+        .push(tests("against-chance", title, &against));
     section
 }

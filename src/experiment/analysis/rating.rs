@@ -76,28 +76,45 @@ pub(super) fn sections(
         let label = format!("{} to {} (± SE)", scale.low, scale.high);
         let key = super::model::file_name(&scale.key, '-');
         let range = Some(scale.bounds());
-        section.figures.push(bars(&format!("scale-{key}"), &title, &label, (&shown, range), &[]));
+        section.figures.push(bars(
+            &format!("scale-{key}"),
+            &title,
+            &label,
+            (&shown, range),
+            &[],
+        ));
         let crossed = crossed(experiment, &names, &all);
         let rows = crossed.clone().and_then(|table| {
             let values = table.complete()?;
             let n_cells = table.n_cells().max(1);
-            Ok(values.chunks(n_cells).map(<[f64]>::to_vec).collect::<Vec<_>>())
+            Ok(values
+                .chunks(n_cells)
+                .map(<[f64]>::to_vec)
+                .collect::<Vec<_>>())
         });
         found.push((scale.key.clone(), rows.and_then(|rows| friedman(&rows))));
         let variance = crossed.and_then(|table| repeated_one_way(&table));
         let title = format!("Stimuli on the scale {}, within subjects", scale.key);
-        section.tables.push(effects(&format!("anova-{key}"), &title, &variance));
+        section
+            .tables
+            .push(effects(&format!("anova-{key}"), &title, &variance));
         by_scale.push((scale.key.clone(), means(&all, names.len())));
     }
     section.tables.insert(0, table);
     let title = "Do subjects agree? (Friedman; W is their concordance)";
     section.tables.push(tests("agreement", title, &found));
-    section.tables.push(tests("scales", "Scales with each other", &between(&by_scale)));
+    section.tables.push(tests(
+        "scales",
+        "Scales with each other",
+        &between(&by_scale),
+    ));
     measures.tell(&mut section);
     if !measures.all.is_empty() {
         section.tables.push(measures.table(&names));
         let with = with_measures(&by_scale, &measures);
-        section.tables.push(tests("physical", "Scales with what was measured", &with));
+        section
+            .tables
+            .push(tests("physical", "Scales with what was measured", &with));
     }
     Ok(vec![section])
 }
@@ -108,7 +125,9 @@ fn bar(name: &str, values: &[f64]) -> Option<Bar> {
         name: name.to_owned(),
         group: String::new(),
         value: mean,
-        interval: Summary::of(values).ok().map(|s| [s.mean - s.se, s.mean + s.se]),
+        interval: Summary::of(values)
+            .ok()
+            .map(|s| [s.mean - s.se, s.mean + s.se]),
     })
 }
 

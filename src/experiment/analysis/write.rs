@@ -74,11 +74,17 @@ fn table_text(table: &Table, stem: &str, page: &mut Vec<String>) {
     page.push(format!("**{}** ({files})\n", table.title));
     let (n_rows, n_columns) = (table.rows.len(), table.columns.len());
     if n_rows > MOST_ROWS_ON_THE_PAGE || n_columns > MOST_COLUMNS_ON_THE_PAGE {
-        page.push(format!("{n_rows} rows, {n_columns} columns: see its files.\n"));
+        page.push(format!(
+            "{n_rows} rows, {n_columns} columns: see its files.\n"
+        ));
         return;
     }
     let row = |cells: Vec<String>| format!("| {} |", cells.join(" | "));
-    page.push(row(table.columns.iter().map(|c| plain(&c.heading)).collect()));
+    page.push(row(table
+        .columns
+        .iter()
+        .map(|c| plain(&c.heading))
+        .collect()));
     let is_number = |at: usize| table.rows.iter().any(|row| row[at].number().is_some());
     let rules = (0..n_columns).map(|at| if is_number(at) { "---:" } else { "---" }.to_owned());
     page.push(row(rules.collect()));
@@ -133,12 +139,20 @@ fn readable(value: f64) -> String {
     fixed(value, decimals)
 }
 
-fn write_table(table: &Table, out: &Path, stem: &str, as_json: bool) -> Result<(), ExperimentError> {
+fn write_table(
+    table: &Table,
+    out: &Path,
+    stem: &str,
+    as_json: bool,
+) -> Result<(), ExperimentError> {
     let path = out.join(format!("{stem}.csv"));
     write_atomic(&path, &csv_of(table, &path)?)?;
     if as_json {
         let path = out.join(format!("{stem}.json"));
-        write_atomic(&path, to_json_string(&Document::of(table), &path)?.as_bytes())?;
+        write_atomic(
+            &path,
+            to_json_string(&Document::of(table), &path)?.as_bytes(),
+        )?;
     }
     Ok(())
 }
