@@ -1,34 +1,27 @@
 //! Real or generated (Cai et al. 2021, phase 2): sensitivity and bias by subject, confidence, and
 //! whether material and condition matter to what is called real.
 
-use super::Options;
-use super::draw::{Bar, axis, bars, scatter};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
-use super::variance::effects;
+use super::{Options, judgement_cells, judgement_confidence};
 use crate::experiment::design::{Judging, JudgingProtocol};
 use crate::experiment::{Answer, Record, Task};
-use crate::figure::{Series, Style};
-use crate::statistics::detection::{Answers, Correction, Roc, forced_choice, roc, yes_no};
-use crate::statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
-use crate::statistics::{
-    Computed, Outcome, Sides, Summary, Undefined, exact_binomial, one_sample_t, paired_t,
-    sign_flip, tost,
-};
+use crate::statistics::detection::{Answers, Correction, forced_choice, yes_no};
+use crate::statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip, tost};
 
 /// Bounds within which a difference of percentages counts as none, points.
 const BOUNDS_PERCENT: f64 = 10.0;
 
 /// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
-struct Said {
-    item: usize,
-    is_real: bool,
-    said_real: bool,
-    confidence: Option<u8>,
+pub(super) struct Said {
+    pub(super) item: usize,
+    pub(super) is_real: bool,
+    pub(super) said_real: bool,
+    pub(super) confidence: Option<u8>,
 }
 
-fn said(record: &Record) -> Vec<Said> {
+pub(super) fn said(record: &Record) -> Vec<Said> {
     match (&record.trial.task, record.answer()) {
         (
             Task::Judge { item, is_real },
@@ -70,9 +63,9 @@ pub(super) fn sections(
 ) -> Vec<Section> {
     let mut all = vec![sensitivity(experiment, judging, options)];
     if judging.confidence_grades > 1 && judging.protocol == JudgingProtocol::Single {
-        all.push(confidence(experiment, judging));
+        all.push(judgement_confidence::section(experiment, judging));
     }
-    all.push(percentages(experiment));
+    all.push(judgement_cells::section(experiment));
     all
 }
 
@@ -291,234 +284,4 @@ fn equivalence(percents: &[f64]) -> Table {
         },
     );
     table
-}
-
-/// How often each rating from `surely generated` to `surely real` was given, of real ones and of
-/// the others.
-fn ratings(answers: impl Iterator<Item = Said>, grades: u8) -> [Vec<u64>; 2] {
-    let n = usize::from(grades);
-    let mut counts = [vec![0; 2 * n], vec![0; 2 * n]];
-    for said in answers {
-        let Some(sure) = said
-            .confidence
-            .map(usize::from)
-            .filter(|c| (1..=n).contains(c))
-        else {
-            continue;
-        };
-        let at = if said.said_real {
-            n + sure - 1
-        } else {
-            n - sure
-        };
-        counts[usize::from(!said.is_real)][at] += 1;
-    }
-    counts
-}
-
-fn confidence(experiment: &Experiment<'_>, judging: &Judging) -> Section {
-    let title = format!("{}: confidence", experiment.design.title);
-    let mut section = Section::new(experiment.key("confidence"), title);
-    section.note(
-        "Ratings run from surely generated to surely real. The area under the curve is the \
-         probability that a real one is rated higher than a generated one; d_a = √2 z(area). All \
-         together: pooled ratings, which make the area too small where subjects differ.",
-    );
-    let columns = [
-        ("subject", "subject"),
-        ("n_real", "real"),
-        ("n_generated", "generated"),
-        ("area", "area"),
-        ("se", "SE"),
-        ("ci_low", "95 % CI from"),
-        ("ci_high", "to"),
-        ("d_a", "d_a"),
-    ];
-    let mut table = Table::new("areas", "Areas under the curve", &columns);
-    let grades = judging.confidence_grades;
-    let mut areas = Vec::new();
-    for subject in &experiment.subjects {
-        let [real, others] = ratings(subject.trials().flat_map(said), grades);
-        let found = roc(&real, &others);
-        areas.extend(found.as_ref().ok().map(|r| r.area));
-        table.push(roc_row(subject.name, &found));
-    }
-    let everyone = experiment
-        .subjects
-        .iter()
-        .flat_map(Subject::trials)
-        .flat_map(said);
-    let [real, others] = ratings(everyone, grades);
-    let pooled = roc(&real, &others);
-    table.push(roc_row("all together", &pooled));
-    section.tables.push(table);
-    let t = Summary::of(&areas).and_then(|s| one_sample_t(&s, 0.5));
-    section
-        .tables
-        .push(tests("tests", "Areas against ½", &[("area".to_owned(), t)]));
-    if let Ok(pooled) = &pooled {
-        let points = pooled
-            .points
-            .iter()
-            .map(|p| [p.false_alarm_rate, p.hit_rate]);
-        let series = vec![
-            Series {
-                name: "all together".to_owned(),
-                points: points.collect(),
-                style: Style::LineAndDots,
-                ..Series::default()
-            },
-            Series {
-                name: "guessing".to_owned(),
-                points: vec![[0.0, 0.0], [1.0, 1.0]],
-                style: Style::Dashed,
-                ..Series::default()
-            },
-        ];
-        let axes = ["false alarms", "hits"].map(|label| {
-            let mut axis = axis(label);
-            axis.range = Some([0.0, 1.0]);
-            axis
-        });
-        let title = format!(
-            "{}: receiver operating characteristic",
-            experiment.design.title
-        );
-        section.figures.push(scatter("roc", &title, axes, series));
-    }
-    section
-}
-
-fn roc_row(name: &str, found: &Computed<Roc>) -> Vec<Cell> {
-    let mut row = vec![Cell::from(name)];
-    match found {
-        Ok(roc) => {
-            row.extend([
-                roc.n[0].into(),
-                roc.n[1].into(),
-                Cell::from(roc.area),
-                Cell::of(&roc.se),
-            ]);
-            row.extend(ends(&roc.interval));
-            row.push(Cell::of(&roc.d_a));
-        }
-        Err(why) => row.extend(undefined(why, 7)),
-    }
-    row
-}
-
-/// What was called real, by material and condition (Table 3 and Fig. 9 of the paper).
-fn percentages(experiment: &Experiment<'_>) -> Section {
-    let title = format!(
-        "{}: called real, by material and condition",
-        experiment.design.title
-    );
-    let mut section = Section::new(experiment.key("called-real"), title);
-    section.note(
-        "Percentages of trials in which it was called real. Of few trials a cell they take few \
-         values, so the analysis of variance is approximate; see the test by flipped signs.",
-    );
-    let answers = cell_answers(experiment);
-    let crossed = Crossed::of_answers(&["material", "condition"], &answers);
-    let (materials, conditions) = match &crossed {
-        Ok(table) => (
-            table.factors[0].levels.clone(),
-            table.factors[1].levels.clone(),
-        ),
-        Err(_) => Default::default(),
-    };
-    let of = |material: Option<&str>, condition: Option<&str>| -> Vec<f64> {
-        experiment
-            .subjects
-            .iter()
-            .filter_map(|subject| {
-                let own = answers.iter().filter(|a| {
-                    a.subject == subject.name
-                        && material.is_none_or(|m| a.levels[0] == m)
-                        && condition.is_none_or(|c| a.levels[1] == c)
-                });
-                let values: Vec<f64> = own.map(|a| a.value).collect();
-                crate::statistics::mean(&values).ok()
-            })
-            .collect()
-    };
-    let mut rows: Vec<(String, Vec<f64>)> = Vec::new();
-    let mut shown = Vec::new();
-    for condition in &conditions {
-        for material in &materials {
-            let values = of(Some(material), Some(condition));
-            if let Ok(s) = Summary::of(&values) {
-                shown.push(Bar {
-                    name: material.clone(),
-                    group: condition.clone(),
-                    value: s.mean,
-                    interval: Some([s.mean - s.se, s.mean + s.se]),
-                });
-            }
-            rows.push((format!("{material}, {condition}, %"), values));
-        }
-        rows.push((
-            format!("all materials, {condition}, %"),
-            of(None, Some(condition)),
-        ));
-    }
-    section.tables.push(summaries(
-        "cells",
-        "Called real (as Table 3 of the paper)",
-        &rows,
-    ));
-    let variance = crossed.and_then(|table| repeated_two_way(&table));
-    section.tables.push(effects(
-        "anova",
-        "Two-way analysis of variance, both factors within subjects",
-        &variance,
-    ));
-    let all = differences(&conditions, |condition| of(None, Some(condition)));
-    section
-        .tables
-        .push(tests("differences", "Conditions, subject by subject", &all));
-    let title = format!("{}: called real by material", experiment.design.title);
-    let label = "called real, % (± SE)";
-    section.figures.push(bars(
-        "materials",
-        &title,
-        label,
-        (&shown, Some([0.0, 100.0])),
-        &[(50.0, "half")],
-    ));
-    section
-}
-
-fn cell_answers(experiment: &Experiment<'_>) -> Vec<CellAnswer> {
-    let mut all = Vec::new();
-    for subject in &experiment.subjects {
-        for said in subject.trials().flat_map(said) {
-            let stimulus = &experiment.design.stimuli[said.item];
-            all.push(CellAnswer {
-                subject: subject.name.to_owned(),
-                levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
-                value: if said.said_real { 100.0 } else { 0.0 },
-            });
-        }
-    }
-    all
-}
-
-fn differences(
-    conditions: &[String],
-    of: impl Fn(&str) -> Vec<f64>,
-) -> Vec<(String, Computed<Outcome>)> {
-    let mut all = Vec::new();
-    for (i, first) in conditions.iter().enumerate() {
-        for second in &conditions[i + 1..] {
-            let (a, b) = (of(first), of(second));
-            let outcome = if a.len() == b.len() {
-                paired_t(&a, &b)
-            } else {
-                Err(Undefined::because("a subject lacks one of the conditions"))
-            };
-            all.push((format!("{first} less {second}, %"), outcome));
-        }
-    }
-    all
 }

@@ -1,7 +1,7 @@
 //! Maps turned towards what was measured, and measures fitted into them.
 
 use super::Options;
-use super::draw::MapDrawing;
+use super::draw_map::MapDrawing;
 use super::map::{Mapping, told, undefined};
 use super::model::{Cell, Section, Table, ends};
 use super::properties::Measure;

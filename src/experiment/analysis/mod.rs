@@ -12,8 +12,11 @@
 
 mod adjustment;
 mod draw;
+mod draw_map;
 mod groups;
 mod judgement;
+mod judgement_cells;
+mod judgement_confidence;
 mod kept;
 mod levels;
 mod magnitude;
@@ -21,8 +24,10 @@ mod map;
 mod map_turn;
 mod model;
 mod odd_one_out;
+mod odd_one_out_distances;
 mod properties;
 mod ranking;
+mod ranking_confusions;
 mod ranking_scale;
 mod rating;
 mod variance;

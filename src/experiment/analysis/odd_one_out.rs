@@ -1,12 +1,12 @@
 //! The odd one of three (Allerkamp et al.): how often it was found and how easily, which fabrics
 //! were mistaken, and the distances that follow.
 
-use super::Options;
 use super::draw::{Bar, bars};
 use super::kept::{Experiment, Subject};
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, ends, matrix, resampled, summaries, tests};
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use super::properties::Measures;
+use super::{Options, odd_one_out_distances};
 use crate::experiment::{self as exp, Answer, Record, Task};
 use crate::progress::{Cancelled, Progress};
 use crate::statistics::detection::{Correction, triangle};
@@ -14,15 +14,12 @@ use crate::statistics::mds::{Loss, Ties};
 use crate::statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
 use crate::statistics::variance::friedman;
 use crate::statistics::{
-    Computed, Outcome, Ranks, Sides, Summary, Undefined, exact_binomial, one_sample_t, pearson_r,
+    Computed, Outcome, Sides, Summary, Undefined, exact_binomial, one_sample_t,
     wilcoxon_signed_rank, wilson,
 };
 
 const CHANCE: f64 = 1.0 / 3.0;
 const CHANCE_PERCENT: f64 = 100.0 / 3.0;
-/// Weights that distances are tried with besides the design's.
-const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
-
 /// The answer to a triad.
 fn triad(record: &Record) -> Option<TriadAnswer> {
     let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
@@ -53,7 +50,7 @@ fn percent(answers: &[TriadAnswer]) -> f64 {
     100.0 * n_right(answers) as f64 / answers.len() as f64
 }
 
-fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
+pub(super) fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
     GradeWeights { easy, normal, hard }
 }
 
@@ -73,7 +70,9 @@ pub(super) fn sections(
             return Ok(sections);
         }
     };
-    sections.push(distances(experiment, &found, &all, &names));
+    sections.push(odd_one_out_distances::section(
+        experiment, &found, &all, &names,
+    ));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |subject: &Subject<'_>| {
         let own = OddOneOut::of(names.len(), &triads(subject), weights(own_weights)).ok()?;
@@ -140,7 +139,7 @@ fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell>
     row
 }
 
-fn interval(right: u64, n: u64) -> Computed<crate::statistics::Interval> {
+pub(super) fn interval(right: u64, n: u64) -> Computed<crate::statistics::Interval> {
     wilson(right, n, 0.95).map(|mut interval| {
         interval.low *= 100.0;
         interval.high *= 100.0;
@@ -331,88 +330,4 @@ fn grades(experiment: &Experiment<'_>) -> Section {
         &[],
     ));
     section
-}
-
-fn distances(
-    experiment: &Experiment<'_>,
-    found: &OddOneOut,
-    all: &[TriadAnswer],
-    names: &[String],
-) -> Section {
-    let title = format!("{}: distances", experiment.design.title);
-    let mut section = Section::new(experiment.key("distances"), title);
-    let GradeWeights { easy, normal, hard } = found.weights;
-    section.note(format!(
-        "A right answer counts {easy}, {normal} or {hard} as it was easy, normal or hard, a wrong one \
-         0; the distance of two fabrics is the sum over all answers. {} pairs are at the ceiling \
-         (always right and easy), {} at the floor, {} were never asked.",
-        found.n_ceiling, found.n_floor, found.n_missing
-    ));
-    let cells = found.distances().into_iter();
-    let cells = cells.map(|d| d.map_or_else(|| Cell::none("itself, or never asked"), Cell::from));
-    section.tables.push(matrix(
-        "distances",
-        "Sums of weights",
-        names,
-        cells.collect(),
-    ));
-    section.tables.push(errors(found, names));
-    let columns = [
-        ("weights", "weights"),
-        ("ceiling", "pairs at the ceiling"),
-        ("floor", "at the floor"),
-        ("n", "pairs"),
-        ("spearman", "rank correlation with the design's"),
-    ];
-    let mut table = Table::new("weights", "The same with other weights", &columns);
-    for other in OTHER_WEIGHTS {
-        let told = other.map(|w| w.to_string()).join(" / ");
-        let row = match OddOneOut::of(names.len(), all, weights(other)) {
-            Ok(with) => {
-                let of = |o: &OddOneOut| o.pairs.iter().map(|p| p.distance).collect::<Vec<f64>>();
-                let rank = |o: &OddOneOut| Ranks::of(&of(o)).ranks;
-                let r = pearson_r(&rank(found), &rank(&with));
-                vec![
-                    told.into(),
-                    with.n_ceiling.into(),
-                    with.n_floor.into(),
-                    with.pairs.len().into(),
-                    Cell::of(&r),
-                ]
-            }
-            Err(why) => {
-                let mut row = vec![Cell::from(told)];
-                row.extend(super::map::undefined(&why, 4));
-                row
-            }
-        };
-        table.push(row);
-    }
-    section.tables.push(table);
-    section
-}
-
-fn errors(found: &OddOneOut, names: &[String]) -> Table {
-    let columns = [
-        ("item", "fabric"),
-        ("triads", "triads with it"),
-        ("wrong", "wrong"),
-        ("percent", "%"),
-        ("ci_low_percent", "95 % CI from"),
-        ("ci_high_percent", "to"),
-    ];
-    let title = "Wrong answers by fabric; both fabrics of a triad count";
-    let mut table = Table::new("errors", title, &columns);
-    for (name, errors) in names.iter().zip(&found.errors) {
-        let (wrong, n) = (errors.n_wrong as u64, errors.n_triads as u64);
-        let mut row = vec![Cell::from(name.as_str()), n.into(), wrong.into()];
-        row.push(if n > 0 {
-            (100.0 * wrong as f64 / n as f64).into()
-        } else {
-            Cell::none("never asked")
-        });
-        row.extend(ends(&interval(wrong, n)));
-        table.push(row);
-    }
-    table
 }
