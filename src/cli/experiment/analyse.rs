@@ -12,7 +12,7 @@ use crate::progress::{CancelFlag, Progress};
 
 /// Logs, and how they are analysed.
 #[derive(Debug, Args)]
-pub(super) struct AnalyseArgs {
+pub(in crate::cli) struct AnalyseArgs {
     /// Folder of the logs, each with its .json beside it
     logs: PathBuf,
     /// Folder for index.md, tables and figures; it is made where it is missing

@@ -262,6 +262,23 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
         };
         level.values.iter().enumerate().filter_map(of).collect()
     };
+    let (table, kappas) = kappas(experiment, &means);
+    section.tables.push(table);
+    let t = Summary::of(&kappas).and_then(|s| one_sample_t(&s, 0.0));
+    section.tables.push(tests(
+        "tests",
+        "κ over subjects against none",
+        &[("κ".to_owned(), t)],
+    ));
+    section.figures.push(gain_plot(experiment, &means(None)));
+    section
+}
+
+/// κ of every subject and of the means over them; those of the subjects alone.
+fn kappas(
+    experiment: &Experiment<'_>,
+    means: &dyn Fn(Option<&str>) -> Vec<[f64; 2]>,
+) -> (Table, Vec<f64>) {
     let columns = [
         ("subject", "subject"),
         ("n", "stimuli"),
@@ -293,15 +310,7 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
         }
         table.push(row);
     }
-    section.tables.push(table);
-    let t = Summary::of(&kappas).and_then(|s| one_sample_t(&s, 0.0));
-    section.tables.push(tests(
-        "tests",
-        "κ over subjects against none",
-        &[("κ".to_owned(), t)],
-    ));
-    section.figures.push(gain_plot(experiment, &means(None)));
-    section
+    (table, kappas)
 }
 
 fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> super::model::Drawn {

@@ -45,30 +45,7 @@ pub(super) fn bars(
         let within = (group.unwrap_or(0) as f64 + 0.5) / groups.len() as f64 - 0.5;
         n - row.unwrap_or(0) as f64 - 0.6 * within
     };
-    let mut series = Vec::new();
-    for bar in bars {
-        if let Some([low, high]) = bar.interval {
-            let at = place(bar);
-            series.push(Series {
-                points: vec![[low, at], [high, at]],
-                style: Style::Line,
-                ink: Ink::Grey,
-                ..Series::default()
-            });
-        }
-    }
-    for group in &groups {
-        let own = bars.iter().filter(|bar| bar.group == *group);
-        series.push(Series {
-            name: if groups.len() > 1 {
-                (*group).to_owned()
-            } else {
-                String::new()
-            },
-            points: own.map(|bar| [bar.value, place(bar)]).collect(),
-            ..Series::default()
-        });
-    }
+    let series = bar_series(bars, &groups, &place);
     let ends = range.unwrap_or_else(|| span(bars));
     let panel = Panel {
         x: Axis {
@@ -92,6 +69,35 @@ pub(super) fn bars(
         figure: figure(title, vec![list(&names), panel], height_px, None),
         points: bar_table(bars, label),
     }
+}
+
+/// Intervals as lines, then the values of each group as dots.
+fn bar_series(bars: &[Bar], groups: &[&str], place: &dyn Fn(&Bar) -> f64) -> Vec<Series> {
+    let mut series = Vec::new();
+    for bar in bars {
+        if let Some([low, high]) = bar.interval {
+            let at = place(bar);
+            series.push(Series {
+                points: vec![[low, at], [high, at]],
+                style: Style::Line,
+                ink: Ink::Grey,
+                ..Series::default()
+            });
+        }
+    }
+    for group in groups {
+        let own = bars.iter().filter(|bar| bar.group == *group);
+        series.push(Series {
+            name: if groups.len() > 1 {
+                (*group).to_owned()
+            } else {
+                String::new()
+            },
+            points: own.map(|bar| [bar.value, place(bar)]).collect(),
+            ..Series::default()
+        });
+    }
+    series
 }
 
 /// A panel with names one under the other, beside a panel with their rows.

@@ -199,6 +199,16 @@ pub(super) fn heat(
         },
         colours: (0..=32).map(|i| shade(f64::from(i) / 32.0)).collect(),
     };
+    let points = heat_table(label, names, values);
+    Drawn {
+        key: key.to_owned(),
+        figure: figure(title, vec![square, list(&numbered)], 420.0, Some(bar)),
+        points,
+    }
+}
+
+fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
+    let n = names.len();
     let mut points = Table::new("points", "", &[("row", "row"), ("column", "column")]);
     points.columns.push(Column {
         name: "value".to_owned(),
@@ -212,11 +222,7 @@ pub(super) fn heat(
             value,
         ]);
     }
-    Drawn {
-        key: key.to_owned(),
-        figure: figure(title, vec![square, list(&numbered)], 420.0, Some(bar)),
-        points,
-    }
+    points
 }
 
 /// From nearly white to deep blue.

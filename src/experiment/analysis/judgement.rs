@@ -13,6 +13,10 @@ use crate::statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip,
 /// Bounds within which a difference of percentages counts as none, points.
 const BOUNDS_PERCENT: f64 = 10.0;
 
+#[expect(
+    clippy::struct_field_names,
+    reason = "what was said is told from what is"
+)]
 /// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
 pub(super) struct Said {
     pub(super) item: usize,

@@ -2,9 +2,10 @@
 
 use super::draw::{Bar, bars};
 use super::judgement::said;
-use super::kept::Experiment;
+use super::kept::{Experiment, Subject};
 use super::model::{Section, summaries, tests};
 use super::variance::effects;
+use crate::experiment::design::Stimulus;
 use crate::statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
 use crate::statistics::{Computed, Outcome, Summary, Undefined, paired_t};
 
@@ -21,27 +22,12 @@ pub(super) fn section(experiment: &Experiment<'_>) -> Section {
     );
     let answers = cell_answers(experiment);
     let crossed = Crossed::of_answers(&["material", "condition"], &answers);
-    let (materials, conditions) = match &crossed {
-        Ok(table) => (
-            table.factors[0].levels.clone(),
-            table.factors[1].levels.clone(),
-        ),
-        Err(_) => Default::default(),
-    };
-    let of = |material: Option<&str>, condition: Option<&str>| -> Vec<f64> {
-        experiment
-            .subjects
-            .iter()
-            .filter_map(|subject| {
-                let own = answers.iter().filter(|a| {
-                    a.subject == subject.name
-                        && material.is_none_or(|m| a.levels[0] == m)
-                        && condition.is_none_or(|c| a.levels[1] == c)
-                });
-                let values: Vec<f64> = own.map(|a| a.value).collect();
-                crate::statistics::mean(&values).ok()
-            })
-            .collect()
+    let (materials, conditions) = (
+        levels(experiment, |s| &s.material),
+        levels(experiment, |s| &s.condition),
+    );
+    let of = |material: Option<&str>, condition: Option<&str>| {
+        by_subject(experiment, &answers, [material, condition])
     };
     let mut rows: Vec<(String, Vec<f64>)> = Vec::new();
     let mut shown = Vec::new();
@@ -88,6 +74,35 @@ pub(super) fn section(experiment: &Experiment<'_>) -> Section {
         &[(50.0, "half")],
     ));
     section
+}
+
+/// Levels of a factor in the order of the design.
+fn levels(experiment: &Experiment<'_>, level: fn(&Stimulus) -> &String) -> Vec<String> {
+    let mut levels: Vec<String> = Vec::new();
+    for stimulus in &experiment.design.stimuli {
+        if !levels.contains(level(stimulus)) {
+            levels.push(level(stimulus).clone());
+        }
+    }
+    levels
+}
+
+/// Every subject's percentage in some cells.
+fn by_subject(
+    experiment: &Experiment<'_>,
+    answers: &[CellAnswer],
+    [material, condition]: [Option<&str>; 2],
+) -> Vec<f64> {
+    let of = |subject: &Subject<'_>| {
+        let own = answers.iter().filter(|a| {
+            a.subject == subject.name
+                && material.is_none_or(|m| a.levels[0] == m)
+                && condition.is_none_or(|c| a.levels[1] == c)
+        });
+        let values: Vec<f64> = own.map(|a| a.value).collect();
+        crate::statistics::mean(&values).ok()
+    };
+    experiment.subjects.iter().filter_map(of).collect()
 }
 
 fn cell_answers(experiment: &Experiment<'_>) -> Vec<CellAnswer> {

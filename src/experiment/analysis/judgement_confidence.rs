@@ -4,7 +4,7 @@ use super::draw::{axis, scatter};
 use super::judgement::{Said, said};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, tests};
+use super::model::{Cell, Drawn, Section, Table, ends, tests};
 use crate::experiment::design::Judging;
 use crate::figure::{Series, Style};
 use crate::statistics::detection::{Roc, roc};
@@ -33,6 +33,7 @@ fn ratings(answers: impl Iterator<Item = Said>, grades: u8) -> [Vec<u64>; 2] {
     counts
 }
 
+/// Areas under the curves of subjects, and the curve of all together.
 pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section {
     let title = format!("{}: confidence", experiment.design.title);
     let mut section = Section::new(experiment.key("confidence"), title);
@@ -74,36 +75,40 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
         .tables
         .push(tests("tests", "Areas against ½", &[("area".to_owned(), t)]));
     if let Ok(pooled) = &pooled {
-        let points = pooled
-            .points
-            .iter()
-            .map(|p| [p.false_alarm_rate, p.hit_rate]);
-        let series = vec![
-            Series {
-                name: "all together".to_owned(),
-                points: points.collect(),
-                style: Style::LineAndDots,
-                ..Series::default()
-            },
-            Series {
-                name: "guessing".to_owned(),
-                points: vec![[0.0, 0.0], [1.0, 1.0]],
-                style: Style::Dashed,
-                ..Series::default()
-            },
-        ];
-        let axes = ["false alarms", "hits"].map(|label| {
-            let mut axis = axis(label);
-            axis.range = Some([0.0, 1.0]);
-            axis
-        });
-        let title = format!(
-            "{}: receiver operating characteristic",
-            experiment.design.title
-        );
-        section.figures.push(scatter("roc", &title, axes, series));
+        section.figures.push(curve(experiment, pooled));
     }
     section
+}
+
+fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
+    let points = pooled
+        .points
+        .iter()
+        .map(|p| [p.false_alarm_rate, p.hit_rate]);
+    let series = vec![
+        Series {
+            name: "all together".to_owned(),
+            points: points.collect(),
+            style: Style::LineAndDots,
+            ..Series::default()
+        },
+        Series {
+            name: "guessing".to_owned(),
+            points: vec![[0.0, 0.0], [1.0, 1.0]],
+            style: Style::Dashed,
+            ..Series::default()
+        },
+    ];
+    let axes = ["false alarms", "hits"].map(|label| {
+        let mut axis = axis(label);
+        axis.range = Some([0.0, 1.0]);
+        axis
+    });
+    let title = format!(
+        "{}: receiver operating characteristic",
+        experiment.design.title
+    );
+    scatter("roc", &title, axes, series)
 }
 
 fn roc_row(name: &str, found: &Computed<Roc>) -> Vec<Cell> {

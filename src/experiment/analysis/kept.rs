@@ -59,9 +59,12 @@ impl Experiment<'_> {
     }
 }
 
+/// The hash of a design, and the sessions that were held by it.
+type Version<'a> = (&'a str, Vec<&'a Found>);
+
 /// The experiments in some sessions: one for every study, experiment and text of a design.
 pub(super) fn experiments(all: &[Found]) -> Vec<Experiment<'_>> {
-    let mut groups: BTreeMap<(&str, &str), Vec<(&str, Vec<&Found>)>> = BTreeMap::new();
+    let mut groups: BTreeMap<(&str, &str), Vec<Version<'_>>> = BTreeMap::new();
     for found in all {
         let design = &found.design;
         let of_name = groups

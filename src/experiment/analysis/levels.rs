@@ -168,7 +168,7 @@ fn curves(
     let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
         (l.min(x), h.max(x))
     });
-    if !(low < high) {
+    if low >= high || !low.is_finite() {
         return None;
     }
     let mut series = Vec::new();
@@ -325,7 +325,7 @@ fn of_subject(
             ];
             match &staircase {
                 Ok(staircase) => {
-                    row.extend(reversal_cells(staircase, track, levels, &mut thresholds))
+                    row.extend(reversal_cells(staircase, track, levels, &mut thresholds));
                 }
                 Err(why) => row.extend(undefined(why, REVERSALS.len() - 4)),
             }

@@ -64,7 +64,7 @@ impl Mapping<'_> {
                 continue;
             };
             let turn = self.turn(plane, [first, second], options, &mut turns);
-            best = best.or(turn.ok());
+            best = best.or_else(|| turn.ok());
         }
         if !turns.rows.is_empty() {
             section.note(
@@ -82,19 +82,13 @@ impl Mapping<'_> {
             Some(turn) => ellipses.iter().map(|e| turned_ellipse(e, turn)).collect(),
             None => ellipses.to_vec(),
         };
-        let arrows = ["a40_db", "a320_db"].into_iter().filter_map(|name| {
-            let measure = measures.named(name)?;
-            let fit = PropertyVector::of(points, &measure.values).ok()?;
-            let of = |axis: usize| fit.direction[axis] * fit.multiple_r;
-            let band = if name == "a40_db" { "40 Hz" } else { "320 Hz" };
-            Some((format!("level at {band} rises"), [of(0), of(1)]))
-        });
+        let directions = self.directions(points);
         let drawing = MapDrawing {
             names: &self.names,
             points,
             axes,
             ellipses: &turned_ellipses,
-            directions: &arrows.collect::<Vec<_>>(),
+            directions: &directions,
         };
         let note = format!(
             "{} {}, {} ties; stress-1 {}. A bar is as long as the multiple correlation.",
@@ -108,6 +102,18 @@ impl Mapping<'_> {
             &format!("{}, in the plane", self.title),
             vec![note],
         ));
+    }
+
+    /// Where the levels of both bands rise in a map.
+    fn directions(&self, points: &[Vec<f64>]) -> Vec<(String, [f64; 2])> {
+        let arrows = ["a40_db", "a320_db"].into_iter().filter_map(|name| {
+            let measure = self.measures.named(name)?;
+            let fit = PropertyVector::of(points, &measure.values).ok()?;
+            let of = |axis: usize| fit.direction[axis] * fit.multiple_r;
+            let band = if name == "a40_db" { "40 Hz" } else { "320 Hz" };
+            Some((format!("level at {band} rises"), [of(0), of(1)]))
+        });
+        arrows.collect()
     }
 
     fn turn(

@@ -4,7 +4,7 @@
 use super::draw::{Bar, bars};
 use super::kept::{Experiment, Subject};
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
+use super::model::{Cell, Drawn, Section, Table, ends, resampled, summaries, tests};
 use super::properties::Measures;
 use super::{Options, odd_one_out_distances};
 use crate::experiment::{self as exp, Answer, Record, Task};
@@ -176,22 +176,7 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
         });
     }
     section.tables.push(table);
-    let own = |f: &dyn Fn(&[TriadAnswer]) -> f64| -> Vec<f64> {
-        experiment.subjects.iter().map(|s| f(&triads(s))).collect()
-    };
-    let percents = own(&percent);
-    let d_primes: Vec<f64> = experiment
-        .subjects
-        .iter()
-        .filter_map(|s| {
-            let all = triads(s);
-            Some(
-                triangle(n_right(&all), all.len() as u64, Correction::LogLinear)
-                    .ok()?
-                    .d_prime,
-            )
-        })
-        .collect();
+    let (percents, d_primes) = scores(experiment);
     let means = [
         ("right, %".to_owned(), percents.clone()),
         ("d′".to_owned(), d_primes),
@@ -216,7 +201,14 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
         "Against chance, and session against session",
         &found,
     ));
-    if let Ok(s) = Summary::of(&percents) {
+    section
+        .figures
+        .push(by_subject(experiment, shown, &percents));
+    section
+}
+
+fn by_subject(experiment: &Experiment<'_>, mut shown: Vec<Bar>, percents: &[f64]) -> Drawn {
+    if let Ok(s) = Summary::of(percents) {
         shown.push(Bar {
             name: "mean ± SE".to_owned(),
             group: String::new(),
@@ -227,14 +219,31 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     let title = format!("{}: right answers", experiment.design.title);
     let label = "right, % (95 % interval)";
     let range = Some([0.0, 100.0]);
-    section.figures.push(bars(
+    bars(
         "subjects-bars",
         &title,
         label,
         (&shown, range),
         &[(CHANCE_PERCENT, "chance")],
-    ));
-    section
+    )
+}
+
+/// Every subject's right answers, %, and d′.
+fn scores(experiment: &Experiment<'_>) -> (Vec<f64>, Vec<f64>) {
+    let percents = experiment.subjects.iter().map(|s| percent(&triads(s)));
+    let d_primes: Vec<f64> = experiment
+        .subjects
+        .iter()
+        .filter_map(|s| {
+            let all = triads(s);
+            Some(
+                triangle(n_right(&all), all.len() as u64, Correction::LogLinear)
+                    .ok()?
+                    .d_prime,
+            )
+        })
+        .collect();
+    (percents.collect(), d_primes)
 }
 
 /// Whether sessions differ, over subjects who took part in as many.
@@ -265,6 +274,22 @@ fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
     friedman(&rows)
 }
 
+/// Answers with a grade, and every subject's share of them among its right or wrong ones, %.
+fn graded(experiment: &Experiment<'_>, is_correct: bool, grade: Grade) -> (usize, Vec<f64>) {
+    let mut count = 0_usize;
+    let mut shares = Vec::new();
+    for subject in &experiment.subjects {
+        let all = triads(subject);
+        let own: Vec<&TriadAnswer> = all.iter().filter(|a| a.is_correct == is_correct).collect();
+        let n = own.iter().filter(|a| a.grade == grade).count();
+        count += n;
+        if !own.is_empty() {
+            shares.push(100.0 * n as f64 / own.len() as f64);
+        }
+    }
+    (count, shares)
+}
+
 /// Easy, normal and hard, of right and of wrong answers.
 fn grades(experiment: &Experiment<'_>) -> Section {
     let title = format!("{}: easy, normal, hard", experiment.design.title);
@@ -284,18 +309,7 @@ fn grades(experiment: &Experiment<'_>) -> Section {
     let mut shown = Vec::new();
     for (name, is_correct) in [("right", true), ("wrong", false)] {
         for grade in [Grade::Easy, Grade::Normal, Grade::Hard] {
-            let mut count = 0_usize;
-            let mut shares = Vec::new();
-            for subject in &experiment.subjects {
-                let all = triads(subject);
-                let own: Vec<&TriadAnswer> =
-                    all.iter().filter(|a| a.is_correct == is_correct).collect();
-                let n = own.iter().filter(|a| a.grade == grade).count();
-                count += n;
-                if !own.is_empty() {
-                    shares.push(100.0 * n as f64 / own.len() as f64);
-                }
-            }
+            let (count, shares) = graded(experiment, is_correct, grade);
             let told = exp::Grade::ALL[grade as usize].name();
             let summary = Summary::of(&shares);
             let mean = crate::statistics::mean(&shares);

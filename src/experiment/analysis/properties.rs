@@ -208,7 +208,7 @@ fn library(experiment: &Experiment<'_>, options: &Options) -> Result<Library, Te
         .sessions
         .first()
         .and_then(|found| found.log.parent());
-    let path = beside.unwrap_or(Path::new(".")).join(name);
+    let path = beside.unwrap_or_else(|| Path::new(".")).join(name);
     Library::named(&path, options.cache.as_ref())
 }
 
@@ -220,7 +220,10 @@ fn own_speed(experiment: &Experiment<'_>) -> Option<f64> {
             let read = |r: &&crate::experiment::Record| {
                 ExplorationPath::read(&path_file(log, &r.trial, r.attempt)).ok()
             };
-            session.trials.iter().filter_map(move |record| read(record))
+            session
+                .trials
+                .iter()
+                .filter_map(move |record| read(&record))
         });
         let (mut way_mm, mut time_s) = (0.0, 0.0);
         for path in paths {

@@ -11,7 +11,7 @@ use super::{ranking_confusions, ranking_scale};
 use crate::experiment::design::{Ranking, Standard};
 use crate::experiment::{Answer, Task};
 use crate::progress::{Cancelled, Progress};
-use crate::statistics::detection::{Correction, forced_choice};
+use crate::statistics::detection::{Choice, Correction, forced_choice};
 use crate::statistics::mds::{Loss, Ties};
 use crate::statistics::ranking::{MeanRanks, RankTrial};
 use crate::statistics::{
@@ -156,39 +156,8 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
     for one in all {
         let (hits, n) = (one.n_first(), one.trials.len() as u64);
         let choice = forced_choice(hits, n, 4, Correction::LogLinear);
-        let mut row = vec![
-            one.subject.into(),
-            n.into(),
-            hits.into(),
-            one.percent().into(),
-        ];
-        row.extend(ends(&percent_interval(hits, n)));
-        let greater = exact_binomial(hits, n, 0.25, Sides::Greater);
-        row.push(Cell::of(
-            &greater.as_ref().map(|o| o.p).map_err(Clone::clone),
-        ));
-        row.push(Cell::of(
-            &exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p),
-        ));
-        row.push(Cell::of(
-            &greater.and_then(|o| o.effect).map(|effect| effect.value),
-        ));
-        row.push(Cell::of(
-            &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
-        ));
-        row.extend(ends(&choice.clone().and_then(|c| c.interval)));
-        row.push(match &choice {
-            Ok(choice) => choice.correction.map_or("none", Correction::name).into(),
-            Err(why) => Cell::Undefined(why.reason.clone()),
-        });
-        row.push(one.mean_rank().into());
-        row.push(match &choice {
-            Ok(choice) if choice.is_below_chance => "yes".into(),
-            Ok(_) => "no".into(),
-            Err(why) => Cell::Undefined(why.reason.clone()),
-        });
+        table.push(subject_row(one, &choice));
         d_primes.extend(choice.ok().map(|c| c.d_prime));
-        table.push(row);
     }
     section.tables.push(table);
     let percents: Vec<f64> = all.iter().map(Rankings::percent).collect();
@@ -209,6 +178,42 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
     ));
     section.figures.push(by_subject(experiment, all, &percents));
     section
+}
+
+fn subject_row(one: &Rankings<'_>, choice: &Computed<Choice>) -> Vec<Cell> {
+    let (hits, n) = (one.n_first(), one.trials.len() as u64);
+    let mut row = vec![
+        one.subject.into(),
+        n.into(),
+        hits.into(),
+        one.percent().into(),
+    ];
+    row.extend(ends(&percent_interval(hits, n)));
+    let greater = exact_binomial(hits, n, 0.25, Sides::Greater);
+    row.push(Cell::of(
+        &greater.as_ref().map(|o| o.p).map_err(Clone::clone),
+    ));
+    row.push(Cell::of(
+        &exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p),
+    ));
+    row.push(Cell::of(
+        &greater.and_then(|o| o.effect).map(|effect| effect.value),
+    ));
+    row.push(Cell::of(
+        &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
+    ));
+    row.extend(ends(&choice.clone().and_then(|c| c.interval)));
+    row.push(match choice {
+        Ok(choice) => choice.correction.map_or("none", Correction::name).into(),
+        Err(why) => Cell::Undefined(why.reason.clone()),
+    });
+    row.push(one.mean_rank().into());
+    row.push(match choice {
+        Ok(choice) if choice.is_below_chance => "yes".into(),
+        Ok(_) => "no".into(),
+        Err(why) => Cell::Undefined(why.reason.clone()),
+    });
+    row
 }
 
 pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<crate::statistics::Interval> {

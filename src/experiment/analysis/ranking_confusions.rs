@@ -3,7 +3,7 @@
 use super::draw::{Bar, bars};
 use super::draw_map::heat;
 use super::kept::Experiment;
-use super::model::{Cell, Section, Table, ends, matrix};
+use super::model::{Cell, Drawn, Section, Table, ends, matrix};
 use super::ranking::{CHANCE_PERCENT, percent_interval};
 use crate::experiment::design::{Ranking, Standard};
 use crate::statistics::ranking::MeanRanks;
@@ -25,7 +25,6 @@ pub(super) fn section(
         "Rows are targets ({kind}), columns alternatives; all subjects together. The diagonal is the \
          target itself."
     ));
-    let n = names.len();
     let (counts, first) = (ranks.counts(), ranks.confusions());
     section.tables.push(targets(counts, first, names));
     let of = |values: &[usize]| values.iter().map(|v| Cell::from(*v)).collect::<Vec<Cell>>();
@@ -49,6 +48,14 @@ pub(super) fn section(
         names,
         &means,
     ));
+    section.figures.push(by_target(experiment, ranks, names));
+    asymmetry(ranks, names, &mut section);
+    section
+}
+
+/// Targets identified, subjects pooled.
+fn by_target(experiment: &Experiment<'_>, ranks: &MeanRanks, names: &[String]) -> Drawn {
+    let (n, counts, first) = (names.len(), ranks.counts(), ranks.confusions());
     let mut shown = Vec::new();
     for (target, name) in names.iter().enumerate() {
         let cell = target * n + target;
@@ -68,15 +75,13 @@ pub(super) fn section(
     );
     let label = "identified, % (95 % interval)";
     let range = Some([0.0, 100.0]);
-    section.figures.push(bars(
+    bars(
         "targets-bars",
         &title,
         label,
         (&shown, range),
         &[(CHANCE_PERCENT, "chance")],
-    ));
-    asymmetry(ranks, names, &mut section);
-    section
+    )
 }
 
 fn targets(counts: &[usize], first: &[usize], names: &[String]) -> Table {

@@ -3,10 +3,10 @@
 use super::Options;
 use super::draw::{Bar, bars};
 use super::kept::Experiment;
-use super::model::{Cell, SUMMARY, Section, Table, summary_cells, tests};
+use super::model::{Cell, Drawn, SUMMARY, Section, Table, file_name, summary_cells, tests};
 use super::properties::Measures;
 use super::variance::effects;
-use crate::experiment::design::Rating;
+use crate::experiment::design::{Rating, Scale};
 use crate::experiment::{Answer, Task};
 use crate::progress::{Cancelled, Progress};
 use crate::statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
@@ -72,17 +72,8 @@ pub(super) fn sections(
             table.push(row);
             shown.extend(bar(name, &values));
         }
-        let title = format!("{}: {}", experiment.design.title, scale.key);
-        let label = format!("{} to {} (± SE)", scale.low, scale.high);
-        let key = super::model::file_name(&scale.key, '-');
-        let range = Some(scale.bounds());
-        section.figures.push(bars(
-            &format!("scale-{key}"),
-            &title,
-            &label,
-            (&shown, range),
-            &[],
-        ));
+        section.figures.push(picture(experiment, scale, &shown));
+        let key = file_name(&scale.key, '-');
         let crossed = crossed(experiment, &names, &all);
         let rows = crossed.clone().and_then(|table| {
             let values = table.complete()?;
@@ -117,6 +108,13 @@ pub(super) fn sections(
             .push(tests("physical", "Scales with what was measured", &with));
     }
     Ok(vec![section])
+}
+
+fn picture(experiment: &Experiment<'_>, scale: &Scale, shown: &[Bar]) -> Drawn {
+    let title = format!("{}: {}", experiment.design.title, scale.key);
+    let label = format!("{} to {} (± SE)", scale.low, scale.high);
+    let key = format!("scale-{}", file_name(&scale.key, '-'));
+    bars(&key, &title, &label, (shown, Some(scale.bounds())), &[])
 }
 
 fn bar(name: &str, values: &[f64]) -> Option<Bar> {

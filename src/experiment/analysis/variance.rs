@@ -57,23 +57,22 @@ fn row(effect: &Effect, n: usize) -> Vec<Cell> {
         Cell::of(&effect.partial_eta_squared),
         Cell::of(&effect.generalised_eta_squared),
     ];
-    match &effect.sphericity {
-        Some(s) => row.extend([
+    if let Some(s) = &effect.sphericity {
+        row.extend([
             Cell::of(&s.mauchly_w),
             Cell::of(&s.mauchly_p),
             s.greenhouse_geisser.into(),
             Cell::of(&s.p_greenhouse_geisser),
             Cell::of(&s.huynh_feldt),
             Cell::of(&s.p_huynh_feldt),
-        ]),
-        None => {
-            let why = if effect.df < 2.0 {
-                "two levels are always spherical"
-            } else {
-                "the error term does not vary"
-            };
-            row.extend((0..6).map(|_| Cell::none(why)));
-        }
+        ]);
+    } else {
+        let why = if effect.df < 2.0 {
+            "two levels are always spherical"
+        } else {
+            "the error term does not vary"
+        };
+        row.extend((0..6).map(|_| Cell::none(why)));
     }
     let told = match &effect.f {
         Ok(_) => String::new(),

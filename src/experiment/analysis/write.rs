@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use serde::ser::SerializeMap;
+use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
 use super::model::{Analysis, Cell, Drawn, Table};
