@@ -29,26 +29,7 @@ pub(super) fn section(experiment: &Experiment<'_>) -> Section {
     let of = |material: Option<&str>, condition: Option<&str>| {
         by_subject(experiment, &answers, [material, condition])
     };
-    let mut rows: Vec<(String, Vec<f64>)> = Vec::new();
-    let mut shown = Vec::new();
-    for condition in &conditions {
-        for material in &materials {
-            let values = of(Some(material), Some(condition));
-            if let Ok(s) = Summary::of(&values) {
-                shown.push(Bar {
-                    name: material.clone(),
-                    group: condition.clone(),
-                    value: s.mean,
-                    interval: Some([s.mean - s.se, s.mean + s.se]),
-                });
-            }
-            rows.push((format!("{material}, {condition}, %"), values));
-        }
-        rows.push((
-            format!("all materials, {condition}, %"),
-            of(None, Some(condition)),
-        ));
-    }
+    let (rows, shown) = cells(&materials, &conditions, &of);
     section.tables.push(summaries(
         "cells",
         "Called real (as Table 3 of the paper)",
@@ -74,6 +55,37 @@ pub(super) fn section(experiment: &Experiment<'_>) -> Section {
         &[(50.0, "half")],
     ));
     section
+}
+
+/// Percentages of subjects by what they are of.
+type Rows = Vec<(String, Vec<f64>)>;
+
+/// The percentages of a material and a condition, or of all of them.
+type Of<'a> = dyn Fn(Option<&str>, Option<&str>) -> Vec<f64> + 'a;
+
+/// Every cell, each condition over all materials, and what is drawn of them.
+fn cells(materials: &[String], conditions: &[String], of: &Of<'_>) -> (Rows, Vec<Bar>) {
+    let mut rows: Rows = Vec::new();
+    let mut shown = Vec::new();
+    for condition in conditions {
+        for material in materials {
+            let values = of(Some(material), Some(condition));
+            if let Ok(s) = Summary::of(&values) {
+                shown.push(Bar {
+                    name: material.clone(),
+                    group: condition.clone(),
+                    value: s.mean,
+                    interval: Some([s.mean - s.se, s.mean + s.se]),
+                });
+            }
+            rows.push((format!("{material}, {condition}, %"), values));
+        }
+        rows.push((
+            format!("all materials, {condition}, %"),
+            of(None, Some(condition)),
+        ));
+    }
+    (rows, shown)
 }
 
 /// Levels of a factor in the order of the design.

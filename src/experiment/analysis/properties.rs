@@ -217,13 +217,10 @@ fn own_speed(experiment: &Experiment<'_>) -> Option<f64> {
     let speed_of = |subject: &super::kept::Subject<'_>| {
         let paths = subject.sessions.iter().flat_map(|session| {
             let log = &session.found.log;
-            let read = |r: &&crate::experiment::Record| {
+            let read = |r: &crate::experiment::Record| {
                 ExplorationPath::read(&path_file(log, &r.trial, r.attempt)).ok()
             };
-            session
-                .trials
-                .iter()
-                .filter_map(move |record| read(&record))
+            session.trials.iter().filter_map(move |record| read(record))
         });
         let (mut way_mm, mut time_s) = (0.0, 0.0);
         for path in paths {
