@@ -92,8 +92,8 @@ fn parameter_section(
     let title = format!("{}: settings of {key}", experiment.design.title);
     let mut section = Section::new(experiment.key(&super::model::file_name(key, '-')), title);
     section.note(
-        "All settings of all subjects; sd with n − 1. From below: begun in the lower half of the range; \
-         from above: in the upper half. Logarithms where every setting is above 0.",
+        "All settings of all subjects; sd with n − 1. From below: begun in the lower half \
+         of the range; from above: in the upper half. Logarithms where every setting is above 0.",
     );
     let names = experiment.ids();
     let mut table = Table::new(

@@ -138,8 +138,8 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
         .push(tests("tests", "Against guessing", &all));
     section.tables.push(equivalence(&percents));
     section.note(format!(
-        "No difference found is not equivalence: two one-sided tests ask whether the share of right \
-         answers lies within 50 ± {BOUNDS_PERCENT} %."
+        "No difference found is not equivalence: two one-sided tests ask whether the share \
+         of right answers lies within 50 ± {BOUNDS_PERCENT} %."
     ));
     section
 }

@@ -70,14 +70,18 @@ pub(super) fn sections(
     let mut section = Section::new(experiment.key("thresholds"), title);
     section.note(format!(
         "{} at {} Hz, {} intervals, chance 1/{}. The function is {} of {}; all trials of a subject \
-         are fitted with lapses of 0 to 6 %. Its threshold is where half of what guesses and lapses \
-         leave is right. Intervals are central ones of the posterior.",
+         are fitted with lapses of 0 to 6 %. Its threshold is where half of what guesses \
+         and lapses leave is right. Intervals are central ones of the posterior.",
         levels.quantity(),
         levels.band.carrier_hz(),
         levels.intervals,
         levels.intervals,
         levels.shape().name(),
-        if levels.reference_db.is_some() { "the difference in dB" } else { "the level in dB" },
+        if levels.reference_db.is_some() {
+            "the difference in dB"
+        } else {
+            "the level in dB"
+        },
     ));
     let (table, thresholds, fits) = fitted(experiment, levels);
     section.tables.push(table);

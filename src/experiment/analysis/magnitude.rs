@@ -51,9 +51,10 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     let title = format!("{}: Stevens' exponents", experiment.design.title);
     let mut section = Section::new(experiment.key("exponents"), title);
     section.note(
-        "Number = constant · amplitude^exponent, a line between logarithms through geometric means; \
-         every subject's modulus is made that of the group first, which changes no exponent. The \
-         group's line has an interval by its scatter, the mean exponent one over subjects.",
+        "Number = constant · amplitude^exponent, a line between logarithms through \
+         geometric means; every subject's modulus is made that of the group first, which \
+         changes no exponent. The group's line has an interval by its scatter, the mean \
+         exponent one over subjects.",
     );
     let mut conditions: Vec<&str> = Vec::new();
     for stimulus in &experiment.design.stimuli {

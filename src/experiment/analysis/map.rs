@@ -118,9 +118,8 @@ impl Mapping<'_> {
         });
         match elbow.below_chance {
             Some(k) => section.note(format!("Below the 5 % point of random ranks from {k} on.")),
-            None if chance.is_empty() => section.note(
-                "A bend at one dimension shows only against random ranks, which were not asked for.",
-            ),
+            None if chance.is_empty() => section
+                .note("A bend at one dimension shows only against random ranks (not asked for)."),
             None => section.note("**No map lies below the 5 % point of random ranks.**"),
         }
         let line = |name: &str, of: &dyn Fn(&Map) -> f64| Series {

@@ -69,8 +69,8 @@ impl Mapping<'_> {
         if !turns.rows.is_empty() {
             section.note(
                 "Turned, with reflection allowed, so that r(axis 1, first measure) + r(axis 2, \
-                 second) is largest; p by permutation, the turn sought again each time; the interval \
-                 is Fisher's z and knows nothing of the turn, so it is optimistic.",
+                 second) is largest; p by permutation, the turn sought again each time; the \
+                 interval is Fisher's z and knows nothing of the turn, so it is optimistic.",
             );
             section.tables.push(turns);
         }

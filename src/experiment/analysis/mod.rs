@@ -1,7 +1,7 @@
 //! What the logs of an experiment say: tables, tests, maps and the papers' figures.
 //!
 //! ```text
-//! sessions ─▶ kept (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ write: page, CSV, JSON, SVG, PNG
+//! sessions ─▶ kept (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ files
 //!                                                                  └▶ a pane
 //! ```
 //!

@@ -151,9 +151,9 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     let title = format!("{}: accuracy", experiment.design.title);
     let mut section = Section::new(experiment.key("accuracy"), title);
     section.note(
-        "Chance is ⅓. d′ is that of the triangle test without bias; below chance it is 0. Intervals \
-         of shares are Wilson's, p is exact (binomial). Comparisons of distances in the manner of \
-         Craven are left out.",
+        "Chance is ⅓. d′ is that of the triangle test without bias; below chance it is 0. \
+         Intervals of shares are Wilson's, p is exact (binomial). Comparisons of distances \
+         in the manner of Craven are left out.",
     );
     let mut table = Table::new("subjects", "Right answers by subject and session", &SHARES);
     let mut shown = Vec::new();

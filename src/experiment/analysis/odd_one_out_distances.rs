@@ -21,9 +21,9 @@ pub(super) fn section(
     let mut section = Section::new(experiment.key("distances"), title);
     let GradeWeights { easy, normal, hard } = found.weights;
     section.note(format!(
-        "A right answer counts {easy}, {normal} or {hard} as it was easy, normal or hard, a wrong one \
-         0; the distance of two fabrics is the sum over all answers. {} pairs are at the ceiling \
-         (always right and easy), {} at the floor, {} were never asked.",
+        "A right answer counts {easy}, {normal} or {hard} as it was easy, normal or hard, a \
+         wrong one 0; the distance of two fabrics is the sum over all answers. {} pairs are \
+         at the ceiling (always right and easy), {} at the floor, {} were never asked.",
         found.n_ceiling, found.n_floor, found.n_missing
     ));
     let cells = found.distances().into_iter();

@@ -22,8 +22,8 @@ pub(super) fn section(
         Standard::Virtual | Standard::None => "virtual",
     };
     section.note(format!(
-        "Rows are targets ({kind}), columns alternatives; all subjects together. The diagonal is the \
-         target itself."
+        "Rows are targets ({kind}), columns alternatives; all subjects together. The \
+         diagonal is the target itself."
     ));
     let (counts, first) = (ranks.counts(), ranks.confusions());
     section.tables.push(targets(counts, first, names));

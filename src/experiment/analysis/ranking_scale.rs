@@ -15,10 +15,10 @@ pub(super) fn section(experiment: &Experiment<'_>, all: &[Rankings<'_>]) -> Sect
     let title = format!("{}: likeness by Plackett and Luce", experiment.design.title);
     let mut section = Section::new(experiment.key("scale"), title);
     section.note(format!(
-        "Log-worth of each alternative for each target, counted from the target: 0 is taken for the \
-         target as often as itself. Gamma prior of strength {STRENGTH}, as if every textile had been \
-         chosen so many times more, keeps worths finite. Errors are by curvature and take rankings \
-         for independent."
+        "Log-worth of each alternative for each target, counted from the target: 0 is taken \
+         for the target as often as itself. Gamma prior of strength {STRENGTH}, as if every \
+         textile had been chosen so many times more, keeps worths finite. Errors are by \
+         curvature and take rankings for independent."
     ));
     let names = experiment.ids();
     let columns = [
