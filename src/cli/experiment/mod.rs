@@ -1,5 +1,6 @@
 //! `selvedge experiment`: experiments on people without a window.
 
+mod analyse;
 mod designs;
 mod desk;
 mod run;
@@ -17,6 +18,8 @@ use crate::experiment::design::Design;
 pub(super) enum ExperimentCommand {
     /// Hold a session: what is to be laid is said, answers are typed
     Run(Box<run::RunArgs>),
+    /// Tables, tests and figures from the logs in a folder
+    Analyse(analyse::AnalyseArgs),
     /// The designs that are part of the program
     Designs(designs::DesignsArgs),
     /// Sessions of simulated observers, written as those of people are
@@ -27,6 +30,7 @@ pub(super) enum ExperimentCommand {
 pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
     match command {
         ExperimentCommand::Run(args) => run::run(args),
+        ExperimentCommand::Analyse(args) => analyse::run(args),
         ExperimentCommand::Designs(args) => designs::run(args),
         ExperimentCommand::Simulate(args) => simulate::run(args),
     }

@@ -1,0 +1,67 @@
+//! `selvedge experiment analyse`: tables, tests and figures from the logs in a folder.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::super::terminal::Meter;
+use super::super::{CliError, output, signals};
+use crate::app;
+use crate::experiment::analysis::{Analysis, Options, analyse_folder};
+use crate::progress::{CancelFlag, Progress};
+
+/// Logs, and how they are analysed.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct AnalyseArgs {
+    /// Folder of the logs, each with its .json beside it
+    logs: PathBuf,
+    /// Folder for index.md, tables and figures; it is made where it is missing
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+    /// What chance begins with: starts of maps, permutations, draws of subjects
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Maps of subjects drawn anew, from which the ellipses follow; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    maps: u16,
+    /// Permutations for p values
+    #[arg(long, value_name = "N", default_value_t = 4999,
+        value_parser = clap::value_parser!(u32).range(99..=1_000_000))]
+    permutations: u32,
+    /// Sets of random ranks to compare the stress of maps with; 100 may take minutes
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    random_data: u16,
+}
+
+/// Analyses the logs, and writes what was found.
+pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
+    let options = Options {
+        seed: args.seed,
+        n_permutations: usize::try_from(args.permutations).unwrap_or(usize::MAX),
+        n_maps: usize::from(args.maps),
+        n_random_data: usize::from(args.random_data),
+        cache: app::build_cache(),
+        ..Options::default()
+    };
+    let cancel = CancelFlag::shared(signals::stop_flag()?);
+    let mut meter = Meter::new("analysing");
+    let mut report = |share: f64, doing: &str| meter.show(share, doing);
+    let analysis = analyse_folder(
+        &args.logs,
+        &options,
+        &mut Progress::new(&mut report, cancel),
+    )?;
+    drop(meter);
+    analysis.write(&args.out)?;
+    output::print(&summary(&analysis, args))
+}
+
+fn summary(analysis: &Analysis, args: &AnalyseArgs) -> String {
+    let n_tables: usize = analysis.sections.iter().map(|s| s.tables.len()).sum();
+    let n_figures: usize = analysis.sections.iter().map(|s| s.figures.len()).sum();
+    format!(
+        "{}\n{n_tables} tables and {n_figures} figures; begin with {}\n",
+        analysis.title,
+        args.out.join("index.md").display()
+    )
+}

@@ -1,0 +1,342 @@
+//! Adjustment: what parameters were left at, by stimulus and by where they began; gains matched to
+//! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
+
+use super::Options;
+use super::draw::{Bar, axis, bars, scatter};
+use super::kept::Experiment;
+use super::map::undefined;
+use super::model::{Cell, Section, Table, tests};
+use super::properties::Measures;
+use super::variance::effects;
+use crate::experiment::design::{Adjusting, Standard, Tunable, TunedParameter};
+use crate::experiment::{Answer, Task};
+use crate::figure::{Series, Style};
+use crate::numerics::LineFit;
+use crate::progress::{Cancelled, Progress};
+use crate::quantity::factor_of_gain;
+use crate::statistics::psychometric::{Adjustments, Settings, Starts};
+use crate::statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
+use crate::statistics::{Computed, Interval, Summary, Undefined, one_sample_t, t_quantile_upper};
+
+/// A setting of one parameter.
+struct Setting<'a> {
+    subject: &'a str,
+    item: usize,
+    start: f64,
+    value: f64,
+}
+
+fn settings<'a>(experiment: &Experiment<'a>, nth: usize) -> Vec<Setting<'a>> {
+    let mut all = Vec::new();
+    for subject in &experiment.subjects {
+        for record in subject.trials() {
+            if let (Task::Adjust { item, starts }, Some(Answer::Adjusted { values, .. })) =
+                (&record.trial.task, record.answer())
+                && let (Some(start), Some(value)) = (starts.get(nth), values.get(nth))
+            {
+                all.push(Setting {
+                    subject: subject.name,
+                    item: *item,
+                    start: *start,
+                    value: *value,
+                });
+            }
+        }
+    }
+    all
+}
+
+pub(super) fn sections(
+    experiment: &Experiment<'_>,
+    adjusting: &Adjusting,
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Section>, Cancelled> {
+    let mut sections = Vec::new();
+    for (nth, parameter) in adjusting.parameters.iter().enumerate() {
+        let all = settings(experiment, nth);
+        sections.push(parameter_section(experiment, parameter, &all));
+        let is_matching =
+            parameter.what == Tunable::Gain && adjusting.standard == Standard::RealCloth;
+        if is_matching {
+            let measures = Measures::of(experiment, options, progress)?;
+            sections.push(compression(experiment, &all, &measures));
+        }
+    }
+    Ok(sections)
+}
+
+const STIMULI: [(&str, &str); 14] = [
+    ("item", "stimulus"),
+    ("n", "settings"),
+    ("mean", "mean"),
+    ("sd", "sd"),
+    ("se", "SE"),
+    ("ascending_n", "from below"),
+    ("ascending_mean", "mean"),
+    ("descending_n", "from above"),
+    ("descending_mean", "mean"),
+    ("difference", "from below less from above"),
+    ("difference_p", "p (Welch)"),
+    ("geometric_mean", "geometric mean"),
+    ("log_sd", "sd of logarithms"),
+    ("subjects", "subjects"),
+];
+
+fn parameter_section(
+    experiment: &Experiment<'_>,
+    parameter: &TunedParameter,
+    all: &[Setting<'_>],
+) -> Section {
+    let key = parameter.what.name();
+    let title = format!("{}: settings of {key}", experiment.design.title);
+    let mut section = Section::new(experiment.key(&super::model::file_name(key, '-')), title);
+    section.note(
+        "All settings of all subjects; sd with n − 1. From below: begun in the lower half \
+         of the range; from above: in the upper half. Logarithms where every setting is above 0.",
+    );
+    let names = experiment.ids();
+    let mut table = Table::new(
+        "stimuli",
+        &format!("Settings of {key} by stimulus"),
+        &STIMULI,
+    );
+    let mut shown = Vec::new();
+    let middle = 0.5 * (parameter.from + parameter.to);
+    for (item, name) in names.iter().enumerate() {
+        let own: Vec<&Setting<'_>> = all.iter().filter(|s| s.item == item).collect();
+        table.push(stimulus_row(name, &own, middle));
+        let values: Vec<f64> = own.iter().map(|s| s.value).collect();
+        if let Ok(s) = Summary::of(&values) {
+            shown.push(Bar {
+                name: name.clone(),
+                group: String::new(),
+                value: s.mean,
+                interval: Some([s.mean - s.sd, s.mean + s.sd]),
+            });
+        }
+    }
+    section.tables.push(table);
+    let title = format!("{}: {key}, mean ± sd", experiment.design.title);
+    section
+        .figures
+        .push(bars("bars", &title, key, (&shown, None), &[]));
+    let (crossed, rows) = by_subject(all, &names);
+    let variance = crossed.and_then(|table| repeated_one_way(&table));
+    section
+        .tables
+        .push(effects("anova", "Stimuli, within subjects", &variance));
+    let mut found = vec![("stimuli".to_owned(), rows.and_then(|rows| friedman(&rows)))];
+    let hysteresis = start_effect(experiment, all, middle);
+    found.push((
+        "begun high less begun low, subject by subject".to_owned(),
+        hysteresis
+            .and_then(|d| Summary::of(&d))
+            .and_then(|s| one_sample_t(&s, 0.0)),
+    ));
+    section
+        .tables
+        .push(tests("tests", "Stimuli, and where it began", &found));
+    section
+}
+
+fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
+    let part = |is_low: bool| -> Vec<f64> {
+        let from = own.iter().filter(|s| (s.start < middle) == is_low);
+        from.map(|s| s.value).collect()
+    };
+    let (ascending, descending) = (part(true), part(false));
+    let starts = Starts {
+        ascending: &ascending,
+        descending: &descending,
+    };
+    let linear = Adjustments::of(starts, Settings::Linear);
+    let log = Adjustments::of(starts, Settings::Log);
+    let mut row = vec![Cell::from(name), own.len().into()];
+    let of = |part: &dyn Fn(&Adjustments) -> Computed| linear.clone().and_then(|a| part(&a));
+    row.push(Cell::of(&of(&|a| Ok(a.all.mean))));
+    row.push(Cell::of(&of(&|a| Ok(a.all.sd))));
+    row.push(Cell::of(&of(&|a| Ok(a.all.se))));
+    for values in [&ascending, &descending] {
+        row.push(values.len().into());
+        row.push(Cell::of(&crate::statistics::mean(values)));
+    }
+    row.push(Cell::of(&of(&|a| {
+        a.difference.clone()?.estimate.map(|e| e.value)
+    })));
+    row.push(Cell::of(&of(&|a| Ok(a.difference.clone()?.p))));
+    row.push(Cell::of(&log.clone().map(|a| a.centre)));
+    row.push(Cell::of(&log.map(|a| a.all.sd)));
+    let mut subjects: Vec<&str> = own.iter().map(|s| s.subject).collect();
+    subjects.sort_unstable();
+    subjects.dedup();
+    row.push(subjects.len().into());
+    row
+}
+
+type Rows = Computed<Vec<Vec<f64>>>;
+
+/// Subjects by stimuli, means of repeats.
+fn by_subject(all: &[Setting<'_>], names: &[String]) -> (Computed<Crossed>, Rows) {
+    let answer = |s: &Setting<'_>| CellAnswer {
+        subject: s.subject.to_owned(),
+        levels: vec![names[s.item].clone()],
+        value: s.value,
+    };
+    let answers: Vec<CellAnswer> = all.iter().map(answer).collect();
+    let crossed = Crossed::of_answers(&["stimulus"], &answers);
+    let rows = crossed.clone().and_then(|table| {
+        let values = table.complete()?;
+        Ok(values
+            .chunks(table.n_cells().max(1))
+            .map(<[f64]>::to_vec)
+            .collect())
+    });
+    (crossed, rows)
+}
+
+/// What subjects set when it began high less when it began low.
+fn start_effect(
+    experiment: &Experiment<'_>,
+    all: &[Setting<'_>],
+    middle: f64,
+) -> Computed<Vec<f64>> {
+    let mean_of = |name: &str, is_low: bool| {
+        let own = all
+            .iter()
+            .filter(|s| s.subject == name && (s.start < middle) == is_low);
+        crate::statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>())
+    };
+    let of = |subject: &super::kept::Subject<'_>| {
+        Ok(mean_of(subject.name, false)? - mean_of(subject.name, true)?)
+    };
+    experiment.subjects.iter().map(of).collect()
+}
+
+/// The slope of matched gain on level with its interval by Student's t.
+pub(super) fn slope(points: &[[f64; 2]]) -> Computed<(LineFit, Interval)> {
+    let line = LineFit::through(points)
+        .ok_or_else(|| Undefined::because("the levels of the stimuli do not differ"))?;
+    let df = points.len() as f64 - 2.0;
+    let t = t_quantile_upper(0.025, df)
+        .map_err(|_none| Undefined::because("two stimuli leave no scatter about a line"))?;
+    let half = t * line.slope_error;
+    let interval = Interval {
+        low: line.slope - half,
+        high: line.slope + half,
+        level: 0.95,
+    };
+    Ok((line, interval))
+}
+
+/// The compression that the matched gains amount to: gain = offset − κ (level − reference).
+fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Measures) -> Section {
+    let title = format!(
+        "{}: compression from matched gains",
+        experiment.design.title
+    );
+    let mut section = Section::new(experiment.key("compression"), title);
+    section.note(
+        "Matched gain over the textile's level, of both bands at 100 mm/s: a line of slope \
+         −κ is what a compression κ makes. κ is fitted to the means over subjects, and to each \
+         subject's own; the interval of the group is Student's t over subjects.",
+    );
+    let Some(level) = measures.named("level_db") else {
+        section.notes.extend(measures.notes.iter().cloned());
+        section.note("**No compression**: the levels of the textiles are not known.");
+        return section;
+    };
+    if let Some(tuning) = experiment.design.tuning.filter(|t| t.compression > 0.0) {
+        section.note(format!(
+            "The design's own compression of {} was in force: κ is what is asked for besides.",
+            tuning.compression
+        ));
+    }
+    let means = |name: Option<&str>| -> Vec<[f64; 2]> {
+        let of = |(item, level): (usize, &f64)| {
+            let own = all
+                .iter()
+                .filter(|s| s.item == item && name.is_none_or(|n| s.subject == n));
+            let mean = crate::statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>());
+            Some([*level, mean.ok()?])
+        };
+        level.values.iter().enumerate().filter_map(of).collect()
+    };
+    let (table, kappas) = kappas(experiment, &means);
+    section.tables.push(table);
+    let t = Summary::of(&kappas).and_then(|s| one_sample_t(&s, 0.0));
+    section.tables.push(tests(
+        "tests",
+        "κ over subjects against none",
+        &[("κ".to_owned(), t)],
+    ));
+    section.figures.push(gain_plot(experiment, &means(None)));
+    section
+}
+
+/// κ of every subject and of the means over them; those of the subjects alone.
+fn kappas(
+    experiment: &Experiment<'_>,
+    means: &dyn Fn(Option<&str>) -> Vec<[f64; 2]>,
+) -> (Table, Vec<f64>) {
+    let columns = [
+        ("subject", "subject"),
+        ("n", "stimuli"),
+        ("kappa", "κ"),
+        ("ci_low", "95 % CI from"),
+        ("ci_high", "to"),
+        ("gain_at_0_db", "gain at 0 dB re 1 µm, dB"),
+        ("amplitude_factor_at_0_db", "as a factor"),
+    ];
+    let mut table = Table::new("kappa", "Compression", &columns);
+    let mut kappas = Vec::new();
+    let names = experiment.subjects.iter().map(|s| Some(s.name));
+    for name in names.chain([None]) {
+        let points = means(name);
+        let found = slope(&points);
+        let mut row = vec![
+            Cell::from(name.unwrap_or("means over subjects")),
+            points.len().into(),
+        ];
+        match &found {
+            Ok((line, interval)) => {
+                if name.is_some() {
+                    kappas.push(-line.slope);
+                }
+                row.extend([-line.slope, -interval.high, -interval.low].map(Cell::from));
+                row.extend([line.offset, factor_of_gain(line.offset)].map(Cell::from));
+            }
+            Err(why) => row.extend(undefined(why, 5)),
+        }
+        table.push(row);
+    }
+    (table, kappas)
+}
+
+fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> super::model::Drawn {
+    let mut series = vec![Series {
+        name: "mean over subjects".to_owned(),
+        points: points.to_vec(),
+        ..Series::default()
+    }];
+    if let Ok((line, _)) = slope(points) {
+        let x = points.iter().map(|p| p[0]);
+        let low = x.clone().fold(f64::INFINITY, f64::min);
+        let high = x.fold(f64::NEG_INFINITY, f64::max);
+        let kappa = crate::quantity::fixed(-line.slope, 2);
+        series.push(Series {
+            name: format!("κ = {kappa}"),
+            points: [low, high]
+                .map(|x| [x, line.offset + line.slope * x])
+                .to_vec(),
+            style: Style::Line,
+            ..Series::default()
+        });
+    }
+    let title = format!("{}: matched gain over level", experiment.design.title);
+    let axes = [
+        axis("level of the textile, dB re 1 µm"),
+        axis("matched gain, dB"),
+    ];
+    scatter("gain", &title, axes, series)
+}

@@ -1,0 +1,241 @@
+//! Figures of the kinds that the papers print, from plain numbers.
+
+use super::model::{Cell, Drawn, Table};
+use crate::figure::{
+    At, Axis, ColourBar, Extent, Figure, Ink, Panel, Row, Rule, Scale, Series, Style, Tone,
+    Upright, Words,
+};
+
+/// Height of a figure's frame, px.
+const HEIGHT_PX: f64 = 360.0;
+
+/// A value with its name and, where there is one, its interval.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bar {
+    pub(super) name: String,
+    /// Which group it belongs to: bars of one group share a colour.
+    pub(super) group: String,
+    pub(super) value: f64,
+    pub(super) interval: Option<[f64; 2]>,
+}
+
+/// Bars with error bars, groups side by side, and levels to compare with.
+pub(super) fn bars(
+    key: &str,
+    title: &str,
+    label: &str,
+    (bars, range): (&[Bar], Option<[f64; 2]>),
+    rules: &[(f64, &str)],
+) -> Drawn {
+    let mut names: Vec<&str> = Vec::new();
+    let mut groups: Vec<&str> = Vec::new();
+    for bar in bars {
+        if !names.contains(&bar.name.as_str()) {
+            names.push(&bar.name);
+        }
+        if !groups.contains(&bar.group.as_str()) {
+            groups.push(&bar.group);
+        }
+    }
+    // Rows from the top, on an axis that rises.
+    let n = names.len() as f64;
+    let place = |bar: &Bar| {
+        let row = names.iter().position(|name| *name == bar.name);
+        let group = groups.iter().position(|group| *group == bar.group);
+        let within = (group.unwrap_or(0) as f64 + 0.5) / groups.len() as f64 - 0.5;
+        n - row.unwrap_or(0) as f64 - 0.6 * within
+    };
+    let series = bar_series(bars, &groups, &place);
+    let ends = range.unwrap_or_else(|| span(bars));
+    let panel = Panel {
+        x: Axis {
+            label: label.to_owned(),
+            range: Some(ends),
+            ..Axis::default()
+        },
+        y: rows_axis(n),
+        upright: Upright::Shared,
+        series,
+        rules: rules
+            .iter()
+            .map(|(at, label)| dashed(At::X(*at), label))
+            .collect(),
+        width: 1.0,
+        ..Panel::default()
+    };
+    let height_px = (90.0 + 26.0 * n * (1.0 + 0.3 * (groups.len() as f64 - 1.0))).max(160.0);
+    Drawn {
+        key: key.to_owned(),
+        figure: figure(title, vec![list(&names), panel], height_px, None),
+        points: bar_table(bars, label),
+    }
+}
+
+/// Intervals as lines, then the values of each group as dots.
+fn bar_series(bars: &[Bar], groups: &[&str], place: &dyn Fn(&Bar) -> f64) -> Vec<Series> {
+    let mut series = Vec::new();
+    for bar in bars {
+        if let Some([low, high]) = bar.interval {
+            let at = place(bar);
+            series.push(Series {
+                points: vec![[low, at], [high, at]],
+                style: Style::Line,
+                ink: Ink::Grey,
+                ..Series::default()
+            });
+        }
+    }
+    for group in groups {
+        let own = bars.iter().filter(|bar| bar.group == *group);
+        series.push(Series {
+            name: if groups.len() > 1 {
+                (*group).to_owned()
+            } else {
+                String::new()
+            },
+            points: own.map(|bar| [bar.value, place(bar)]).collect(),
+            ..Series::default()
+        });
+    }
+    series
+}
+
+/// A panel with names one under the other, beside a panel with their rows.
+pub(super) fn list(names: &[&str]) -> Panel {
+    let n = names.len() as f64;
+    let longest = names
+        .iter()
+        .map(|name| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    let words = names.iter().enumerate().map(|(at, name)| Words {
+        at: [0.1, n - at as f64 + 0.28],
+        text: (*name).to_owned(),
+        tone: Tone::Aside,
+    });
+    Panel {
+        // No whole number lies between, so that nothing stands below it.
+        x: Axis {
+            range: Some([0.1, 0.9]),
+            scale: Scale::Whole,
+            ..Axis::default()
+        },
+        y: rows_axis(n),
+        upright: Upright::Shared,
+        words: words.collect(),
+        width: (0.06 + 0.012 * longest as f64).clamp(0.1, 0.5),
+        ..Panel::default()
+    }
+}
+
+fn rows_axis(n: f64) -> Axis {
+    Axis {
+        scale: Scale::Whole,
+        range: Some([0.4, n + 0.6]),
+        ..Axis::default()
+    }
+}
+
+fn span(bars: &[Bar]) -> [f64; 2] {
+    let values = bars.iter().flat_map(|bar| {
+        let ends = bar.interval.unwrap_or([bar.value; 2]);
+        [bar.value, ends[0], ends[1]]
+    });
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
+    let margin = if high > low { 0.08 * (high - low) } else { 1.0 };
+    if low.is_finite() {
+        [low - margin, high + margin]
+    } else {
+        [0.0, 1.0]
+    }
+}
+
+fn bar_table(bars: &[Bar], label: &str) -> Table {
+    let columns = [
+        ("name", ""),
+        ("group", "group"),
+        ("value", label),
+        ("low", "from"),
+        ("high", "to"),
+    ];
+    let mut table = Table::new("points", "", &columns);
+    for bar in bars {
+        let ends = match bar.interval {
+            Some(ends) => ends.map(Cell::from),
+            None => [(); 2].map(|()| Cell::none("no interval")),
+        };
+        let [low, high] = ends;
+        table.push([
+            bar.name.as_str().into(),
+            bar.group.as_str().into(),
+            bar.value.into(),
+            low,
+            high,
+        ]);
+    }
+    table
+}
+
+fn dashed(at: At, label: &str) -> Rule {
+    Rule {
+        at,
+        label: label.to_owned(),
+        ink: Ink::Grey,
+        extent: Extent::Dashed,
+    }
+}
+
+/// Panels side by side under a title.
+pub(super) fn figure(
+    title: &str,
+    panels: Vec<Panel>,
+    height_px: f64,
+    bar: Option<ColourBar>,
+) -> Figure {
+    Figure {
+        title: title.to_owned(),
+        rows: vec![Row {
+            panels,
+            height_px,
+            bar,
+        }],
+        ..Figure::default()
+    }
+}
+
+/// Dots and lines by name over two axes.
+pub(super) fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Series>) -> Drawn {
+    let columns = [
+        ("series", "series"),
+        ("x", axes[0].label.as_str()),
+        ("y", axes[1].label.as_str()),
+    ];
+    let mut points = Table::new("points", "", &columns);
+    for one in &series {
+        for [x, y] in &one.points {
+            points.push([one.name.as_str().into(), (*x).into(), (*y).into()]);
+        }
+    }
+    let [x, y] = axes;
+    let panel = Panel {
+        x,
+        y,
+        series,
+        ..Panel::default()
+    };
+    Drawn {
+        key: key.to_owned(),
+        figure: figure(title, vec![panel], HEIGHT_PX, None),
+        points,
+    }
+}
+
+/// An axis with a label.
+pub(super) fn axis(label: &str) -> Axis {
+    Axis {
+        label: label.to_owned(),
+        ..Axis::default()
+    }
+}

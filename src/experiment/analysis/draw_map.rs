@@ -1,0 +1,238 @@
+//! Maps of named points, and squares of colours.
+
+use super::draw::{figure, list};
+use super::model::{Cell, Column, Drawn, Table};
+use crate::figure::{
+    Axis, ColourBar, Ink, Panel, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
+};
+use crate::statistics::properties::Ellipse;
+
+/// Corners of an ellipse.
+const N_CORNERS: u32 = 48;
+
+/// A map of named points with ellipses around them and directions in which measures rise.
+pub(super) struct MapDrawing<'a> {
+    pub(super) names: &'a [String],
+    pub(super) points: &'a [Vec<f64>],
+    pub(super) axes: [&'a str; 2],
+    pub(super) ellipses: &'a [Ellipse],
+    /// Name and direction, as long as its multiple correlation.
+    pub(super) directions: &'a [(String, [f64; 2])],
+}
+
+impl MapDrawing<'_> {
+    /// The drawing of a plane map; on a line, the second axis is 0.
+    pub(super) fn drawn(&self, key: &str, title: &str, notes: Vec<String>) -> Drawn {
+        let at = |p: &[f64]| {
+            [
+                p.first().copied().unwrap_or(0.0),
+                p.get(1).copied().unwrap_or(0.0),
+            ]
+        };
+        let places: Vec<[f64; 2]> = self.points.iter().map(|p| at(p)).collect();
+        let mut series: Vec<Series> = self.ellipses.iter().map(outline).collect();
+        let mut words = Vec::new();
+        for (name, direction) in self.directions {
+            series.push(Series {
+                name: name.clone(),
+                points: vec![[0.0; 2], *direction],
+                style: Style::Line,
+                weight: Weight::Bold,
+                ..Series::default()
+            });
+        }
+        series.push(Series {
+            points: places.clone(),
+            ink: Ink::Black,
+            ..Series::default()
+        });
+        for (name, place) in self.names.iter().zip(&places) {
+            words.push(Words {
+                at: *place,
+                text: name.clone(),
+                tone: Tone::Aside,
+            });
+        }
+        let corners = series.iter().flat_map(|s| s.points.iter().flatten());
+        let reach = 1.12 * corners.fold(0.5_f64, |most, x| most.max(x.abs()));
+        // Both axes to one scale: a frame is about 1.6 times as wide as it is high.
+        let height_px = 520.0;
+        let wide = reach * 780.0 / height_px;
+        let axis = |label: &str, reach: f64| Axis {
+            label: label.to_owned(),
+            range: Some([-reach, reach]),
+            ..Axis::default()
+        };
+        let panel = Panel {
+            x: axis(self.axes[0], wide),
+            y: axis(self.axes[1], reach),
+            series,
+            words,
+            ..Panel::default()
+        };
+        let mut figure = figure(title, vec![panel], height_px, None);
+        figure.notes = notes;
+        Drawn {
+            key: key.to_owned(),
+            figure,
+            points: self.table(),
+        }
+    }
+
+    fn table(&self) -> Table {
+        let columns = [
+            ("name", ""),
+            ("x1", "x₁"),
+            ("x2", "x₂"),
+            ("ellipse_x1", "middle x₁"),
+            ("ellipse_x2", "middle x₂"),
+            ("half_axis_1", "half axis"),
+            ("half_axis_2", "half axis"),
+            ("angle_deg", "angle, °"),
+        ];
+        let mut table = Table::new("points", "", &columns);
+        for (i, name) in self.names.iter().enumerate() {
+            let mut row = vec![Cell::from(name.as_str())];
+            let coordinate = |axis: usize| self.points.get(i).and_then(|p| p.get(axis));
+            row.extend([0, 1].map(|axis| {
+                coordinate(axis).map_or_else(|| Cell::none("a line has one axis"), |x| (*x).into())
+            }));
+            row.extend(match self.ellipses.get(i) {
+                Some(e) => [
+                    e.middle[0],
+                    e.middle[1],
+                    e.half_axes[0],
+                    e.half_axes[1],
+                    e.angle_rad.to_degrees(),
+                ]
+                .map(Cell::from),
+                None => [(); 5].map(|()| Cell::none("no ellipse")),
+            });
+            table.push(row);
+        }
+        for (name, direction) in self.directions {
+            let blank = [(); 5].map(|()| Cell::none("a direction"));
+            let mut row = vec![
+                Cell::from(name.as_str()),
+                direction[0].into(),
+                direction[1].into(),
+            ];
+            row.extend(blank);
+            table.push(row);
+        }
+        table
+    }
+}
+
+fn outline(ellipse: &Ellipse) -> Series {
+    let (sin, cos) = ellipse.angle_rad.sin_cos();
+    let corner = |nth: u32| {
+        let turn = f64::from(nth) / f64::from(N_CORNERS) * std::f64::consts::TAU;
+        let [a, b] = [
+            ellipse.half_axes[0] * turn.cos(),
+            ellipse.half_axes[1] * turn.sin(),
+        ];
+        [
+            ellipse.middle[0] + a * cos - b * sin,
+            ellipse.middle[1] + a * sin + b * cos,
+        ]
+    };
+    Series {
+        points: (0..=N_CORNERS).map(corner).collect(),
+        style: Style::Line,
+        ink: Ink::Grey,
+        weight: Weight::Thin,
+        ..Series::default()
+    }
+}
+
+/// A square of colours, darker for more, with names beside the rows.
+pub(super) fn heat(
+    key: &str,
+    title: &str,
+    label: &str,
+    names: &[String],
+    values: &[Option<f64>],
+) -> Drawn {
+    let n = names.len();
+    let known = values.iter().flatten().copied();
+    let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
+    let (low, high) = if high > low {
+        (low, high)
+    } else {
+        (0.0, 1.0_f64.max(high))
+    };
+    let colour = |value: f64| shade((value - low) / (high - low));
+    let range = Some([0.5, n as f64 + 0.5]);
+    let of_names = || Axis {
+        scale: Scale::Whole,
+        range,
+        ..Axis::default()
+    };
+    let numbered: Vec<String> = names
+        .iter()
+        .zip(1_u32..)
+        .map(|(name, at)| format!("{at} {name}"))
+        .collect();
+    let numbered: Vec<&str> = numbered.iter().map(String::as_str).collect();
+    let square = Panel {
+        x: Axis {
+            label: "as in the list".to_owned(),
+            ..of_names()
+        },
+        y: of_names(),
+        upright: Upright::Downward,
+        raster: Some(Raster {
+            n_columns: n,
+            cells: values.iter().map(|v| v.map(colour)).collect(),
+        }),
+        width: 1.0,
+        ..Panel::default()
+    };
+    let bar = ColourBar {
+        axis: Axis {
+            label: label.to_owned(),
+            range: Some([low, high]),
+            ..Axis::default()
+        },
+        colours: (0..=32).map(|i| shade(f64::from(i) / 32.0)).collect(),
+    };
+    let points = heat_table(label, names, values);
+    Drawn {
+        key: key.to_owned(),
+        figure: figure(title, vec![square, list(&numbered)], 420.0, Some(bar)),
+        points,
+    }
+}
+
+fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
+    let n = names.len();
+    let mut points = Table::new("points", "", &[("row", "row"), ("column", "column")]);
+    points.columns.push(Column {
+        name: "value".to_owned(),
+        heading: label.to_owned(),
+    });
+    for (at, value) in values.iter().enumerate() {
+        let value = value.map_or_else(|| Cell::none("never met, or itself"), Cell::from);
+        points.push([
+            names[at / n].as_str().into(),
+            names[at % n].as_str().into(),
+            value,
+        ]);
+    }
+    points
+}
+
+/// From nearly white to deep blue.
+fn shade(share: f64) -> [u8; 3] {
+    let (light, dark) = ([247.0, 250.0, 253.0], [8.0, 48.0, 107.0]);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and 255"
+    )]
+    let mix = |i: usize| (light[i] + (dark[i] - light[i]) * share.clamp(0.0, 1.0)).round() as u8;
+    [0, 1, 2].map(mix)
+}

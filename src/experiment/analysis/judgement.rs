@@ -1,0 +1,291 @@
+//! Real or generated (Cai et al. 2021, phase 2): sensitivity and bias by subject, confidence, and
+//! whether material and condition matter to what is called real.
+
+use super::kept::{Experiment, Subject};
+use super::map::undefined;
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
+use super::{Options, judgement_cells, judgement_confidence};
+use crate::experiment::design::{Judging, JudgingProtocol};
+use crate::experiment::{Answer, Record, Task};
+use crate::statistics::detection::{Answers, Correction, forced_choice, yes_no};
+use crate::statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip, tost};
+
+/// Bounds within which a difference of percentages counts as none, points.
+const BOUNDS_PERCENT: f64 = 10.0;
+
+#[expect(
+    clippy::struct_field_names,
+    reason = "what was said is told from what is"
+)]
+/// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
+pub(super) struct Said {
+    pub(super) item: usize,
+    pub(super) is_real: bool,
+    pub(super) said_real: bool,
+    pub(super) confidence: Option<u8>,
+}
+
+pub(super) fn said(record: &Record) -> Vec<Said> {
+    match (&record.trial.task, record.answer()) {
+        (
+            Task::Judge { item, is_real },
+            Some(Answer::Judged {
+                is_real: said,
+                confidence,
+            }),
+        ) => {
+            vec![Said {
+                item: *item,
+                is_real: *is_real,
+                said_real: *said,
+                confidence: *confidence,
+            }]
+        }
+        (
+            Task::JudgePair { items, real },
+            Some(Answer::Chosen {
+                position,
+                confidence,
+            }),
+        ) => {
+            let of = |at: usize| Said {
+                item: items[at],
+                is_real: at == *real,
+                said_real: at == *position,
+                confidence: *confidence,
+            };
+            vec![of(0), of(1)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+pub(super) fn sections(
+    experiment: &Experiment<'_>,
+    judging: &Judging,
+    options: &Options,
+) -> Vec<Section> {
+    let mut all = vec![sensitivity(experiment, judging, options)];
+    if judging.confidence_grades > 1 && judging.protocol == JudgingProtocol::Single {
+        all.push(judgement_confidence::section(experiment, judging));
+    }
+    all.push(judgement_cells::section(experiment));
+    all
+}
+
+fn right_of(subject: &Subject<'_>) -> (u64, u64) {
+    let verdicts: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
+    (
+        verdicts.iter().filter(|r| **r).count() as u64,
+        verdicts.len() as u64,
+    )
+}
+
+fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options) -> Section {
+    let title = format!("{}: sensitivity and bias", experiment.design.title);
+    let mut section = Section::new(experiment.key("sensitivity"), title);
+    let (table, d_primes) = match judging.protocol {
+        JudgingProtocol::Single => {
+            section.note(
+                "A hit is a real one called real, a false alarm a generated one called real. Rates \
+                 enter z with the log-linear correction, (count + ½)/(n + 1); counts are as they \
+                 were. c > 0: rather not called real.",
+            );
+            yes_no_table(experiment)
+        }
+        JudgingProtocol::Pair => {
+            section
+                .note("The real one of two was to be found: d′ of two alternatives without bias.");
+            pair_table(experiment)
+        }
+    };
+    section.tables.push(table);
+    let percents: Vec<f64> = experiment
+        .subjects
+        .iter()
+        .map(right_of)
+        .map(|(right, n)| 100.0 * right as f64 / n as f64)
+        .collect();
+    let means = [
+        ("right, %".to_owned(), percents.clone()),
+        ("d′".to_owned(), d_primes.clone()),
+    ];
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
+    let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
+    let from_half: Vec<f64> = percents.iter().map(|p| p - 50.0).collect();
+    let pooled: (u64, u64) = experiment
+        .subjects
+        .iter()
+        .map(right_of)
+        .fold((0, 0), |(a, b), (right, n)| (a + right, b + n));
+    let all = [
+        ("right, % against 50".to_owned(), t(&percents, 50.0)),
+        (
+            "right, % less 50, signs flipped".to_owned(),
+            sign_flip(&from_half, options.n_permutations, options.seed),
+        ),
+        ("d′ against 0".to_owned(), t(&d_primes, 0.0)),
+        (
+            "right, subjects pooled as if independent".to_owned(),
+            exact_binomial(pooled.0, pooled.1, 0.5, Sides::Two),
+        ),
+    ];
+    section
+        .tables
+        .push(tests("tests", "Against guessing", &all));
+    section.tables.push(equivalence(&percents));
+    section.note(format!(
+        "No difference found is not equivalence: two one-sided tests ask whether the share \
+         of right answers lies within 50 ± {BOUNDS_PERCENT} %."
+    ));
+    section
+}
+
+const YES_NO: [(&str, &str); 14] = [
+    ("subject", "subject"),
+    ("hits", "hits"),
+    ("n_real", "of real"),
+    ("false_alarms", "false alarms"),
+    ("n_generated", "of generated"),
+    ("hit_rate", "H, corrected"),
+    ("false_alarm_rate", "F, corrected"),
+    ("correction", "correction"),
+    ("d_prime", "d′"),
+    ("d_prime_ci_low", "95 % CI from"),
+    ("d_prime_ci_high", "to"),
+    ("criterion", "c"),
+    ("ln_beta", "ln β"),
+    ("uncorrected_d_prime", "d′ uncorrected"),
+];
+
+fn counts(subject: &Subject<'_>) -> Answers {
+    let mut answers = Answers {
+        hits: 0,
+        n_signal: 0,
+        false_alarms: 0,
+        n_noise: 0,
+    };
+    for said in subject.trials().flat_map(said) {
+        let (n, yes) = if said.is_real {
+            (&mut answers.n_signal, &mut answers.hits)
+        } else {
+            (&mut answers.n_noise, &mut answers.false_alarms)
+        };
+        *n += 1;
+        *yes += u64::from(said.said_real);
+    }
+    answers
+}
+
+fn yes_no_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
+    let mut table = Table::new("subjects", "Sensitivity and bias by subject", &YES_NO);
+    let mut d_primes = Vec::new();
+    for subject in &experiment.subjects {
+        let answers = counts(subject);
+        let mut row = vec![
+            Cell::from(subject.name),
+            answers.hits.into(),
+            answers.n_signal.into(),
+            answers.false_alarms.into(),
+            answers.n_noise.into(),
+        ];
+        match yes_no(answers, Correction::LogLinear) {
+            Ok(found) => {
+                d_primes.push(found.d_prime);
+                row.extend([found.hit_rate.into(), found.false_alarm_rate.into()]);
+                row.push(found.correction.name().into());
+                row.extend(
+                    [found.d_prime, found.interval.low, found.interval.high].map(Cell::from),
+                );
+                row.extend([found.criterion, found.ln_beta].map(Cell::from));
+                row.push(Cell::of(&found.uncorrected_d_prime));
+            }
+            Err(why) => row.extend(undefined(&why, 9)),
+        }
+        table.push(row);
+    }
+    (table, d_primes)
+}
+
+fn pair_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
+    let columns = [
+        ("subject", "subject"),
+        ("pairs", "pairs"),
+        ("right", "right"),
+        ("percent", "%"),
+        ("p", "exact binomial p, two-sided"),
+        ("d_prime", "d′, 2-AFC"),
+        ("d_prime_ci_low", "95 % CI from"),
+        ("d_prime_ci_high", "to"),
+        ("correction", "correction"),
+    ];
+    let mut table = Table::new("subjects", "Right answers by subject", &columns);
+    let mut d_primes = Vec::new();
+    for subject in &experiment.subjects {
+        let (right, n) = right_of(subject);
+        let mut row = vec![Cell::from(subject.name), n.into(), right.into()];
+        row.push((100.0 * right as f64 / n as f64).into());
+        row.push(Cell::of(
+            &exact_binomial(right, n, 0.5, Sides::Two).map(|o| o.p),
+        ));
+        match forced_choice(right, n, 2, Correction::LogLinear) {
+            Ok(choice) => {
+                d_primes.push(choice.d_prime);
+                row.push(choice.d_prime.into());
+                row.extend(ends(&choice.interval));
+                row.push(choice.correction.map_or("none", Correction::name).into());
+            }
+            Err(why) => row.extend(undefined(&why, 4)),
+        }
+        table.push(row);
+    }
+    (table, d_primes)
+}
+
+fn equivalence(percents: &[f64]) -> Table {
+    let columns = [
+        ("n", "n"),
+        ("mean_percent", "mean, %"),
+        ("low_percent", "bounds from"),
+        ("high_percent", "to"),
+        ("t_low", "t against the lower"),
+        ("t_high", "against the upper"),
+        ("df", "df"),
+        ("p", "p"),
+        ("ci_low_percent", "90 % CI from"),
+        ("ci_high_percent", "to"),
+        ("power", "power if it were 50 %"),
+    ];
+    let mut table = Table::new(
+        "equivalence",
+        "Equivalence to guessing (two one-sided tests)",
+        &columns,
+    );
+    let bounds = [50.0 - BOUNDS_PERCENT, 50.0 + BOUNDS_PERCENT];
+    table.push(
+        match Summary::of(percents).and_then(|s| tost(&s, bounds, 0.05)) {
+            Ok(found) => vec![
+                found.n.into(),
+                found.mean.into(),
+                bounds[0].into(),
+                bounds[1].into(),
+                found.t[0].into(),
+                found.t[1].into(),
+                found.df.into(),
+                found.p.into(),
+                found.interval.low.into(),
+                found.interval.high.into(),
+                Cell::of(&found.power),
+            ],
+            Err(why) => {
+                let mut row = vec![Cell::from(percents.len())];
+                row.extend(undefined(&why, 10));
+                row
+            }
+        },
+    );
+    table
+}

@@ -1,0 +1,152 @@
+//! What was called real by material and condition: percentages and their analysis of variance.
+
+use super::draw::{Bar, bars};
+use super::judgement::said;
+use super::kept::{Experiment, Subject};
+use super::model::{Section, summaries, tests};
+use super::variance::effects;
+use crate::experiment::design::Stimulus;
+use crate::statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
+use crate::statistics::{Computed, Outcome, Summary, Undefined, paired_t};
+
+/// What was called real, by material and condition (Table 3 and Fig. 9 of the paper).
+pub(super) fn section(experiment: &Experiment<'_>) -> Section {
+    let title = format!(
+        "{}: called real, by material and condition",
+        experiment.design.title
+    );
+    let mut section = Section::new(experiment.key("called-real"), title);
+    section.note(
+        "Percentages of trials in which it was called real. Of few trials a cell they take few \
+         values, so the analysis of variance is approximate; see the test by flipped signs.",
+    );
+    let answers = cell_answers(experiment);
+    let crossed = Crossed::of_answers(&["material", "condition"], &answers);
+    let (materials, conditions) = (
+        levels(experiment, |s| &s.material),
+        levels(experiment, |s| &s.condition),
+    );
+    let of = |material: Option<&str>, condition: Option<&str>| {
+        by_subject(experiment, &answers, [material, condition])
+    };
+    let (rows, shown) = cells(&materials, &conditions, &of);
+    section.tables.push(summaries(
+        "cells",
+        "Called real (as Table 3 of the paper)",
+        &rows,
+    ));
+    let variance = crossed.and_then(|table| repeated_two_way(&table));
+    section.tables.push(effects(
+        "anova",
+        "Two-way analysis of variance, both factors within subjects",
+        &variance,
+    ));
+    let all = differences(&conditions, |condition| of(None, Some(condition)));
+    section
+        .tables
+        .push(tests("differences", "Conditions, subject by subject", &all));
+    let title = format!("{}: called real by material", experiment.design.title);
+    let label = "called real, % (± SE)";
+    section.figures.push(bars(
+        "materials",
+        &title,
+        label,
+        (&shown, Some([0.0, 100.0])),
+        &[(50.0, "half")],
+    ));
+    section
+}
+
+/// Percentages of subjects by what they are of.
+type Rows = Vec<(String, Vec<f64>)>;
+
+/// The percentages of a material and a condition, or of all of them.
+type Of<'a> = dyn Fn(Option<&str>, Option<&str>) -> Vec<f64> + 'a;
+
+/// Every cell, each condition over all materials, and what is drawn of them.
+fn cells(materials: &[String], conditions: &[String], of: &Of<'_>) -> (Rows, Vec<Bar>) {
+    let mut rows: Rows = Vec::new();
+    let mut shown = Vec::new();
+    for condition in conditions {
+        for material in materials {
+            let values = of(Some(material), Some(condition));
+            if let Ok(s) = Summary::of(&values) {
+                shown.push(Bar {
+                    name: material.clone(),
+                    group: condition.clone(),
+                    value: s.mean,
+                    interval: Some([s.mean - s.se, s.mean + s.se]),
+                });
+            }
+            rows.push((format!("{material}, {condition}, %"), values));
+        }
+        rows.push((
+            format!("all materials, {condition}, %"),
+            of(None, Some(condition)),
+        ));
+    }
+    (rows, shown)
+}
+
+/// Levels of a factor in the order of the design.
+fn levels(experiment: &Experiment<'_>, level: fn(&Stimulus) -> &String) -> Vec<String> {
+    let mut levels: Vec<String> = Vec::new();
+    for stimulus in &experiment.design.stimuli {
+        if !levels.contains(level(stimulus)) {
+            levels.push(level(stimulus).clone());
+        }
+    }
+    levels
+}
+
+/// Every subject's percentage in some cells.
+fn by_subject(
+    experiment: &Experiment<'_>,
+    answers: &[CellAnswer],
+    [material, condition]: [Option<&str>; 2],
+) -> Vec<f64> {
+    let of = |subject: &Subject<'_>| {
+        let own = answers.iter().filter(|a| {
+            a.subject == subject.name
+                && material.is_none_or(|m| a.levels[0] == m)
+                && condition.is_none_or(|c| a.levels[1] == c)
+        });
+        let values: Vec<f64> = own.map(|a| a.value).collect();
+        crate::statistics::mean(&values).ok()
+    };
+    experiment.subjects.iter().filter_map(of).collect()
+}
+
+fn cell_answers(experiment: &Experiment<'_>) -> Vec<CellAnswer> {
+    let mut all = Vec::new();
+    for subject in &experiment.subjects {
+        for said in subject.trials().flat_map(said) {
+            let stimulus = &experiment.design.stimuli[said.item];
+            all.push(CellAnswer {
+                subject: subject.name.to_owned(),
+                levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
+                value: if said.said_real { 100.0 } else { 0.0 },
+            });
+        }
+    }
+    all
+}
+
+fn differences(
+    conditions: &[String],
+    of: impl Fn(&str) -> Vec<f64>,
+) -> Vec<(String, Computed<Outcome>)> {
+    let mut all = Vec::new();
+    for (i, first) in conditions.iter().enumerate() {
+        for second in &conditions[i + 1..] {
+            let (a, b) = (of(first), of(second));
+            let outcome = if a.len() == b.len() {
+                paired_t(&a, &b)
+            } else {
+                Err(Undefined::because("a subject lacks one of the conditions"))
+            };
+            all.push((format!("{first} less {second}, %"), outcome));
+        }
+    }
+    all
+}

@@ -1,0 +1,130 @@
+//! Confidence in judgements: the receiver operating characteristic.
+
+use super::draw::{axis, scatter};
+use super::judgement::{Said, said};
+use super::kept::{Experiment, Subject};
+use super::map::undefined;
+use super::model::{Cell, Drawn, Section, Table, ends, tests};
+use crate::experiment::design::Judging;
+use crate::figure::{Series, Style};
+use crate::statistics::detection::{Roc, roc};
+use crate::statistics::{Computed, Summary, one_sample_t};
+
+/// How often each rating from `surely generated` to `surely real` was given, of real ones and of
+/// the others.
+fn ratings(answers: impl Iterator<Item = Said>, grades: u8) -> [Vec<u64>; 2] {
+    let n = usize::from(grades);
+    let mut counts = [vec![0; 2 * n], vec![0; 2 * n]];
+    for said in answers {
+        let Some(sure) = said
+            .confidence
+            .map(usize::from)
+            .filter(|c| (1..=n).contains(c))
+        else {
+            continue;
+        };
+        let at = if said.said_real {
+            n + sure - 1
+        } else {
+            n - sure
+        };
+        counts[usize::from(!said.is_real)][at] += 1;
+    }
+    counts
+}
+
+/// Areas under the curves of subjects, and the curve of all together.
+pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section {
+    let title = format!("{}: confidence", experiment.design.title);
+    let mut section = Section::new(experiment.key("confidence"), title);
+    section.note(
+        "Ratings run from surely generated to surely real. The area under the curve is the \
+         probability that a real one is rated higher than a generated one; d_a = √2 z(area). All \
+         together: pooled ratings, which make the area too small where subjects differ.",
+    );
+    let columns = [
+        ("subject", "subject"),
+        ("n_real", "real"),
+        ("n_generated", "generated"),
+        ("area", "area"),
+        ("se", "SE"),
+        ("ci_low", "95 % CI from"),
+        ("ci_high", "to"),
+        ("d_a", "d_a"),
+    ];
+    let mut table = Table::new("areas", "Areas under the curve", &columns);
+    let grades = judging.confidence_grades;
+    let mut areas = Vec::new();
+    for subject in &experiment.subjects {
+        let [real, others] = ratings(subject.trials().flat_map(said), grades);
+        let found = roc(&real, &others);
+        areas.extend(found.as_ref().ok().map(|r| r.area));
+        table.push(roc_row(subject.name, &found));
+    }
+    let everyone = experiment
+        .subjects
+        .iter()
+        .flat_map(Subject::trials)
+        .flat_map(said);
+    let [real, others] = ratings(everyone, grades);
+    let pooled = roc(&real, &others);
+    table.push(roc_row("all together", &pooled));
+    section.tables.push(table);
+    let t = Summary::of(&areas).and_then(|s| one_sample_t(&s, 0.5));
+    section
+        .tables
+        .push(tests("tests", "Areas against ½", &[("area".to_owned(), t)]));
+    if let Ok(pooled) = &pooled {
+        section.figures.push(curve(experiment, pooled));
+    }
+    section
+}
+
+fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
+    let points = pooled
+        .points
+        .iter()
+        .map(|p| [p.false_alarm_rate, p.hit_rate]);
+    let series = vec![
+        Series {
+            name: "all together".to_owned(),
+            points: points.collect(),
+            style: Style::LineAndDots,
+            ..Series::default()
+        },
+        Series {
+            name: "guessing".to_owned(),
+            points: vec![[0.0, 0.0], [1.0, 1.0]],
+            style: Style::Dashed,
+            ..Series::default()
+        },
+    ];
+    let axes = ["false alarms", "hits"].map(|label| {
+        let mut axis = axis(label);
+        axis.range = Some([0.0, 1.0]);
+        axis
+    });
+    let title = format!(
+        "{}: receiver operating characteristic",
+        experiment.design.title
+    );
+    scatter("roc", &title, axes, series)
+}
+
+fn roc_row(name: &str, found: &Computed<Roc>) -> Vec<Cell> {
+    let mut row = vec![Cell::from(name)];
+    match found {
+        Ok(roc) => {
+            row.extend([
+                roc.n[0].into(),
+                roc.n[1].into(),
+                Cell::from(roc.area),
+                Cell::of(&roc.se),
+            ]);
+            row.extend(ends(&roc.interval));
+            row.push(Cell::of(&roc.d_a));
+        }
+        Err(why) => row.extend(undefined(why, 7)),
+    }
+    row
+}

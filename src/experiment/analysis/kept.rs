@@ -1,0 +1,345 @@
+//! What of the sessions is analysed: experiments apart, practice and aborted trials left out, then
+//! the design's own rules, every one of them listed.
+
+use std::collections::BTreeMap;
+
+use super::model::{Cell, Section, Table};
+use crate::experiment::design::Design;
+use crate::experiment::record::{Outcome, Record};
+use crate::experiment::session::Found;
+use crate::experiment::{Course, Step};
+
+/// One experiment: a design, and the subjects whose trials count.
+#[derive(Debug)]
+pub(super) struct Experiment<'a> {
+    /// Begins the keys of its sections; no two experiments share one.
+    pub(super) key: String,
+    pub(super) design: &'a Design,
+    /// By pseudonym.
+    pub(super) subjects: Vec<Subject<'a>>,
+    /// Sessions of this design, left out or not.
+    pub(super) sessions: Vec<&'a Found>,
+    found: Section,
+}
+
+/// A subject's trials that count, session by session.
+#[derive(Debug)]
+pub(super) struct Subject<'a> {
+    pub(super) name: &'a str,
+    pub(super) sessions: Vec<Session<'a>>,
+}
+
+/// The trials of a session that count.
+#[derive(Debug)]
+pub(super) struct Session<'a> {
+    pub(super) found: &'a Found,
+    pub(super) trials: Vec<&'a Record>,
+}
+
+impl<'a> Subject<'a> {
+    /// All trials, session after session.
+    pub(super) fn trials(&self) -> impl Iterator<Item = &'a Record> + '_ {
+        self.sessions.iter().flat_map(|s| s.trials.iter().copied())
+    }
+}
+
+impl Experiment<'_> {
+    /// What the section on what was found begins with.
+    pub(super) fn sessions_section(&self) -> Section {
+        self.found.clone()
+    }
+
+    pub(super) fn ids(&self) -> Vec<String> {
+        self.design.stimuli.iter().map(|s| s.id.clone()).collect()
+    }
+
+    /// The key of a section of this experiment.
+    pub(super) fn key(&self, of: &str) -> String {
+        format!("{}-{of}", self.key)
+    }
+}
+
+/// The hash of a design, and the sessions that were held by it.
+type Version<'a> = (&'a str, Vec<&'a Found>);
+
+/// The experiments in some sessions: one for every study, experiment and text of a design.
+pub(super) fn experiments(all: &[Found]) -> Vec<Experiment<'_>> {
+    let mut groups: BTreeMap<(&str, &str), Vec<Version<'_>>> = BTreeMap::new();
+    for found in all {
+        let design = &found.design;
+        let of_name = groups
+            .entry((&design.study, &design.experiment))
+            .or_default();
+        match of_name.iter_mut().find(|(hash, _)| *hash == design.hash) {
+            Some((_, sessions)) => sessions.push(found),
+            None => of_name.push((&design.hash, vec![found])),
+        }
+    }
+    let mut experiments: Vec<Experiment<'_>> = Vec::new();
+    for ((study, experiment), versions) in groups {
+        let n_versions = versions.len();
+        for (nth, (_, sessions)) in versions.into_iter().enumerate() {
+            let version = if n_versions > 1 {
+                format!("-design-{}", nth + 1)
+            } else {
+                String::new()
+            };
+            let own = super::model::file_name(&format!("{experiment}{version}"), '-');
+            let is_taken = experiments.iter().any(|e| e.key == own);
+            let key = if is_taken || own.is_empty() {
+                super::model::file_name(&format!("{study}-{experiment}{version}"), '-')
+            } else {
+                own
+            };
+            let mut kept = keep(key, sessions);
+            if n_versions > 1 {
+                kept.found.note(format!(
+                    "**{n_versions} different designs share this name.** Their sessions are \
+                     analysed apart: this is design {}, SHA-256 {}…",
+                    nth + 1,
+                    &kept.design.hash[..12]
+                ));
+            }
+            experiments.push(kept);
+        }
+    }
+    experiments
+}
+
+fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
+    sessions.sort_by(|a, b| {
+        let key = |found: &Found| (found.subject.pseudonym.clone(), found.subject.session);
+        key(a).cmp(&key(b))
+    });
+    let design = &sessions[0].design;
+    let mut section = Section::new(
+        format!("{key}-sessions"),
+        format!("{}: sessions", design.title),
+    );
+    rules_told(design, &mut section);
+    let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
+    let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);
+    let mut subjects: Vec<Subject<'_>> = Vec::new();
+    for &found in &sessions {
+        let session = Session {
+            found,
+            trials: answered(found),
+        };
+        table.push(held_row(&session));
+        let (n, least) = (session.trials.len(), design.rules.least_trials);
+        if n < least {
+            left_out.push(out_row(
+                found,
+                &session.trials,
+                &format!("{n} trials, fewer than {least}"),
+            ));
+            continue;
+        }
+        let session = without_fast(session, &mut left_out);
+        let name = found.subject.pseudonym.as_str();
+        match subjects.last_mut().filter(|subject| subject.name == name) {
+            Some(subject) => subject.sessions.push(session),
+            None => subjects.push(Subject {
+                name,
+                sessions: vec![session],
+            }),
+        }
+    }
+    let least = design.rules.least_share_correct;
+    subjects.retain(|subject| is_right_enough(subject, least, &mut left_out));
+    subjects.retain(|subject| subject.trials().next().is_some());
+    section.tables.push(table);
+    if left_out.rows.is_empty() {
+        section.note("The rules leave nothing out.");
+    } else {
+        section.tables.push(left_out);
+    }
+    Experiment {
+        key,
+        design,
+        subjects,
+        sessions,
+        found: section,
+    }
+}
+
+const HELD: [(&str, &str); 9] = [
+    ("subject", "subject"),
+    ("session", "session"),
+    ("trials", "trials answered"),
+    ("planned", "of at most"),
+    ("practice", "practice"),
+    ("aborted", "aborted"),
+    ("state", "state"),
+    ("device", "device"),
+    ("software", "log"),
+];
+const LEFT_OUT: [(&str, &str); 4] = [
+    ("subject", "subject"),
+    ("session", "session"),
+    ("trials", "trials"),
+    ("why", "why"),
+];
+
+fn rules_told(design: &Design, section: &mut Section) {
+    let rules = &design.rules;
+    section.note(format!(
+        "Study `{}`, experiment `{}`, method {}, seed {}, design SHA-256 {}.",
+        design.study,
+        design.experiment,
+        design.method.name(),
+        design.seed,
+        design.hash
+    ));
+    let mut told = vec![match rules.subjects {
+        0 => "the number of subjects was left open".to_owned(),
+        n => format!("{n} subjects planned"),
+    }];
+    if rules.least_trials > 0 {
+        told.push(format!(
+            "a session with fewer than {} trials is left out",
+            rules.least_trials
+        ));
+    }
+    if rules.least_response_s > 0.0 {
+        told.push(format!(
+            "a trial answered in less than {} s is left out",
+            rules.least_response_s
+        ));
+    }
+    if rules.least_share_correct > 0.0 {
+        let share = 100.0 * rules.least_share_correct;
+        told.push(format!(
+            "a subject with less than {share} % right is left out"
+        ));
+    }
+    section.note(format!(
+        "Settled in the design before the first subject: {}. Practice and aborted trials never \
+         count.",
+        told.join("; ")
+    ));
+}
+
+/// The trials of a session that were answered, without practice.
+fn answered(found: &Found) -> Vec<&Record> {
+    let counts = |record: &&Record| !record.trial.is_practice && record.answer().is_some();
+    found.records.iter().filter(counts).collect()
+}
+
+fn held_row(session: &Session<'_>) -> Vec<Cell> {
+    let found = session.found;
+    let n_practice = found.records.iter().filter(|r| r.trial.is_practice).count();
+    let aborted = |r: &&Record| r.outcome == Outcome::Aborted;
+    let n_aborted = found.records.iter().filter(aborted).count();
+    let (planned, state) = match Course::resume(&found.design, &found.subject, &found.records) {
+        Ok(course) => {
+            let (n_done, n_all) = course.progress();
+            let planned = n_all.saturating_sub(found.design.course.practice_trials);
+            let is_over = is_over(course);
+            let state = match (is_over, found.has_torn_row) {
+                (true, _) => "complete".to_owned(),
+                (false, false) => format!("**incomplete** ({n_done} of {n_all} with practice)"),
+                (false, true) => "**incomplete**; its last row is torn and left out".to_owned(),
+            };
+            (Cell::from(planned), state)
+        }
+        Err(error) => (
+            Cell::none("the log does not follow its design"),
+            error.to_string(),
+        ),
+    };
+    let device = found
+        .records
+        .last()
+        .map_or("", |r| r.apparatus.device.as_str());
+    vec![
+        found.subject.pseudonym.as_str().into(),
+        Cell::from(f64::from(found.subject.session)),
+        session.trials.len().into(),
+        planned,
+        n_practice.into(),
+        n_aborted.into(),
+        state.into(),
+        device.into(),
+        found
+            .log
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+            .into(),
+    ]
+}
+
+fn is_over(mut course: Course) -> bool {
+    loop {
+        match course.step() {
+            Step::Trial(_) => return false,
+            Step::Finished => return true,
+            Step::Instructions(_) | Step::Familiarisation(_) | Step::Break { .. } => course.pass(),
+        }
+    }
+}
+
+fn out_row(found: &Found, trials: &[&Record], why: &str) -> Vec<Cell> {
+    vec![
+        found.subject.pseudonym.as_str().into(),
+        Cell::from(f64::from(found.subject.session)),
+        numbers(trials).into(),
+        why.into(),
+    ]
+}
+
+/// Numbers of trials as people list them: `1–79, 81`.
+fn numbers(trials: &[&Record]) -> String {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for trial in trials {
+        let number = trial.trial.number + 1;
+        match runs.last_mut().filter(|run| run[1] + 1 == number) {
+            Some(run) => run[1] = number,
+            None => runs.push([number; 2]),
+        }
+    }
+    let told = |[from, to]: &[usize; 2]| {
+        if from == to {
+            from.to_string()
+        } else {
+            format!("{from}–{to}")
+        }
+    };
+    runs.iter().map(told).collect::<Vec<_>>().join(", ")
+}
+
+fn without_fast<'a>(mut session: Session<'a>, left_out: &mut Table) -> Session<'a> {
+    let least_s = session.found.design.rules.least_response_s;
+    let is_fast = |record: &&Record| record.timing.response_ms() < 1000.0 * least_s;
+    let (fast, kept): (Vec<&Record>, Vec<&Record>) =
+        session.trials.into_iter().partition(|r| is_fast(r));
+    if !fast.is_empty() {
+        let why = format!("answered in less than {least_s} s");
+        left_out.push(out_row(session.found, &fast, &why));
+    }
+    session.trials = kept;
+    session
+}
+
+fn is_right_enough(subject: &Subject<'_>, least: f64, left_out: &mut Table) -> bool {
+    let verdicts: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
+    if least <= 0.0 || verdicts.is_empty() {
+        return true;
+    }
+    let n_right = verdicts.iter().filter(|right| **right).count();
+    let share = n_right as f64 / verdicts.len() as f64;
+    if share >= least {
+        return true;
+    }
+    let why = format!(
+        "{n_right} of {} right, less than {} %",
+        verdicts.len(),
+        100.0 * least
+    );
+    for session in &subject.sessions {
+        left_out.push(out_row(session.found, &session.trials, &why));
+    }
+    false
+}

@@ -1,0 +1,374 @@
+//! Thresholds and just noticeable differences: the mean of the last reversals and a fit to all
+//! trials, track by track and subject by subject.
+
+use super::Options;
+use super::draw::{Bar, axis, bars, scatter};
+use super::kept::{Experiment, Subject};
+use super::map::undefined;
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
+use crate::experiment::design::{Levels, StaircaseTrack, Track};
+use crate::experiment::{Record, Task};
+use crate::figure::{Series, Style};
+use crate::statistics::adaptive::{
+    Procedure as _, ReversalMean, Rule, Stage, Staircase, StaircasePlan, StepScale, Stop,
+};
+use crate::statistics::psychometric::{Family, Fit, Model, blocks};
+use crate::statistics::{Computed, Outcome, Summary, Undefined, one_sample_t};
+
+/// Points of a drawn curve.
+const N_DRAWN: u32 = 100;
+
+/// A trial: which series, the number that the function is of, whether it was right.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Answered {
+    track: usize,
+    level_db: f64,
+    is_right: bool,
+}
+
+fn answered(record: &Record) -> Option<Answered> {
+    let Task::Interval {
+        track, level_db, ..
+    } = record.trial.task
+    else {
+        return None;
+    };
+    Some(Answered {
+        track,
+        level_db,
+        is_right: record.is_correct?,
+    })
+}
+
+impl Levels {
+    /// What the function is of: the level, or its difference from the reference, dB.
+    fn of_function(&self, level_db: f64) -> f64 {
+        level_db - self.reference_db.unwrap_or(0.0)
+    }
+
+    fn shape(&self) -> Family {
+        match self.reference_db {
+            None => Family::Gumbel,
+            Some(_) => Family::Weibull,
+        }
+    }
+
+    fn quantity(&self) -> &'static str {
+        match self.reference_db {
+            None => "threshold, dB re 1 µm",
+            Some(_) => "just noticeable difference, dB",
+        }
+    }
+}
+
+pub(super) fn sections(
+    experiment: &Experiment<'_>,
+    levels: &Levels,
+    options: &Options,
+) -> Vec<Section> {
+    let title = format!("{}: psychometric functions", experiment.design.title);
+    let mut section = Section::new(experiment.key("thresholds"), title);
+    section.note(format!(
+        "{} at {} Hz, {} intervals, chance 1/{}. The function is {} of {}; all trials of a subject \
+         are fitted with lapses of 0 to 6 %. Its threshold is where half of what guesses \
+         and lapses leave is right. Intervals are central ones of the posterior.",
+        levels.quantity(),
+        levels.band.carrier_hz(),
+        levels.intervals,
+        levels.intervals,
+        levels.shape().name(),
+        if levels.reference_db.is_some() {
+            "the difference in dB"
+        } else {
+            "the level in dB"
+        },
+    ));
+    let (table, thresholds, fits) = fitted(experiment, levels);
+    section.tables.push(table);
+    let means = [(levels.quantity().to_owned(), thresholds.clone())];
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
+    if levels.reference_db.is_some() {
+        let t = Summary::of(&thresholds).and_then(|s| one_sample_t(&s, 0.0));
+        let named: [(String, Computed<Outcome>); 1] = [("difference against 0 dB".to_owned(), t)];
+        section.tables.push(tests("tests", "Over subjects", &named));
+    }
+    if let Some(drawn) = curves(experiment, levels, &fits) {
+        section.figures.push(drawn);
+    }
+    let mut all = vec![section];
+    if let Track::Staircase(track) = &levels.track {
+        all.push(reversals(experiment, levels, track));
+    }
+    all
+}
+
+const FITS: [(&str, &str); 12] = [
+    ("subject", "subject"),
+    ("trials", "trials"),
+    ("levels", "levels"),
+    ("threshold_db", "threshold"),
+    ("ci_low_db", "95 % CI from"),
+    ("ci_high_db", "to"),
+    ("at_75_percent_db", "75 % right at"),
+    ("width", "width, 5 to 95 %"),
+    ("lapse", "lapses"),
+    ("deviance", "deviance"),
+    ("df", "levels less 2"),
+    ("remarks", "remarks"),
+];
+
+type Fits<'a> = Vec<(&'a str, Fit)>;
+
+fn fitted<'a>(experiment: &Experiment<'a>, levels: &Levels) -> (Table, Vec<f64>, Fits<'a>) {
+    let title = format!("{}, fits of all trials", levels.quantity());
+    let mut table = Table::new("fits", &title, &FITS);
+    let (mut thresholds, mut fits) = (Vec::new(), Vec::new());
+    let m = u32::try_from(levels.intervals).unwrap_or(2);
+    let model = Model::alternatives(levels.shape(), m);
+    for subject in &experiment.subjects {
+        let trials = subject.trials().filter_map(answered);
+        let of_levels = blocks(trials.map(|t| (levels.of_function(t.level_db), t.is_right)));
+        let n: u32 = of_levels.iter().map(|b| b.n).sum();
+        let mut row = vec![
+            Cell::from(subject.name),
+            Cell::from(f64::from(n)),
+            of_levels.len().into(),
+        ];
+        match model.fit(&of_levels) {
+            Ok(fit) => {
+                row.extend(fit_cells(&fit, of_levels.len()));
+                thresholds.push(fit.curve.threshold);
+                fits.push((subject.name, fit));
+            }
+            Err(why) => row.extend(undefined(&why, FITS.len() - 3)),
+        }
+        table.push(row);
+    }
+    (table, thresholds, fits)
+}
+
+fn fit_cells(fit: &Fit, n_levels: usize) -> Vec<Cell> {
+    let interval = fit.posterior().interval(|curve| Ok(curve.threshold), 0.95);
+    let mut cells = vec![Cell::from(fit.curve.threshold)];
+    cells.extend(ends(&interval));
+    cells.push(Cell::of(&fit.curve.stimulus_at(0.75)));
+    cells.extend([fit.curve.width, fit.curve.lapse, fit.deviance].map(Cell::from));
+    cells.push(n_levels.saturating_sub(2).into());
+    cells.push(fit.notes.join("; ").into());
+    cells
+}
+
+fn curves(
+    experiment: &Experiment<'_>,
+    levels: &Levels,
+    fits: &[(&str, Fit)],
+) -> Option<super::model::Drawn> {
+    let x = fits
+        .iter()
+        .flat_map(|(_, fit)| fit.blocks.iter().map(|b| b.x));
+    let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+        (l.min(x), h.max(x))
+    });
+    if low >= high || !low.is_finite() {
+        return None;
+    }
+    let mut series = Vec::new();
+    for (name, fit) in fits {
+        let at = |i: u32| low + (high - low) * f64::from(i) / f64::from(N_DRAWN);
+        series.push(Series {
+            name: (*name).to_owned(),
+            points: (0..=N_DRAWN)
+                .map(|i| [at(i), fit.curve.at(at(i))])
+                .collect(),
+            style: Style::Line,
+            ..Series::default()
+        });
+    }
+    if let [(_, fit)] = fits {
+        let share = |b: &crate::statistics::psychometric::Block| {
+            [b.x, f64::from(b.n_right) / f64::from(b.n)]
+        };
+        series.push(Series {
+            name: "share right".to_owned(),
+            points: fit.blocks.iter().map(share).collect(),
+            ..Series::default()
+        });
+    }
+    let mut y = axis("share right");
+    y.range = Some([0.0, 1.0]);
+    let title = format!("{}: psychometric functions", experiment.design.title);
+    let label = if levels.reference_db.is_some() {
+        "difference, dB"
+    } else {
+        "level, dB re 1 µm"
+    };
+    Some(scatter("curves", &title, [axis(label), y], series))
+}
+
+/// A series run again on the answers of its log.
+pub(super) fn run_again(
+    levels: &Levels,
+    track: &StaircaseTrack,
+    nth: usize,
+    trials: &[Answered],
+) -> Computed<Staircase> {
+    let stage = |&down: &f64| Stage {
+        up: down * track.up_over_down,
+        down,
+        n_reversals: 1,
+    };
+    let start = track.starts_db.get(nth).copied();
+    let mut staircase = Staircase::new(StaircasePlan {
+        rule: Rule {
+            n_up: track.up,
+            m_down: track.down,
+        },
+        scale: StepScale::Linear,
+        start: start.ok_or_else(|| Undefined::because("a series that the design does not have"))?,
+        stages: track.steps_db.iter().map(stage).collect(),
+        limits: levels.range_db,
+        stop: Stop::Trials(u32::MAX),
+    })?;
+    for trial in trials {
+        staircase.answer(trial.level_db, trial.is_right)?;
+    }
+    Ok(staircase)
+}
+
+const REVERSALS: [(&str, &str); 9] = [
+    ("subject", "subject"),
+    ("session", "session"),
+    ("track", "series"),
+    ("trials", "trials"),
+    ("reversals", "reversals"),
+    ("averaged", "averaged"),
+    ("threshold_db", "mean of the last"),
+    ("sd_db", "sd"),
+    ("remarks", "remarks"),
+];
+
+fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrack) -> Section {
+    let title = format!("{}: staircases", experiment.design.title);
+    let mut section = Section::new(experiment.key("staircases"), title);
+    let rule = Rule {
+        n_up: track.up,
+        m_down: track.down,
+    };
+    let target = rule.target(track.up_over_down, 1.0);
+    section.note(format!(
+        "{} up, {} down; the mean of the last {} reversals at the last step size aims at {} right.",
+        track.up,
+        track.down,
+        track.reversals_averaged,
+        target.map_or_else(
+            |why| why.reason,
+            |share| format!("{} %", crate::quantity::fixed(100.0 * share, 1))
+        )
+    ));
+    let mut table = Table::new("reversals", "Means of the last reversals", &REVERSALS);
+    let (mut shown, mut means) = (Vec::new(), Vec::new());
+    let mut series = Vec::new();
+    for subject in &experiment.subjects {
+        let own = of_subject(subject, (levels, track), (&mut table, &mut series));
+        let mean = crate::statistics::mean(&own);
+        if let Ok(mean) = mean {
+            means.push(mean);
+            let ends = Summary::of(&own).ok().map(|s| [mean - s.sd, mean + s.sd]);
+            shown.push(Bar {
+                name: subject.name.to_owned(),
+                group: String::new(),
+                value: mean,
+                interval: ends,
+            });
+        }
+    }
+    section.tables.push(table);
+    let what = format!("{}, mean of reversals", levels.quantity());
+    section.tables.push(summaries(
+        "group",
+        "Over subjects, series averaged",
+        &[(what, means)],
+    ));
+    if !series.is_empty() {
+        let title = format!("{}: levels from trial to trial", experiment.design.title);
+        let axes = [axis("trial of the series"), axis("level, dB re 1 µm")];
+        section
+            .figures
+            .push(scatter("tracks", &title, axes, series));
+    }
+    if !shown.is_empty() {
+        let title = format!("{}: means of reversals", experiment.design.title);
+        section
+            .figures
+            .push(bars("bars", &title, levels.quantity(), (&shown, None), &[]));
+    }
+    section
+}
+
+/// Rows of a subject's series; their thresholds.
+fn of_subject(
+    subject: &Subject<'_>,
+    (levels, track): (&Levels, &StaircaseTrack),
+    (table, series): (&mut Table, &mut Vec<Series>),
+) -> Vec<f64> {
+    let mut thresholds = Vec::new();
+    for session in &subject.sessions {
+        let all: Vec<Answered> = session.trials.iter().filter_map(|r| answered(r)).collect();
+        let number = session.found.subject.session;
+        for nth in 0..track.starts_db.len() {
+            let own: Vec<Answered> = all.iter().filter(|t| t.track == nth).copied().collect();
+            let staircase = run_again(levels, track, nth, &own);
+            let mut row = vec![
+                Cell::from(subject.name),
+                f64::from(number).into(),
+                (nth + 1).into(),
+                own.len().into(),
+            ];
+            match &staircase {
+                Ok(staircase) => {
+                    row.extend(reversal_cells(staircase, track, levels, &mut thresholds));
+                }
+                Err(why) => row.extend(undefined(why, REVERSALS.len() - 4)),
+            }
+            table.push(row);
+            let at = own
+                .iter()
+                .zip(1_u32..)
+                .map(|(t, i)| [f64::from(i), t.level_db]);
+            series.push(Series {
+                name: format!("{}, session {number}, series {}", subject.name, nth + 1),
+                points: at.collect(),
+                style: Style::LineAndDots,
+                ..Series::default()
+            });
+        }
+    }
+    thresholds
+}
+
+fn reversal_cells(
+    staircase: &Staircase,
+    track: &StaircaseTrack,
+    levels: &Levels,
+    thresholds: &mut Vec<f64>,
+) -> Vec<Cell> {
+    let found: Computed<ReversalMean> = staircase.reversal_mean(track.reversals_averaged);
+    let mut cells = vec![Cell::from(staircase.reversals().len())];
+    match &found {
+        Ok(mean) => {
+            let threshold = levels.of_function(mean.threshold);
+            thresholds.push(threshold);
+            cells.extend([
+                mean.n_reversals.into(),
+                Cell::from(threshold),
+                mean.sd.into(),
+            ]);
+        }
+        Err(why) => cells.extend(undefined(why, 3)),
+    }
+    cells.push(staircase.warnings().join("; ").into());
+    cells
+}

@@ -1,0 +1,294 @@
+//! Maps from dissimilarities: stress by dimensions, the elbow, Shepard's diagram, ellipses over
+//! subjects.
+
+use super::Options;
+use super::draw::{axis, scatter};
+use super::model::{Cell, Section, Table, matrix};
+use super::properties::Measures;
+use crate::figure::{Series, Style};
+use crate::progress::{Cancelled, Progress};
+use crate::statistics::Undefined;
+use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, NullKind, Ties};
+use crate::statistics::properties::{Ellipse, bootstrap_ellipses};
+
+/// The share of resampled subjects that an ellipse holds.
+const ELLIPSE_SHARE: f64 = 0.95;
+
+/// What is mapped, and how.
+pub(super) struct Mapping<'a> {
+    pub(super) key: String,
+    pub(super) title: String,
+    pub(super) names: Vec<String>,
+    /// Of all subjects, row by row.
+    pub(super) values: Vec<Option<f64>>,
+    /// Of each subject.
+    pub(super) subjects: Vec<Vec<Option<f64>>>,
+    pub(super) loss: Loss,
+    pub(super) ties: Ties,
+    pub(super) measures: &'a Measures,
+}
+
+impl Mapping<'_> {
+    fn mds(&self, options: &Options) -> Mds {
+        Mds {
+            ties: self.ties,
+            loss: self.loss,
+            n_starts: options.n_starts,
+            n_starts_on_a_line: options.n_starts_on_a_line,
+            seed: options.seed,
+            ..Mds::default()
+        }
+    }
+
+    /// The section of the maps in one to five dimensions.
+    ///
+    /// # Errors
+    /// It was cancelled.
+    pub(super) fn section(
+        &self,
+        options: &Options,
+        progress: &mut Progress<'_>,
+    ) -> Result<Section, Cancelled> {
+        let mut section = Section::new(self.key.clone(), self.title.clone());
+        let cells = self
+            .values
+            .iter()
+            .map(|value| value.map_or_else(|| Cell::none("itself, or never met"), Cell::from));
+        let title = "Dissimilarities, symmetric";
+        section.tables.push(matrix(
+            "dissimilarities",
+            title,
+            &self.names,
+            cells.collect(),
+        ));
+        let data = match Dissimilarities::new(self.names.clone(), &self.values) {
+            Ok(data) => data,
+            Err(why) => {
+                section.note(format!("**No map**: {}.", why.reason));
+                return Ok(section);
+            }
+        };
+        let mds = self.mds(options);
+        let maps = mds.maps(&data, 1..=5, progress)?;
+        section.note(format!(
+            "Non-metric multidimensional scaling; {} made small, {} ties; stress-1 and S-stress of \
+             the same points beside each other. {} pairs, {} missing.",
+            told(self.loss),
+            self.ties.name(),
+            data.pairs().len(),
+            data.n_missing()
+        ));
+        self.stress(&maps, (&mds, &data, options), &mut section, progress)?;
+        section.tables.push(coordinates(&self.names, &maps));
+        if let Some(plane) = maps.iter().find(|map| map.dims == 2) {
+            section.figures.push(shepard(plane));
+            let ellipses = self.ellipses(plane, (&mds, options), &mut section, progress)?;
+            self.turned(plane, &ellipses, options, &mut section);
+        }
+        for map in &maps {
+            let told = map.warnings.iter();
+            section
+                .notes
+                .extend(told.map(|w| format!("{} dimensions: {w}", map.dims)));
+        }
+        Ok(section)
+    }
+
+    fn stress(
+        &self,
+        maps: &[Map],
+        (mds, data, options): (&Mds, &Dissimilarities, &Options),
+        section: &mut Section,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), Cancelled> {
+        let mut chance: Vec<Null> = Vec::new();
+        for map in maps.iter().filter(|_| options.n_random_data > 0) {
+            let sets = (map.dims, options.n_random_data);
+            chance.push(Null::of(mds, data, NullKind::RandomRanks, sets, progress)?);
+        }
+        let losses: Vec<(usize, f64)> = maps.iter().map(|m| (m.dims, m.loss(self.loss))).collect();
+        let five: Vec<f64> = chance.iter().map(Null::five_percent).collect();
+        let elbow = Elbow::of(&losses, chance.first().map(Null::mean), &five);
+        section.tables.push(stress_table(maps, &elbow, &five));
+        section.note(match elbow.by_bend {
+            Some(k) => {
+                format!("The elbow, the largest second difference of the stress, is at {k}.")
+            }
+            None => "No elbow: too few dimensions to bend.".to_owned(),
+        });
+        match elbow.below_chance {
+            Some(k) => section.note(format!("Below the 5 % point of random ranks from {k} on.")),
+            None if chance.is_empty() => section
+                .note("A bend at one dimension shows only against random ranks (not asked for)."),
+            None => section.note("**No map lies below the 5 % point of random ranks.**"),
+        }
+        let line = |name: &str, of: &dyn Fn(&Map) -> f64| Series {
+            name: name.to_owned(),
+            points: maps.iter().map(|map| [map.dims as f64, of(map)]).collect(),
+            style: Style::LineAndDots,
+            ..Series::default()
+        };
+        let mut series = vec![
+            line("S-stress", &|m| m.sstress),
+            line("stress-1", &|m| m.stress1),
+        ];
+        if !five.is_empty() {
+            series.push(Series {
+                name: "5 % of random ranks".to_owned(),
+                points: maps
+                    .iter()
+                    .zip(&five)
+                    .map(|(m, v)| [m.dims as f64, *v])
+                    .collect(),
+                style: Style::Dashed,
+                ..Series::default()
+            });
+        }
+        let mut dims = axis("dimensions");
+        dims.scale = crate::figure::Scale::Whole;
+        let mut stress = axis("stress");
+        stress.range = Some([
+            0.0,
+            losses.iter().fold(0.1, |m: f64, (_, l)| m.max(*l)) * 1.3,
+        ]);
+        let title = format!("{}: stress by dimensions", self.title);
+        section
+            .figures
+            .push(scatter("stress", &title, [dims, stress], series));
+        Ok(())
+    }
+
+    fn ellipses(
+        &self,
+        plane: &Map,
+        (mds, options): (&Mds, &Options),
+        section: &mut Section,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Ellipse>, Cancelled> {
+        if options.n_maps == 0 || self.subjects.len() < 2 {
+            section.note("No ellipses: they need two subjects or more.");
+            return Ok(Vec::new());
+        }
+        let few = Mds {
+            n_starts: mds.n_starts.min(10),
+            ..*mds
+        };
+        let draws = (2, options.n_maps);
+        let resampled = few.resampled(&self.names, &self.subjects, draws, progress)?;
+        match bootstrap_ellipses(&plane.points, &resampled.maps, ELLIPSE_SHARE) {
+            Ok(ellipses) => {
+                section.note(format!(
+                    "Ellipses hold {} % of the maps of {} draws of {} subjects with replacement, \
+                     each laid over the map by Procrustes; {} draws had no map.",
+                    100.0 * ELLIPSE_SHARE,
+                    resampled.maps.len(),
+                    self.subjects.len(),
+                    resampled.n_unmapped
+                ));
+                Ok(ellipses)
+            }
+            Err(why) => {
+                section.note(format!("No ellipses: {}.", why.reason));
+                Ok(Vec::new())
+            }
+        }
+    }
+}
+
+/// A loss as people write it.
+pub(super) fn told(loss: Loss) -> &'static str {
+    match loss {
+        Loss::Stress1 => "stress-1",
+        Loss::SStress => "S-stress",
+    }
+}
+
+pub(super) fn undefined(why: &Undefined, n: usize) -> Vec<Cell> {
+    (0..n)
+        .map(|_| Cell::Undefined(why.reason.clone()))
+        .collect()
+}
+
+fn stress_table(maps: &[Map], elbow: &Elbow, five: &[f64]) -> Table {
+    let columns = [
+        ("dims", "dimensions"),
+        ("sstress", "S-stress"),
+        ("stress1", "stress-1"),
+        ("spearman", "Spearman of distances"),
+        ("starts", "starts"),
+        ("reached_best", "reached the best"),
+        ("first_difference", "fall to here"),
+        ("second_difference", "second difference"),
+        ("random_5_percent", "5 % of random ranks"),
+    ];
+    let mut table = Table::new("stress", "Maps in one to five dimensions", &columns);
+    for (i, map) in maps.iter().enumerate() {
+        let difference = |all: &[Option<f64>]| {
+            let value = all.get(i).copied().flatten();
+            value.map_or_else(
+                || Cell::none("nothing on one side to compare with"),
+                Cell::from,
+            )
+        };
+        let chance = five.get(i);
+        table.push([
+            map.dims.into(),
+            map.sstress.into(),
+            map.stress1.into(),
+            Cell::of(&map.spearman),
+            map.n_starts.into(),
+            map.n_reached.into(),
+            difference(&elbow.first_differences),
+            difference(&elbow.second_differences),
+            chance.map_or_else(|| Cell::none("not asked for"), |v| (*v).into()),
+        ]);
+    }
+    table
+}
+
+fn coordinates(names: &[String], maps: &[Map]) -> Table {
+    let columns = [
+        ("dims", "dimensions"),
+        ("item", "item"),
+        ("x1", "x₁"),
+        ("x2", "x₂"),
+        ("x3", "x₃"),
+        ("x4", "x₄"),
+        ("x5", "x₅"),
+        ("stress", "stress of its pairs"),
+    ];
+    let title = "Coordinates: centred, principal axes, mean square distance 1";
+    let mut table = Table::new("coordinates", title, &columns);
+    for map in maps {
+        for (i, name) in names.iter().enumerate() {
+            let mut row = vec![Cell::from(map.dims), name.as_str().into()];
+            let x = &map.points[i];
+            let coordinate = |axis: usize| {
+                x.get(axis)
+                    .map_or_else(|| Cell::none("a map of fewer dimensions"), |x| (*x).into())
+            };
+            row.extend((0..5).map(coordinate));
+            row.push(map.stress_per_point[i].into());
+            table.push(row);
+        }
+    }
+    table
+}
+
+/// Distances and disparities over dissimilarities.
+fn shepard(map: &Map) -> super::model::Drawn {
+    let series = |name: &str, style: Style, of: &dyn Fn(usize) -> f64| Series {
+        name: name.to_owned(),
+        points: (0..map.shepard.len())
+            .map(|i| [map.shepard[i].delta, of(i)])
+            .collect(),
+        style,
+        ..Series::default()
+    };
+    let all = vec![
+        series("distance", Style::Dots, &|i| map.shepard[i].distance),
+        series("disparity", Style::Line, &|i| map.shepard[i].disparity),
+    ];
+    let axes = [axis("dissimilarity"), axis("distance")];
+    scatter("shepard", "Shepard's diagram, two dimensions", axes, all)
+}

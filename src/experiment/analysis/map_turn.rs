@@ -1,0 +1,208 @@
+//! Maps turned towards what was measured, and measures fitted into them.
+
+use super::Options;
+use super::draw_map::MapDrawing;
+use super::map::{Mapping, told, undefined};
+use super::model::{Cell, Section, Table, ends};
+use super::properties::Measure;
+use crate::numerics::Random;
+use crate::statistics::mds::Map;
+use crate::statistics::properties::{BestTurn, Ellipse, PropertyVector};
+use crate::statistics::{Computed, f_upper, fisher_z};
+
+/// Measures that the plane map is turned to, the first that exist for the figure.
+const PAIRS: [(&str, &str); 5] = [
+    ("a40_db", "a320_db"),
+    ("a40_um", "a320_um"),
+    ("sum", "difference"),
+    ("a40_db_own_speed", "a320_db_own_speed"),
+    ("sum_own_speed", "difference_own_speed"),
+];
+
+const TURNS: [(&str, &str); 14] = [
+    ("first", "axis 1 to"),
+    ("second", "axis 2 to"),
+    ("n", "n"),
+    ("r1", "r of axis 1"),
+    ("r1_ci_low", "95 % CI from"),
+    ("r1_ci_high", "to"),
+    ("p1", "p"),
+    ("r2", "r of axis 2"),
+    ("r2_ci_low", "95 % CI from"),
+    ("r2_ci_high", "to"),
+    ("p2", "p"),
+    ("p_sum", "p of both"),
+    ("angle_deg", "angle, °"),
+    ("is_mirrored", "mirrored"),
+];
+
+impl Mapping<'_> {
+    /// The plane map as it is and turned to A40 and A320.
+    pub(super) fn turned(
+        &self,
+        plane: &Map,
+        ellipses: &[Ellipse],
+        options: &Options,
+        section: &mut Section,
+    ) {
+        self.measures.tell(section);
+        let measures = self.measures;
+        let fits: Vec<(&Measure, Computed<PropertyVector>)> = measures
+            .all
+            .iter()
+            .map(|m| (m, PropertyVector::of(&plane.points, &m.values)))
+            .collect();
+        if !measures.all.is_empty() {
+            section.tables.push(measures.table(&self.names));
+            section.tables.push(vectors(&fits, self.names.len()));
+        }
+        let mut turns = Table::new("turns", "The plane map turned to two measures", &TURNS);
+        let mut best = None;
+        for (first, second) in PAIRS {
+            let pair = measures.named(first).zip(measures.named(second));
+            let Some((first, second)) = pair else {
+                continue;
+            };
+            let turn = self.turn(plane, [first, second], options, &mut turns);
+            best = best.or_else(|| turn.ok());
+        }
+        if !turns.rows.is_empty() {
+            section.note(
+                "Turned, with reflection allowed, so that r(axis 1, first measure) + r(axis 2, \
+                 second) is largest; p by permutation, the turn sought again each time; the \
+                 interval is Fisher's z and knows nothing of the turn, so it is optimistic.",
+            );
+            section.tables.push(turns);
+        }
+        let (points, axes, angle) = match &best {
+            Some(turn) => (&turn.points, ["towards A40", "towards A320"], Some(turn)),
+            None => (&plane.points, ["dimension 1", "dimension 2"], None),
+        };
+        let turned_ellipses: Vec<Ellipse> = match angle {
+            Some(turn) => ellipses.iter().map(|e| turned_ellipse(e, turn)).collect(),
+            None => ellipses.to_vec(),
+        };
+        let directions = self.directions(points);
+        let drawing = MapDrawing {
+            names: &self.names,
+            points,
+            axes,
+            ellipses: &turned_ellipses,
+            directions: &directions,
+        };
+        let note = format!(
+            "{} {}, {} ties; stress-1 {}. A bar is as long as the multiple correlation.",
+            told(self.loss),
+            crate::quantity::fixed(plane.loss(self.loss), 4),
+            self.ties.name(),
+            crate::quantity::fixed(plane.stress1, 4)
+        );
+        section.figures.push(drawing.drawn(
+            "map",
+            &format!("{}, in the plane", self.title),
+            vec![note],
+        ));
+    }
+
+    /// Where the levels of both bands rise in a map.
+    fn directions(&self, points: &[Vec<f64>]) -> Vec<(String, [f64; 2])> {
+        let arrows = ["a40_db", "a320_db"].into_iter().filter_map(|name| {
+            let measure = self.measures.named(name)?;
+            let fit = PropertyVector::of(points, &measure.values).ok()?;
+            let of = |axis: usize| fit.direction[axis] * fit.multiple_r;
+            let band = if name == "a40_db" { "40 Hz" } else { "320 Hz" };
+            Some((format!("level at {band} rises"), [of(0), of(1)]))
+        });
+        arrows.collect()
+    }
+
+    fn turn(
+        &self,
+        plane: &Map,
+        pair: [&Measure; 2],
+        options: &Options,
+        table: &mut Table,
+    ) -> Computed<BestTurn> {
+        let values = pair.map(|m| m.values.as_slice());
+        let turn = BestTurn::of(&plane.points, values);
+        let p = turn.clone().and_then(|turn| {
+            let mut random = Random::new(options.seed).branch("turns by chance");
+            turn.p_values(&plane.points, values, options.n_permutations, &mut random)
+        });
+        let part = |axis: usize| match (&turn, &p) {
+            (Ok(turn), Ok(p)) => {
+                let mut cells = vec![Cell::from(turn.r[axis])];
+                cells.extend(ends(&fisher_z(turn.r[axis], self.names.len(), 0.95)));
+                cells.push(p[axis + 1].into());
+                cells
+            }
+            (Err(why), _) | (_, Err(why)) => undefined(why, 4),
+        };
+        let mut row = vec![
+            Cell::from(pair[0].heading.as_str()),
+            pair[1].heading.as_str().into(),
+            self.names.len().into(),
+        ];
+        row.extend(part(0));
+        row.extend(part(1));
+        row.push(match &p {
+            Ok(p) => p[0].into(),
+            Err(why) => Cell::Undefined(why.reason.clone()),
+        });
+        row.extend(match &turn {
+            Ok(t) => [
+                t.angle_rad.to_degrees().into(),
+                if t.is_mirrored { "yes" } else { "no" }.into(),
+            ],
+            Err(why) => [(); 2].map(|()| Cell::Undefined(why.reason.clone())),
+        });
+        table.push(row);
+        turn
+    }
+}
+
+fn turned_ellipse(ellipse: &Ellipse, turn: &BestTurn) -> Ellipse {
+    let mirror = if turn.is_mirrored { -1.0 } else { 1.0 };
+    let (sin, cos) = turn.angle_rad.sin_cos();
+    let [x, y] = [ellipse.middle[0], mirror * ellipse.middle[1]];
+    Ellipse {
+        middle: [cos * x - sin * y, sin * x + cos * y],
+        half_axes: ellipse.half_axes,
+        angle_rad: mirror * ellipse.angle_rad + turn.angle_rad,
+    }
+}
+
+fn vectors(fits: &[(&Measure, Computed<PropertyVector>)], n: usize) -> Table {
+    let columns = [
+        ("measure", "measure"),
+        ("n", "n"),
+        ("multiple_r", "multiple R"),
+        ("f", "F"),
+        ("df", "df"),
+        ("df_error", "df error"),
+        ("p", "p"),
+        ("x1", "direction x₁"),
+        ("x2", "x₂"),
+    ];
+    let title = "Measures fitted into the plane map, whatever its turn";
+    let mut table = Table::new("vectors", title, &columns);
+    for (measure, fit) in fits {
+        let mut row = vec![Cell::from(measure.heading.as_str()), n.into()];
+        match fit {
+            Ok(fit) => {
+                let [df, df_error] = fit.df.map(|df| df as f64);
+                row.extend([
+                    Cell::from(fit.multiple_r),
+                    fit.f.into(),
+                    df.into(),
+                    df_error.into(),
+                ]);
+                row.push(Cell::of(&f_upper(fit.f, df, df_error)));
+                row.extend(fit.direction.iter().map(|x| Cell::from(*x)));
+            }
+            Err(why) => row.extend(undefined(why, 7)),
+        }
+        table.push(row);
+    }
+    table
+}

@@ -1,0 +1,170 @@
+//! What the logs of an experiment say: tables, tests, maps and the papers' figures.
+//!
+//! ```text
+//! sessions ─▶ kept (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ files
+//!                                                                  └▶ a pane
+//! ```
+//!
+//! # Invariants
+//! - what is left out is listed with its reason, before anything is counted
+//! - a number that cannot be computed is a reason, in every file
+//! - the same logs and options give the same bytes
+
+mod adjustment;
+mod draw;
+mod draw_map;
+mod groups;
+mod judgement;
+mod judgement_cells;
+mod judgement_confidence;
+mod kept;
+mod levels;
+mod magnitude;
+mod map;
+mod map_turn;
+mod model;
+mod odd_one_out;
+mod odd_one_out_distances;
+mod properties;
+mod ranking;
+mod ranking_confusions;
+mod ranking_scale;
+mod rating;
+mod variance;
+mod write;
+
+use std::path::Path;
+
+pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
+
+use super::ExperimentError;
+use super::design::Method;
+use super::session::{self, Found};
+use crate::progress::Progress;
+use crate::statistics::Resampling;
+use crate::textile::BuildCache;
+use kept::Experiment;
+
+/// Choices that the logs leave open.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// What chance begins with.
+    pub seed: u64,
+    /// Resamples of subjects for intervals, at least 100.
+    pub n_resamples: usize,
+    /// Permutations for p values.
+    pub n_permutations: usize,
+    /// Maps of resampled subjects, from which ellipses follow; 0 for none.
+    pub n_maps: usize,
+    /// Starts of a map in two dimensions and more.
+    pub n_starts: usize,
+    /// Starts of a map on a line.
+    pub n_starts_on_a_line: usize,
+    /// Sets of random ranks to compare the stress of maps with; 0 for none.
+    pub n_random_data: usize,
+    /// Where textiles that are built from recipes are kept.
+    pub cache: Option<BuildCache>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            n_resamples: 2000,
+            n_permutations: 4999,
+            n_maps: 100,
+            n_starts: 50,
+            n_starts_on_a_line: 1000,
+            n_random_data: 0,
+            cache: None,
+        }
+    }
+}
+
+impl Options {
+    fn resampling(&self) -> Resampling {
+        Resampling {
+            n_resamples: self.n_resamples.max(100),
+            seed: self.seed,
+            level: 0.95,
+        }
+    }
+}
+
+/// Analyses every session in a folder.
+///
+/// # Errors
+/// The folder or a log cannot be read, there are no sessions, or it was cancelled.
+pub fn analyse_folder(
+    folder: &Path,
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Analysis, ExperimentError> {
+    let found = session::find(folder)?;
+    if found.is_empty() {
+        return Err(ExperimentError::value(
+            format!("{} holds no session", folder.display()),
+            "name a folder with logs and the .json file beside each of them",
+        ));
+    }
+    analyse(&found, options, progress)
+}
+
+/// Analyses sessions, experiment by experiment.
+///
+/// # Errors
+/// It was cancelled. What cannot be computed is said in the analysis.
+pub fn analyse(
+    found: &[Found],
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Analysis, ExperimentError> {
+    let experiments = kept::experiments(found);
+    let mut sections = Vec::new();
+    for experiment in &experiments {
+        sections.push(experiment.sessions_section());
+        if experiment.subjects.is_empty() {
+            let mut empty = Section::new(experiment.key("empty"), experiment.design.title.clone());
+            empty.note("No trial is left to analyse.");
+            sections.push(empty);
+            continue;
+        }
+        sections.extend(sections_of(experiment, options, progress).map_err(cancelled)?);
+    }
+    sections.extend(groups::compared(&experiments));
+    let titles: Vec<&str> = experiments
+        .iter()
+        .map(|e| e.design.title.as_str())
+        .collect();
+    Ok(Analysis {
+        title: titles.join(" · "),
+        sections,
+    })
+}
+
+fn sections_of(
+    experiment: &Experiment<'_>,
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Section>, crate::progress::Cancelled> {
+    match &experiment.design.method {
+        Method::Ranking(ranking) => ranking::sections(experiment, *ranking, options, progress),
+        Method::OddOneOut(choosing) => {
+            odd_one_out::sections(experiment, choosing.weights, options, progress)
+        }
+        Method::Adjustment(adjusting) => {
+            adjustment::sections(experiment, adjusting, options, progress)
+        }
+        Method::Judgement(judging) => Ok(judgement::sections(experiment, judging, options)),
+        Method::Levels(levels) => Ok(levels::sections(experiment, levels, options)),
+        Method::Magnitude { .. } => Ok(magnitude::sections(experiment)),
+        Method::Rating(rating) => rating::sections(experiment, rating, options, progress),
+    }
+}
+
+fn cancelled(_: crate::progress::Cancelled) -> ExperimentError {
+    ExperimentError::value("the analysis was stopped", "begin it again")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,295 @@
+//! Ranking against a target (Philpott & Summers 2012): how often and how nearly the target was
+//! found, what was taken for what, and the map that follows.
+
+use super::Options;
+use super::draw::{Bar, bars};
+use super::kept::{Experiment, Subject};
+use super::map::Mapping;
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
+use super::properties::Measures;
+use super::{ranking_confusions, ranking_scale};
+use crate::experiment::design::{Ranking, Standard};
+use crate::experiment::{Answer, Task};
+use crate::progress::{Cancelled, Progress};
+use crate::statistics::detection::{Choice, Correction, forced_choice};
+use crate::statistics::mds::{Loss, Ties};
+use crate::statistics::ranking::{MeanRanks, RankTrial};
+use crate::statistics::{
+    Computed, Outcome, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank, wilson,
+};
+
+/// The share of guesses that rank the target first, %.
+pub(super) const CHANCE_PERCENT: f64 = 25.0;
+/// The mean rank that guesses give the target.
+const CHANCE_RANK: f64 = 2.5;
+
+/// A subject's rankings.
+pub(super) struct Rankings<'a> {
+    pub(super) subject: &'a str,
+    pub(super) trials: Vec<RankTrial>,
+}
+
+impl Rankings<'_> {
+    pub(super) fn n_first(&self) -> u64 {
+        self.trials
+            .iter()
+            .filter(|t| rank_of_target(t) == Some(1))
+            .count() as u64
+    }
+
+    /// Targets ranked first, %.
+    pub(super) fn percent(&self) -> f64 {
+        100.0 * self.n_first() as f64 / self.trials.len() as f64
+    }
+
+    fn mean_rank(&self) -> f64 {
+        let sum: usize = self.trials.iter().filter_map(rank_of_target).sum();
+        sum as f64 / self.trials.len() as f64
+    }
+}
+
+fn rank_of_target(trial: &RankTrial) -> Option<usize> {
+    let at = trial.alternatives.iter().position(|a| *a == trial.target)?;
+    trial.ranks.get(at).copied()
+}
+
+/// The rankings of every subject.
+pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
+    let of = |subject: &Subject<'a>| Rankings {
+        subject: subject.name,
+        trials: subject.trials().filter_map(ranking).collect(),
+    };
+    experiment.subjects.iter().map(of).collect()
+}
+
+fn ranking(record: &crate::experiment::Record) -> Option<RankTrial> {
+    let (
+        Task::Rank {
+            target,
+            alternatives,
+        },
+        Some(Answer::Ranks(ranks)),
+    ) = (&record.trial.task, record.answer())
+    else {
+        return None;
+    };
+    Some(RankTrial {
+        target: *target,
+        alternatives: alternatives.to_vec(),
+        ranks: ranks.iter().map(|rank| usize::from(*rank)).collect(),
+    })
+}
+
+pub(super) fn sections(
+    experiment: &Experiment<'_>,
+    how: Ranking,
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Section>, Cancelled> {
+    let all = rankings(experiment);
+    let names = experiment.ids();
+    let trials: Vec<RankTrial> = all.iter().flat_map(|r| r.trials.iter().cloned()).collect();
+    let mut sections = vec![identification(experiment, &all, options)];
+    let ranks = match MeanRanks::of(names.len(), &trials) {
+        Ok(ranks) => ranks,
+        Err(why) => {
+            sections[0].note(format!("No matrices: {}.", why.reason));
+            return Ok(sections);
+        }
+    };
+    sections.push(ranking_confusions::section(experiment, &ranks, &names, how));
+    sections.push(ranking_scale::section(experiment, &all));
+    let measures = Measures::of(experiment, options, progress)?;
+    let of_subject = |r: &Rankings<'_>| {
+        let ranks = MeanRanks::of(names.len(), &r.trials).ok()?;
+        Some(ranks.dissimilarities())
+    };
+    let mapping = Mapping {
+        key: experiment.key("map"),
+        title: format!("{}: map", experiment.design.title),
+        values: ranks.dissimilarities(),
+        subjects: all.iter().filter_map(of_subject).collect(),
+        names,
+        loss: Loss::SStress,
+        ties: Ties::Secondary,
+        measures: &measures,
+    };
+    let mut map = mapping.section(options, progress)?;
+    map.note("S-stress and secondary ties are what ALSCAL makes small by default.");
+    if how.target == Standard::RealCloth {
+        map.note(
+            "**The target is real, the alternatives are virtual**: their ranks are not symmetric, \
+             and a map of the symmetric part leaves the difference out. See the asymmetry.",
+        );
+    }
+    sections.push(map);
+    Ok(sections)
+}
+
+const SUBJECTS: [(&str, &str); 15] = [
+    ("subject", "subject"),
+    ("trials", "trials"),
+    ("first", "target first"),
+    ("percent", "%"),
+    ("ci_low_percent", "95 % CI from"),
+    ("ci_high_percent", "to"),
+    ("p_one_sided", "exact binomial p, above ¼"),
+    ("p_two_sided", "two-sided p"),
+    ("effect_h", "Cohen's h"),
+    ("d_prime", "d′, 4-AFC"),
+    ("d_prime_ci_low", "95 % CI from"),
+    ("d_prime_ci_high", "to"),
+    ("correction", "correction"),
+    ("mean_rank", "mean rank of the target"),
+    ("at_chance", "below chance"),
+];
+
+fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Options) -> Section {
+    let title = format!("{}: identification", experiment.design.title);
+    let mut section = Section::new(experiment.key("identification"), title);
+    section.note(
+        "Identified: the target was ranked first, chance 25 %. Intervals of shares are Wilson's, p \
+         is exact (binomial); d′ of four alternatives without bias, its interval from Wilson's.",
+    );
+    let mut table = Table::new("subjects", "Identification by subject", &SUBJECTS);
+    let mut d_primes = Vec::new();
+    for one in all {
+        let (hits, n) = (one.n_first(), one.trials.len() as u64);
+        let choice = forced_choice(hits, n, 4, Correction::LogLinear);
+        table.push(subject_row(one, &choice));
+        d_primes.extend(choice.ok().map(|c| c.d_prime));
+    }
+    section.tables.push(table);
+    let percents: Vec<f64> = all.iter().map(Rankings::percent).collect();
+    let ranks: Vec<f64> = all.iter().map(Rankings::mean_rank).collect();
+    let means = [
+        ("targets identified, %".to_owned(), percents.clone()),
+        ("d′".to_owned(), d_primes.clone()),
+        ("mean rank of the target".to_owned(), ranks.clone()),
+    ];
+    section
+        .tables
+        .push(summaries("group", "Over subjects", &means));
+    section.tables.push(resampled(&means, options.resampling()));
+    section.tables.push(tests(
+        "tests",
+        "Against chance",
+        &against_chance(all, [&percents, &d_primes, &ranks]),
+    ));
+    section.figures.push(by_subject(experiment, all, &percents));
+    section
+}
+
+fn subject_row(one: &Rankings<'_>, choice: &Computed<Choice>) -> Vec<Cell> {
+    let (hits, n) = (one.n_first(), one.trials.len() as u64);
+    let mut row = vec![
+        one.subject.into(),
+        n.into(),
+        hits.into(),
+        one.percent().into(),
+    ];
+    row.extend(ends(&percent_interval(hits, n)));
+    let greater = exact_binomial(hits, n, 0.25, Sides::Greater);
+    row.push(Cell::of(
+        &greater.as_ref().map(|o| o.p).map_err(Clone::clone),
+    ));
+    row.push(Cell::of(
+        &exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p),
+    ));
+    row.push(Cell::of(
+        &greater.and_then(|o| o.effect).map(|effect| effect.value),
+    ));
+    row.push(Cell::of(
+        &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
+    ));
+    row.extend(ends(&choice.clone().and_then(|c| c.interval)));
+    row.push(match choice {
+        Ok(choice) => choice.correction.map_or("none", Correction::name).into(),
+        Err(why) => Cell::Undefined(why.reason.clone()),
+    });
+    row.push(one.mean_rank().into());
+    row.push(match choice {
+        Ok(choice) if choice.is_below_chance => "yes".into(),
+        Ok(_) => "no".into(),
+        Err(why) => Cell::Undefined(why.reason.clone()),
+    });
+    row
+}
+
+pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<crate::statistics::Interval> {
+    wilson(hits, n, 0.95).map(|mut interval| {
+        interval.low *= 100.0;
+        interval.high *= 100.0;
+        interval
+    })
+}
+
+fn against_chance(
+    all: &[Rankings<'_>],
+    [percents, d_primes, ranks]: [&[f64]; 3],
+) -> Vec<(String, Computed<Outcome>)> {
+    let t = |values: &[f64], chance| Summary::of(values).and_then(|s| one_sample_t(&s, chance));
+    let hits: u64 = all.iter().map(Rankings::n_first).sum();
+    let n: u64 = all.iter().map(|r| r.trials.len() as u64).sum();
+    let pooled = exact_binomial(hits, n, 0.25, Sides::Greater).map(|mut outcome| {
+        outcome
+            .notes
+            .push("subjects pooled, as if trials were independent".to_owned());
+        outcome
+    });
+    vec![
+        (
+            "targets identified, % against 25".to_owned(),
+            t(percents, CHANCE_PERCENT),
+        ),
+        (
+            "targets identified, % against 25".to_owned(),
+            wilcoxon_signed_rank(percents, CHANCE_PERCENT),
+        ),
+        ("d′ against 0".to_owned(), t(d_primes, 0.0)),
+        (
+            "mean rank of the target against 2.5".to_owned(),
+            t(ranks, CHANCE_RANK),
+        ),
+        (
+            "mean rank of the target against 2.5".to_owned(),
+            wilcoxon_signed_rank(ranks, CHANCE_RANK),
+        ),
+        ("targets identified, share against ¼".to_owned(), pooled),
+    ]
+}
+
+fn by_subject(
+    experiment: &Experiment<'_>,
+    all: &[Rankings<'_>],
+    percents: &[f64],
+) -> super::model::Drawn {
+    let mut shown: Vec<Bar> = all
+        .iter()
+        .map(|r| Bar {
+            name: r.subject.to_owned(),
+            group: String::new(),
+            value: r.percent(),
+            interval: percent_interval(r.n_first(), r.trials.len() as u64)
+                .ok()
+                .map(|i| [i.low, i.high]),
+        })
+        .collect();
+    if let Ok(summary) = Summary::of(percents) {
+        shown.push(Bar {
+            name: "mean ± SE".to_owned(),
+            group: String::new(),
+            value: summary.mean,
+            interval: Some([summary.mean - summary.se, summary.mean + summary.se]),
+        });
+    }
+    let title = format!("{}: targets identified", experiment.design.title);
+    let label = "targets identified, % (95 % interval)";
+    bars(
+        "subjects-bars",
+        &title,
+        label,
+        (&shown, Some([0.0, 100.0])),
+        &[(CHANCE_PERCENT, "chance")],
+    )
+}

@@ -1,0 +1,160 @@
+//! What was taken for what: confusions, mean ranks, and how far they are from symmetric.
+
+use super::draw::{Bar, bars};
+use super::draw_map::heat;
+use super::kept::Experiment;
+use super::model::{Cell, Drawn, Section, Table, ends, matrix};
+use super::ranking::{CHANCE_PERCENT, percent_interval};
+use crate::experiment::design::{Ranking, Standard};
+use crate::statistics::ranking::MeanRanks;
+
+/// Matrices of targets and alternatives, all subjects together.
+pub(super) fn section(
+    experiment: &Experiment<'_>,
+    ranks: &MeanRanks,
+    names: &[String],
+    how: Ranking,
+) -> Section {
+    let title = format!("{}: what was taken for what", experiment.design.title);
+    let mut section = Section::new(experiment.key("confusions"), title);
+    let kind = match how.target {
+        Standard::RealCloth => "real cloth",
+        Standard::Virtual | Standard::None => "virtual",
+    };
+    section.note(format!(
+        "Rows are targets ({kind}), columns alternatives; all subjects together. The \
+         diagonal is the target itself."
+    ));
+    let (counts, first) = (ranks.counts(), ranks.confusions());
+    section.tables.push(targets(counts, first, names));
+    let of = |values: &[usize]| values.iter().map(|v| Cell::from(*v)).collect::<Vec<Cell>>();
+    section
+        .tables
+        .push(matrix("first", "Ranked first, trials", names, of(first)));
+    section
+        .tables
+        .push(matrix("presented", "Presented, trials", names, of(counts)));
+    let means = ranks.means();
+    let cells = means
+        .iter()
+        .map(|m| m.map_or_else(|| Cell::none("never met"), Cell::from));
+    section
+        .tables
+        .push(matrix("mean-ranks", "Mean rank", names, cells.collect()));
+    section.figures.push(heat(
+        "mean-ranks-map",
+        &format!("{}: mean ranks, rows are targets", experiment.design.title),
+        "mean rank",
+        names,
+        &means,
+    ));
+    section.figures.push(by_target(experiment, ranks, names));
+    asymmetry(ranks, names, &mut section);
+    section
+}
+
+/// Targets identified, subjects pooled.
+fn by_target(experiment: &Experiment<'_>, ranks: &MeanRanks, names: &[String]) -> Drawn {
+    let (n, counts, first) = (names.len(), ranks.counts(), ranks.confusions());
+    let mut shown = Vec::new();
+    for (target, name) in names.iter().enumerate() {
+        let cell = target * n + target;
+        let interval = percent_interval(first[cell] as u64, counts[cell] as u64).ok();
+        if let Some(interval) = interval {
+            shown.push(Bar {
+                name: name.clone(),
+                group: String::new(),
+                value: 100.0 * first[cell] as f64 / counts[cell] as f64,
+                interval: Some([interval.low, interval.high]),
+            });
+        }
+    }
+    let title = format!(
+        "{}: identified by target, subjects pooled",
+        experiment.design.title
+    );
+    let label = "identified, % (95 % interval)";
+    let range = Some([0.0, 100.0]);
+    bars(
+        "targets-bars",
+        &title,
+        label,
+        (&shown, range),
+        &[(CHANCE_PERCENT, "chance")],
+    )
+}
+
+fn targets(counts: &[usize], first: &[usize], names: &[String]) -> Table {
+    let columns = [
+        ("target", "target"),
+        ("trials", "trials"),
+        ("first", "identified"),
+        ("percent", "%"),
+        ("ci_low_percent", "95 % CI from"),
+        ("ci_high_percent", "to"),
+        ("most_taken_for", "most often taken for"),
+    ];
+    let title = "Identification by target, subjects pooled";
+    let mut table = Table::new("targets", title, &columns);
+    let n = names.len();
+    for (target, name) in names.iter().enumerate() {
+        let row = target * n..(target + 1) * n;
+        let (of, n_first) = (
+            counts[row.clone()][target] as u64,
+            first[row.clone()][target] as u64,
+        );
+        let wrong = first[row].iter().enumerate().filter(|(a, _)| *a != target);
+        let most = wrong.clone().map(|(_, v)| *v).max().unwrap_or(0);
+        let taken: Vec<&str> = wrong
+            .filter(|(_, v)| **v == most && most > 0)
+            .map(|(a, _)| names[a].as_str())
+            .collect();
+        let mut cells = vec![Cell::from(name.as_str()), of.into(), n_first.into()];
+        cells.push(if of > 0 {
+            (100.0 * n_first as f64 / of as f64).into()
+        } else {
+            Cell::none("never a target")
+        });
+        cells.extend(ends(&percent_interval(n_first, of)));
+        cells.push(if most > 0 {
+            format!("{} ({most})", taken.join(", ")).into()
+        } else {
+            Cell::none("never mistaken")
+        });
+        table.push(cells);
+    }
+    table
+}
+
+fn asymmetry(ranks: &MeanRanks, names: &[String], section: &mut Section) {
+    let found = match ranks.asymmetry() {
+        Ok(found) => found,
+        Err(why) => return section.note(format!("No asymmetry: {}.", why.reason)),
+    };
+    section.note(format!(
+        "Asymmetry of mean ranks, |M − Mᵀ|: mean {}, largest {} over {} pairs.",
+        crate::quantity::fixed(found.mean, 3),
+        crate::quantity::fixed(found.largest, 3),
+        found.pairs.len()
+    ));
+    let columns = [
+        ("one", "textile"),
+        ("other", "and"),
+        ("difference", "|M − Mᵀ|"),
+    ];
+    let mut table = Table::new(
+        "asymmetry",
+        "Asymmetry of mean ranks, largest first",
+        &columns,
+    );
+    let mut pairs = found.pairs;
+    pairs.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    for ([i, j], difference) in pairs {
+        table.push([
+            names[i].as_str().into(),
+            names[j].as_str().into(),
+            difference.into(),
+        ]);
+    }
+    section.tables.push(table);
+}

@@ -1,0 +1,150 @@
+//! What is written: the same bytes, reasons instead of what is no number.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::numerics::Random;
+
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Self {
+        let name = format!("selvedge-analysis-{name}-{}", std::process::id());
+        Self(std::env::temp_dir().join(name))
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        drop(fs::remove_dir_all(&self.0));
+    }
+}
+
+fn files_of(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap();
+    let of = |entry: fs::DirEntry| {
+        let name = entry.file_name().into_string().unwrap();
+        (name, fs::read(entry.path()).unwrap())
+    };
+    entries.map(|entry| of(entry.unwrap())).collect()
+}
+
+/// Whatever may be answered.
+fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
+    match task {
+        Task::Rank { .. } => {
+            let mut ranks = [1, 2, 3, 4];
+            random.shuffle(&mut ranks);
+            Answer::Ranks(ranks)
+        }
+        Task::OddOne { .. } => odd(task, random.index(3) == 0, Grade::ALL[random.index(3)]),
+        Task::Adjust { starts, .. } => Answer::Adjusted {
+            values: starts.clone(),
+            steps: Vec::new(),
+        },
+        Task::Judge { .. } | Task::JudgePair { .. } => judged(task, random.index(2) == 0, 2),
+        Task::Interval { .. } => Answer::Chosen {
+            position: random.index(2),
+            confidence: None,
+        },
+        Task::Estimate { .. } => Answer::Magnitude(1.0 + random.uniform()),
+        Task::Rate { .. } => {
+            let Method::Rating(rating) = &design.method else {
+                panic!("no rating");
+            };
+            Answer::Ratings(
+                rating
+                    .scales
+                    .iter()
+                    .map(|_| 100.0 * random.uniform())
+                    .collect(),
+            )
+        }
+    }
+}
+
+fn check_files(found: &[Found], name: &str) {
+    let folder = Scratch::new(name);
+    analysed(found).write(&folder.0).unwrap();
+    let files = files_of(&folder.0);
+    assert!(files.contains_key("index.md"), "{name}");
+    for (file, bytes) in files.iter().filter(|(file, _)| !file.ends_with(".png")) {
+        let text = String::from_utf8_lossy(bytes);
+        for never in ["NaN", "nan,", ",inf", "∞"] {
+            assert!(!text.contains(never), "{name}: {never} in {file}");
+        }
+    }
+}
+
+#[test]
+fn a_folder_without_sessions_is_refused_in_one_line() {
+    let folder = Scratch::new("empty");
+    fs::create_dir_all(&folder.0).unwrap();
+    let error = unheard(|progress| analyse_folder(&folder.0, &few(), progress)).unwrap_err();
+    let told = error.to_string();
+    assert!(
+        told.contains("holds no session") && !told.contains('\n'),
+        "{told}"
+    );
+}
+
+#[test]
+fn the_same_logs_give_the_same_bytes() {
+    let design = Design::shipped("odd-one-out").unwrap();
+    let answered = |seed: u64| {
+        let mut random = Random::new(seed);
+        move |task: &Task, _: usize| odd(task, random.index(3) > 0, Grade::ALL[random.index(3)])
+    };
+    let all = (0..3).map(|nth| held(&design, (nth, 1), answered(nth as u64)));
+    let found: Vec<Found> = all.collect();
+    let folders = ["first", "second"].map(Scratch::new);
+    for folder in &folders {
+        analysed(&found).write(&folder.0).unwrap();
+    }
+    let [first, second] = folders.each_ref().map(|folder| files_of(&folder.0));
+    assert!(first.len() > 30, "{:?}", first.keys());
+    assert!(first == second, "other bytes");
+}
+
+#[test]
+fn one_subject_answering_by_chance_gives_reasons_and_never_nan() {
+    for name in Design::shipped_names() {
+        let mut design = Design::shipped(name).unwrap();
+        // Building the large library is not what is asked here.
+        design.library = None;
+        let mut random = Random::new(5);
+        let own = design.clone();
+        let one = held(&design, (0, 1), |task, _| {
+            any_answer(&own, task, &mut random)
+        });
+        check_files(&[one], name);
+    }
+}
+
+#[test]
+fn subjects_who_always_answer_the_same_give_reasons_and_never_nan() {
+    for name in [
+        "ranking-virtual-target",
+        "odd-one-out",
+        "real-or-generated",
+        "rating",
+        "magnitude",
+    ] {
+        let mut design = Design::shipped(name).unwrap();
+        design.library = None;
+        let same = |task: &Task, _: usize| match task {
+            Task::Rank { .. } => Answer::Ranks([1, 2, 3, 4]),
+            Task::OddOne { .. } => Answer::Odd {
+                position: 0,
+                grade: Grade::Hard,
+            },
+            Task::Estimate { .. } => Answer::Magnitude(1.0),
+            Task::Rate { .. } => Answer::Ratings(vec![50.0; 4]),
+            other => judged(other, true, 1),
+        };
+        let found: Vec<Found> = (0..2).map(|nth| held(&design, (nth, 1), same)).collect();
+        check_files(&found, &format!("same-{name}"));
+    }
+}

@@ -1,0 +1,161 @@
+//! Settings, numbers and levels that follow a law.
+
+use std::path::PathBuf;
+
+use super::*;
+use crate::experiment::design::{Levels, Source, Track};
+use crate::quantity::factor_of_gain;
+use crate::statistics::adaptive::{Procedure as _, Staircase};
+
+/// Trials of a staircase whose observer is right from 5 dB on and wrong below.
+fn staircase_session(design: &Design, nth: usize) -> Found {
+    let Method::Levels(levels) = &design.method else {
+        panic!("no levels");
+    };
+    let Track::Staircase(track) = &levels.track else {
+        panic!("no staircase");
+    };
+    let mut records = Vec::new();
+    for series in 0..track.starts_db.len() {
+        let mut staircase: Staircase = levels_of(levels, series);
+        for _ in 0..40 {
+            let level_db = staircase.stimulus().unwrap();
+            let is_right = level_db >= 5.0 - nth as f64;
+            staircase.answer(level_db, is_right).unwrap();
+            let task = Task::Interval {
+                track: series,
+                level_db,
+                signal: 0,
+            };
+            let answer = Answer::Chosen {
+                position: usize::from(!is_right),
+                confidence: None,
+            };
+            let number = records.len();
+            let trial = Trial {
+                block: 0,
+                number,
+                is_practice: false,
+                task,
+            };
+            records.push(record(trial, answer, 5));
+        }
+    }
+    Found {
+        log: PathBuf::from(format!("nowhere/{nth}.csv")),
+        subject: Subject {
+            pseudonym: format!("p{nth}"),
+            nth,
+            session: 1,
+        },
+        design: design.clone(),
+        records,
+        has_torn_row: false,
+    }
+}
+
+fn levels_of(levels: &Levels, series: usize) -> Staircase {
+    let Track::Staircase(track) = &levels.track else {
+        panic!("no staircase");
+    };
+    levels::run_again(levels, track, series, &[]).unwrap()
+}
+
+#[test]
+fn matched_gains_on_a_line_are_a_compression() {
+    let design = Design::shipped("gain-matching").unwrap();
+    let library = crate::textile::Library::shipped().unwrap();
+    let level = |id: &str| {
+        let textile = library.load(id).unwrap();
+        let filters = crate::tactile::Filters::default();
+        crate::tactile::Levels::of(textile.surface(), &filters)
+            .level_db()
+            .unwrap()
+    };
+    let levels: Vec<f64> = design.stimuli.iter().map(|s| level(&s.id)).collect();
+    // Alternately 1 dB off either way, subject by subject.
+    let found: Vec<Found> = (0..4)
+        .map(|nth| {
+            held(&design, (nth, 1), |task, _| {
+                let Task::Adjust { item, .. } = task else {
+                    panic!("no adjustment");
+                };
+                let off = if nth % 2 == 0 { 1.0 } else { -1.0 };
+                Answer::Adjusted {
+                    values: vec![3.0 + off - 0.4 * levels[*item]],
+                    steps: Vec::new(),
+                }
+            })
+        })
+        .collect();
+    let analysis = analysed(&found);
+    let kappa = table(&analysis, "gain-matching-compression", "kappa");
+    for row in 0..5 {
+        assert!((value(kappa, row, "kappa") - 0.4).abs() < 1e-9, "{kappa:?}");
+    }
+    assert!(
+        (value(kappa, 4, "gain_at_0_db") - 3.0).abs() < 1e-9,
+        "{kappa:?}"
+    );
+    let stimuli = table(&analysis, "gain-matching-gain-db", "stimuli");
+    assert_eq!(value(stimuli, 0, "n"), 8.0);
+    assert!(
+        (value(stimuli, 0, "mean") - (3.0 - 0.4 * levels[0])).abs() < 1e-9,
+        "{stimuli:?}"
+    );
+    assert!(
+        (value(stimuli, 0, "sd") - (8.0_f64 / 7.0).sqrt()).abs() < 1e-9,
+        "{stimuli:?}"
+    );
+}
+
+#[test]
+fn numbers_that_follow_a_power_law_give_its_exponent() {
+    let design = Design::shipped("magnitude").unwrap();
+    let found: Vec<Found> = (0..3)
+        .map(|nth| {
+            held(&design, (nth, 1), |task, _| {
+                let Task::Estimate { item } = task else {
+                    panic!("no estimate");
+                };
+                let Source::Vibration { level_db, .. } = design.stimuli[*item].source else {
+                    panic!("no vibration");
+                };
+                Answer::Magnitude((nth as f64 + 1.0) * factor_of_gain(level_db).powf(0.6))
+            })
+        })
+        .collect();
+    let analysis = analysed(&found);
+    let exponents = table(&analysis, "magnitude-exponents", "exponents");
+    assert_eq!(
+        exponents.rows.len(),
+        8,
+        "three subjects and the group, two bands"
+    );
+    for row in 0..8 {
+        assert!(
+            (value(exponents, row, "exponent") - 0.6).abs() < 1e-9,
+            "{exponents:?}"
+        );
+    }
+}
+
+#[test]
+fn staircases_and_fits_find_the_level_from_which_answers_are_right() {
+    let design = Design::shipped("threshold-40").unwrap();
+    let found: Vec<Found> = (0..3).map(|nth| staircase_session(&design, nth)).collect();
+    let analysis = analysed(&found);
+    let fits = table(&analysis, "threshold-40-thresholds", "fits");
+    let means = table(&analysis, "threshold-40-staircases", "reversals");
+    for nth in 0..3 {
+        let edge = 4.5 - nth as f64;
+        assert!(
+            (value(fits, nth, "threshold_db") - edge).abs() < 1.0,
+            "{fits:?}"
+        );
+        assert!(
+            (value(means, 2 * nth, "threshold_db") - edge).abs() < 1.0,
+            "{means:?}"
+        );
+    }
+}
