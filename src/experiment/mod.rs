@@ -16,6 +16,7 @@
 mod course;
 pub mod design;
 mod error;
+pub mod layout;
 mod procedure;
 mod record;
 pub mod schedule;
