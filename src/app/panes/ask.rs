@@ -83,6 +83,14 @@ impl AskWords {
                 name: "cloth.png",
                 ending: "",
             },
+            Purpose::OpenDesign => Self {
+                title: "Open a design",
+                verb: "Open",
+                hint: "/path/to/DESIGN.toml",
+                missing: "Type the path of a design first",
+                name: "design.toml",
+                ending: ".toml",
+            },
             Purpose::Clip(kind) => clip_words(kind),
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",

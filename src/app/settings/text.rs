@@ -57,6 +57,8 @@ struct Keys {
     arrangement: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     arrangement_cloth: Value<String>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    arrangement_experiment: Value<String>,
 }
 
 /// What a key states.
@@ -151,6 +153,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         arrangements: [
             taken("arrangement", keys.arrangement, odd),
             taken("arrangement_cloth", keys.arrangement_cloth, odd),
+            taken("arrangement_experiment", keys.arrangement_experiment, odd),
         ],
         array: taken("array", keys.array, odd),
         window_size: taken("window_size", keys.window_size, odd),
@@ -220,6 +223,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         perspective: word(&kept.perspective, &perspectives()).into(),
         arrangement: kept.arrangements[0].clone().into(),
         arrangement_cloth: kept.arrangements[1].clone().into(),
+        arrangement_experiment: kept.arrangements[2].clone().into(),
     };
     keys_to_string(&keys, path)
 }
@@ -258,6 +262,7 @@ mod tests {
             arrangements: [
                 Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),
                 Some("{}".to_owned()),
+                Some("[]".to_owned()),
             ],
             array: Some("rig \"2\"".to_owned()),
             window_size: Some([1600.0, 1000.5]),
@@ -281,7 +286,7 @@ mod tests {
     fn a_file_from_before_perspectives_arranges_the_first_one() {
         let (kept, odd) = read("arrangement = \"a tree\"\n", path()).unwrap();
         assert_eq!((kept.perspective, odd), (Perspective::Explore, None));
-        assert_eq!(kept.arrangements, [Some("a tree".to_owned()), None]);
+        assert_eq!(kept.arrangements, [Some("a tree".to_owned()), None, None]);
         let (kept, odd) = read("theme = \"dark\"\nperspective = \"moon\"\n", path()).unwrap();
         assert_eq!((kept.perspective, odd), (Perspective::Explore, Some(2)));
     }
