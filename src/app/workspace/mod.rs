@@ -192,6 +192,9 @@ pub(crate) fn paint_plain_cloth(
         picture,
     };
     cloth::paint(painter, view, &plain, false);
+    let palette = Palette::of(painter.ctx().theme());
+    let edge = Stroke::new(1.0, palette.line);
+    cloth::paint_outline(painter, arrange::screen_corners(view, &plain), edge);
 }
 
 /// Draws the textiles through a view; the lens uses it too.

@@ -247,6 +247,8 @@ impl ArrayRenderer {
     pub fn vibrate_display(&mut self, display: usize, amplitude_um: [f32; 2]) {
         if let Some(frame) = self.frames.get_mut(display) {
             frame.vibrate(amplitude_um);
+            // The next tick renders anew even where the display stands.
+            self.displays[display].forget();
         }
     }
 
