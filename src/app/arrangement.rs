@@ -187,7 +187,6 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
         Pane::Response,
         Pane::Accuracy,
         Pane::Compare,
-        Pane::Experimenter,
     ];
     let spatial = tabs(tiles, &closer);
     let lower = [(heatmaps, 0.27), (spectra, 0.39), (spatial, 0.34)];
@@ -196,7 +195,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let parts = [(upper, height), (lower, PICTURES)];
     let middle = linear(tiles, LinearDir::Vertical, &parts);
     let tuning = tabs(tiles, &[Pane::Tuning]);
-    let bridge = tabs(tiles, &[Pane::Bridge]);
+    let bridge = tabs(tiles, &[Pane::Bridge, Pane::Experimenter]);
     let wave = tabs(tiles, &[Pane::DriveWave]);
     let parts = [(tuning, 0.488), (bridge, 0.327), (wave, 0.185)];
     let controls = linear(tiles, LinearDir::Vertical, &parts);
