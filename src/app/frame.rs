@@ -254,7 +254,11 @@ fn feel(
     let ground = ground.map(|shown| Ground {
         view: shown.view,
         rect: shown.ground,
-        size_mm: bench.transient.experiment.size_mm().unwrap_or(scene.size_mm),
+        size_mm: bench
+            .transient
+            .experiment
+            .size_mm()
+            .unwrap_or(scene.size_mm),
         pixels_per_point: ctx.pixels_per_point(),
     });
     bench.transient.ground = shown.map(|shown| shown.ground);

@@ -138,12 +138,6 @@ impl From<LabCommand> for Command {
     }
 }
 
-impl From<ExperimentCommand> for Command {
-    fn from(command: ExperimentCommand) -> Self {
-        Self::Experiment(command)
-    }
-}
-
 impl From<ShowCommand> for Command {
     fn from(command: ShowCommand) -> Self {
         Self::Show(command)

@@ -12,7 +12,10 @@ impl Desk<'_> {
     pub(super) fn show_participant(&mut self, ui: &mut Ui) {
         let now_s = ui.input(|input| input.time);
         let bench = &*self.bench;
-        let view = bench.transient.experiment.participant(&bench.transient.live, now_s);
+        let view = bench
+            .transient
+            .experiment
+            .participant(&bench.transient.live, now_s);
         let shown = panes::show_participant(ui, &view, self.wishes);
         if shown.is_some() {
             self.shown = shown;

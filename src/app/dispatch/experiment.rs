@@ -56,7 +56,11 @@ impl Workbench {
         let form = &mut self.transient.experiment.form;
         let folder = form.folder();
         let work = move |_: &mut Progress<'_>| list(&folder);
-        form.listing = Some(Task::start(("selvedge-sessions", ctx), self.is_stepped, work));
+        form.listing = Some(Task::start(
+            ("selvedge-sessions", ctx),
+            self.is_stepped,
+            work,
+        ));
     }
 
     fn begin_session(&mut self, ctx: &egui::Context) {
@@ -109,7 +113,9 @@ impl Workbench {
         experiment.form.failure = None;
         let how = (self.session_display(), self.settings.kept.rendering);
         let work = move |progress: &mut Progress<'_>| {
-            progress.step(0.1, "textiles").map_err(|stop| stop.to_string())?;
+            progress
+                .step(0.1, "textiles")
+                .map_err(|stop| stop.to_string())?;
             let (design, subject, path) = read()?;
             let materials = gather(&design, &path, how)?;
             progress.step(0.9, "log").map_err(|stop| stop.to_string())?;
@@ -127,7 +133,11 @@ impl Workbench {
     }
 
     fn device_name(&self) -> String {
-        self.transient.target.as_deref().unwrap_or("none").to_owned()
+        self.transient
+            .target
+            .as_deref()
+            .unwrap_or("none")
+            .to_owned()
     }
 
     fn began(&self, ctx: &egui::Context) -> Began {
@@ -200,8 +210,8 @@ impl Workbench {
             return;
         };
         let tuning = held.mark(mark, at);
-        let is_complete = (held.trial())
-            .is_some_and(|trial| held.draft.is_handed_in_at_once(&trial.task));
+        let is_complete =
+            (held.trial()).is_some_and(|trial| held.draft.is_handed_in_at_once(&trial.task));
         if let Some(tuning) = tuning {
             self.send(engine::Command::SetTuning(tuning));
         }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::draft::Mark;
+use crate::app::command::Command;
 
 /// Something to do with experiments. Never undone.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,4 +34,10 @@ pub(crate) enum ExperimentCommand {
     Pause(bool),
     /// End the session; what is answered is on disk.
     End,
+}
+
+impl From<ExperimentCommand> for Command {
+    fn from(command: ExperimentCommand) -> Self {
+        Self::Experiment(command)
+    }
 }

@@ -237,9 +237,7 @@ impl Draft {
                 let number = text.trim().replace(',', ".").parse::<f64>();
                 let is_strength = |value: &f64| *value > 0.0 && value.is_finite();
                 let number = number.ok().filter(is_strength);
-                number
-                    .map(Answer::Magnitude)
-                    .ok_or("Type a number above 0")
+                number.map(Answer::Magnitude).ok_or("Type a number above 0")
             }
             Self::Ratings { values, .. } => {
                 let all: Option<Vec<f64>> = values.iter().copied().collect();
@@ -260,7 +258,8 @@ impl Draft {
     pub(crate) fn told(&self) -> String {
         match self {
             Self::Ranks(order) => {
-                let name = |at: &Option<usize>| at.map_or("·".to_owned(), |at| (at + 1).to_string());
+                let name =
+                    |at: &Option<usize>| at.map_or("·".to_owned(), |at| (at + 1).to_string());
                 order.iter().map(name).collect::<Vec<_>>().join(" ")
             }
             Self::Odd { position, .. } | Self::Choose { position, .. } => {
@@ -400,7 +399,10 @@ mod tests {
         let Ok(Answer::Adjusted { values, steps }) = draft.answer() else {
             panic!("it is always an answer")
         };
-        assert!((values[0] - 20.0).abs() < 1e-9 && start < 20.0, "{values:?}");
+        assert!(
+            (values[0] - 20.0).abs() < 1e-9 && start < 20.0,
+            "{values:?}"
+        );
         assert!(!steps.is_empty() && steps.len() <= 2, "{steps:?}");
     }
 

@@ -189,7 +189,9 @@ pub(crate) fn numbered(
         .filter(of_study)
         .map(|found| found.subject)
         .collect();
-    let known = found.iter().find(|other| other.pseudonym == subject.pseudonym);
+    let known = found
+        .iter()
+        .find(|other| other.pseudonym == subject.pseudonym);
     let after_all = || found.iter().map(|other| other.nth + 1).max().unwrap_or(0);
     subject.nth = known.map_or_else(after_all, |known| known.nth);
     Ok(subject)

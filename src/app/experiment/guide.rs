@@ -47,7 +47,9 @@ mod tests {
                 let here = place(&practised, middle, t_s);
                 let next = place(&practised, middle, t_s + 1e-4);
                 let speed = (next - here).length_mm() / 1e-4;
-                assert!((speed - 100.0).abs() < 1.0 || speed < 100.0 && movement == Movement::Linear);
+                assert!(
+                    (speed - 100.0).abs() < 1.0 || speed < 100.0 && movement == Movement::Linear
+                );
                 assert!((here - middle).length_mm() <= HALF_MM + 1e-9);
             }
         }

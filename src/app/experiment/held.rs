@@ -8,67 +8,18 @@ use eframe::egui;
 
 use super::draft::{Draft, Mark};
 use super::materials::Materials;
+use super::now::{Began, Now, Pause};
 use crate::app::task::{Task, taken};
 use crate::engine::{Recording, VibrationStep};
-use crate::experiment::design::{Design, Familiarisation, Method, Source, Subject};
+use crate::experiment::design::{Design, Method, Source, Subject};
 use crate::experiment::layout::{self, Layout};
 use crate::experiment::session::{Circumstances, Session};
-use crate::experiment::{Answer, Apparatus, Outcome, Step, Task as Asked, Timing, Trial};
+use crate::experiment::{Answer, Apparatus, Outcome, Task as Asked, Timing, Trial};
 use crate::scene::ExplorationPath;
 use crate::tactile::Tuning;
 
 /// Silence before the first vibration of a trial, ticks.
 const LEAD_TICKS: u32 = 24;
-
-/// What happens now, kept while the session is away to be written.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Now {
-    /// The participant reads.
-    Instructions(String),
-    /// A movement is practised.
-    Familiarisation(Familiarisation),
-    /// A trial waits for its answer.
-    Trial(Trial),
-    /// A break of at least so many seconds.
-    Break {
-        /// The block that was ended, from 0.
-        after_block: usize,
-        /// Its least length, s.
-        least_s: f64,
-    },
-    /// All is answered.
-    Finished,
-}
-
-impl Now {
-    fn of(step: &Step<'_>) -> Self {
-        match *step {
-            Step::Instructions(text) => Self::Instructions(text.to_owned()),
-            Step::Familiarisation(movement) => Self::Familiarisation(movement),
-            Step::Trial(trial) => Self::Trial(trial.clone()),
-            Step::Break {
-                after_block,
-                least_s,
-            } => Self::Break {
-                after_block,
-                least_s,
-            },
-            Step::Finished => Self::Finished,
-        }
-    }
-}
-
-/// Whether the session rests between two trials.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Pause {
-    /// No.
-    #[default]
-    None,
-    /// Before the next trial.
-    Wanted,
-    /// Now.
-    On,
-}
 
 /// A row that is not on disk yet.
 #[derive(Debug, Clone)]
@@ -85,17 +36,6 @@ struct Pending {
 struct Written {
     session: Session,
     outcome: Result<(), String>,
-}
-
-/// When the present step began.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Began {
-    /// By the clock on the wall.
-    pub(crate) utc: SystemTime,
-    /// By one that never jumps.
-    pub(crate) at: Instant,
-    /// By the toolkit's, s.
-    pub(crate) shown_s: f64,
 }
 
 /// A session that is being held.
@@ -144,7 +84,12 @@ pub(crate) struct Held {
 
 impl Held {
     /// A session that was just opened.
-    pub(crate) fn new(session: Session, materials: Materials, device: String, began: Began) -> Self {
+    pub(crate) fn new(
+        session: Session,
+        materials: Materials,
+        device: String,
+        began: Began,
+    ) -> Self {
         let mut held = Self {
             design: session.design().clone(),
             subject: session.subject().clone(),
@@ -364,8 +309,7 @@ impl Held {
 
     /// Begins to write what waits, once its recording is there. Whether it begins now.
     pub(crate) fn write(&mut self, (ctx, is_at_once): (&egui::Context, bool), has_engine: bool) {
-        let is_due =
-            self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
+        let is_due = self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
         let is_complete = !self.is_recording || !has_engine;
         if !(is_due && is_complete) {
             return;

@@ -77,8 +77,7 @@ impl Materials {
         let scene = layout.scene(design, &self.display, tuning);
         let loaded = self.loaded.with_scene(scene)?;
         let (method, accuracy) = (self.rendering.method, self.rendering.accuracy());
-        let prepared =
-            PreparedScene::prepare_cached(&loaded, method, &accuracy, &mut self.cache)?;
+        let prepared = PreparedScene::prepare_cached(&loaded, method, &accuracy, &mut self.cache)?;
         Ok(prepared)
     }
 }

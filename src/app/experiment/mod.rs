@@ -19,14 +19,16 @@ mod form;
 mod guide;
 mod held;
 mod materials;
+mod now;
 mod view;
 
 pub(crate) use command::ExperimentCommand;
 pub(crate) use draft::{Draft, Mark, Sure};
 pub(crate) use form::{Chosen, Form, Row, list, numbered, title_of};
 pub(crate) use guide::{HALF_MM, RADIUS_MM};
-pub(crate) use held::{Began, Held, Now, Pause};
+pub(crate) use held::Held;
 pub(crate) use materials::Materials;
+pub(crate) use now::{Began, Now, Pause};
 pub(crate) use view::{
     Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView,
 };

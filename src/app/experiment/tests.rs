@@ -1,16 +1,17 @@
 //! Sessions in the window: what is answered is on disk, what is seen tells nothing, and the
 //! user's scene comes back.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+mod drawn;
 
-use eframe::egui::{Color32, Pos2, Theme, vec2};
+use std::fs;
+use std::path::PathBuf;
+
+use eframe::egui::{Pos2, vec2};
 
 use super::*;
 use crate::app::command::{DeviceCommand, Edit};
 use crate::app::headless::Headless;
 use crate::app::view::Live;
-use crate::app::workspace::ViewTransform;
 use crate::experiment::Task;
 use crate::experiment::design::Design;
 use crate::experiment::session::{find, path_file};
@@ -112,7 +113,14 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     let mut window = begun(&folder, "ranking-virtual-target", "p01");
     to_trial(&mut window);
     explore(&mut window, 60);
-    assert!(window.bench.amplitudes_um().iter().flatten().any(|um| *um > 0.0));
+    assert!(
+        window
+            .bench
+            .amplitudes_um()
+            .iter()
+            .flatten()
+            .any(|um| *um > 0.0)
+    );
     let trial = held(&window).trial().unwrap().clone();
     rank(&mut window, [2, 0, 1, 3]);
     assert_eq!(held(&window).progress, (1, 8));
@@ -120,11 +128,18 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     let path = ExplorationPath::read(&path_file(&log, &trial, 1)).unwrap();
     assert!(path.n_ticks() >= 60, "{}", path.n_ticks());
     let moved = path.ticks().map(|(_, pose)| pose.velocity.speed_mm_per_s());
-    assert!(moved.fold(0.0, f64::max) > 20.0, "it replays how the finger moved");
+    assert!(
+        moved.fold(0.0, f64::max) > 20.0,
+        "it replays how the finger moved"
+    );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
     assert!(!window.bench.transient.experiment.is_held());
-    assert_eq!(window.bench.take.as_ref().map(|_| ()), None, "no recording of the user's");
+    assert_eq!(
+        window.bench.take.as_ref().map(|_| ()),
+        None,
+        "no recording of the user's"
+    );
     let found = find(&folder.0).unwrap();
     let [one] = &found[..] else {
         panic!("one session")
@@ -160,7 +175,10 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     assert_eq!(window.bench.document.scene(), &before);
     assert_eq!(window.bench.document.undo_name(), Some("removed textile"));
     let told = window.bench.notices();
-    assert!(told.iter().any(|line| line.contains("end it first")), "{told:?}");
+    assert!(
+        told.iter().any(|line| line.contains("end it first")),
+        "{told:?}"
+    );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
     assert_eq!(window.bench.document.scene(), &before);
@@ -183,10 +201,21 @@ fn a_row_that_cannot_be_written_waits_with_its_answer_until_it_is() {
     explore(&mut window, 10);
     rank(&mut window, [0, 1, 2, 3]);
     let stuck = held(&window);
-    assert!(stuck.failure.is_some() && stuck.is_writing(), "{:?}", stuck.failure);
+    assert!(
+        stuck.failure.is_some() && stuck.is_writing(),
+        "{:?}",
+        stuck.failure
+    );
     assert_eq!((stuck.progress.0, stuck.trial()), (0, Some(&trial)));
-    let view = window.bench.transient.experiment.participant(&Live::default(), 0.0);
-    assert!(matches!(view, ParticipantView::Words { left_s: None, .. }), "{view:?}");
+    let view = window
+        .bench
+        .transient
+        .experiment
+        .participant(&Live::default(), 0.0);
+    assert!(
+        matches!(view, ParticipantView::Words { left_s: None, .. }),
+        "{view:?}"
+    );
     fs::remove_file(&paths).unwrap();
     window.dispatch(ExperimentCommand::Retry);
     window.pass(4);
@@ -253,10 +282,20 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     let mut window = begun(&folder, "odd-one-out", "p01");
     to_trial(&mut window);
     let trial = held(&window).trial().unwrap().clone();
-    window.bench.transient.experiment.held.as_mut().unwrap().note = "a cough".to_owned();
+    window
+        .bench
+        .transient
+        .experiment
+        .held
+        .as_mut()
+        .unwrap()
+        .note = "a cough".to_owned();
     window.dispatch(ExperimentCommand::Abort);
     window.pass(4);
-    assert_eq!((held(&window).trial(), held(&window).progress.0), (Some(&trial), 0));
+    assert_eq!(
+        (held(&window).trial(), held(&window).progress.0),
+        (Some(&trial), 0)
+    );
     assert_eq!(held(&window).note, "", "it is in the row");
     window.dispatch(ExperimentCommand::Pause(true));
     assert!(held(&window).trial().is_some(), "it is finished first");
@@ -270,7 +309,10 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     assert!(held(&window).trial().is_some_and(|next| *next != trial));
     let found = find(&folder.0).unwrap();
     let rows = &found[0].records;
-    assert_eq!((rows.len(), rows[0].note.as_str(), rows[1].attempt), (2, "a cough", 2));
+    assert_eq!(
+        (rows.len(), rows[0].note.as_str(), rows[1].attempt),
+        (2, "a cough", 2)
+    );
 }
 
 #[test]
@@ -331,7 +373,10 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     let [row] = &form.found[..] else {
         panic!("one session")
     };
-    assert_eq!((row.subject.pseudonym.as_str(), row.progress), ("p01", (0, 9)));
+    assert_eq!(
+        (row.subject.pseudonym.as_str(), row.progress),
+        ("p01", (0, 9))
+    );
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     let failure = window.bench.transient.experiment.form.failure.clone();
@@ -340,130 +385,4 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     assert_eq!(held(&window).subject.nth, 1, "the second of the study");
-}
-
-/// A window whose frames are drawn, and what they are drawn with.
-struct Drawn {
-    window: Headless,
-    rasteriser: crate::app::Rasteriser,
-}
-
-const SIZE: [usize; 2] = [1400, 900];
-
-impl Drawn {
-    /// A trial of a design, for this participant.
-    fn trial(folder: &Folder, design: &'static str, pseudonym: &str, theme: Theme) -> Self {
-        let window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
-        window.ctx.set_theme(theme);
-        let mut drawn = Self {
-            window,
-            rasteriser: crate::app::Rasteriser::default(),
-        };
-        drawn.pass(2);
-        let form = &mut drawn.window.bench.transient.experiment.form;
-        form.choose(small(folder, design));
-        form.folder = folder.0.display().to_string();
-        form.pseudonym = pseudonym.to_owned();
-        drawn.window.dispatch(ExperimentCommand::Begin);
-        drawn.pass(3);
-        for _ in 0..6 {
-            drawn.window.dispatch(ExperimentCommand::Pass);
-            drawn.pass(2);
-        }
-        drawn
-    }
-
-    fn pass(&mut self, n_frames: u32) {
-        for _ in 0..n_frames {
-            let mut output = self.window.run();
-            self.rasteriser.apply(&mut output.textures_delta);
-        }
-    }
-
-    fn picture(&mut self) -> crate::app::Picture {
-        let mut output = self.window.run();
-        self.rasteriser.apply(&mut output.textures_delta);
-        let shapes = output.shapes;
-        let primitives = self.window.ctx.tessellate(shapes, output.pixels_per_point);
-        let picture = self.rasteriser.draw(&primitives, SIZE, 1.0, Color32::BLACK);
-        if let Ok(out) = std::env::var("SELVEDGE_PICTURES") {
-            let task = held(&self.window).trial().map(|trial| format!("{:?}", trial.task));
-            let word = task.as_deref().and_then(|task| task.split(' ').next()).unwrap_or("x");
-            let path = Path::new(&out).join(format!("{word}-{:?}.png", self.window.ctx.theme()));
-            let bytes = crate::files::encode_png_rgba(&picture.rgba, SIZE[0], SIZE[1], &path);
-            fs::write(path, bytes.unwrap()).unwrap();
-        }
-        picture
-    }
-}
-
-/// Where two pictures differ: the bounds of all such pixels, [left, top, right, bottom].
-fn differing(one: &crate::app::Picture, two: &crate::app::Picture, right: usize) -> [usize; 4] {
-    let mut bounds = [usize::MAX, usize::MAX, 0, 0];
-    for (n, (a, b)) in one.rgba.chunks(4).zip(two.rgba.chunks(4)).enumerate() {
-        let (x, y) = (n % SIZE[0], n / SIZE[0]);
-        if a != b && x < right {
-            bounds = [
-                bounds[0].min(x),
-                bounds[1].min(y),
-                bounds[2].max(x),
-                bounds[3].max(y),
-            ];
-        }
-    }
-    bounds
-}
-
-#[test]
-fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone() {
-    let target = |drawn: &Drawn| match held(&drawn.window).trial().map(|trial| &trial.task) {
-        Some(Task::Rank { target, .. }) => *target,
-        _ => panic!("a ranking"),
-    };
-    let trial = |name: &str| {
-        let folder = Folder::new(&format!("drawn-{name}"));
-        let mut drawn = Drawn::trial(&folder, "ranking-virtual-target", name, Theme::Dark);
-        let picture = drawn.picture();
-        let pane = drawn.window.bench.transient.ground.unwrap();
-        let size_mm = held(&drawn.window).layout.size_mm;
-        (target(&drawn), picture, ViewTransform::fitted(pane, size_mm))
-    };
-    let (one, first, view) = trial("p01");
-    let (two, second, _) = (["p02", "p03", "p04", "p05"].into_iter().map(trial))
-        .find(|(two, ..)| *two != one)
-        .unwrap();
-    assert_ne!(one, two);
-    // The experimenter's view names the participant: what stands right of the ground is not looked at.
-    let right = SIZE[0] - 340;
-    let bounds = differing(&first, &second, right);
-    let low = view.screen(crate::geometry::Point::new(10.0, 10.0));
-    let high = view.screen(crate::geometry::Point::new(330.0, 330.0));
-    let near = |at: usize, edge: f32| (at as f32 - edge).abs() < 3.0;
-    assert!(near(bounds[0], low.x) && near(bounds[2], high.x), "{bounds:?} {low} {high}");
-    assert!(near(bounds[1], high.y) && near(bounds[3], low.y), "{bounds:?} {low} {high}");
-}
-
-#[test]
-fn every_kind_of_trial_is_drawn_in_both_themes() {
-    let kinds = [
-        ("odd-one-out", Theme::Light),
-        ("ranking-real-target", Theme::Light),
-        ("adjustment-two-gains", Theme::Dark),
-        ("rating", Theme::Dark),
-        ("magnitude", Theme::Light),
-    ];
-    for (design, theme) in kinds {
-        let folder = Folder::new(&format!("kind-{design}"));
-        let mut drawn = Drawn::trial(&folder, design, "p01", theme);
-        explore(&mut drawn.window, 8);
-        mark(&mut drawn.window, Mark::Place(2));
-        mark(&mut drawn.window, Mark::Rate(1, 30.0));
-        let picture = drawn.picture();
-        // Letters, cloth and controls stand out from the ground.
-        let mut colours: Vec<&[u8]> = picture.rgba.chunks(4).collect();
-        colours.sort_unstable();
-        colours.dedup();
-        assert!(colours.len() > 50, "{design}: {} colours", colours.len());
-        assert!(held(&drawn.window).trial().is_some(), "{design}");
-    }
 }

@@ -5,7 +5,8 @@
 
 use super::draft::Draft;
 use super::form::title_of;
-use super::held::{Held, Now, Pause};
+use super::held::Held;
+use super::now::{Now, Pause};
 use super::{Experiment, guide};
 use crate::app::view::{BridgePhase, BridgeView, ClothPicture, Live};
 use crate::experiment::design::{Design, Source};
@@ -233,8 +234,7 @@ impl Held {
                 let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
                 ParticipantView::Movement {
                     ground: self.ground(None, finger),
-                    is_circle: movement.movement
-                        == crate::experiment::design::Movement::Circular,
+                    is_circle: movement.movement == crate::experiment::design::Movement::Circular,
                     guide: guide::place(movement, middle, self.lasted_s(now_s)),
                     left_s: self.left_s(now_s),
                 }
@@ -284,7 +284,10 @@ impl Held {
         let trial = self.trial();
         HeldView {
             title: title_of(&self.design),
-            subject: format!("{}, session {}", self.subject.pseudonym, self.subject.session),
+            subject: format!(
+                "{}, session {}",
+                self.subject.pseudonym, self.subject.session
+            ),
             log: self.log.display().to_string(),
             course,
             place: trial.map_or_else(String::new, place_of),

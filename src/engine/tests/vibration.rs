@@ -10,11 +10,7 @@ fn step(amplitude_um: [f32; 2], n_ticks: u32) -> VibrationStep {
 }
 
 fn two_intervals() -> Vec<VibrationStep> {
-    vec![
-        step([0.5, 0.0], 3),
-        step([0.0; 2], 2),
-        step([0.0, 0.25], 3),
-    ]
+    vec![step([0.5, 0.0], 3), step([0.0; 2], 2), step([0.0, 0.25], 3)]
 }
 
 #[test]

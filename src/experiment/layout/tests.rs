@@ -30,14 +30,27 @@ fn a_virtual_target_lies_in_the_middle_of_four_and_touches_none() {
     };
     let layout = Layout::of(&design, &task);
     assert_eq!(layout.size_mm, [340.0; 2]);
-    let order: Vec<_> = layout.places.iter().map(|p| (p.stimulus, p.number)).collect();
-    let expected = [(5, Some(1)), (3, Some(2)), (9, Some(3)), (0, Some(4)), (3, None)];
+    let order: Vec<_> = layout
+        .places
+        .iter()
+        .map(|p| (p.stimulus, p.number))
+        .collect();
+    let expected = [
+        (5, Some(1)),
+        (3, Some(2)),
+        (9, Some(3)),
+        (0, Some(4)),
+        (3, None),
+    ];
     assert_eq!(order, expected);
     let middle = layout.places[4].origin_mm;
     assert_eq!(middle, Point::new(120.0, 120.0));
     for place in &layout.places[..4] {
         let off = place.origin_mm - middle;
-        assert!(off.x_mm.abs() >= 110.0 && off.y_mm.abs() >= 110.0, "{off:?}");
+        assert!(
+            off.x_mm.abs() >= 110.0 && off.y_mm.abs() >= 110.0,
+            "{off:?}"
+        );
     }
     // 1 is above and left of all others.
     assert_eq!(layout.places[0].origin_mm, Point::new(10.0, 230.0));

@@ -15,7 +15,9 @@ const NAME: f32 = 84.0;
 
 pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mut Wishes) {
     section(ui, "New session");
-    row_of(ui, NAME, ("design", ""), |ui, _| show_designs(ui, form, wishes));
+    row_of(ui, NAME, ("design", ""), |ui, _| {
+        show_designs(ui, form, wishes)
+    });
     if let Ok(design) = &form.design {
         note(ui, &about(design), Tone::Quiet);
     }
@@ -27,7 +29,12 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mu
         text(ui, label, &mut form.session, ("1", 64.0, Need::Optional));
     });
     row_of(ui, NAME, ("folder", ""), |ui, label| {
-        text(ui, label, &mut form.folder, ("/path/to/study", any, Need::Optional));
+        text(
+            ui,
+            label,
+            &mut form.folder,
+            ("/path/to/study", any, Need::Optional),
+        );
     });
     let refusal = form.refusal();
     ui.add_space(STEP);
@@ -87,7 +94,9 @@ fn about(design: &Design) -> String {
         n => format!(", {n} for practice first"),
     };
     let library = design.library.as_ref();
-    let library = library.map_or_else(String::new, |library| format!(", library {}", library.display()));
+    let library = library.map_or_else(String::new, |library| {
+        format!(", library {}", library.display())
+    });
     format!(
         "{stimuli}medium {}{practice}{library}; study {}",
         design.medium.name(),
@@ -99,7 +108,12 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
     section(ui, "Sessions in the folder");
     let no_folder = form.folder.trim().is_empty();
     let refusal = no_folder.then_some("Say in which folder first");
-    if button(ui, "List them", "Look which sessions the folder holds", refusal) {
+    if button(
+        ui,
+        "List them",
+        "Look which sessions the folder holds",
+        refusal,
+    ) {
         wishes.push(ExperimentCommand::List.into());
     }
     for found in &form.found {
@@ -113,7 +127,10 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
 
 fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, wishes: &mut Wishes) {
     let (done, all) = found.progress;
-    let name = format!("{}, session {}", found.subject.pseudonym, found.subject.session);
+    let name = format!(
+        "{}, session {}",
+        found.subject.pseudonym, found.subject.session
+    );
     let detail = format!("{done} of {all} · {}", found.title);
     if done >= all {
         ui.allocate_ui(vec2(ui.available_width(), ROW), |ui| {

@@ -10,14 +10,13 @@ use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{button, mark, quiet_pair, section};
 use crate::quantity;
 
-pub(super) fn show(
-    ui: &mut Ui,
-    view: &HeldView,
-    typed: Option<&mut String>,
-    wishes: &mut Wishes,
-) {
+pub(super) fn show(ui: &mut Ui, view: &HeldView, typed: Option<&mut String>, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
-    ui.label(RichText::new(&view.title).font(theme::title()).color(palette.text));
+    ui.label(
+        RichText::new(&view.title)
+            .font(theme::title())
+            .color(palette.text),
+    );
     note(ui, &view.subject, Tone::Quiet);
     show_progress(ui, view);
     if let Some(line) = &view.failure {
@@ -57,15 +56,29 @@ fn show_progress(ui: &mut Ui, view: &HeldView) {
     };
     let state = if view.is_writing { "writing" } else { "" };
     quiet_pair(ui, "now", step, state);
-    quiet_pair(ui, "for", &super::super::participant::clock(view.lasted_s), "min:s");
+    quiet_pair(
+        ui,
+        "for",
+        &super::super::participant::clock(view.lasted_s),
+        "min:s",
+    );
     if view.left_s > 0.0 {
-        quiet_pair(ui, "left", &super::super::participant::clock(view.left_s), "min:s");
+        quiet_pair(
+            ui,
+            "left",
+            &super::super::participant::clock(view.left_s),
+            "min:s",
+        );
     }
     if let Some(last_s) = view.last_response_s {
         quiet_pair(ui, "last answer after", &quantity::fixed(last_s, 1), "s");
     }
     if view.course == Course::Trial {
-        let answered = if view.answered.is_empty() { "–" } else { &view.answered };
+        let answered = if view.answered.is_empty() {
+            "–"
+        } else {
+            &view.answered
+        };
         quiet_pair(ui, "answered so far", answered, "");
     }
 }
@@ -96,7 +109,11 @@ fn show_step(ui: &mut Ui, view: &HeldView, wishes: &mut Wishes) {
         let is_trial = view.course == Course::Trial;
         let waits = "The row is being written";
         let writing = view.is_writing.then_some(waits);
-        let other = if is_trial { Some("The trial waits for its answer") } else { None };
+        let other = if is_trial {
+            Some("The trial waits for its answer")
+        } else {
+            None
+        };
         let rests = matches!(view.course, Course::Paused | Course::Finished);
         let pass = other.or_else(|| rests.then_some("Nothing to go on from"));
         if button(ui, "Go on", "Go on for the participant, at once", pass) {
@@ -124,12 +141,19 @@ fn show_link(ui: &mut Ui, link: &Link, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     section(ui, "Device");
     ui.horizontal(|ui| {
-        let lamp = if link.is_armed { palette.danger } else { palette.line };
+        let lamp = if link.is_armed {
+            palette.danger
+        } else {
+            palette.line
+        };
         mark(ui, lamp, link.state);
         ui.label(&link.name);
         ui.label(RichText::new(link.state).color(palette.dim));
     });
-    for (name, limit_um) in ["40 Hz at most", "320 Hz at most"].into_iter().zip(link.limit_um) {
+    for (name, limit_um) in ["40 Hz at most", "320 Hz at most"]
+        .into_iter()
+        .zip(link.limit_um)
+    {
         quiet_pair(ui, name, &quantity::fixed(limit_um, 1), "µm");
     }
     if link.is_stopped {

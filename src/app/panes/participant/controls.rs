@@ -1,7 +1,8 @@
 //! What an answer is given with: large buttons, lines without numbers, a field for one number.
 
 use eframe::egui::{
-    self, Align, Button, Key, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    self, Align, Button, Key, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 use super::ground::count;
@@ -109,7 +110,9 @@ fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, wishes: &mut Wishes
     };
     let text = RichText::new(words).font(theme::large()).color(ink);
     let least = if words.len() > 1 { 112.0 } else { 72.0 };
-    let button = Button::new(text).fill(fill).min_size(vec2(least, BIG - 8.0));
+    let button = Button::new(text)
+        .fill(fill)
+        .min_size(vec2(least, BIG - 8.0));
     let response = ui.add(button);
     let is_enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::selected(egui::Role::Button, is_enabled, is_on, words));
@@ -154,7 +157,9 @@ fn choose_sure(ui: &mut Ui, words: &str, is_on: bool, grade: u8, wishes: &mut Wi
         (palette.raised, palette.text)
     };
     let text = RichText::new(words).font(theme::large()).color(ink);
-    let button = Button::new(text).fill(fill).min_size(vec2(64.0, BIG - 12.0));
+    let button = Button::new(text)
+        .fill(fill)
+        .min_size(vec2(64.0, BIG - 12.0));
     let response = ui.add(button);
     let is_enabled = ui.is_enabled();
     response.widget_info(|| {
@@ -261,9 +266,9 @@ fn line(ui: &mut Ui, name: &str, (low, high): (&str, &str), share: Option<f64>) 
         painter.text(pos2(x, y), align, words, theme::large(), palette.text);
     }
     let stepped = step_of(ui, &response, share);
-    let at = response.interact_pointer_pos().filter(|_| {
-        response.clicked() || response.dragged()
-    });
+    let at = response
+        .interact_pointer_pos()
+        .filter(|_| response.clicked() || response.dragged());
     let pointed = at.map(|at| f64::from((at.x - rail.left()) / rail.width()).clamp(0.0, 1.0));
     pointed.or(stepped)
 }

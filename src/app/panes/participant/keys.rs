@@ -104,6 +104,9 @@ mod tests {
         assert_eq!(marks(&draft(None), two), [Mark::Place(1)]);
         assert_eq!(marks(&draft(Some(0)), two), [Mark::Confidence(2)]);
         let ranked = Draft::Ranks([None; 4]);
-        assert_eq!(marks(&ranked, |key| key == Key::Backspace), [Mark::TakeBack]);
+        assert_eq!(
+            marks(&ranked, |key| key == Key::Backspace),
+            [Mark::TakeBack]
+        );
     }
 }

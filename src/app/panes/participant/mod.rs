@@ -10,8 +10,7 @@ mod ranks;
 mod tests;
 
 use eframe::egui::{
-    Align2, Button, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2,
-    vec2,
+    Align2, Button, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use eframe::egui::{Role, WidgetText};
 
@@ -91,7 +90,9 @@ fn split(ui: &Ui, words: &str, height: f32) -> [Rect; 2] {
     let whole = ui.max_rect();
     let palette = Palette::in_ui(ui);
     let at = pos2(whole.center().x, whole.top() + 0.5 * QUESTION);
-    let text = RichText::new(words).font(theme::large()).color(palette.text);
+    let text = RichText::new(words)
+        .font(theme::large())
+        .color(palette.text);
     let wrap = Some(TextWrapMode::Wrap);
     let style = eframe::egui::TextStyle::Body;
     let galley = WidgetText::from(text).into_galley(ui, wrap, whole.width(), style);

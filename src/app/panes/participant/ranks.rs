@@ -56,7 +56,8 @@ fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, wishes: &mut Wishe
     };
     let below = pos2(rect.center().x, rect.bottom() + 4.0);
     let font = theme::body();
-    ui.painter().text(below, Align2::CENTER_TOP, words, font, palette.dim);
+    ui.painter()
+        .text(below, Align2::CENTER_TOP, words, font, palette.dim);
     if let Some(position) = response.dnd_release_payload::<usize>() {
         wishes.push(ExperimentCommand::Mark(Mark::Rank(*position, rank)).into());
     }
@@ -79,7 +80,13 @@ fn drag(ui: &Ui, response: &Response, position: usize) {
         let rect = Rect::from_center_size(at, vec2(SIDE, SIDE));
         painter.rect_filled(rect, 8, palette.hovered);
         let number = (position + 1).to_string();
-        painter.text(at, Align2::CENTER_CENTER, number, theme::huge(), palette.text);
+        painter.text(
+            at,
+            Align2::CENTER_CENTER,
+            number,
+            theme::huge(),
+            palette.text,
+        );
     }
 }
 
@@ -88,14 +95,28 @@ fn paint_place(ui: &Ui, rect: Rect, held: Option<usize>, is_lit: bool) {
     let painter = ui.painter();
     match held {
         Some(position) => {
-            let fill = if is_lit { palette.hovered } else { palette.raised };
+            let fill = if is_lit {
+                palette.hovered
+            } else {
+                palette.raised
+            };
             painter.rect_filled(rect, 8, fill);
             let number = (position + 1).to_string();
             let at = rect.center();
-            painter.text(at, Align2::CENTER_CENTER, number, theme::huge(), palette.text);
+            painter.text(
+                at,
+                Align2::CENTER_CENTER,
+                number,
+                theme::huge(),
+                palette.text,
+            );
         }
         None => {
-            let ink = if is_lit { palette.selection } else { palette.line };
+            let ink = if is_lit {
+                palette.selection
+            } else {
+                palette.line
+            };
             painter.rect_stroke(rect, 8, Stroke::new(1.0, ink), StrokeKind::Inside);
         }
     }

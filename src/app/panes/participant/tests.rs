@@ -27,16 +27,18 @@ fn trial(draft: &Draft) -> TrialView<'_> {
 /// A window with nothing in it but a participant's view, and what is wished for in it.
 fn window(view: ParticipantView<'_>) -> Harness<'_, Wishes> {
     let mut is_styled = false;
-    Harness::builder().with_size(vec2(900.0, 700.0)).build_ui_state(
-        move |ui, wishes| {
-            if !is_styled {
-                theme::install(ui.ctx());
-                is_styled = true;
-            }
-            show(ui, &view, wishes);
-        },
-        Wishes::new(),
-    )
+    Harness::builder()
+        .with_size(vec2(900.0, 700.0))
+        .build_ui_state(
+            move |ui, wishes| {
+                if !is_styled {
+                    theme::install(ui.ctx());
+                    is_styled = true;
+                }
+                show(ui, &view, wishes);
+            },
+            Wishes::new(),
+        )
 }
 
 fn marks(harness: &Harness<'_, Wishes>) -> Vec<ExperimentCommand> {
@@ -121,7 +123,10 @@ fn a_number_is_typed_and_a_line_answers_keys() {
     let mut harness = window(ParticipantView::Trial(trial(&draft)));
     harness.run();
     let field = harness.get_by_role_and_label(Role::TextInput, "Number");
-    assert!(field.accesskit_node().is_focused(), "ready to be typed into");
+    assert!(
+        field.accesskit_node().is_focused(),
+        "ready to be typed into"
+    );
     harness.event(eframe::egui::Event::Text("7".to_owned()));
     harness.run();
     let typed = ExperimentCommand::Mark(Mark::Type("7".to_owned()));
