@@ -1,11 +1,10 @@
 //! An experiment that is run in the window: one session, seen by participant and experimenter.
 //!
 //! ```text
-//! form ─▶ materials, session ─▶ held ─┬▶ participant's view: numbers of places, never what lies there
-//!                                │  ▲ └▶ experimenter's view: progress and device, never what is right
-//!                        trial's scene  marks, answers ─▶ row on disk ─▶ next trial
-//!                                ▼
-//!                             engine
+//! form ─▶ materials, session ─▶ held ─┬▶ participant's view: numbers of places alone
+//!                               │  ▲  └▶ experimenter's view: progress and device
+//!                 trial's scene ▼  └ marks, answers ─▶ row on disk ─▶ next trial
+//!                            engine
 //! ```
 //!
 //! # Invariants

@@ -107,7 +107,7 @@ fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone
         .find(|(two, ..)| *two != one)
         .unwrap();
     assert_ne!(one, two);
-    // The experimenter's view names the participant: what stands right of the ground is not looked at.
+    // The experimenter's view, on the right, names the participant.
     let right = SIZE[0] - 340;
     let bounds = differing(&first, &second, right);
     let low = view.screen(crate::geometry::Point::new(10.0, 10.0));

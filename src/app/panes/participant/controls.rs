@@ -220,13 +220,13 @@ fn show_parameter(
     (value, parameter): (f64, &TunedParameter),
     wishes: &mut Wishes,
 ) {
-    let (name, less, more) = match (n, at) {
-        (1, _) => ("Control", "↓", "↑"),
-        (_, 0) => ("Control 1", "↓", "↑"),
-        _ => ("Control 2", "←", "→"),
+    let name = match (n, at) {
+        (1, _) => "Control",
+        (_, 0) => "Control 1",
+        _ => "Control 2",
     };
     let share = (value - parameter.from) / (parameter.to - parameter.from);
-    if let Some(share) = line(ui, name, (less, more), Some(share)) {
+    if let Some(share) = line(ui, name, ("less", "more"), Some(share)) {
         let to = parameter.from + share * (parameter.to - parameter.from);
         wishes.push(ExperimentCommand::Mark(Mark::Set(at, to)).into());
     }
