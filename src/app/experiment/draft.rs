@@ -258,8 +258,9 @@ impl Draft {
     pub(crate) fn told(&self) -> String {
         match self {
             Self::Ranks(order) => {
-                let name =
-                    |at: &Option<usize>| at.map_or("·".to_owned(), |at| (at + 1).to_string());
+                let name = |at: &Option<usize>| {
+                    at.map_or_else(|| "·".to_owned(), |at| (at + 1).to_string())
+                };
                 order.iter().map(name).collect::<Vec<_>>().join(" ")
             }
             Self::Odd { position, .. } | Self::Choose { position, .. } => {

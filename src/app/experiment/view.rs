@@ -202,7 +202,7 @@ impl Experiment {
     pub(crate) fn experimenter(&self, link: Link, now_s: f64) -> ExperimenterView {
         match &self.held {
             None => ExperimenterView::Nobody {
-                share: self.beginning.as_ref().map(|task| task.share()),
+                share: self.beginning.as_ref().map(super::super::task::Task::share),
             },
             Some(held) => ExperimenterView::Held(Box::new(held.experimenter(link, now_s))),
         }

@@ -16,7 +16,7 @@ const NAME: f32 = 84.0;
 pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mut Wishes) {
     section(ui, "New session");
     row_of(ui, NAME, ("design", ""), |ui, _| {
-        show_designs(ui, form, wishes)
+        show_designs(ui, form, wishes);
     });
     if let Ok(design) = &form.design {
         note(ui, &about(design), Tone::Quiet);
@@ -38,17 +38,14 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mu
     });
     let refusal = form.refusal();
     ui.add_space(STEP);
-    match share {
-        Some(share) => {
-            let bar = ProgressBar::new(share).desired_height(4.0);
-            ui.add(bar);
-            note(ui, "The textiles are being prepared", Tone::Quiet);
-        }
-        None => {
-            let tip = "Prepare every textile of the design, then open the log";
-            if button(ui, "Begin the session", tip, refusal.as_deref()) {
-                wishes.push(ExperimentCommand::Begin.into());
-            }
+    if let Some(share) = share {
+        let bar = ProgressBar::new(share).desired_height(4.0);
+        ui.add(bar);
+        note(ui, "The textiles are being prepared", Tone::Quiet);
+    } else {
+        let tip = "Prepare every textile of the design, then open the log";
+        if button(ui, "Begin the session", tip, refusal.as_deref()) {
+            wishes.push(ExperimentCommand::Begin.into());
         }
     }
     if let Some(line) = &form.failure {

@@ -130,7 +130,7 @@ fn show_step(ui: &mut Ui, view: &HeldView, wishes: &mut Wishes) {
             wishes.push(ExperimentCommand::Pause(is_wanted).into());
         }
         let tip = "Give this trial up: a row says so, and it comes again";
-        let abort = writing.or((!is_trial).then_some("No trial is under way"));
+        let abort = writing.or_else(|| (!is_trial).then_some("No trial is under way"));
         if button(ui, "Abort the trial", tip, abort) {
             wishes.push(ExperimentCommand::Abort.into());
         }

@@ -1,7 +1,7 @@
 //! Ranking: four numbers that are laid in order, by drag, click or digit.
 
 use eframe::egui::{
-    self, Align2, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::ground::count;
@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], wishes: &mut 
             paint_place(ui, rect, None, false);
             continue;
         }
-        name(ui, &response, format!("Fabric {}", position + 1));
+        name(ui, &response, &format!("Fabric {}", position + 1));
         drag(ui, &response, position);
         paint_place(ui, rect, Some(position), response.hovered());
         if response.clicked() {
@@ -41,8 +41,8 @@ pub(super) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], wishes: &mut 
 
 fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, wishes: &mut Wishes) {
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
-    let what = ranked.map_or("empty".to_owned(), |at| format!("fabric {}", at + 1));
-    name(ui, &response, format!("Rank {}: {what}", rank + 1));
+    let what = ranked.map_or_else(|| "empty".to_owned(), |at| format!("fabric {}", at + 1));
+    name(ui, &response, &format!("Rank {}: {what}", rank + 1));
     if let Some(position) = ranked {
         drag(ui, &response, position);
     }
@@ -63,9 +63,9 @@ fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, wishes: &mut Wishe
     }
 }
 
-fn name(ui: &Ui, response: &Response, label: String) {
+fn name(ui: &Ui, response: &Response, label: &str) {
     let is_enabled = ui.is_enabled();
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_enabled, label.clone()));
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_enabled, label));
 }
 
 /// Lets a number be dragged, and draws it under the pointer.
@@ -93,38 +93,30 @@ fn drag(ui: &Ui, response: &Response, position: usize) {
 fn paint_place(ui: &Ui, rect: Rect, held: Option<usize>, is_lit: bool) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter();
-    match held {
-        Some(position) => {
-            let fill = if is_lit {
-                palette.hovered
-            } else {
-                palette.raised
-            };
-            painter.rect_filled(rect, 8, fill);
-            let number = (position + 1).to_string();
-            let at = rect.center();
-            painter.text(
-                at,
-                Align2::CENTER_CENTER,
-                number,
-                theme::huge(),
-                palette.text,
-            );
-        }
-        None => {
-            let ink = if is_lit {
-                palette.selection
-            } else {
-                palette.line
-            };
-            painter.rect_stroke(rect, 8, Stroke::new(1.0, ink), StrokeKind::Inside);
-        }
-    }
+    let Some(position) = held else {
+        let ink = if is_lit {
+            palette.selection
+        } else {
+            palette.line
+        };
+        painter.rect_stroke(rect, 8, Stroke::new(1.0, ink), StrokeKind::Inside);
+        return;
+    };
+    let fill = if is_lit {
+        palette.hovered
+    } else {
+        palette.raised
+    };
+    painter.rect_filled(rect, 8, fill);
+    let number = (position + 1).to_string();
+    let ink = palette.text;
+    let at = rect.center();
+    painter.text(at, Align2::CENTER_CENTER, number, theme::huge(), ink);
 }
 
 fn paint_arrow(ui: &Ui, rect: Rect) {
     let palette = Palette::in_ui(ui);
-    let middle: Pos2 = rect.center();
+    let middle = rect.center();
     ui.painter().arrow(
         middle - vec2(12.0, 0.0),
         vec2(24.0, 0.0),
