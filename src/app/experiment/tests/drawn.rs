@@ -67,12 +67,16 @@ impl Drawn {
     }
 }
 
+/// Letters may lie elsewhere among the letters' texture, which rounds their edges otherwise.
+const ROUNDING: u8 = 8;
+
 /// Where two pictures differ: the bounds of all such pixels, [left, top, right, bottom].
 fn differing(one: &crate::app::Picture, two: &crate::app::Picture, right: usize) -> [usize; 4] {
     let mut bounds = [usize::MAX, usize::MAX, 0, 0];
     for (n, (a, b)) in one.rgba.chunks(4).zip(two.rgba.chunks(4)).enumerate() {
         let (x, y) = (n % SIZE[0], n / SIZE[0]);
-        if a != b && x < right {
+        let is_other = (a.iter().zip(b)).any(|(a, b)| a.abs_diff(*b) > ROUNDING);
+        if is_other && x < right {
             bounds = [
                 bounds[0].min(x),
                 bounds[1].min(y),
