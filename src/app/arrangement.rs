@@ -21,12 +21,13 @@ const PICTURES: f32 = 236.0;
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// The workspace and what stands behind it.
-const FRONT: [Pane; 5] = [
+const FRONT: [Pane; 6] = [
     Pane::Workspace,
     Pane::Lab,
     Pane::Import,
     Pane::Picture,
     Pane::Collection,
+    Pane::Participant,
 ];
 
 /// A part of the window that can be moved, stacked and hidden.
@@ -66,11 +67,15 @@ pub(crate) enum Pane {
     Import,
     /// A picture of a cloth that becomes a textile.
     Picture,
+    /// What a participant of an experiment sees.
+    Participant,
+    /// A session of an experiment, as who holds it sees it.
+    Experimenter,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 17] = [
+    pub(crate) const ALL: [Self; 19] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -88,6 +93,8 @@ impl Pane {
         Self::Lab,
         Self::Import,
         Self::Picture,
+        Self::Participant,
+        Self::Experimenter,
     ];
 
     /// Its title.
@@ -110,6 +117,8 @@ impl Pane {
             Self::Lab => "Textile lab",
             Self::Import => "Import",
             Self::Picture => "Picture",
+            Self::Participant => "Participant",
+            Self::Experimenter => "Experimenter",
         }
     }
 
@@ -132,7 +141,9 @@ impl Pane {
             | Self::Compare
             | Self::Collection
             | Self::Import
-            | Self::Picture => self.title(),
+            | Self::Picture
+            | Self::Participant
+            | Self::Experimenter => self.title(),
         }
     }
 
@@ -184,7 +195,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let parts = [(upper, height), (lower, PICTURES)];
     let middle = linear(tiles, LinearDir::Vertical, &parts);
     let tuning = tabs(tiles, &[Pane::Tuning]);
-    let bridge = tabs(tiles, &[Pane::Bridge]);
+    let bridge = tabs(tiles, &[Pane::Bridge, Pane::Experimenter]);
     let wave = tabs(tiles, &[Pane::DriveWave]);
     let parts = [(tuning, 0.488), (bridge, 0.327), (wave, 0.185)];
     let controls = linear(tiles, LinearDir::Vertical, &parts);
@@ -208,6 +219,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
             Pane::Accuracy,
             Pane::Compare,
             Pane::DriveWave,
+            Pane::Experimenter,
         ],
     );
     let right = linear(

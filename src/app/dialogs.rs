@@ -210,6 +210,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::Clip(kind) => dialog.add_filter(words.title, &[ending(kind)]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
         Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
+        Purpose::OpenDesign => dialog.add_filter("Designs", &["toml"]),
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());
@@ -239,7 +240,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
         Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
         Purpose::Export(_) => ".png",
-        Purpose::ImportFiles | Purpose::OpenPicture => return path,
+        Purpose::ImportFiles | Purpose::OpenPicture | Purpose::OpenDesign => return path,
     });
     let longer = path.with_file_name(name);
     if longer.exists() { path } else { longer }

@@ -31,7 +31,10 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
     let mut wishes = Wishes::new();
     let scene = bench.scene_view();
     show_header(bench, ui, &scene, &mut wishes);
-    show_transport(bench, ui, &mut wishes);
+    if !bench.transient.experiment.is_held() {
+        // What is felt is not to be seen.
+        show_transport(bench, ui, &mut wishes);
+    }
     let central = CentralPanel::default().frame(Frame::new());
     let desk = central.show(ui, |ui| {
         let rect = ui.max_rect();
@@ -251,7 +254,11 @@ fn feel(
     let ground = ground.map(|shown| Ground {
         view: shown.view,
         rect: shown.ground,
-        size_mm: scene.size_mm,
+        size_mm: bench
+            .transient
+            .experiment
+            .size_mm()
+            .unwrap_or(scene.size_mm),
         pixels_per_point: ctx.pixels_per_point(),
     });
     bench.transient.ground = shown.map(|shown| shown.ground);

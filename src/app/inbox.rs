@@ -31,6 +31,7 @@ impl Workbench {
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();
+        self.poll_experiment(ctx);
         self.follow_array(ctx);
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
@@ -113,6 +114,9 @@ impl Workbench {
         }
         let snapshot = self.engine.snapshot();
         let transient = &mut self.transient;
+        if let Some(held) = &mut transient.experiment.held {
+            held.vibration = snapshot.vibration;
+        }
         let status = snapshot.link.and_then(|link| link.status);
         let is_lost = snapshot
             .link
@@ -179,7 +183,12 @@ impl Workbench {
         {
             self.dispatch(ctx, Command::AllOff);
         }
+        let is_held = self.transient.experiment.is_held();
         for command in shortcuts::pressed(ctx) {
+            // A participant who presses a key is told nothing of what it does elsewhere.
+            if is_held && command != Command::AllOff {
+                continue;
+            }
             self.dispatch(ctx, command);
         }
     }

@@ -38,6 +38,7 @@ mod dispatch;
 mod document;
 mod editing;
 mod error;
+mod experiment;
 mod export;
 mod faulty;
 mod felt;

@@ -11,6 +11,8 @@ use super::arrangement::{self, Pane, is_roomy, linear, tabs};
 const LIBRARY: f32 = 200.0;
 /// Height of what stands below the lab, points.
 const BELOW: f32 = 168.0;
+/// Width of the experimenter's view, points.
+const EXPERIMENTER: f32 = 328.0;
 
 /// What the window is arranged for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -20,11 +22,13 @@ pub(crate) enum Perspective {
     Explore,
     /// To make cloth.
     Cloth,
+    /// To run an experiment.
+    Experiment,
 }
 
 impl Perspective {
     /// All, in the order in which they are offered.
-    pub(crate) const ALL: [Self; 2] = [Self::Explore, Self::Cloth];
+    pub(crate) const ALL: [Self; 3] = [Self::Explore, Self::Cloth, Self::Experiment];
 
     /// Its place in [`Self::ALL`].
     pub(crate) fn index(self) -> usize {
@@ -37,6 +41,7 @@ impl Perspective {
         match self {
             Self::Explore => "Explore",
             Self::Cloth => "Cloth",
+            Self::Experiment => "Experiment",
         }
     }
 
@@ -45,6 +50,7 @@ impl Perspective {
         match self {
             Self::Explore => "Feel a scene",
             Self::Cloth => "Make cloth: the library and the textile lab",
+            Self::Experiment => "Run an experiment with a participant",
         }
     }
 
@@ -53,6 +59,7 @@ impl Perspective {
         match self {
             Self::Explore => "explore",
             Self::Cloth => "cloth",
+            Self::Experiment => "experiment",
         }
     }
 
@@ -64,6 +71,11 @@ impl Perspective {
                 let mut tiles = Tiles::default();
                 let root = cloth(&mut tiles, size);
                 Tree::new(Id::unique("cloth"), root, tiles)
+            }
+            Self::Experiment => {
+                let mut tiles = Tiles::default();
+                let root = experiment(&mut tiles, size);
+                Tree::new(Id::unique("experiment"), root, tiles)
             }
         }
     }
@@ -101,6 +113,28 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let middle = linear(tiles, LinearDir::Vertical, &parts);
     let library = tabs(tiles, &[Pane::Library]);
     let parts = [(library, LIBRARY), (middle, size.x - LIBRARY)];
+    linear(tiles, LinearDir::Horizontal, &parts)
+}
+
+/// The participant's view, large; the experimenter's beside it, with the device and every other
+/// pane below. In a small window the participant's view stands in front of all.
+fn experiment(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
+    let mut rest = Pane::ALL.to_vec();
+    rest.sort_by_key(|pane| match pane {
+        Pane::Participant => 0,
+        Pane::Experimenter => 1,
+        Pane::Bridge => 2,
+        _ => 3,
+    });
+    if !is_roomy(size) {
+        return tabs(tiles, &rest);
+    }
+    let participant = tabs(tiles, &rest[..1]);
+    let experimenter = tabs(tiles, &rest[1..2]);
+    let rest = tabs(tiles, &rest[2..]);
+    let parts = [(experimenter, 0.6), (rest, 0.4)];
+    let right = linear(tiles, LinearDir::Vertical, &parts);
+    let parts = [(participant, size.x - EXPERIMENTER), (right, EXPERIMENTER)];
     linear(tiles, LinearDir::Horizontal, &parts)
 }
 

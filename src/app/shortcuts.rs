@@ -164,7 +164,7 @@ fn show_keys() -> Vec<Shortcut> {
 }
 
 fn perspective_keys() -> Vec<Shortcut> {
-    let keys = [Key::Num1, Key::Num2];
+    let keys = [Key::Num1, Key::Num2, Key::Num3];
     let pairs = keys.into_iter().zip(Perspective::ALL);
     let arrange = |(at, perspective): (Key, Perspective)| {
         let command = ShowCommand::Perspective(perspective);

@@ -9,6 +9,7 @@ use super::collection::Collection;
 use super::compare::Comparison;
 use super::curves::Curves;
 use super::dialogs::Dialogs;
+use super::experiment::Experiment;
 use super::export::Exports;
 use super::faulty::FaultBench;
 use super::folders::Folders;
@@ -96,6 +97,8 @@ pub(crate) struct Transient {
     pub(crate) collection: Collection,
     /// What is compared, and what came of it.
     pub(crate) comparison: Comparison,
+    /// Experiments and the session that is held.
+    pub(crate) experiment: Experiment,
     /// Measurements that are imported.
     pub(crate) importing: Importing,
     /// A picture of a cloth on its way to a textile.

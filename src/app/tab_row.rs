@@ -77,7 +77,9 @@ pub(crate) fn corner_width(pane: Pane) -> f32 {
         | Pane::Tuning
         | Pane::Bridge
         | Pane::Import
-        | Pane::Picture => 0.0,
+        | Pane::Picture
+        | Pane::Participant
+        | Pane::Experimenter => 0.0,
     };
     own + export
 }

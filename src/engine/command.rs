@@ -7,7 +7,7 @@ use std::fmt;
 use std::io::BufRead;
 use std::sync::Arc;
 
-use super::{PointerInput, PreparedScene, Tap};
+use super::{PointerInput, PreparedScene, Tap, VibrationStep};
 use crate::bridge::{ArrayProfile, BridgeEvent, Target};
 use crate::render::{PlacedLevel, RenderError};
 use crate::scene::{ExplorationPath, Stroke};
@@ -34,6 +34,11 @@ pub enum Command {
     /// Which contactors of the first display are felt, by index: the others do nothing anywhere.
     /// Contactors beyond its end are felt, so an empty one feels all. It outlives scenes.
     SetContactorMask(Vec<bool>),
+    /// Plays these one after another from the next tick on, in place of what the first display
+    /// feels of the scene; an empty list ends what is played. Tuning does not change them; limits,
+    /// calibration, soft start, mask and stops are those of every tick. While everything is off
+    /// nothing is played.
+    Vibrate(Vec<VibrationStep>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.
@@ -248,6 +253,7 @@ impl fmt::Debug for Command {
             Self::SetTuning(_) => "SetTuning",
             Self::SetTextileGain { .. } => "SetTextileGain",
             Self::SetContactorMask(_) => "SetContactorMask",
+            Self::Vibrate(_) => "Vibrate",
             Self::SetLevels(_) => "SetLevels",
             Self::SetSource(_) => "SetSource",
             Self::SetVelocityMethod(_) => "SetVelocityMethod",

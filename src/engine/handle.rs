@@ -19,6 +19,7 @@ use super::input::{Control, PointerInput, ReplayInput, StrokeInput, start_lines}
 use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, Runner};
+use super::vibration::Vibration;
 use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
@@ -221,6 +222,7 @@ impl Engine {
             }
             Command::SetLevels(levels) => Order::Core(CoreOrder::Levels(levels)),
             Command::SetContactorMask(mask) => Order::Core(CoreOrder::Mask(mask)),
+            Command::Vibrate(steps) => Order::Core(CoreOrder::Vibrate(Vibration::of(steps))),
             Command::SetVelocityMethod(method) => Order::Core(CoreOrder::Velocity(method)),
             Command::SetAngle(angle_deg) => Order::Core(CoreOrder::Angle(angle_deg)),
             Command::TurnBy(by_deg) => Order::Core(CoreOrder::Turn(by_deg)),

@@ -42,6 +42,7 @@ mod synth;
 mod tap;
 mod track;
 mod velocity;
+mod vibration;
 
 pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
 pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
@@ -68,6 +69,7 @@ pub use stop::StopSwitch;
 pub use synth::{DeviceWaveform, SampleSynth};
 pub use tap::Tap;
 pub use velocity::{Estimate, REST, VelocityEstimator};
+pub use vibration::VibrationStep;
 
 use std::time::Duration;
 

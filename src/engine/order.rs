@@ -4,6 +4,7 @@ use triple_buffer::Input;
 
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
+use super::vibration::Vibration;
 use super::{PreparedScene, Snapshot, Tap, VelocityMethod};
 use crate::bridge::{ArrayChange, Bridge, Coder};
 use crate::render::PlacedLevel;
@@ -93,6 +94,8 @@ pub(super) enum CoreOrder {
     Levels(Vec<PlacedLevel>),
     /// Which contactors of the first display are felt.
     Mask(Vec<bool>),
+    /// What is played in place of the scene.
+    Vibrate(Vibration),
     /// `None`: live samples.
     Source(Option<Box<dyn PointerInput>>),
     Velocity(VelocityMethod),
@@ -111,6 +114,7 @@ pub(super) enum Retired {
     Source(Box<dyn PointerInput>),
     Levels(Vec<PlacedLevel>),
     Mask(Vec<bool>),
+    Vibration(Vibration),
     Bridge(Box<Bridge>),
     Array(Box<ArrayOrder>),
     Tap(Box<Tap>),

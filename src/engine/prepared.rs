@@ -141,8 +141,22 @@ impl PreparedScene {
     /// Renders every display at this pose and looks which output limits its amplitudes meet.
     /// Contactors of the first display that the mask says are not felt do nothing.
     pub(super) fn render(&mut self, pose: Pose, mask: &[bool]) {
+        self.render_or_vibrate(pose, mask, None);
+    }
+
+    /// The same; where a vibration is played, every contactor of the first display has its
+    /// amplitudes [A40, A320] in place of the scene's, µm.
+    pub(super) fn render_or_vibrate(
+        &mut self,
+        pose: Pose,
+        mask: &[bool],
+        vibration_um: Option<[f32; 2]>,
+    ) {
         self.poses.fill(pose);
         self.renderer.tick(&self.poses);
+        if let Some(amplitude_um) = vibration_um {
+            self.renderer.vibrate_display(0, amplitude_um);
+        }
         self.renderer.mask_display(0, mask);
         for (output, frame) in self.outputs.iter_mut().zip(self.renderer.frames()) {
             output

@@ -42,6 +42,8 @@ pub struct Snapshot {
     /// Whether the device plays silence: stopped, or a replay that is held (whose amplitudes the
     /// displays go on to show).
     pub is_silent: bool,
+    /// Which step of a sequence of vibrations is played, from 0; `None` while none is.
+    pub vibration: Option<u16>,
     /// The rendering method chosen; never `auto`.
     pub method: Method,
     /// How far amplitudes may be from the reference, known before the first tick.
@@ -89,6 +91,7 @@ impl Snapshot {
             displays: scene.empty_views(),
             is_stopped: false,
             is_silent: false,
+            vibration: None,
             method: renderer.method(),
             bound: renderer.bound(),
             render: *renderer.counters(),

@@ -18,6 +18,7 @@ pub mod by_hand;
 mod course;
 pub mod design;
 mod error;
+pub mod layout;
 pub mod observer;
 mod participants;
 mod procedure;

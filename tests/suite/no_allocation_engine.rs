@@ -11,7 +11,7 @@ use assert_no_alloc::assert_no_alloc;
 use selvedge::bridge::{ArrayProfile, BridgeState, Target};
 use selvedge::engine::{
     Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene,
-    ProgramLink, TICK, loopback,
+    ProgramLink, TICK, VibrationStep, loopback,
 };
 use selvedge::geometry::{Displacement, Frame, Point, Rotation};
 use selvedge::render::array::{Accuracy, Method};
@@ -103,6 +103,29 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
         "{:?}",
         snapshot.render
     );
+}
+
+#[test]
+fn vibrations_in_place_of_cloth_allocate_nothing() {
+    let start = Instant::now();
+    let (mut engine, mut pointer) = engine(start);
+    let step = |um, n_ticks| VibrationStep {
+        amplitude_um: [um, 0.0],
+        n_ticks,
+    };
+    for n in 0..40_u32 {
+        if n % 10 == 0 {
+            let steps = vec![step(2.0, 3), step(0.0, 2), step(4.0, 3)];
+            engine.send(Command::Vibrate(steps)).unwrap();
+        }
+        assert_no_alloc(|| {
+            let stamp = start + TICK * n;
+            push(&mut pointer, stamp, (stamp - start).as_secs_f64());
+            engine.step_uncollected(start + TICK * (n + 1));
+        });
+        let is_played = engine.snapshot().vibration.is_some();
+        assert_eq!(is_played, n % 10 < 8, "tick {n}");
+    }
 }
 
 #[test]

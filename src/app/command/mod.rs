@@ -17,6 +17,7 @@ use super::accuracy::AccuracyCommand;
 use super::arrangement::Pane;
 use super::collection::CollectionCommand;
 use super::compare::Choice;
+use super::experiment::ExperimentCommand;
 use super::export::Exportable;
 use super::importing::ImportCommand;
 use super::keep::Keep;
@@ -65,6 +66,8 @@ pub(crate) enum Command {
     Keep(Keep),
     /// Do something in the textile lab.
     Lab(LabCommand),
+    /// Run an experiment.
+    Experiment(ExperimentCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -237,6 +240,8 @@ pub(crate) enum Purpose {
     ImportFiles,
     /// Make a textile of a picture.
     OpenPicture,
+    /// Run an experiment by this design.
+    OpenDesign,
 }
 
 /// What moves the display, and how that is recorded.

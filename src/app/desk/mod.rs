@@ -3,6 +3,7 @@
 //! A pane that is hidden, or behind another, is not drawn, and nothing is computed for it.
 
 mod bridge;
+mod experiment;
 mod tiles;
 
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
@@ -41,6 +42,9 @@ pub(crate) struct Desk<'a> {
 impl Desk<'_> {
     fn show(&mut self, ui: &mut Ui, pane: Pane) {
         self.bench.transient.n_drawn[pane.index()] += 1;
+        if self.bench.is_veiled(pane) {
+            return framed(ui, 10, panes::show_veil);
+        }
         match pane {
             Pane::Workspace => self.show_workspace(ui),
             Pane::Library => framed(ui, 10, |ui| self.show_library(ui)),
@@ -73,6 +77,8 @@ impl Desk<'_> {
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
             Pane::Import => framed(ui, 10, |ui| self.show_import(ui)),
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
+            Pane::Participant => self.show_participant(ui),
+            Pane::Experimenter => scrolled(ui, pane, |ui| self.show_experimenter(ui)),
         }
     }
 
@@ -340,7 +346,9 @@ impl Desk<'_> {
             | Pane::Tuning
             | Pane::Bridge
             | Pane::Import
-            | Pane::Picture => {}
+            | Pane::Picture
+            | Pane::Participant
+            | Pane::Experimenter => {}
         }
     }
 }

@@ -63,6 +63,12 @@ impl Workbench {
         }
     }
 
+    /// Lets the document's scene be felt again after something else was.
+    pub(super) fn feel_document(&mut self, ctx: &egui::Context) {
+        let scene = self.document.scene().clone();
+        self.prepare(ctx, &scene);
+    }
+
     /// Lets the engine render as the user chose, if it does not yet.
     pub(crate) fn render_as_chosen(&mut self, ctx: &egui::Context) {
         if self.rendering != self.settings.kept.rendering || self.preparing.is_busy() {

@@ -7,6 +7,7 @@ use eframe::egui;
 
 use crate::app::command::{FileCommand, Purpose};
 use crate::app::error::AppError;
+use crate::app::experiment::{Chosen, ExperimentCommand};
 use crate::app::importing::ImportCommand;
 use crate::app::job::Job;
 use crate::app::opening::{Opened, Opening, Origin, open};
@@ -41,6 +42,10 @@ impl Workbench {
             FileCommand::Use(Purpose::OpenPicture, path) => {
                 self.transient.ask = None;
                 self.dispatch(ctx, PictureCommand::Open(path).into());
+            }
+            FileCommand::Use(Purpose::OpenDesign, path) => {
+                self.transient.ask = None;
+                self.dispatch(ctx, ExperimentCommand::Open(path).into());
             }
             FileCommand::CopyTable(what) => self.copy_table(ctx, what),
             FileCommand::Save => match self.document.path().cloned() {
@@ -81,6 +86,10 @@ impl Workbench {
                 let chosen = self.transient.picturing.draft.source.as_ref();
                 chosen.map(|chosen| chosen.file().path().to_owned())
             }
+            Purpose::OpenDesign => match &self.transient.experiment.form.chosen {
+                Chosen::File(path) => Some(path.clone()),
+                Chosen::Shipped(_) => None,
+            },
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = self.take.as_ref()?;
                 take.file().map(Path::to_owned)

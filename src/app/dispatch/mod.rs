@@ -6,6 +6,7 @@ mod collection;
 mod compare;
 mod device;
 mod edit;
+mod experiment;
 mod export;
 mod file;
 mod import;
@@ -27,6 +28,10 @@ use crate::engine;
 impl Workbench {
     /// Does what the user wants.
     pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
+        if !self.transient.experiment.allows(&command) {
+            let words = "A session is held: end it first, in the Experimenter pane";
+            return self.transient.notices.give(words);
+        }
         match command {
             Command::AllOff => self.all_off(),
             Command::Edit(edit) => self.edit(ctx, &edit),
@@ -44,6 +49,7 @@ impl Workbench {
             Command::Picture(command) => self.dispatch_picture(ctx, command),
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
+            Command::Experiment(command) => self.dispatch_experiment(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

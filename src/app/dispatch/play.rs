@@ -92,6 +92,9 @@ impl Workbench {
         let Some(recording) = self.engine.take_recording() else {
             return;
         };
+        let Some(recording) = self.recording_of_trial(recording) else {
+            return;
+        };
         // A recording that ended before its first tick is none.
         if let Ok(take) = Take::from_recording(&recording) {
             self.take = Some(take);

@@ -48,7 +48,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Workspace => Some(Workbench::gather_maps),
         Pane::Collection => Some(Workbench::gather_collection),
         Pane::Bridge => Some(Workbench::gather_link),
-        Pane::Library => None,
+        Pane::Library | Pane::Participant | Pane::Experimenter => None,
     }
 }
 

@@ -83,6 +83,7 @@ impl AskWords {
                 name: "cloth.png",
                 ending: "",
             },
+            Purpose::OpenDesign => design_words(),
             Purpose::Clip(kind) => clip_words(kind),
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",
@@ -93,6 +94,17 @@ impl AskWords {
                 ending: ".png",
             },
         }
+    }
+}
+
+fn design_words() -> AskWords {
+    AskWords {
+        title: "Open a design",
+        verb: "Open",
+        hint: "/path/to/DESIGN.toml",
+        missing: "Type the path of a design first",
+        name: "design.toml",
+        ending: ".toml",
     }
 }
 

@@ -12,6 +12,7 @@ mod contact_spectrum;
 mod curve;
 mod drive_spectrum;
 mod drive_wave;
+mod experimenter;
 mod export;
 mod header;
 mod heatmap;
@@ -21,6 +22,7 @@ mod lab;
 mod library;
 mod menu;
 mod notices;
+mod participant;
 mod picture;
 mod question;
 mod response;
@@ -48,6 +50,7 @@ pub(crate) use contact_spectrum::{
 pub(crate) use curve::ends_db as compression_ends_db;
 pub(crate) use drive_spectrum::{DriveSpectrogram, DriveSpectrumView, show as show_drive_spectrum};
 pub(crate) use drive_wave::{DriveWaveView, WaveScale, show as show_drive_wave};
+pub(crate) use experimenter::{ExperimenterHands, show as show_experimenter, show_veil};
 pub(crate) use export::{SIZE as EXPORT_SIZE, show as show_export};
 pub(crate) use header::show as show_header;
 pub(crate) use heatmap::{
@@ -59,6 +62,7 @@ pub(crate) use lab::{LabHands, LabPictures, LabView, show as show_lab};
 pub(crate) use library::show as show_library;
 pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
+pub(crate) use participant::show as show_participant;
 pub(crate) use picture::{PictureTextures, show as show_picture};
 pub(crate) use question::show as show_question;
 pub(crate) use response::{

@@ -59,6 +59,8 @@ struct Keys {
     arrangement: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     arrangement_cloth: Value<String>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    arrangement_experiment: Value<String>,
     /// Tables come last in the file.
     #[serde(skip_serializing_if = "Value::is_missing")]
     tablet_areas_mm: Value<BTreeMap<String, [f64; 4]>>,
@@ -156,6 +158,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         arrangements: [
             taken("arrangement", keys.arrangement, odd),
             taken("arrangement_cloth", keys.arrangement_cloth, odd),
+            taken("arrangement_experiment", keys.arrangement_experiment, odd),
         ],
         array: taken("array", keys.array, odd),
         tablet_areas: areas(keys.tablet_areas_mm, odd),
@@ -252,6 +255,7 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
                     .collect()
             })
             .into(),
+        arrangement_experiment: kept.arrangements[2].clone().into(),
     };
     keys_to_string(&keys, path)
 }
@@ -290,6 +294,7 @@ mod tests {
             arrangements: [
                 Some("{\"tiles\":[1,'2'],\n\"a\":\"\\\\b\"}".to_owned()),
                 Some("{}".to_owned()),
+                Some("[]".to_owned()),
             ],
             array: Some("rig \"2\"".to_owned()),
             tablet_areas: [("Pen \"S\" 5.1", [-3.5, 20.0, 216.0, 135.25])]
@@ -316,7 +321,7 @@ mod tests {
     fn a_file_from_before_perspectives_arranges_the_first_one() {
         let (kept, odd) = read("arrangement = \"a tree\"\n", path()).unwrap();
         assert_eq!((kept.perspective, odd), (Perspective::Explore, None));
-        assert_eq!(kept.arrangements, [Some("a tree".to_owned()), None]);
+        assert_eq!(kept.arrangements, [Some("a tree".to_owned()), None, None]);
         let (kept, odd) = read("theme = \"dark\"\nperspective = \"moon\"\n", path()).unwrap();
         assert_eq!((kept.perspective, odd), (Perspective::Explore, Some(2)));
     }

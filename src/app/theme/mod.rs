@@ -166,6 +166,16 @@ pub(crate) fn title() -> FontId {
     FontId::proportional(17.0)
 }
 
+/// What a participant reads from a metre away.
+pub(crate) fn large() -> FontId {
+    FontId::proportional(22.0)
+}
+
+/// Numbers of places and titles, to be read from a metre away.
+pub(crate) fn huge() -> FontId {
+    FontId::proportional(34.0)
+}
+
 /// Numbers.
 pub(crate) fn number() -> FontId {
     FontId::monospace(12.0)

@@ -170,6 +170,33 @@ fn paint(ui: &Ui, stage: &Stage<'_>, trail: &Trail) -> Option<usize> {
     tag
 }
 
+/// Draws a cloth that lies straight, with nothing on it that tells which it is.
+pub(crate) fn paint_plain_cloth(
+    painter: &Painter,
+    view: &ViewTransform,
+    (origin_mm, size_mm): (Point, [f64; 2]),
+    picture: Option<super::view::ClothPicture>,
+) {
+    let plain = super::view::Cloth {
+        id: String::new(),
+        label: String::new(),
+        name: String::new(),
+        workspace_from_textile: crate::geometry::Frame {
+            origin: origin_mm,
+            ..crate::geometry::Frame::default()
+        },
+        size_mm,
+        rotation_deg: 0.0,
+        is_muted: false,
+        gain_db: 0.0,
+        picture,
+    };
+    cloth::paint(painter, view, &plain, false);
+    let palette = Palette::of(painter.ctx().theme());
+    let edge = Stroke::new(1.0, palette.line);
+    cloth::paint_outline(painter, arrange::screen_corners(view, &plain), edge);
+}
+
 /// Draws the textiles through a view; the lens uses it too.
 fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
     let lifted = lifted(stage);

@@ -13,6 +13,7 @@ use super::input::{
 use super::order::Retired;
 use super::recording::{RecordedTick, Recorder};
 use super::track::Track;
+use super::vibration::Vibration;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot,
     SourceKind, TICKS_PER_S, VelocityMethod,
@@ -44,6 +45,8 @@ pub struct EngineCore {
     ignored: u64,
     /// Which contactors of the first display are felt; those beyond its end are.
     mask: Vec<bool>,
+    /// What is played in place of the scene.
+    vibration: Vibration,
     revision: u64,
 }
 
@@ -71,6 +74,7 @@ impl EngineCore {
             recorder: None,
             ignored: 0,
             mask: Vec::new(),
+            vibration: Vibration::default(),
             revision: 0,
         };
         core.scene.render(pose, &[]);
@@ -144,7 +148,9 @@ impl EngineCore {
         } else {
             self.pose
         };
-        self.scene.render(self.rendered, &self.mask);
+        let vibration_um = self.vibration.next_tick();
+        self.scene
+            .render_or_vibrate(self.rendered, &self.mask, vibration_um);
         self.tick += 1;
     }
 
@@ -206,6 +212,7 @@ impl EngineCore {
     /// Everything off: silent until [`resume`](Self::resume), a replay held, the recording over.
     pub(super) fn stop(&mut self) -> Option<Retired> {
         self.is_stopped = true;
+        self.vibration.end();
         self.control(Control::Pause);
         self.rendered = at_rest(self.pose);
         self.scene.render(self.rendered, &self.mask);
@@ -244,6 +251,7 @@ impl EngineCore {
         self.scene.fill(&mut snapshot.displays);
         snapshot.is_stopped = self.is_stopped;
         snapshot.is_silent = self.is_silent();
+        snapshot.vibration = self.vibration.step();
         snapshot.method = renderer.method();
         snapshot.bound = renderer.bound();
         snapshot.render = *renderer.counters();

@@ -5,6 +5,7 @@
 use super::{EngineCore, Say, at_rest};
 use crate::engine::input::PointerInput;
 use crate::engine::order::{CoreOrder, NextScene, Retired};
+use crate::engine::vibration::Vibration;
 use crate::engine::{Notice, VelocityMethod};
 use crate::render::RenderError;
 use crate::scene::Pose;
@@ -36,6 +37,11 @@ impl EngineCore {
                 retired[0] = Some(Retired::Mask(std::mem::replace(&mut self.mask, mask)));
                 self.revision += 1;
             }
+            CoreOrder::Vibrate(next) => {
+                let next = self.playable_vibration(next, say);
+                let last = std::mem::replace(&mut self.vibration, next);
+                retired[0] = Some(Retired::Vibration(last));
+            }
             CoreOrder::Source(source) => retired[0] = self.set_source(source),
             CoreOrder::Velocity(method) => self.set_velocity_method(method, say),
             CoreOrder::Angle(angle_deg) => self.set_angle(angle_deg, say),
@@ -52,6 +58,23 @@ impl EngineCore {
             CoreOrder::EndRecording => retired[0] = self.end_recording(),
         }
         retired
+    }
+
+    /// A sequence that may begin now; one that may not is at its end.
+    fn playable_vibration(&mut self, mut vibration: Vibration, say: Say<'_>) -> Vibration {
+        let refusal = if !vibration.is_sound() {
+            Some("a vibration's amplitude is none: nothing is played")
+        } else if self.is_stopped && !vibration.is_over() {
+            Some("everything is off: arm before vibrations are played")
+        } else {
+            None
+        };
+        if let Some(words) = refusal {
+            self.ignored += 1;
+            vibration.end();
+            say(Notice::Refused(words));
+        }
+        vibration
     }
 
     /// The next scene is felt from the next tick on; its renderer already holds its tuning.

@@ -10,6 +10,7 @@ mod mask;
 mod seek;
 mod shown;
 mod update;
+mod vibration;
 
 use std::io::Cursor;
 use std::sync::Arc;

@@ -9,10 +9,8 @@ use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use crate::experiment::design::{Levels, StaircaseTrack, Track};
 use crate::experiment::{Record, Task};
 use crate::figure::{Series, Style};
-use crate::statistics::adaptive::{
-    Procedure as _, ReversalMean, Rule, Stage, Staircase, StaircasePlan, StepScale, Stop,
-};
-use crate::statistics::psychometric::{Family, Fit, Model, blocks};
+use crate::statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
+use crate::statistics::psychometric::{Fit, Model, blocks};
 use crate::statistics::{Computed, Outcome, Summary, Undefined, one_sample_t};
 
 /// Points of a drawn curve.
@@ -41,18 +39,6 @@ fn answered(record: &Record) -> Option<Answered> {
 }
 
 impl Levels {
-    /// What the function is of: the level, or its difference from the reference, dB.
-    fn of_function(&self, level_db: f64) -> f64 {
-        level_db - self.reference_db.unwrap_or(0.0)
-    }
-
-    fn shape(&self) -> Family {
-        match self.reference_db {
-            None => Family::Gumbel,
-            Some(_) => Family::Weibull,
-        }
-    }
-
     fn quantity(&self) -> &'static str {
         match self.reference_db {
             None => "threshold, dB re 1 µm",
@@ -76,7 +62,7 @@ pub(super) fn sections(
         levels.band.carrier_hz(),
         levels.intervals,
         levels.intervals,
-        levels.shape().name(),
+        levels.family().name(),
         if levels.reference_db.is_some() {
             "the difference in dB"
         } else {
@@ -127,10 +113,10 @@ fn fitted<'a>(experiment: &Experiment<'a>, levels: &Levels) -> (Table, Vec<f64>,
     let mut table = Table::new("fits", &title, &FITS);
     let (mut thresholds, mut fits) = (Vec::new(), Vec::new());
     let m = u32::try_from(levels.intervals).unwrap_or(2);
-    let model = Model::alternatives(levels.shape(), m);
+    let model = Model::alternatives(levels.family(), m);
     for subject in &experiment.subjects {
         let trials = subject.trials().filter_map(answered);
-        let of_levels = blocks(trials.map(|t| (levels.of_function(t.level_db), t.is_right)));
+        let of_levels = blocks(trials.map(|t| (levels.stimulus(t.level_db), t.is_right)));
         let n: u32 = of_levels.iter().map(|b| b.n).sum();
         let mut row = vec![
             Cell::from(subject.name),
@@ -215,23 +201,11 @@ pub(super) fn run_again(
     nth: usize,
     trials: &[Answered],
 ) -> Computed<Staircase> {
-    let stage = |&down: &f64| Stage {
-        up: down * track.up_over_down,
-        down,
-        n_reversals: 1,
-    };
-    let start = track.starts_db.get(nth).copied();
-    let mut staircase = Staircase::new(StaircasePlan {
-        rule: Rule {
-            n_up: track.up,
-            m_down: track.down,
-        },
-        scale: StepScale::Linear,
-        start: start.ok_or_else(|| Undefined::because("a series that the design does not have"))?,
-        stages: track.steps_db.iter().map(stage).collect(),
-        limits: levels.range_db,
-        stop: Stop::Trials(u32::MAX),
-    })?;
+    let start_db = track.starts_db.get(nth).copied();
+    let none = || Undefined::because("a series that the design does not have");
+    let stop = Stop::Trials(u32::MAX);
+    let mut staircase =
+        Staircase::new(track.plan(start_db.ok_or_else(none)?, levels.range_db, stop))?;
     for trial in trials {
         staircase.answer(trial.level_db, trial.is_right)?;
     }
@@ -253,11 +227,7 @@ const REVERSALS: [(&str, &str); 9] = [
 fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrack) -> Section {
     let title = format!("{}: staircases", experiment.design.title);
     let mut section = Section::new(experiment.key("staircases"), title);
-    let rule = Rule {
-        n_up: track.up,
-        m_down: track.down,
-    };
-    let target = rule.target(track.up_over_down, 1.0);
+    let target = track.rule().target(track.up_over_down, 1.0);
     section.note(format!(
         "{} up, {} down; the mean of the last {} reversals at the last step size aims at {} right.",
         track.up,
@@ -359,7 +329,7 @@ fn reversal_cells(
     let mut cells = vec![Cell::from(staircase.reversals().len())];
     match &found {
         Ok(mean) => {
-            let threshold = levels.of_function(mean.threshold);
+            let threshold = levels.stimulus(mean.threshold);
             thresholds.push(threshold);
             cells.extend([
                 mean.n_reversals.into(),

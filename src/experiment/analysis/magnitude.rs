@@ -56,13 +56,7 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
          changes no exponent. The group's line has an interval by its scatter, the mean \
          exponent one over subjects.",
     );
-    let mut conditions: Vec<&str> = Vec::new();
-    for stimulus in &experiment.design.stimuli {
-        let is_vibration = matches!(stimulus.source, Source::Vibration { .. });
-        if is_vibration && !conditions.contains(&stimulus.condition.as_str()) {
-            conditions.push(&stimulus.condition);
-        }
-    }
+    let conditions = conditions(experiment);
     if conditions.is_empty() {
         section.note("**No exponents**: no stimulus is a vibration of a known level.");
     }
@@ -109,6 +103,18 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     }
     draw(experiment, &found, &mut section);
     vec![section]
+}
+
+/// The conditions of vibrations, in the design's order.
+fn conditions<'a>(experiment: &Experiment<'a>) -> Vec<&'a str> {
+    let mut conditions: Vec<&str> = Vec::new();
+    for stimulus in &experiment.design.stimuli {
+        let is_vibration = matches!(stimulus.source, Source::Vibration { .. });
+        if is_vibration && !conditions.contains(&stimulus.condition.as_str()) {
+            conditions.push(&stimulus.condition);
+        }
+    }
+    conditions
 }
 
 fn row(condition: &str, subject: &str, n: usize, law: &PowerLaw) -> Vec<Cell> {

@@ -1,5 +1,6 @@
 //! What is asked, and how the next question is found.
 
+use crate::statistics::adaptive::{Rule, Stage, StaircasePlan, StepScale, Stop};
 use crate::statistics::psychometric::Family;
 use crate::tactile::{Band, Tuning};
 
@@ -235,6 +236,33 @@ pub struct StaircaseTrack {
     pub starts_db: Vec<f64>,
     /// The last reversals that the threshold is the mean of; an even number.
     pub reversals_averaged: usize,
+}
+
+impl StaircaseTrack {
+    /// The rule of steps.
+    pub fn rule(&self) -> Rule {
+        Rule {
+            n_up: self.up,
+            m_down: self.down,
+        }
+    }
+
+    /// A series that begins at a level, dB re 1 µm, and stays between limits.
+    pub fn plan(&self, start_db: f64, limits_db: [f64; 2], stop: Stop) -> StaircasePlan {
+        let stage = |&down: &f64| Stage {
+            up: down * self.up_over_down,
+            down,
+            n_reversals: 1,
+        };
+        StaircasePlan {
+            rule: self.rule(),
+            scale: StepScale::Linear,
+            start: start_db,
+            stages: self.steps_db.iter().map(stage).collect(),
+            limits: limits_db,
+            stop,
+        }
+    }
 }
 
 /// When a series ends; what is 0 does not end it.

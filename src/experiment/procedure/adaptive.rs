@@ -6,8 +6,7 @@ use crate::experiment::trial::{Answer, AnswerError, Task, Trial};
 use crate::numerics::Random;
 use crate::statistics::Computed;
 use crate::statistics::adaptive::{
-    Interleaved, Procedure as _, QuestGrid, QuestPlus, Rule, Stage, Staircase, StaircasePlan,
-    StepScale, Stop,
+    Interleaved, Procedure as _, QuestGrid, QuestPlus, Staircase, Stop,
 };
 use crate::statistics::psychometric::Guess;
 
@@ -166,24 +165,9 @@ fn staircases(
     track: &StaircaseTrack,
     random: &Random,
 ) -> Computed<Interleaved<Staircase>> {
-    let stage = |&down: &f64| Stage {
-        up: down * track.up_over_down,
-        down,
-        n_reversals: 1,
-    };
-    let stages: Vec<Stage> = track.steps_db.iter().map(stage).collect();
-    let one = |&start: &f64| {
-        Staircase::new(StaircasePlan {
-            rule: Rule {
-                n_up: track.up,
-                m_down: track.down,
-            },
-            scale: StepScale::Linear,
-            start,
-            stages: stages.clone(),
-            limits: levels.range_db,
-            stop: stop(&levels.stopping, Stop::Reversals, levels.stopping.reversals),
-        })
+    let one = |&start_db: &f64| {
+        let stop = stop(&levels.stopping, Stop::Reversals, levels.stopping.reversals);
+        Staircase::new(track.plan(start_db, levels.range_db, stop))
     };
     let made: Computed<Vec<Staircase>> = track.starts_db.iter().map(one).collect();
     Interleaved::new(made?, random.branch("tracks").seed())

@@ -95,6 +95,12 @@ impl DisplayFrame {
         }
     }
 
+    /// Gives every contactor these amplitudes, µm.
+    pub(super) fn vibrate(&mut self, amplitude_um: [f32; 2]) {
+        self.amplitudes_um.fill(amplitude_um);
+        self.exact_um.fill(amplitude_um.map(f64::from));
+    }
+
     /// Rounds the exact amplitudes into the stream.
     pub(super) fn round(&mut self) {
         for (rounded, exact) in self.amplitudes_um.iter_mut().zip(&self.exact_um) {

@@ -242,6 +242,16 @@ impl ArrayRenderer {
         }
     }
 
+    /// Gives every contactor of one display these amplitudes [A40, A320] in the frames of the last
+    /// tick, µm peak, wherever it is.
+    pub fn vibrate_display(&mut self, display: usize, amplitude_um: [f32; 2]) {
+        if let Some(frame) = self.frames.get_mut(display) {
+            frame.vibrate(amplitude_um);
+            // The next tick renders anew even where the display stands.
+            self.displays[display].forget();
+        }
+    }
+
     /// The frames of the last tick.
     pub fn frames(&self) -> &[DisplayFrame] {
         &self.frames

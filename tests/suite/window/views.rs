@@ -19,7 +19,10 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
         let before = drawn(harness, title);
         let front = match title {
             "Drive spectrum" => Some("Contact spectrum"),
-            "Textile lab" | "Import" | "Picture" | "Collection" => Some("Workspace"),
+            "Textile lab" | "Import" | "Picture" | "Collection" | "Participant" => {
+                Some("Workspace")
+            }
+            "Experimenter" => Some("Bridge"),
             "Why" | "Response" | "Accuracy" | "Compare" => Some("Spatial spectra"),
             _ => None,
         };

@@ -17,7 +17,7 @@ fn staircase_session(design: &Design, nth: usize) -> Found {
     };
     let mut records = Vec::new();
     for series in 0..track.starts_db.len() {
-        let mut staircase: Staircase = levels_of(levels, series);
+        let mut staircase = levels_of(levels, series);
         for _ in 0..40 {
             let level_db = staircase.stimulus().unwrap();
             let is_right = level_db >= 5.0 - nth as f64;

@@ -1,0 +1,100 @@
+//! An experiment that is run in the window: one session, seen by participant and experimenter.
+//!
+//! ```text
+//! form ─▶ materials, session ─▶ held ─┬▶ participant's view: numbers of places alone
+//!                               │  ▲  └▶ experimenter's view: progress and device
+//!                 trial's scene ▼  └ marks, answers ─▶ row on disk ─▶ next trial
+//!                            engine
+//! ```
+//!
+//! # Invariants
+//! - the document never learns of a session; when one ends, the user's scene is felt again
+//! - the next trial begins only once the row of the last one is on disk
+//! - what participants and experimenters see does not depend on what is right
+
+mod command;
+mod draft;
+mod form;
+mod guide;
+mod held;
+mod materials;
+mod now;
+mod view;
+
+pub(crate) use command::ExperimentCommand;
+pub(crate) use draft::{Draft, Mark, Sure};
+pub(crate) use form::{Chosen, Form, Row, list, numbered, title_of};
+pub(crate) use guide::{HALF_MM, RADIUS_MM};
+pub(crate) use held::Held;
+pub(crate) use materials::Materials;
+pub(crate) use now::{Began, Now, Pause};
+pub(crate) use view::{
+    Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView,
+};
+
+use super::command::{Command, ShowCommand};
+use super::task::Task;
+use crate::experiment::session::Session;
+
+/// Experiments, as the window knows them: neither saved nor undoable.
+#[derive(Debug, Default)]
+pub(crate) struct Experiment {
+    /// What the next session is to be.
+    pub(crate) form: Form,
+    /// A session on its way.
+    pub(crate) beginning: Option<Task<Begun>>,
+    /// The session that is held.
+    pub(crate) held: Option<Box<Held>>,
+    /// Whether the next recording that ends is of a trial that nobody answered.
+    pub(crate) lets_recording_go: bool,
+}
+
+/// A session that is ready to be held.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    /// The session.
+    pub(crate) session: Session,
+    /// What it presents.
+    pub(crate) materials: Materials,
+}
+
+impl Experiment {
+    /// Whether a session is held.
+    pub(crate) fn is_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Width and height of what lies before the participant, mm.
+    pub(crate) fn size_mm(&self) -> Option<[f64; 2]> {
+        self.held.as_ref().map(|held| held.layout.size_mm)
+    }
+
+    /// Whether a command leaves what is felt to the session.
+    pub(crate) fn allows(&self, command: &Command) -> bool {
+        if !self.is_held() {
+            return true;
+        }
+        match command {
+            Command::AllOff
+            | Command::Device(_)
+            | Command::Experiment(_)
+            | Command::Dismiss
+            | Command::DismissNotice(_) => true,
+            Command::Show(command) => matches!(
+                command,
+                ShowCommand::Theme(_)
+                    | ShowCommand::ColourMap(_)
+                    | ShowCommand::Zoom(_)
+                    | ShowCommand::Pane(_)
+                    | ShowCommand::Perspective(_)
+                    | ShowCommand::DefaultArrangement
+                    | ShowCommand::Hover(_)
+                    | ShowCommand::Help
+            ),
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,144 @@
+//! The form that a session begins with, and the sessions that can be resumed.
+
+use eframe::egui::{ProgressBar, RichText, Ui, vec2};
+
+use crate::app::command::{FileCommand, Purpose};
+use crate::app::experiment::{Chosen, ExperimentCommand, Form, Row, title_of};
+use crate::app::panes::Wishes;
+use crate::app::panes::import::fields::{Need, Tone, choose, note, row_of, text};
+use crate::app::theme::{ROW, STEP};
+use crate::app::widgets::{button, choice, section};
+use crate::experiment::design::Design;
+
+/// Width of a row's name, points.
+const NAME: f32 = 84.0;
+
+pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mut Wishes) {
+    section(ui, "New session");
+    row_of(ui, NAME, ("design", ""), |ui, _| {
+        show_designs(ui, form, wishes);
+    });
+    if let Ok(design) = &form.design {
+        note(ui, &about(design), Tone::Quiet);
+    }
+    let any = f32::INFINITY;
+    row_of(ui, NAME, ("participant", ""), |ui, label| {
+        text(ui, label, &mut form.pseudonym, ("p01", any, Need::Optional));
+    });
+    row_of(ui, NAME, ("session", ""), |ui, label| {
+        text(ui, label, &mut form.session, ("1", 64.0, Need::Optional));
+    });
+    row_of(ui, NAME, ("folder", ""), |ui, label| {
+        text(
+            ui,
+            label,
+            &mut form.folder,
+            ("/path/to/study", any, Need::Optional),
+        );
+    });
+    let refusal = form.refusal();
+    ui.add_space(STEP);
+    if let Some(share) = share {
+        let bar = ProgressBar::new(share).desired_height(4.0);
+        ui.add(bar);
+        note(ui, "The textiles are being prepared", Tone::Quiet);
+    } else {
+        let tip = "Prepare every textile of the design, then open the log";
+        if button(ui, "Begin the session", tip, refusal.as_deref()) {
+            wishes.push(ExperimentCommand::Begin.into());
+        }
+    }
+    if let Some(line) = &form.failure {
+        note(ui, line, Tone::Wrong);
+    } else if let Some(line) = refusal {
+        note(ui, &line, Tone::Quiet);
+    }
+    show_found(ui, form, share.is_some(), wishes);
+}
+
+fn show_designs(ui: &mut Ui, form: &Form, wishes: &mut Wishes) {
+    let now = match (&form.design, &form.chosen) {
+        (Ok(design), _) => title_of(design),
+        (Err(_), Chosen::File(path)) => path.display().to_string(),
+        (Err(_), Chosen::Shipped(name)) => (*name).to_owned(),
+    };
+    let width = ui.available_width();
+    choose(ui, "Design", (&now, width, Need::Optional), |ui| {
+        for name in Design::shipped_names() {
+            let title = Design::shipped(name).map_or_else(|| name.to_owned(), |d| title_of(&d));
+            let is_now = form.chosen == Chosen::Shipped(name);
+            if ui.selectable_label(is_now, title).clicked() {
+                wishes.push(ExperimentCommand::Choose(name).into());
+            }
+        }
+        ui.separator();
+        if ui.selectable_label(false, "Open a design…").clicked() {
+            wishes.push(FileCommand::Ask(Purpose::OpenDesign).into());
+        }
+    });
+}
+
+/// A design in a line: how many stimuli, where, how often.
+fn about(design: &Design) -> String {
+    let n = design.stimuli.len();
+    let stimuli = match n {
+        0 => String::new(),
+        1 => "1 stimulus, ".to_owned(),
+        n => format!("{n} stimuli, "),
+    };
+    let practice = match design.course.practice_trials {
+        0 => String::new(),
+        n => format!(", {n} for practice first"),
+    };
+    let library = design.library.as_ref();
+    let library = library.map_or_else(String::new, |library| {
+        format!(", library {}", library.display())
+    });
+    format!(
+        "{stimuli}medium {}{practice}{library}; study {}",
+        design.medium.name(),
+        design.study
+    )
+}
+
+fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
+    section(ui, "Sessions in the folder");
+    let no_folder = form.folder.trim().is_empty();
+    let refusal = no_folder.then_some("Say in which folder first");
+    if button(
+        ui,
+        "List them",
+        "Look which sessions the folder holds",
+        refusal,
+    ) {
+        wishes.push(ExperimentCommand::List.into());
+    }
+    for found in &form.found {
+        show_row(ui, found, is_busy, wishes);
+    }
+    if form.found.is_empty() {
+        let words = "None is listed. One that was interrupted is resumed from here.";
+        note(ui, words, Tone::Quiet);
+    }
+}
+
+fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, wishes: &mut Wishes) {
+    let (done, all) = found.progress;
+    let name = format!(
+        "{}, session {}",
+        found.subject.pseudonym, found.subject.session
+    );
+    let detail = format!("{done} of {all} · {}", found.title);
+    if done >= all {
+        ui.allocate_ui(vec2(ui.available_width(), ROW), |ui| {
+            let words = format!("{name} · complete · {}", found.title);
+            let text = RichText::new(words).color(crate::app::theme::Palette::in_ui(ui).dim);
+            ui.add(eframe::egui::Label::new(text).truncate());
+        });
+        return;
+    }
+    let tip = format!("Resume {}", found.log.display());
+    if choice(ui, RichText::new(name), &detail, &tip) && !is_busy {
+        wishes.push(ExperimentCommand::Resume(found.log.clone()).into());
+    }
+}

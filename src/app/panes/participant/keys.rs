@@ -1,0 +1,112 @@
+//! Answers by keys, wherever the pointer is.
+
+use eframe::egui::{Key, Ui};
+
+use crate::app::experiment::{Draft, ExperimentCommand, Mark, TrialView};
+use crate::app::panes::Wishes;
+use crate::experiment::Grade;
+
+/// Keys of positions, from the first.
+const DIGITS: [Key; 8] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+];
+/// Keys of grades, from easy to hard.
+const GRADES: [Key; 3] = [Key::E, Key::N, Key::H];
+
+/// Takes the keys that were pressed, unless words are being typed.
+pub(super) fn take(ui: &Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
+    if ui.ctx().egui_wants_keyboard_input() {
+        return;
+    }
+    let is_pressed = |key| ui.input(|input| input.key_pressed(key));
+    for mark in marks(trial.draft, is_pressed) {
+        wishes.push(ExperimentCommand::Mark(mark).into());
+    }
+    if is_pressed(Key::Enter) && trial.draft.answer().is_ok() {
+        wishes.push(ExperimentCommand::Answer.into());
+    }
+    if is_pressed(Key::Space) && trial.may_play {
+        wishes.push(ExperimentCommand::Play.into());
+    }
+}
+
+/// What the keys say in this trial.
+fn marks(draft: &Draft, is_pressed: impl Fn(Key) -> bool) -> Vec<Mark> {
+    let digits = || (0..).zip(DIGITS).filter(|(_, key)| is_pressed(*key));
+    let mut marks = Vec::new();
+    match draft {
+        Draft::Ranks(_) => {
+            marks.extend(digits().map(|(at, _)| Mark::Place(at)));
+            if is_pressed(Key::Backspace) {
+                marks.push(Mark::TakeBack);
+            }
+        }
+        Draft::Odd { .. } => {
+            marks.extend(digits().map(|(at, _)| Mark::Place(at)));
+            let grades = GRADES.into_iter().zip(Grade::ALL);
+            let said = grades.filter(|(key, _)| is_pressed(*key));
+            marks.extend(said.map(|(_, grade)| Mark::Grade(grade)));
+        }
+        Draft::Choose { position, sure, .. } => {
+            // Once one is chosen, digits say how sure that is.
+            let is_sure = position.is_some() && sure.n_grades > 0;
+            let mark = |at: usize| match (is_sure, u8::try_from(at + 1)) {
+                (true, Ok(grade)) => Mark::Confidence(grade),
+                _ => Mark::Place(at),
+            };
+            marks.extend(digits().map(|(at, _)| mark(at)));
+        }
+        Draft::Judge { .. } => {
+            let words = [(Key::R, true), (Key::G, false)];
+            let said = words.into_iter().filter(|(key, _)| is_pressed(*key));
+            marks.extend(said.map(|(_, is_real)| Mark::Real(is_real)));
+            let sure = digits().filter_map(|(at, _)| u8::try_from(at + 1).ok());
+            marks.extend(sure.map(Mark::Confidence));
+        }
+        Draft::Adjust { .. } => {
+            let turns = [
+                (Key::ArrowUp, 0, 1),
+                (Key::ArrowDown, 0, -1),
+                (Key::ArrowRight, 1, 1),
+                (Key::ArrowLeft, 1, -1),
+            ];
+            let turned = turns.into_iter().filter(|(key, ..)| is_pressed(*key));
+            marks.extend(turned.map(|(_, parameter, by)| Mark::Turn(parameter, by)));
+        }
+        Draft::Nothing | Draft::Magnitude(_) | Draft::Ratings { .. } => {}
+    }
+    marks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::experiment::Sure;
+
+    #[test]
+    fn digits_choose_first_and_then_say_how_sure() {
+        let draft = |position| Draft::Choose {
+            n: 2,
+            position,
+            sure: Sure {
+                n_grades: 3,
+                grade: None,
+            },
+        };
+        let two = |key| key == Key::Num2;
+        assert_eq!(marks(&draft(None), two), [Mark::Place(1)]);
+        assert_eq!(marks(&draft(Some(0)), two), [Mark::Confidence(2)]);
+        let ranked = Draft::Ranks([None; 4]);
+        assert_eq!(
+            marks(&ranked, |key| key == Key::Backspace),
+            [Mark::TakeBack]
+        );
+    }
+}

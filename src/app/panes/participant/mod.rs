@@ -1,0 +1,174 @@
+//! What a participant sees: large, calm, to be read from a metre away. Everything that is asked can
+//! be answered by keys alone.
+
+mod controls;
+mod ground;
+mod keys;
+mod ranks;
+
+#[cfg(test)]
+mod tests;
+
+use eframe::egui::{
+    Align2, Button, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
+use eframe::egui::{Role, WidgetText};
+
+use super::Wishes;
+use crate::app::experiment::{ExperimentCommand, ParticipantView, TrialView};
+use crate::app::theme::{self, Palette, STEP};
+use crate::app::workspace::Shown;
+
+/// Height of the line that says what is asked, points.
+const QUESTION: f32 = 56.0;
+/// Height of what is answered with, points.
+const ANSWER: f32 = 132.0;
+/// No line of words is longer, points.
+const LINE: f32 = 720.0;
+
+/// Shows the participant's view; where the pointer feels, if there is such a place.
+pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes) -> Option<Shown> {
+    let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));
+    let ui = &mut ui;
+    match view {
+        ParticipantView::Nobody { is_coming } => {
+            show_nobody(ui, *is_coming);
+            None
+        }
+        ParticipantView::Words {
+            title,
+            words,
+            left_s,
+        } => {
+            show_words(ui, title, words);
+            show_pass(ui, *left_s, wishes);
+            None
+        }
+        ParticipantView::Movement {
+            ground,
+            is_circle,
+            guide,
+            left_s,
+        } => {
+            let words = if *is_circle {
+                "Follow the dot in circles"
+            } else {
+                "Follow the dot to and fro"
+            };
+            let [rect, foot] = split(ui, words, ANSWER / 2.0);
+            let shown = ground::show(ui, rect, ground);
+            ground::paint_guide(ui, &shown.view, ground, (*is_circle, *guide));
+            let mut ui = ui.new_child(UiBuilder::new().max_rect(foot));
+            show_pass(&mut ui, Some(*left_s), wishes);
+            Some(shown)
+        }
+        ParticipantView::Trial(trial) => Some(show_trial(ui, trial, wishes)),
+    }
+}
+
+fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown {
+    let [rect, foot] = split(ui, &sentence(trial.question), controls::height(trial.draft));
+    let shown = ground::show(ui, rect, &trial.ground);
+    if let Some(intervals) = trial.intervals {
+        ground::paint_intervals(ui, rect, intervals);
+    }
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(foot));
+    if !trial.is_open {
+        ui.disable();
+    }
+    controls::show(&mut ui, trial, wishes);
+    if trial.is_open {
+        keys::take(&ui, trial, wishes);
+    }
+    shown
+}
+
+/// A line on top, what lies there in the middle, and room for an answer below.
+fn split(ui: &Ui, words: &str, height: f32) -> [Rect; 2] {
+    let whole = ui.max_rect();
+    let palette = Palette::in_ui(ui);
+    let at = pos2(whole.center().x, whole.top() + 0.5 * QUESTION);
+    let text = RichText::new(words)
+        .font(theme::large())
+        .color(palette.text);
+    let wrap = Some(TextWrapMode::Wrap);
+    let style = eframe::egui::TextStyle::Body;
+    let galley = WidgetText::from(text).into_galley(ui, wrap, whole.width(), style);
+    let label = Align2::CENTER_CENTER.anchor_size(at, galley.size());
+    ui.painter().galley(label.min, galley, palette.text);
+    let id = ui.scope_id().with("question");
+    let response = ui.interact(label, id, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+    let foot = Rect::from_min_max(pos2(whole.left(), whole.bottom() - height), whole.max);
+    let middle = Rect::from_min_max(
+        pos2(whole.left(), whole.top() + QUESTION),
+        pos2(whole.right(), foot.top() - 2.0 * STEP),
+    );
+    [middle, foot]
+}
+
+fn show_nobody(ui: &mut Ui, is_coming: bool) {
+    if is_coming {
+        return show_words(ui, "One moment, please", "The session is being prepared.");
+    }
+    show_words(
+        ui,
+        "No session",
+        "Choose a design and begin a session in the Experimenter pane.",
+    );
+}
+
+fn show_words(ui: &mut Ui, title: &str, words: &str) {
+    let palette = Palette::in_ui(ui);
+    let whole = ui.max_rect();
+    ui.vertical_centered(|ui| {
+        ui.add_space((0.22 * whole.height()).max(STEP));
+        ui.label(RichText::new(title).font(theme::huge()).color(palette.text));
+        ui.add_space(4.0 * STEP);
+        ui.set_max_width(LINE.min(whole.width()));
+        let text = RichText::new(words).font(theme::large());
+        ui.add(eframe::egui::Label::new(text.color(palette.dim)).wrap());
+        ui.add_space(8.0 * STEP);
+    });
+}
+
+/// The button that goes on, with the seconds until it does.
+fn show_pass(ui: &mut Ui, left_s: Option<f64>, wishes: &mut Wishes) {
+    let Some(left_s) = left_s else { return };
+    let may_pass = left_s <= 0.0;
+    let words = if may_pass {
+        "Go on".to_owned()
+    } else {
+        clock(left_s)
+    };
+    ui.vertical_centered(|ui| {
+        let text = RichText::new(words).font(theme::large());
+        let button = Button::new(text).min_size(vec2(180.0, 52.0));
+        let is_clicked = ui.add_enabled(may_pass, button).clicked();
+        let is_free = !ui.ctx().egui_wants_keyboard_input();
+        let is_key = is_free && ui.input(|input| input.key_pressed(Key::Enter));
+        if may_pass && (is_clicked || is_key) {
+            wishes.push(ExperimentCommand::Pass.into());
+        }
+    });
+}
+
+/// Minutes and seconds that are left.
+pub(super) fn clock(left_s: f64) -> String {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "some minutes"
+    )]
+    let seconds = left_s.max(0.0).ceil() as u64;
+    format!("{}:{:02}", seconds / 60, seconds % 60)
+}
+
+/// A question with a capital.
+fn sentence(question: &str) -> String {
+    let mut letters = question.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
