@@ -50,7 +50,7 @@ pub(super) struct PlayArgs {
     /// Sound card to play on instead, one channel a contactor: its name or a part of it
     #[arg(long, value_name = "DEVICE", conflicts_with_all = ["port", "log", "session_log"])]
     audio: Option<String>,
-    /// Send the drive waveform itself (mode B) instead of amplitudes, to a device that plays samples
+    /// Send the drive waveform (mode B) instead of amplitudes, to a device that plays samples
     #[arg(long, conflicts_with = "audio")]
     samples: bool,
     #[arg(long, value_name = "ARRAY", help = array::HELP, value_parser = array::profile)]

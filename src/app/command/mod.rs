@@ -4,9 +4,11 @@
 //! `dispatch.rs` is the one place that does it. Panes never change anything themselves.
 
 mod array;
+mod device;
 mod edit;
 
 pub(crate) use array::ArrayCommand;
+pub(crate) use device::DeviceCommand;
 pub(crate) use edit::{Edit, Target};
 
 use std::path::PathBuf;
@@ -28,7 +30,6 @@ use super::probe::Probe;
 use super::sources::SourceCommand;
 use super::theme::ColourMap;
 use super::workspace::Overlay;
-use crate::bridge::{FaultWords, Skin};
 use crate::engine::ClipKind;
 use crate::geometry::Point;
 use crate::tactile::Band;
@@ -161,41 +162,6 @@ pub(crate) enum Chosen {
     Solo,
     /// Lay it on top of the others.
     Raise,
-}
-
-/// What can be done with the device.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum DeviceCommand {
-    /// Arm it: high voltage on.
-    Arm,
-    /// End the silence of all off where there is no device to arm.
-    GoOn,
-    /// Ramp it to silence.
-    Disarm,
-    /// Connect to the emulator in this process, of which nothing fails.
-    ConnectEmulator,
-    /// Connect to the emulator in this process anew, with these faults.
-    StartFaults(FaultWords),
-    /// Connect to the device at this path.
-    ConnectPort(PathBuf),
-    /// Let go of it.
-    Disconnect,
-    /// Look anew which ports there are.
-    ListPorts,
-    /// Model the emulator's contactors and show what they do, or no longer.
-    ShowContactors(bool),
-    /// Lay another finger on the emulator's contactors.
-    LoadContactors(Skin),
-    /// Clear its faults, whose cause is gone.
-    ClearFaults,
-    /// Put the path of the session log where it can be pasted.
-    CopyLogPath,
-    /// Show the folder of the session log in the desktop's file manager.
-    OpenLogFolder,
-    /// Whether an armed device stops when the window loses the keyboard.
-    StopOnFocusLoss(bool),
-    /// Do something with array profiles.
-    Array(ArrayCommand),
 }
 
 /// What can be done with files.

@@ -1,8 +1,8 @@
 //! Mode B on the host's side: the same codes as a frame has, made to samples and cut to packets.
 //!
-//! Limits, wiring of bands and the soft start are in the codes already, so that samples are no way
-//! around them. Sample m belongs to tick `m · 40 / rate` of the device, so that its STATUS paces them
-//! as it paces frames. What makes the waveform is not here: the bridge knows no rendering.
+//! Limits, wiring of bands and the soft start are in the codes already, so that samples are no
+//! way around them. Sample m belongs to tick `m · 40 / rate` of the device, so that STATUS paces
+//! them as it paces frames. What makes the waveform is not here: the bridge knows no rendering.
 
 use std::fmt::Debug;
 use std::time::{Duration, Instant};

@@ -1,12 +1,12 @@
 //! The two threads of a link: one opens the port and reads, one writes; nobody else ever waits for
 //! a port.
 //!
-//! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped and
-//! counted: STATUS repeats itself, requests are repeated). Towards the port there are three ways,
-//! in this order: the STOP slot, a ring of control packets, then what is to be felt: a ring of frames
-//! of which only the newest is written, or in mode B a ring of samples that are written in turn. A
-//! STOP empties the others, so that nothing queued earlier can follow it. What the messages mean is
-//! the session's business.
+//! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped
+//! and counted: STATUS repeats itself, requests are repeated). Towards the port there are three
+//! ways, in this order: the STOP slot, a ring of control packets, then what is to be felt: a ring
+//! of frames of which only the newest is written, or in mode B a ring of samples that are written
+//! in turn. A STOP empties the others, so that nothing queued earlier can follow it. What the
+//! messages mean is the session's business.
 
 mod reader;
 mod timings;
