@@ -35,7 +35,7 @@ pub struct Davidson {
 ///
 /// # Errors
 /// Fewer than two items, no comparisons; no ties (ν would be 0: that is
-/// [`bradley_terry`](super::bradley_terry)); ties so many that ν would be infinite; groups of
+/// [`bradley_terry`](super::bradley_terry())); ties so many that ν would be infinite; groups of
 /// items without finite abilities, unless there is a prior.
 pub fn davidson(preferences: &Preferences, prior: Prior) -> Computed<Davidson> {
     check(preferences, prior)?;

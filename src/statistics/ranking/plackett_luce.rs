@@ -105,14 +105,15 @@ fn fit(choices: &Choices, n_rankings: usize, prior: Prior) -> Computed<PlackettL
     })
 }
 
-/// The log-worths of [`plackett_luce`], summing to zero, with intervals by drawing subjects again:
+/// The log-worths of [`plackett_luce()`], summing to zero, with intervals by drawing subjects again:
 /// one an item. A list of rankings a subject.
 ///
 /// The same draws serve every item. A draw whose rankings fall into groups is counted as undefined
 /// unless there is a prior.
 ///
 /// # Errors
-/// As [`plackett_luce`] of all rankings together and as [`bootstrap`]; a subject without rankings.
+/// As [`plackett_luce()`] of all rankings together and as [`bootstrap()`]; a subject without
+/// rankings.
 pub fn plackett_luce_over_subjects<R: AsRef<[usize]>>(
     n_items: usize,
     subjects: &[Vec<R>],

@@ -78,11 +78,11 @@ impl Preferences {
     }
 
     /// Every ranking, best first, taken apart into its pairs. They are not independent: errors of
-    /// a scale from them are too small, and [`plackett_luce`](super::plackett_luce) has the right
+    /// a scale from them are too small, and [`plackett_luce`](super::plackett_luce()) has the right
     /// ones.
     ///
     /// # Errors
-    /// As [`plackett_luce`](super::plackett_luce).
+    /// As [`plackett_luce`](super::plackett_luce()).
     pub fn of_rankings<R: AsRef<[usize]>>(n_items: usize, rankings: &[R]) -> Computed<Self> {
         check_rankings(n_items, rankings)?;
         let mut all = Self::new(n_items);
@@ -151,13 +151,13 @@ impl Preferences {
     }
 
     /// How they hang together where ties say nothing, as for
-    /// [`bradley_terry`](super::bradley_terry) and [`thurstone`](super::thurstone).
+    /// [`bradley_terry`](super::bradley_terry()) and [`thurstone`](super::thurstone()).
     pub fn connection(&self) -> Connection {
         Connection::of(self.n_items, |i, j| self.wins(i, j) > 0)
     }
 
     /// How they hang together where a tie places two items beside each other, as for
-    /// [`davidson`](super::davidson).
+    /// [`davidson`](super::davidson()).
     pub fn connection_with_ties(&self) -> Connection {
         let is_above = |i, j| self.wins(i, j) + self.ties(i, j) > 0;
         Connection::of(self.n_items, is_above)
