@@ -105,8 +105,8 @@ fn fit(choices: &Choices, n_rankings: usize, prior: Prior) -> Computed<PlackettL
     })
 }
 
-/// The log-worths of [`plackett_luce()`], summing to zero, with intervals by drawing subjects again:
-/// one an item. A list of rankings a subject.
+/// The log-worths of [`plackett_luce()`], summing to zero, with intervals by drawing subjects
+/// again: one an item. A list of rankings a subject.
 ///
 /// The same draws serve every item. A draw whose rankings fall into groups is counted as undefined
 /// unless there is a prior.
