@@ -1,11 +1,11 @@
 //! Scales from rankings and paired comparisons, and tables of what was ranked or taken for what.
 //!
 //! [`plackett_luce()`] for rankings of any length, [`bradley_terry()`] and [`davidson()`] for
-//! pairs, [`thurstone()`] and [`mosteller`] on the normal scale: each by maximum likelihood (but the last)
-//! with errors from the observed information. A scale has no zero of its own: values sum to zero,
-//! and [`Scale::relative_to`] counts them from any item. Where an estimate would be infinite the
-//! groups of items that cause it are named ([`Connection`]); only a [`Prior`] that the caller asks
-//! for makes it finite.
+//! pairs, [`thurstone()`] and [`mosteller`] on the normal scale: each by maximum likelihood (but
+//! the last) with errors from the observed information. A scale has no zero of its own: values
+//! sum to zero, and [`Scale::relative_to`] counts them from any item. Where an estimate would be
+//! infinite the groups of items that cause it are named ([`Connection`]); only a [`Prior`] that
+//! the caller asks for makes it finite.
 //!
 //! How well rankings agree between subjects, Kendall's W, is the effect of
 //! [`friedman`](super::variance::friedman); how consistent one subject's pairs are is
