@@ -139,8 +139,12 @@ impl Form {
     }
 }
 
-/// The sessions of a folder; none where there is no folder.
+/// The sessions of a folder.
 pub(crate) fn list(folder: &Path) -> Result<Vec<Row>, String> {
+    if !folder.exists() {
+        let folder = folder.display();
+        return Err(format!("there is no folder {folder}; check the path"));
+    }
     Ok(found_in(folder)?.into_iter().map(row).collect())
 }
 
