@@ -26,6 +26,8 @@ mod matrix;
 mod npy;
 mod picture;
 mod rgb16;
+#[cfg(test)]
+mod scratch;
 mod staged;
 mod table;
 mod xml;
@@ -50,6 +52,8 @@ pub use matrix::NamedMatrix;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use rgb16::{Rgb16Image, decode_picture};
+#[cfg(test)]
+pub(crate) use scratch::ScratchFolder;
 pub use staged::Staged;
 pub use table::{Table, TableWriter};
 pub use xml::{visit_elements, xml_text};

@@ -15,24 +15,8 @@ use crate::app::view::Live;
 use crate::experiment::Task;
 use crate::experiment::design::Design;
 use crate::experiment::session::{find, path_file};
+use crate::files::ScratchFolder as Folder;
 use crate::scene::ExplorationPath;
-
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("selvedge-experiment-{name}-{}", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        drop(fs::remove_dir_all(&path));
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
 
 /// A window in which a session of a design was begun.
 fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {

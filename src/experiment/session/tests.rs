@@ -1,29 +1,12 @@
 //! Sessions: what is answered is on disk, and what is on disk can be continued.
 
-use std::path::PathBuf;
 use std::time::UNIX_EPOCH;
 
 use super::*;
 use crate::experiment::design::Method;
 use crate::experiment::{Grade, Task};
+pub(in crate::experiment) use crate::files::ScratchFolder as Folder;
 use crate::numerics::Random;
-
-pub(in crate::experiment) struct Folder(pub(in crate::experiment) PathBuf);
-
-impl Folder {
-    pub(in crate::experiment) fn new(name: &str) -> Self {
-        let name = format!("selvedge-session-{name}-{}", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        drop(fs::remove_dir_all(&path));
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
 
 pub(super) fn subject() -> Subject {
     Subject {

@@ -1,35 +1,18 @@
 //! Sessions held from lines, without a terminal and with a clock that stands where it is put.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
 use super::*;
 use crate::experiment::design::{Design, Subject};
 use crate::experiment::session::Found;
 use crate::experiment::{Grade, Outcome};
+use crate::files::ScratchFolder as Folder;
 
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
     textiles = [\"a\", \"b\", \"c\"]\n[odd_one_out]\n[course]\npractice_trials = 1\n\
     instructions = \"Find the odd one.\"\n\
     [[course.familiarisation]]\nmovement = \"linear\"\nfor_s = 30.0\nspeed_mm_per_s = 100.0\n";
-
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("selvedge-desk-{name}-{}", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        drop(fs::remove_dir_all(&path));
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
 
 /// A clock that goes on by a second whenever it is looked at.
 #[derive(Default)]
