@@ -23,6 +23,7 @@ pub mod observer;
 mod participants;
 mod procedure;
 mod record;
+pub mod replication;
 pub mod schedule;
 pub mod session;
 mod simulate;

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::ReportError;
 use crate::numerics::{median, quantile};
-use crate::progress::{Cancelled, Progress, thread_cpu_seconds};
+use crate::progress::{CancelFlag, Cancelled, Progress, thread_cpu_seconds};
 
 /// How much work a report may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -90,6 +90,18 @@ impl<'a> Bench<'a> {
         self.progress
             .step(share, doing)
             .map_err(|_cancelled| ReportError::Cancelled)
+    }
+
+    /// Work that tells progress of its own: what it tells is told of the study, and what stops the
+    /// study stops it.
+    pub fn heard<T>(&mut self, work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
+        let cancel = CancelFlag::new();
+        let mut report = |share: f64, doing: &str| {
+            if self.progress.step(share, doing).is_err() {
+                cancel.cancel();
+            }
+        };
+        work(&mut Progress::new(&mut report, cancel.clone()))
     }
 
     /// Measures `work`, which does `n_units` of what is counted and is repeated until its own time
@@ -218,7 +230,6 @@ fn inner_repeats<T>(least_s: f64, work: &mut impl FnMut() -> T) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::CancelFlag;
 
     #[test]
     fn work_is_measured_for_each_unit_and_counted() {

@@ -35,6 +35,7 @@ mod picture;
 mod readable;
 mod readers;
 mod rendering;
+mod replication;
 mod runner;
 mod shading;
 mod spectral_model;
@@ -63,6 +64,7 @@ pub use pareto::pareto;
 pub use picture::{AutocorrelationStudy, LatticeStudy, PictureRouteStudy, PictureScaleStudy};
 pub use readers::ReadersStudy;
 pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
+pub use replication::ReplicationStudy;
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub use shading::ShadingStudy;
 pub use spectral_model::SpectralModelStudy;
@@ -95,6 +97,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(MdsStudy),
         Box::new(StaircasesStudy),
         Box::new(CoverageStudy),
+        Box::new(ReplicationStudy),
         Box::new(LeftOutStudy::default()),
         Box::new(stability::Stability),
     ]

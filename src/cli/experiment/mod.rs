@@ -3,6 +3,7 @@
 mod analyse;
 mod designs;
 mod desk;
+mod replicate;
 mod run;
 mod simulate;
 
@@ -24,6 +25,8 @@ pub(super) enum ExperimentCommand {
     Designs(designs::DesignsArgs),
     /// Sessions of simulated observers, written as those of people are
     Simulate(simulate::SimulateArgs),
+    /// The papers' experiments by simulated observers: printed beside obtained
+    Replicate(replicate::ReplicateArgs),
 }
 
 /// Does it.
@@ -33,6 +36,7 @@ pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
         ExperimentCommand::Analyse(args) => analyse::run(args),
         ExperimentCommand::Designs(args) => designs::run(args),
         ExperimentCommand::Simulate(args) => simulate::run(args),
+        ExperimentCommand::Replicate(args) => replicate::run(args),
     }
 }
 

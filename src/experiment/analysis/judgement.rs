@@ -18,14 +18,14 @@ const BOUNDS_PERCENT: f64 = 10.0;
     reason = "what was said is told from what is"
 )]
 /// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
-pub(super) struct Said {
-    pub(super) item: usize,
-    pub(super) is_real: bool,
-    pub(super) said_real: bool,
-    pub(super) confidence: Option<u8>,
+pub(in crate::experiment) struct Said {
+    pub(in crate::experiment) item: usize,
+    pub(in crate::experiment) is_real: bool,
+    pub(in crate::experiment) said_real: bool,
+    pub(in crate::experiment) confidence: Option<u8>,
 }
 
-pub(super) fn said(record: &Record) -> Vec<Said> {
+pub(in crate::experiment) fn said(record: &Record) -> Vec<Said> {
     match (&record.trial.task, record.answer()) {
         (
             Task::Judge { item, is_real },

@@ -74,7 +74,7 @@ pub struct Drawn {
 }
 
 impl Section {
-    pub(super) fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
+    pub(in crate::experiment) fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
             key: key.into(),
             title: title.into(),
@@ -82,14 +82,14 @@ impl Section {
         }
     }
 
-    pub(super) fn note(&mut self, note: impl Into<String>) {
+    pub(in crate::experiment) fn note(&mut self, note: impl Into<String>) {
         self.notes.push(note.into());
     }
 }
 
 impl Table {
     /// An empty table with columns by name and heading.
-    pub(super) fn new(key: &str, title: &str, columns: &[(&str, &str)]) -> Self {
+    pub(in crate::experiment) fn new(key: &str, title: &str, columns: &[(&str, &str)]) -> Self {
         let column = |(name, heading): &(&str, &str)| Column::new(name, heading);
         Self {
             key: key.to_owned(),
@@ -106,7 +106,7 @@ impl Table {
         self
     }
 
-    pub(super) fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
+    pub(in crate::experiment) fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
         let missing = || Cell::Undefined("no value".to_owned());
         row.resize_with(self.columns.len(), missing);
@@ -152,7 +152,7 @@ impl Cell {
         }
     }
 
-    pub(super) fn none(reason: &str) -> Self {
+    pub(in crate::experiment) fn none(reason: &str) -> Self {
         Self::Undefined(reason.to_owned())
     }
 

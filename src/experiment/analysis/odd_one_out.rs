@@ -21,7 +21,7 @@ use crate::statistics::{
 const CHANCE: f64 = 1.0 / 3.0;
 const CHANCE_PERCENT: f64 = 100.0 / 3.0;
 /// The answer to a triad.
-fn triad(record: &Record) -> Option<TriadAnswer> {
+pub(in crate::experiment) fn triad(record: &Record) -> Option<TriadAnswer> {
     let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
         (&record.trial.task, record.answer())
     else {
@@ -50,7 +50,7 @@ fn percent(answers: &[TriadAnswer]) -> f64 {
     100.0 * n_right(answers) as f64 / answers.len() as f64
 }
 
-pub(super) fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
+pub(in crate::experiment) fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
     GradeWeights { easy, normal, hard }
 }
 

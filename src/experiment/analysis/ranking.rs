@@ -62,7 +62,8 @@ pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
     experiment.subjects.iter().map(of).collect()
 }
 
-fn ranking(record: &crate::experiment::Record) -> Option<RankTrial> {
+/// A ranking as it was given; `None` of another task or without an answer.
+pub(in crate::experiment) fn ranking(record: &crate::experiment::Record) -> Option<RankTrial> {
     let (
         Task::Rank {
             target,

@@ -1,0 +1,85 @@
+//! `selvedge experiment replicate`: the papers' experiments by simulated observers, printed beside
+//! obtained.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::super::terminal::Meter;
+use super::super::{CliError, output, signals};
+use crate::app;
+use crate::experiment::replication::{Comparison, Options, Replication, replicate};
+use crate::progress::{CancelFlag, Progress};
+use crate::quantity::fixed;
+
+/// How much is simulated, and where it goes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReplicateArgs {
+    /// Folder for index.md, tables and figures; it is made where it is missing
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+    /// What all chance begins with
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Studies of every comparison
+    #[arg(long, value_name = "N", default_value_t = 200,
+        value_parser = clap::value_parser!(u16).range(20..=10_000))]
+    studies: u16,
+    /// Leave out one study of each in full
+    #[arg(long)]
+    brief: bool,
+}
+
+/// Simulates the papers' experiments, and writes what came out.
+pub(super) fn run(args: &ReplicateArgs) -> Result<(), CliError> {
+    let n_studies = usize::from(args.studies);
+    let options = Options {
+        seed: args.seed,
+        n_studies,
+        n_swept: n_studies.div_ceil(4),
+        n_maps: n_studies.div_ceil(4),
+        is_detailed: !args.brief,
+        cache: app::build_cache(),
+    };
+    let cancel = CancelFlag::shared(signals::stop_flag()?);
+    let mut meter = Meter::new("replicating");
+    let mut report = |share: f64, doing: &str| meter.show(share, doing);
+    let found = replicate(&options, &mut Progress::new(&mut report, cancel))?;
+    drop(meter);
+    found.analysis.write(&args.out)?;
+    output::print(&summary(&found, args))
+}
+
+fn summary(found: &Replication, args: &ReplicateArgs) -> String {
+    let mut lines = vec![format!(
+        "{:>9}  {:>8}  {:>17}  {:<6}  of what",
+        "printed", "obtained", "95 of 100 studies", "within"
+    )];
+    let with_print = found.comparisons.iter().filter(|one| one.printed.is_some());
+    lines.extend(with_print.map(line));
+    let page = args.out.join("index.md");
+    lines.push(format!(
+        "Nothing was fitted. All of it, with what is assumed: {}",
+        page.display()
+    ));
+    lines.join("\n") + "\n"
+}
+
+fn line(one: &Comparison) -> String {
+    let number = |value: f64| fixed(value, 2);
+    let spread = one.obtained;
+    let within = match one.is_within() {
+        Some(true) => "yes",
+        Some(false) => "no",
+        None => "",
+    };
+    format!(
+        "{:>9}  {:>8}  {:>17}  {within:<6}  {}: {}; {}",
+        one.printed.map(number).unwrap_or_default(),
+        number(spread.mean),
+        format!("{} … {}", number(spread.low), number(spread.high)),
+        one.paper,
+        one.quantity,
+        one.observer
+    )
+}

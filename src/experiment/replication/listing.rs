@@ -1,0 +1,63 @@
+//! Number by number: printed beside obtained.
+
+use super::Comparison;
+use crate::experiment::analysis::{Cell, Section, Table};
+
+const COLUMNS: [(&str, &str); 12] = [
+    ("paper", "paper"),
+    ("quantity", "quantity"),
+    ("printed", "printed"),
+    ("obtained", "obtained"),
+    ("low", "95 of 100 studies from"),
+    ("high", "to"),
+    ("within", "printed lies within"),
+    ("se", "SE of obtained"),
+    ("studies", "studies"),
+    ("observer", "observer"),
+    ("assumed", "assumed"),
+    ("difference", "obtained less printed"),
+];
+
+pub(super) fn section(comparisons: &[Comparison]) -> Section {
+    let mut section = Section::new("published", "Published against obtained");
+    section.note(
+        "Obtained is the mean over simulated studies of the size of the paper's; the interval is \
+         where 95 of 100 such studies lie. Nothing was fitted: noise is from published just \
+         noticeable differences. Textiles are those that the program ships, not the papers'.",
+    );
+    let judged: Vec<bool> = comparisons
+        .iter()
+        .filter_map(Comparison::is_within)
+        .collect();
+    let n_within = judged.iter().filter(|is_within| **is_within).count();
+    section.note(format!(
+        "{n_within} of {} printed numbers lie within.",
+        judged.len()
+    ));
+    let mut table = Table::new("numbers", "Printed and obtained", &COLUMNS);
+    for one in comparisons {
+        let missing = || Cell::none("nothing printed to compare with");
+        let spread = one.obtained;
+        table.push([
+            one.paper.into(),
+            one.quantity.as_str().into(),
+            one.printed.map_or_else(missing, Cell::from),
+            spread.mean.into(),
+            spread.low.into(),
+            spread.high.into(),
+            match one.is_within() {
+                Some(true) => "yes".into(),
+                Some(false) => "no".into(),
+                None => missing(),
+            },
+            spread.se.into(),
+            spread.n.into(),
+            one.observer.into(),
+            one.assumed.into(),
+            one.printed
+                .map_or_else(missing, |printed| (spread.mean - printed).into()),
+        ]);
+    }
+    section.tables.push(table);
+    section
+}

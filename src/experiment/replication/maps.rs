@@ -1,0 +1,165 @@
+//! The map of experiment 2 of Philpott & Summers 2012, turned to the levels of both bands.
+
+use super::ranking::VIRTUAL;
+use super::studies::{Spread, Studies, Subjects, planned};
+use super::{Comparison, Kind, Laid, Options, Replication, by_levels, practised, printed};
+use crate::experiment::ExperimentError;
+use crate::experiment::analysis::{Cell, Section, Table, rank_trial};
+use crate::progress::{Progress, unheard};
+use crate::quantity::level_db;
+use crate::statistics::mds::{Dissimilarities, Loss, Map, Mds, Ties};
+use crate::statistics::properties::BestTurn;
+use crate::statistics::ranking::{MeanRanks, RankTrial};
+use crate::statistics::{Computed, Undefined};
+
+/// Starts of a plane map of one study of many.
+const N_STARTS: usize = 20;
+/// As many as an analysis takes.
+const N_STARTS_OF_ONE: usize = 50;
+
+/// What one study's map came to.
+struct Mapped {
+    map: Map,
+    turn: BestTurn,
+}
+
+/// Correlations of the plane map over studies, and one study by every loss and rule for ties.
+///
+/// # Errors
+/// A study cannot be held, or it was cancelled.
+pub(super) fn section(
+    laid: &Laid,
+    options: &Options,
+    all: &mut Replication,
+    progress: &mut Progress<'_>,
+) -> Result<Section, ExperimentError> {
+    let mut section = Section::new("maps", "The map of a virtual target's rankings");
+    section.note(
+        "S-stress with secondary ties, as ALSCAL makes it by default, of mean ranks made \
+         symmetric; the plane map is turned, reflection allowed, so that r(dimension 1, A40) + \
+         r(dimension 2, A320) is largest. Levels are those felt through the session's tuning, dB \
+         at 100 mm/s.",
+    );
+    for (nth, kind) in [by_levels(), practised()].into_iter().enumerate() {
+        let doing = (0.5 + 0.1 * nth as f64, "maps");
+        let studies = studies(laid, &kind, options);
+        let n = options.n_maps;
+        let mds = mds(Loss::SStress, Ties::Secondary, N_STARTS);
+        let found = studies.each(n, doing, progress, |subjects| {
+            mapped(&rank_trials(subjects), laid, &mds)
+        })?;
+        let n_mapped = found.iter().filter(|one| one.is_ok()).count();
+        if n_mapped < n {
+            section.note(format!(
+                "{}: {} studies had no map.",
+                kind.told,
+                n - n_mapped
+            ));
+        }
+        let found: Vec<Mapped> = found.into_iter().flatten().collect();
+        compare(&found, &kind, all);
+    }
+    let kind = by_levels();
+    let doing = (0.7, "one study by every loss and rule for ties");
+    let one = studies(laid, &kind, options).each(1, doing, progress, |s| rank_trials(s))?;
+    let trials: Vec<RankTrial> = one.into_iter().flatten().collect();
+    section.tables.push(by_loss(&trials, laid));
+    Ok(section)
+}
+
+fn studies<'a>(laid: &'a Laid, kind: &Kind, options: &Options) -> Studies<'a> {
+    Studies {
+        laid,
+        observer: kind.observer,
+        size: (planned(&laid.design), 1),
+        seed: options.seed,
+    }
+}
+
+fn rank_trials(subjects: &Subjects) -> Vec<RankTrial> {
+    subjects.iter().flatten().filter_map(rank_trial).collect()
+}
+
+/// On one thread: studies are what threads share.
+fn mds(loss: Loss, ties: Ties, n_starts: usize) -> Mds {
+    Mds {
+        loss,
+        ties,
+        n_starts,
+        n_threads: 1,
+        ..Mds::default()
+    }
+}
+
+fn mapped(trials: &[RankTrial], laid: &Laid, mds: &Mds) -> Computed<Mapped> {
+    let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
+    let ranks = MeanRanks::of(names.len(), trials)?;
+    let data = Dissimilarities::new(names, &ranks.dissimilarities())?;
+    let maps = unheard(|progress| mds.maps(&data, 2..=2, progress));
+    let plane = maps.ok().and_then(|maps| maps.into_iter().next());
+    let map = plane.ok_or_else(|| Undefined::because("no plane map"))?;
+    let [low, high] = levels_db(laid);
+    let turn = BestTurn::of(&map.points, [&low, &high])?;
+    Ok(Mapped { map, turn })
+}
+
+/// What is felt of every stimulus, dB by band.
+fn levels_db(laid: &Laid) -> [Vec<f64>; 2] {
+    let items = 0..laid.design.stimuli.len();
+    [0, 1].map(|band| {
+        let of = |item| level_db(laid.stimuli.felt_um(item)[band]);
+        items.clone().map(of).collect()
+    })
+}
+
+fn compare(found: &[Mapped], kind: &Kind, all: &mut Replication) {
+    let [r1, r2] = printed::CORRELATIONS;
+    let rows: [(&str, Option<f64>, fn(&Mapped) -> f64); 4] = [
+        ("r of dimension 1 and A40", Some(r1), |m| m.turn.r[0]),
+        ("r of dimension 2 and A320", Some(r2), |m| m.turn.r[1]),
+        ("S-stress of the plane map", None, |m| m.map.sstress),
+        ("stress-1 of the same map", None, |m| m.map.stress1),
+    ];
+    for (quantity, printed, of) in rows {
+        let values: Vec<f64> = found.iter().map(of).collect();
+        if let Ok(obtained) = Spread::of(&values) {
+            all.comparisons.push(Comparison {
+                paper: VIRTUAL,
+                quantity: quantity.to_owned(),
+                printed,
+                observer: kind.told,
+                assumed: kind.assumed,
+                obtained,
+            });
+        }
+    }
+}
+
+fn by_loss(trials: &[RankTrial], laid: &Laid) -> Table {
+    let columns = [
+        ("loss", "made small"),
+        ("ties", "ties"),
+        ("sstress", "S-stress"),
+        ("stress1", "stress-1"),
+        ("r1", "r of dimension 1 and A40"),
+        ("r2", "r of dimension 2 and A320"),
+    ];
+    let title = "One study of eight who go by levels, by loss and rule for ties";
+    let mut table = Table::new("ties", title, &columns);
+    for loss in [Loss::SStress, Loss::Stress1] {
+        for ties in [Ties::Secondary, Ties::Primary] {
+            let mut row = vec![Cell::from(loss.name()), ties.name().into()];
+            match mapped(trials, laid, &mds(loss, ties, N_STARTS_OF_ONE)) {
+                Ok(one) => {
+                    let [r1, r2] = one.turn.r;
+                    row.extend([one.map.sstress, one.map.stress1, r1, r2].map(Cell::from));
+                }
+                Err(why) => {
+                    row.extend([(); 4].map(|()| Cell::Undefined(why.reason.clone())));
+                }
+            }
+            table.push(row);
+        }
+    }
+    table
+}

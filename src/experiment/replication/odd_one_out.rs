@@ -1,0 +1,206 @@
+//! The odd one of three (Allerkamp et al.): seven similar fabrics in three sessions.
+
+use super::studies::{Spread, Studies, Subjects, percent_right, planned};
+use super::{Comparison, Kind, Laid, Options, Replication, by_levels, guessing};
+use crate::experiment::ExperimentError;
+use crate::experiment::analysis::{Cell, Section, Table, grade_weights, triad_answer};
+use crate::experiment::design::{Design, Method};
+use crate::progress::{Cancelled, Progress, unheard};
+use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
+use crate::statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
+use crate::statistics::{Computed, Undefined};
+
+const PAPER: &str = "Allerkamp et al., odd one out";
+/// The paper ends with this many dimensions for virtual fabrics, by the elbow.
+const PRINTED_DIMENSIONS: f64 = 1.0;
+/// Sessions of every subject.
+const N_SESSIONS: u32 = 3;
+/// Starts of maps: few objects, so that few are needed.
+const N_STARTS: usize = 20;
+const N_STARTS_ON_A_LINE: usize = 200;
+/// Sets of random ranks that stress is compared with.
+const N_RANDOM_DATA: usize = 40;
+/// More dimensions than these leave seven fabrics nothing to fit.
+const MOST_DIMENSIONS: usize = 4;
+
+/// How often each subject comes.
+pub(super) fn sessions_of(design: &Design) -> u32 {
+    match design.method {
+        Method::OddOneOut(_) => N_SESSIONS,
+        _ => 1,
+    }
+}
+
+/// What one study came to.
+struct Found {
+    percent: f64,
+    /// Of right answers, %: easy, normal, hard.
+    grades: [f64; 3],
+    /// Pairs at the ceiling and at the floor.
+    ends: [f64; 2],
+    data: Computed<Dissimilarities>,
+}
+
+/// Right answers, how easy they were, and how many dimensions the elbow finds.
+///
+/// # Errors
+/// A study cannot be held, or it was cancelled.
+pub(super) fn section(
+    laid: &Laid,
+    options: &Options,
+    all: &mut Replication,
+    progress: &mut Progress<'_>,
+) -> Result<Section, ExperimentError> {
+    let title = "The odd one of three: seven similar fabrics, three sessions";
+    let mut section = Section::new("odd-one-out", title);
+    section.note(format!(
+        "{} observers, {N_SESSIONS} sessions, every pair once a session. The distance of a pair is \
+         the sum of weights of its right answers; stress-1 with primary ties, since sums pile up \
+         at their ends. The paper's shares of right answers are not known here, so there is \
+         nothing printed beside those.",
+        planned(&laid.design)
+    ));
+    let mut chosen = Table::new(
+        "elbow",
+        "How many dimensions the elbow finds, share of studies, %",
+        &[
+            ("observer", "observer"),
+            ("one", "one"),
+            ("two", "two"),
+            ("more", "more"),
+            ("below_chance", "a map below the 5 % point of random ranks"),
+            ("studies", "studies"),
+        ],
+    );
+    for (nth, kind) in [by_levels(), guessing()].into_iter().enumerate() {
+        let share = 0.72 + 0.06 * nth as f64;
+        let studies = Studies {
+            laid,
+            observer: kind.observer,
+            size: (planned(&laid.design), N_SESSIONS),
+            seed: options.seed,
+        };
+        let doing = (share, "triads");
+        let found = studies.each(options.n_maps, doing, progress, |s| found(s, laid))?;
+        let chance = chance(&found, progress)?;
+        let elbows: Vec<Elbow> = found
+            .iter()
+            .filter_map(|f| elbow(f, &chance).ok())
+            .collect();
+        compare(&found, &elbows, &kind, all);
+        chosen.push(shares(&kind, &elbows));
+    }
+    section.tables.push(chosen);
+    Ok(section)
+}
+
+fn found(subjects: &Subjects, laid: &Laid) -> Found {
+    let rows = || subjects.iter().flatten();
+    let answers: Vec<TriadAnswer> = rows().filter_map(triad_answer).collect();
+    let percents: Vec<f64> = subjects.iter().map(|own| percent_right(own)).collect();
+    let right: Vec<&TriadAnswer> = answers.iter().filter(|a| a.is_correct).collect();
+    let grades = [Grade::Easy, Grade::Normal, Grade::Hard].map(|grade| {
+        let n = right.iter().filter(|a| a.grade == grade).count();
+        100.0 * n as f64 / right.len() as f64
+    });
+    let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
+    let tally = OddOneOut::of(names.len(), &answers, weights(&laid.design));
+    let ends = tally.as_ref().map_or([f64::NAN; 2], |tally| {
+        [tally.n_ceiling as f64, tally.n_floor as f64]
+    });
+    Found {
+        percent: percents.iter().sum::<f64>() / percents.len() as f64,
+        grades,
+        ends,
+        data: tally.and_then(|tally| Dissimilarities::new(names, &tally.distances())),
+    }
+}
+
+fn weights(design: &Design) -> GradeWeights {
+    match &design.method {
+        Method::OddOneOut(choosing) => grade_weights(choosing.weights),
+        _ => grade_weights([1.0; 3]),
+    }
+}
+
+fn mds() -> Mds {
+    Mds {
+        loss: Loss::Stress1,
+        ties: Ties::Primary,
+        n_starts: N_STARTS,
+        n_starts_on_a_line: N_STARTS_ON_A_LINE,
+        ..Mds::default()
+    }
+}
+
+/// Stress of random ranks of as many fabrics, dimension by dimension.
+fn chance(found: &[Found], progress: &mut Progress<'_>) -> Result<Vec<Null>, Cancelled> {
+    let Some(data) = found.iter().find_map(|one| one.data.as_ref().ok()) else {
+        return Ok(Vec::new());
+    };
+    let of = |dims: usize| {
+        let sets = (dims, N_RANDOM_DATA);
+        Null::of(&mds(), data, NullKind::RandomRanks, sets, progress)
+    };
+    (1..=MOST_DIMENSIONS).map(of).collect()
+}
+
+fn elbow(found: &Found, chance: &[Null]) -> Computed<Elbow> {
+    let data = found.data.as_ref().map_err(Clone::clone)?;
+    let maps = unheard(|progress| mds().maps(data, 1..=MOST_DIMENSIONS, progress));
+    let maps = maps.map_err(|_| Undefined::because("stopped"))?;
+    let losses: Vec<(usize, f64)> = maps.iter().map(|map| (map.dims, map.stress1)).collect();
+    let five: Vec<f64> = chance.iter().map(Null::five_percent).collect();
+    Ok(Elbow::of(&losses, chance.first().map(Null::mean), &five))
+}
+
+fn compare(found: &[Found], elbows: &[Elbow], kind: &Kind, all: &mut Replication) {
+    let mut add = |quantity: &str, printed: Option<f64>, values: Vec<f64>| {
+        let finite: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
+        if let Ok(obtained) = Spread::of(&finite) {
+            all.comparisons.push(Comparison {
+                paper: PAPER,
+                quantity: quantity.to_owned(),
+                printed,
+                observer: kind.told,
+                assumed: kind.assumed,
+                obtained,
+            });
+        }
+    };
+    let of = |of: &dyn Fn(&Found) -> f64| found.iter().map(of).collect::<Vec<f64>>();
+    add("right answers, %", None, of(&|f| f.percent));
+    for (nth, name) in ["easy", "normal", "hard"].into_iter().enumerate() {
+        let quantity = format!("right answers called {name}, %");
+        add(&quantity, None, of(&|f| f.grades[nth]));
+    }
+    add("pairs at the ceiling, of 21", None, of(&|f| f.ends[0]));
+    add("pairs at the floor, of 21", None, of(&|f| f.ends[1]));
+    let dims = elbows.iter().filter_map(|elbow| elbow.by_bend);
+    let quantity = "dimensions by the elbow";
+    let dims = dims.map(|k| k as f64).collect();
+    add(quantity, Some(PRINTED_DIMENSIONS), dims);
+}
+
+fn shares(kind: &Kind, elbows: &[Elbow]) -> Vec<Cell> {
+    let n = elbows.len();
+    if n == 0 {
+        let none = || Cell::none("no study had a map");
+        let mut row = vec![Cell::from(kind.told)];
+        row.extend((0..4).map(|_| none()));
+        row.push(n.into());
+        return row;
+    }
+    let percent = |is_it: &dyn Fn(&Elbow) -> bool| {
+        let n_such = elbows.iter().filter(|elbow| is_it(elbow)).count();
+        Cell::from(100.0 * n_such as f64 / n as f64)
+    };
+    vec![
+        kind.told.into(),
+        percent(&|elbow| elbow.by_bend == Some(1)),
+        percent(&|elbow| elbow.by_bend == Some(2)),
+        percent(&|elbow| elbow.by_bend > Some(2)),
+        percent(&|elbow| elbow.below_chance.is_some()),
+        n.into(),
+    ]
+}

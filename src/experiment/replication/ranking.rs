@@ -1,0 +1,376 @@
+//! Ranking against a target (Philpott & Summers 2012): identification with a virtual and with a
+//! real target, and how it changes with what is assumed.
+
+use super::studies::{Spread, Studies, Subjects, percent_right, planned};
+use super::{Comparison, Kind, Laid, Options, Replication, by_levels, guessing, practised};
+use super::{printed, printed_line};
+use crate::experiment::ExperimentError;
+use crate::experiment::analysis::{Cell, Section, Table, scatter};
+use crate::experiment::observer::{Observer, Strategy, Weighting};
+use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::progress::Progress;
+use crate::quantity::fixed;
+use crate::statistics::{Computed, Summary};
+
+/// Looks that exploring is taken to be worth, from one to more than anybody would assume.
+const LOOKS: [u32; 7] = [1, 2, 3, 4, 6, 8, 12];
+/// Differences between real and virtual cloth, standard deviation in dB.
+const ERRORS_DB: [f64; 7] = [0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0];
+/// A difference between real and virtual cloth that is compared with the paper: of the size of
+/// just noticeable differences.
+const MODEL_ERROR_DB: f64 = 3.0;
+
+pub(super) const VIRTUAL: &str = "Philpott & Summers 2012, experiment 2";
+pub(super) const REAL: &str = "Philpott & Summers 2012, experiment 1";
+
+/// Both experiments.
+pub(super) struct Rankings<'a> {
+    pub(super) real: &'a Laid,
+    pub(super) virtually: &'a Laid,
+    pub(super) options: &'a Options,
+}
+
+/// What one study found: the mean of its subjects and the SE of that, %.
+type Found = (f64, f64);
+
+fn found(subjects: &Subjects) -> Found {
+    let percents: Vec<f64> = subjects.iter().map(|rows| percent_right(rows)).collect();
+    match Summary::of(&percents) {
+        Ok(summary) => (summary.mean, summary.se),
+        Err(_) => (f64::NAN, f64::NAN),
+    }
+}
+
+/// A point of a sweep.
+struct Swept {
+    observer: &'static str,
+    at: f64,
+    spread: Spread,
+}
+
+impl Rankings<'_> {
+    fn studies(
+        &self,
+        laid: &Laid,
+        observer: Observer,
+        n: usize,
+        (share, doing): (f64, &str),
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Found>, ExperimentError> {
+        let studies = Studies {
+            laid,
+            observer,
+            size: (planned(&laid.design), 1),
+            seed: self.options.seed,
+        };
+        studies.each(n, (share, doing), progress, found)
+    }
+
+    /// Comparisons, sweeps, and what it would take.
+    ///
+    /// # Errors
+    /// A study cannot be held, or it was cancelled.
+    pub(super) fn section(
+        &self,
+        all: &mut Replication,
+        progress: &mut Progress<'_>,
+    ) -> Result<Section, ExperimentError> {
+        let title = "Ranking against a target, and what is assumed";
+        let mut section = Section::new("ranking", title);
+        self.compare(all, progress)?;
+        let looks = self.over_looks(progress)?;
+        section.tables.push(table("looks", "looks", &looks));
+        let nearest = nearest_looks(&looks);
+        let errors = self.over_errors(nearest, progress)?;
+        section
+            .tables
+            .push(table("model-error", "error_db", &errors));
+        let drawn = [looks_plot(&looks), errors_plot(&errors)];
+        for (name, plot) in drawn {
+            section.figures.push(drawn_of(&name, &plot));
+            all.sweeps.push((format!("replication-{name}"), plot));
+        }
+        section.note(
+            "Published differences are those of one look at a steady vibration. How many looks \
+             exploring a textile is worth is not published, so it is swept, not chosen; so is the \
+             difference between a real cloth and its model.",
+        );
+        section.note(what_it_takes(nearest, &errors));
+        Ok(section)
+    }
+
+    fn compare(
+        &self,
+        all: &mut Replication,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), ExperimentError> {
+        let with_error = |kind: Kind, assumed: &'static str| Kind {
+            assumed,
+            observer: Observer {
+                real_error_db: MODEL_ERROR_DB,
+                ..kind.observer
+            },
+            ..kind
+        };
+        let differs = "real and virtual cloth differ by 3 dB in each band (sd)";
+        let both = "cues beyond levels have the noise of levels; real and virtual differ by 3 dB";
+        let cases = [
+            (VIRTUAL, self.virtually, by_levels(), printed::VIRTUAL),
+            (
+                VIRTUAL,
+                self.virtually,
+                practised(),
+                printed::VIRTUAL_PRACTISED,
+            ),
+            (VIRTUAL, self.virtually, guessing(), printed::CHANCE),
+            (
+                REAL,
+                self.real,
+                with_error(by_levels(), differs),
+                printed::REAL,
+            ),
+            (
+                REAL,
+                self.real,
+                with_error(practised(), both),
+                printed::REAL_PRACTISED,
+            ),
+        ];
+        for (nth, (paper, laid, kind, printed)) in cases.into_iter().enumerate() {
+            let share = 0.02 + 0.04 * nth as f64;
+            let n = self.options.n_studies;
+            let found = self.studies(laid, kind.observer, n, (share, paper), progress)?;
+            let mut add = |quantity: &str, printed: Option<f64>, values: Vec<f64>| {
+                if let Ok(obtained) = Spread::of(&values) {
+                    all.comparisons.push(Comparison {
+                        paper,
+                        quantity: quantity.to_owned(),
+                        printed,
+                        observer: kind.told,
+                        assumed: kind.assumed,
+                        obtained,
+                    });
+                }
+            };
+            let means = found.iter().map(|study| study.0).collect();
+            add(printed.quantity, Some(printed.percent), means);
+            if let Some(se) = printed.se {
+                let errors = found.iter().map(|study| study.1).collect();
+                add("its standard error over subjects, %", Some(se), errors);
+            }
+        }
+        Ok(())
+    }
+
+    fn over_looks(&self, progress: &mut Progress<'_>) -> Result<Vec<Swept>, ExperimentError> {
+        let kinds = [
+            ("levels", Strategy::LevelOnly, Weighting::Equal),
+            ("all cues alike", Strategy::All, Weighting::Equal),
+            ("all cues by their worth", Strategy::All, Weighting::Learnt),
+        ];
+        let mut swept = Vec::new();
+        for (observer, strategy, weighting) in kinds {
+            for looks in LOOKS {
+                let how = Observer {
+                    strategy,
+                    weighting,
+                    looks,
+                    ..Observer::default()
+                };
+                let n = self.options.n_swept;
+                let doing = (0.25, "looks");
+                let found = self.studies(self.virtually, how, n, doing, progress)?;
+                push(&mut swept, observer, f64::from(looks), &found);
+            }
+        }
+        Ok(swept)
+    }
+
+    /// With one look, and with as many as experiment 2 would take.
+    fn over_errors(
+        &self,
+        nearest: u32,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Swept>, ExperimentError> {
+        let mut swept = Vec::new();
+        for (observer, looks) in [("one look", 1), (AS_FITTED, nearest)] {
+            for real_error_db in ERRORS_DB {
+                let how = Observer {
+                    looks,
+                    real_error_db,
+                    ..Observer::default()
+                };
+                let n = self.options.n_swept;
+                let doing = (0.4, "model error");
+                let found = self.studies(self.real, how, n, doing, progress)?;
+                push(&mut swept, observer, real_error_db, &found);
+            }
+        }
+        Ok(swept)
+    }
+}
+
+const AS_FITTED: &str = "looks by which levels give experiment 2";
+
+fn push(swept: &mut Vec<Swept>, observer: &'static str, at: f64, found: &[Found]) {
+    let means: Vec<f64> = found.iter().map(|study| study.0).collect();
+    if let Ok(spread) = Spread::of(&means) {
+        swept.push(Swept {
+            observer,
+            at,
+            spread,
+        });
+    }
+}
+
+/// The looks with which levels alone come nearest to what experiment 2 printed.
+fn nearest_looks(swept: &[Swept]) -> u32 {
+    let away = |one: &Swept| (one.spread.mean - printed::VIRTUAL.percent).abs();
+    let own = swept.iter().filter(|one| one.observer == "levels");
+    let nearest = own.min_by(|a, b| away(a).total_cmp(&away(b)));
+    let at = nearest.map_or(1.0, |one| one.at);
+    let is_it = |looks: &u32| (f64::from(*looks) - at).abs() < 0.5;
+    LOOKS.into_iter().find(is_it).unwrap_or(1)
+}
+
+/// What would have to be so for the printed numbers to come out: a fit, and called one.
+fn what_it_takes(nearest: u32, errors: &[Swept]) -> String {
+    let own: Vec<[f64; 2]> = errors
+        .iter()
+        .filter(|one| one.observer == AS_FITTED)
+        .map(|one| [one.at, one.spread.mean])
+        .collect();
+    let error = crossing(&own, printed::REAL.percent);
+    let told = match error {
+        Ok(db) => format!(
+            "then a difference of {} dB between real and virtual cloth gives experiment 1's {} %",
+            fixed(db, 1),
+            fixed(printed::REAL.percent, 1)
+        ),
+        Err(_) => format!(
+            "then no difference of {} dB or less between real and virtual cloth gives experiment \
+             1's {} %",
+            fixed(ERRORS_DB[ERRORS_DB.len() - 1], 0),
+            fixed(printed::REAL.percent, 1)
+        ),
+    };
+    format!(
+        "**What it would take, a fit and no replication**: experiment 2's {} % come nearest with \
+         {nearest} looks and levels alone; {told}.",
+        fixed(printed::VIRTUAL.percent, 1)
+    )
+}
+
+/// Where a falling curve first crosses a value, between its points in a straight line.
+pub(super) fn crossing(points: &[[f64; 2]], value: f64) -> Computed {
+    let crosses = |pair: &&[[f64; 2]]| pair[0][1] >= value && pair[1][1] < value;
+    let pair = points.windows(2).find(crosses).ok_or_else(|| {
+        crate::statistics::Undefined::because("the curve does not cross the value")
+    })?;
+    let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
+    Ok(x0 + (x1 - x0) * (y0 - value) / (y0 - y1))
+}
+
+fn table(key: &str, at: &str, swept: &[Swept]) -> Table {
+    let heading = if at == "looks" {
+        "looks"
+    } else {
+        "real against virtual, sd in dB"
+    };
+    let columns = [
+        ("observer", "observer"),
+        (at, heading),
+        ("percent", "target first, %"),
+        ("se", "SE"),
+        ("low", "95 of 100 studies from"),
+        ("high", "to"),
+        ("studies", "studies"),
+    ];
+    let title = if at == "looks" {
+        "A virtual target, over looks"
+    } else {
+        "A real target, over the error of the model"
+    };
+    let mut table = Table::new(key, title, &columns);
+    for one in swept {
+        let spread = one.spread;
+        table.push([
+            Cell::from(one.observer),
+            one.at.into(),
+            spread.mean.into(),
+            spread.se.into(),
+            spread.low.into(),
+            spread.high.into(),
+            spread.n.into(),
+        ]);
+    }
+    table
+}
+
+fn looks_plot(swept: &[Swept]) -> (String, Plot) {
+    let ends = [1.0, f64::from(LOOKS[LOOKS.len() - 1])];
+    let mut series = lines(swept);
+    series.extend([
+        printed_line("printed: 64.1 %", printed::VIRTUAL.percent, ends),
+        printed_line(
+            "printed, practised: 91 %",
+            printed::VIRTUAL_PRACTISED.percent,
+            ends,
+        ),
+        printed_line("chance", printed::CHANCE.percent, ends),
+    ]);
+    let title = "A virtual target: identification over looks";
+    let mut plot = plot(title, "looks that exploring is worth", series);
+    plot.x.scale = Scale::Log;
+    ("looks".to_owned(), plot)
+}
+
+fn errors_plot(swept: &[Swept]) -> (String, Plot) {
+    let ends = [0.0, ERRORS_DB[ERRORS_DB.len() - 1]];
+    let mut series = lines(swept);
+    series.extend([
+        printed_line("printed: 41.3 %", printed::REAL.percent, ends),
+        printed_line("chance", printed::CHANCE.percent, ends),
+    ]);
+    let title = "A real target: identification over the error of the model";
+    let label = "real against virtual cloth, sd in dB";
+    ("model-error".to_owned(), plot(title, label, series))
+}
+
+fn plot(title: &str, label: &str, series: Vec<Series>) -> Plot {
+    Plot {
+        title: title.to_owned(),
+        x: Axis {
+            label: label.to_owned(),
+            ..Axis::default()
+        },
+        y: Axis {
+            label: "target ranked first, %".to_owned(),
+            range: Some([0.0, 100.0]),
+            ..Axis::default()
+        },
+        series,
+        ..Plot::default()
+    }
+}
+
+fn lines(swept: &[Swept]) -> Vec<Series> {
+    let mut names: Vec<&str> = swept.iter().map(|one| one.observer).collect();
+    names.dedup();
+    let line = |name: &str| Series {
+        name: name.to_owned(),
+        points: swept
+            .iter()
+            .filter(|one| one.observer == name)
+            .map(|one| [one.at, one.spread.mean])
+            .collect(),
+        style: Style::LineAndDots,
+        ..Series::default()
+    };
+    names.into_iter().map(line).collect()
+}
+
+fn drawn_of(key: &str, plot: &Plot) -> crate::experiment::analysis::Drawn {
+    let axes = [plot.x.clone(), plot.y.clone()];
+    scatter(key, &plot.title, axes, plot.series.clone())
+}

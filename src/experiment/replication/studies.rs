@@ -1,0 +1,161 @@
+//! Many studies of one kind, each by itself, and how what they found is spread.
+
+use std::path::PathBuf;
+
+use super::{Laid, Options};
+use crate::experiment::design::Design;
+use crate::experiment::observer::Observer;
+use crate::experiment::session::Found;
+use crate::experiment::{ExperimentError, Record, Simulation, simulated_subject};
+use crate::numerics::{Random, in_pieces, n_threads, quantile};
+use crate::progress::Progress;
+use crate::statistics::{Computed, Summary, mean};
+
+/// How a number is spread over studies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Studies in which it could be computed.
+    pub n: usize,
+    /// Its mean over studies.
+    pub mean: f64,
+    /// What the mean is uncertain by, since studies are not endless: its standard error.
+    pub se: f64,
+    /// The lower end of the middle 95 of 100 studies.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+}
+
+impl Spread {
+    /// Of one number a study.
+    ///
+    /// # Errors
+    /// Fewer than two of them.
+    pub fn of(values: &[f64]) -> Computed<Self> {
+        let summary = Summary::of(values)?;
+        let mut sorted = values.to_vec();
+        Ok(Self {
+            n: summary.n,
+            mean: mean(values)?,
+            se: summary.se,
+            low: quantile(&mut sorted, 0.025),
+            high: quantile(&mut sorted, 0.975),
+        })
+    }
+}
+
+/// Observers in a design, study after study.
+#[derive(Clone, Copy)]
+pub(super) struct Studies<'a> {
+    pub(super) laid: &'a Laid,
+    pub(super) observer: Observer,
+    /// Subjects and sessions of each.
+    pub(super) size: (usize, u32),
+    pub(super) seed: u64,
+}
+
+/// A study's rows that count, subject by subject, sessions joined.
+pub(super) type Subjects = Vec<Vec<Record>>;
+
+impl Studies<'_> {
+    /// What `found` makes of the rows of each of `n` studies.
+    ///
+    /// # Errors
+    /// A study cannot be held, or it was cancelled.
+    pub(super) fn each<T: Send>(
+        &self,
+        n: usize,
+        (share, doing): (f64, &str),
+        progress: &mut Progress<'_>,
+        found: impl Fn(&Subjects) -> T + Sync,
+    ) -> Result<Vec<T>, ExperimentError> {
+        let n_together = 8 * n_threads();
+        let mut all = Vec::with_capacity(n);
+        while all.len() < n {
+            progress.step(share, doing)?;
+            let first = all.len();
+            let mut some: Vec<Option<Result<T, ExperimentError>>> = Vec::new();
+            some.resize_with(n_together.min(n - first), || None);
+            in_pieces(
+                &mut some,
+                1,
+                n_threads(),
+                || (),
+                |(), nth, study| study[0] = Some(self.subjects(first + nth).map(|s| found(&s))),
+            );
+            for study in some.into_iter().flatten() {
+                all.push(study?);
+            }
+        }
+        Ok(all)
+    }
+
+    /// The subjects of the `nth` study, its schedules and its chance its own.
+    fn subjects(&self, nth: usize) -> Result<Subjects, ExperimentError> {
+        let study = Random::new(self.seed).branch(&format!("study {nth}"));
+        let design = Design {
+            seed: study.branch("schedules").seed(),
+            ..self.laid.design.clone()
+        };
+        let simulation = Simulation {
+            design: &design,
+            stimuli: &self.laid.stimuli,
+            observer: &self.observer,
+            seed: study.branch("observers").seed(),
+        };
+        let (n_subjects, n_sessions) = self.size;
+        let mut subjects = Vec::with_capacity(n_subjects);
+        for nth in 0..n_subjects {
+            let mut rows = Vec::new();
+            for session in 1..=n_sessions {
+                rows.extend(simulation.records(&simulated_subject(nth, session))?);
+            }
+            rows.retain(|row| !row.trial.is_practice);
+            subjects.push(rows);
+        }
+        Ok(subjects)
+    }
+}
+
+/// How many take part, and how often: as the design plans, eight where it does not.
+pub(super) fn planned(design: &Design) -> usize {
+    match design.rules.subjects {
+        0 => 8,
+        n => n,
+    }
+}
+
+/// A study of a design's planned size as its logs would be found, without writing them.
+pub(super) fn held(
+    laid: &Laid,
+    observer: Observer,
+    n_sessions: u32,
+    options: &Options,
+) -> Result<Vec<Found>, ExperimentError> {
+    let simulation = Simulation {
+        design: &laid.design,
+        stimuli: &laid.stimuli,
+        observer: &observer,
+        seed: options.seed,
+    };
+    let mut found = Vec::new();
+    for nth in 0..planned(&laid.design) {
+        for session in 1..=n_sessions {
+            let subject = simulated_subject(nth, session);
+            found.push(Found {
+                log: PathBuf::from(format!("{}.csv", subject.pseudonym)),
+                records: simulation.records(&subject)?,
+                design: laid.design.clone(),
+                has_torn_row: false,
+                subject,
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// What is right of a subject's rows, %.
+pub(super) fn percent_right(rows: &[Record]) -> f64 {
+    let n_right = rows.iter().filter(|r| r.is_correct == Some(true)).count();
+    100.0 * n_right as f64 / rows.len() as f64
+}

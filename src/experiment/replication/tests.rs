@@ -1,0 +1,86 @@
+//! Replications: what is simulated is the same every time, and says what it is.
+
+use super::ranking::crossing;
+use super::*;
+use crate::progress::unheard;
+
+fn small() -> Options {
+    Options {
+        n_studies: 20,
+        n_swept: 2,
+        n_maps: 4,
+        is_detailed: false,
+        ..Options::default()
+    }
+}
+
+fn found(quantity: &str, observer: &str, all: &Replication) -> Comparison {
+    let is_it = |one: &&Comparison| one.quantity == quantity && one.observer == observer;
+    all.comparisons.iter().find(is_it).unwrap().clone()
+}
+
+#[test]
+fn a_falling_curve_is_crossed_between_its_points() {
+    let curve = [[0.0, 50.0], [2.0, 46.0], [4.0, 40.0]];
+    assert_eq!(crossing(&curve, 43.0), Ok(3.0));
+    assert_eq!(crossing(&curve, 50.0), Ok(0.0));
+    assert!(crossing(&curve, 30.0).is_err());
+    assert!(crossing(&curve, 51.0).is_err());
+}
+
+#[test]
+fn printed_and_obtained_stand_beside_each_other_and_come_again() {
+    let all = unheard(|progress| replicate(&small(), progress)).unwrap();
+    let again = unheard(|progress| replicate(&small(), progress)).unwrap();
+    assert_eq!(all, again);
+
+    let first = "target ranked first, %";
+    let chance = found("target ranked first by chance, %", "guesses", &all);
+    let within = 4.0 * chance.obtained.se;
+    assert!((chance.obtained.mean - 25.0).abs() < within, "{chance:?}");
+    let levels = found(first, "levels, one look", &all);
+    assert!(levels.obtained.mean > 40.0, "{levels:?}");
+    assert!(levels.obtained.low <= levels.obtained.mean);
+    assert_eq!(levels.printed, Some(64.1));
+    assert_eq!(levels.is_within(), Some(levels.obtained.high >= 64.1));
+
+    let r1 = found("r of dimension 1 and A40", "levels, one look", &all);
+    assert!(r1.obtained.mean > 0.5 && r1.obtained.high <= 1.0, "{r1:?}");
+    let guesses = found("right answers, %", "guesses", &all);
+    assert!(guesses.obtained.mean < 60.0, "{guesses:?}");
+    assert_eq!(all.sweeps.len(), 2);
+}
+
+#[test]
+fn every_table_has_a_key_of_its_own_and_no_number_that_is_none() {
+    let all = unheard(|progress| replicate(&small(), progress)).unwrap();
+    let mut keys = Vec::new();
+    for section in &all.analysis.sections {
+        for table in &section.tables {
+            keys.push(format!("{}-{}", section.key, table.key));
+            assert!(!table.rows.is_empty(), "{}", table.title);
+        }
+        keys.extend(
+            section
+                .figures
+                .iter()
+                .map(|d| format!("{}-{}", section.key, d.key)),
+        );
+    }
+    let n = keys.len();
+    keys.sort();
+    keys.dedup();
+    assert_eq!(keys.len(), n);
+}
+
+#[test]
+fn a_replication_can_be_stopped() {
+    let cancel = crate::progress::CancelFlag::default();
+    cancel.cancel();
+    let mut silent = |_: f64, _: &str| ();
+    let stopped = replicate(&small(), &mut Progress::new(&mut silent, cancel));
+    assert!(
+        matches!(stopped, Err(ExperimentError::Cancelled(_))),
+        "{stopped:?}"
+    );
+}
