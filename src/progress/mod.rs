@@ -66,6 +66,18 @@ impl<'a> Progress<'a> {
             Ok(())
         }
     }
+
+    /// A part of the work that tells progress of its own from 0 to 1, which is told as from `from`
+    /// to `to` of the whole.
+    pub fn within<T>(
+        &mut self,
+        [from, to]: [f64; 2],
+        work: impl FnOnce(&mut Progress<'_>) -> T,
+    ) -> T {
+        let whole = &mut *self.report;
+        let mut part = |share: f64, doing: &str| whole(from + share * (to - from), doing);
+        work(&mut Progress::new(&mut part, self.cancel.clone()))
+    }
 }
 
 impl std::fmt::Debug for Progress<'_> {
@@ -95,5 +107,20 @@ mod tests {
         flag.cancel();
         assert_eq!(progress.step(2.0, "weaving"), Err(Cancelled));
         assert_eq!(heard, [0.5, 1.0]);
+    }
+
+    #[test]
+    fn a_part_is_told_as_its_share_of_the_whole_and_stops_with_it() {
+        let flag = CancelFlag::new();
+        let mut heard = Vec::new();
+        let mut report = |share: f64, _: &str| heard.push(share);
+        let mut progress = Progress::new(&mut report, flag.clone());
+        progress.within([0.5, 0.75], |part| {
+            assert_eq!(part.step(0.0, "warping"), Ok(()));
+            assert_eq!(part.step(0.5, "weaving"), Ok(()));
+            flag.cancel();
+            assert_eq!(part.step(1.0, "weaving"), Err(Cancelled));
+        });
+        assert_eq!(heard, [0.5, 0.625, 0.75]);
     }
 }

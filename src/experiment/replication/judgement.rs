@@ -54,9 +54,11 @@ pub(super) fn section(
             size: (planned(&laid.design), 1),
             seed: options.seed,
         };
-        let doing = (0.84 + 0.03 * nth as f64, "judgements");
         let n = options.n_studies;
-        let found = studies.each(n, doing, progress, |s| found(s, &laid.design))?;
+        let part = [0.5 * nth as f64, 0.5 * (nth + 1) as f64];
+        let found = progress.within(part, |part| {
+            studies.each((n, "judgements"), part, |s| found(s, &laid.design))
+        })?;
         compare(&found, &kind, all);
         let p: Vec<f64> = found
             .iter()

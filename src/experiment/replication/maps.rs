@@ -41,12 +41,13 @@ pub(super) fn section(
          at 100 mm/s.",
     );
     for (nth, kind) in [by_levels(), practised()].into_iter().enumerate() {
-        let doing = (0.5 + 0.1 * nth as f64, "maps");
         let studies = studies(laid, &kind, options);
         let n = options.n_maps;
         let mds = mds(Loss::SStress, Ties::Secondary, N_STARTS);
-        let found = studies.each(n, doing, progress, |subjects| {
-            mapped(&rank_trials(subjects), laid, &mds)
+        let part = [0.45 * nth as f64, 0.45 * (nth + 1) as f64];
+        let found = progress.within(part, |part| {
+            let map = |subjects: &Subjects| mapped(&rank_trials(subjects), laid, &mds);
+            studies.each((n, "maps"), part, map)
         })?;
         let n_mapped = found.iter().filter(|one| one.is_ok()).count();
         if n_mapped < n {
@@ -60,10 +61,16 @@ pub(super) fn section(
         compare(&found, &kind, all);
     }
     let kind = by_levels();
-    let doing = (0.7, "one study by every loss and rule for ties");
-    let one = studies(laid, &kind, options).each(1, doing, progress, |s| rank_trials(s))?;
+    progress.step(0.9, "one study by every loss and rule for ties")?;
+    let studies = studies(laid, &kind, options);
+    let one = unheard(|progress| studies.each((1, ""), progress, rank_trials))?;
     let trials: Vec<RankTrial> = one.into_iter().flatten().collect();
     section.tables.push(by_loss(&trials, laid));
+    section.note(
+        "Who goes by the levels of both bands has a map of both bands, so that both correlations \
+         come out high. A second dimension of people that follows A320 less than that says that \
+         they felt it less well, or went by something else too.",
+    );
     Ok(section)
 }
 

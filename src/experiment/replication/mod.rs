@@ -174,6 +174,27 @@ fn printed_line(name: &str, value: f64, [from, to]: [f64; 2]) -> Series {
     }
 }
 
+/// The papers' experiments as designs.
+struct Papers {
+    real: Laid,
+    virtually: Laid,
+    triads: Laid,
+    judged: Laid,
+}
+
+impl Papers {
+    fn open(options: &Options, progress: &mut Progress<'_>) -> Result<Self, ExperimentError> {
+        let mut open =
+            |name: &str, part| progress.within(part, |part| Laid::open(name, options, part));
+        Ok(Self {
+            real: open("ranking-real-target", [0.0, 0.2])?,
+            virtually: open("ranking-virtual-target", [0.2, 0.4])?,
+            triads: open("odd-one-out", [0.4, 0.5])?,
+            judged: open("real-or-generated", [0.5, 1.0])?,
+        })
+    }
+}
+
 /// Simulates the papers' experiments with the shipped library.
 ///
 /// # Errors
@@ -188,11 +209,21 @@ pub fn replicate(
         n_maps: options.n_maps.max(2),
         ..options.clone()
     };
-    progress.step(0.0, "reading textiles")?;
-    let real = Laid::open("ranking-real-target", options, progress)?;
-    let virtually = Laid::open("ranking-virtual-target", options, progress)?;
-    let triads = Laid::open("odd-one-out", options, progress)?;
-    let judged = Laid::open("real-or-generated", options, progress)?;
+    let papers = progress.within([0.0, 0.1], |part| Papers::open(options, part))?;
+    progress.within([0.1, 1.0], |part| replicated(&papers, options, part))
+}
+
+fn replicated(
+    papers: &Papers,
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Replication, ExperimentError> {
+    let Papers {
+        real,
+        virtually,
+        triads,
+        judged,
+    } = papers;
     let mut found = Replication {
         comparisons: Vec::new(),
         sweeps: Vec::new(),
@@ -202,15 +233,22 @@ pub fn replicate(
         },
     };
     let ranked = ranking::Rankings {
-        real: &real,
-        virtually: &virtually,
+        real,
+        virtually,
         options,
     };
+    let all = &mut found;
     let sections = [
-        ranked.section(&mut found, progress)?,
-        maps::section(&virtually, options, &mut found, progress)?,
-        odd_one_out::section(&triads, options, &mut found, progress)?,
-        judgement::section(&judged, options, &mut found, progress)?,
+        progress.within([0.0, 0.5], |part| ranked.section(all, part))?,
+        progress.within([0.5, 0.6], |part| {
+            maps::section(virtually, options, all, part)
+        })?,
+        progress.within([0.6, 0.75], |part| {
+            odd_one_out::section(triads, options, all, part)
+        })?,
+        progress.within([0.75, 0.85], |part| {
+            judgement::section(judged, options, all, part)
+        })?,
     ];
     let listed = listing::section(&found.comparisons);
     let all = &mut found.analysis.sections;
@@ -218,8 +256,8 @@ pub fn replicate(
     all.extend(sections);
     all.push(printed::section());
     if options.is_detailed {
-        let each = [&real, &virtually, &triads, &judged];
-        all.extend(in_full(&each, options, progress)?);
+        let each = [real, virtually, triads, judged];
+        all.extend(progress.within([0.85, 1.0], |part| in_full(&each, options, part))?);
     }
     Ok(found)
 }
@@ -231,8 +269,8 @@ fn in_full(
     progress: &mut Progress<'_>,
 ) -> Result<Vec<analysis::Section>, ExperimentError> {
     let mut found = Vec::new();
+    progress.step(0.0, "one study of each in full")?;
     for laid in each {
-        progress.step(0.9, "one study of each in full")?;
         let n_sessions = odd_one_out::sessions_of(&laid.design);
         found.extend(studies::held(
             laid,

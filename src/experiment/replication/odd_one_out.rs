@@ -72,17 +72,18 @@ pub(super) fn section(
             ("studies", "studies"),
         ],
     );
+    let chance = progress.within([0.0, 0.4], |part| chance(laid, part))?;
     for (nth, kind) in [by_levels(), guessing()].into_iter().enumerate() {
-        let share = 0.72 + 0.06 * nth as f64;
         let studies = Studies {
             laid,
             observer: kind.observer,
             size: (planned(&laid.design), N_SESSIONS),
             seed: options.seed,
         };
-        let doing = (share, "triads");
-        let found = studies.each(options.n_maps, doing, progress, |s| found(s, laid))?;
-        let chance = chance(&found, progress)?;
+        let part = [0.4 + 0.3 * nth as f64, 0.7 + 0.3 * nth as f64];
+        let found = progress.within(part, |part| {
+            studies.each((options.n_maps, "triads"), part, |s| found(s, laid))
+        })?;
         let elbows: Vec<Elbow> = found
             .iter()
             .filter_map(|f| elbow(f, &chance).ok())
@@ -134,13 +135,18 @@ fn mds() -> Mds {
 }
 
 /// Stress of random ranks of as many fabrics, dimension by dimension.
-fn chance(found: &[Found], progress: &mut Progress<'_>) -> Result<Vec<Null>, Cancelled> {
-    let Some(data) = found.iter().find_map(|one| one.data.as_ref().ok()) else {
+fn chance(laid: &Laid, progress: &mut Progress<'_>) -> Result<Vec<Null>, Cancelled> {
+    let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
+    let n = names.len();
+    let apart = |at: usize| (at / n != at % n).then_some(1.0);
+    let Ok(data) = Dissimilarities::new(names, &(0..n * n).map(apart).collect::<Vec<_>>()) else {
         return Ok(Vec::new());
     };
     let of = |dims: usize| {
+        let part = [dims - 1, dims].map(|at| at as f64 / MOST_DIMENSIONS as f64);
         let sets = (dims, N_RANDOM_DATA);
-        Null::of(&mds(), data, NullKind::RandomRanks, sets, progress)
+        let ranks = NullKind::RandomRanks;
+        progress.within(part, |part| Null::of(&mds(), &data, ranks, sets, part))
     };
     (1..=MOST_DIMENSIONS).map(of).collect()
 }

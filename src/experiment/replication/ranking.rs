@@ -8,7 +8,7 @@ use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, scatter};
 use crate::experiment::observer::{Observer, Strategy, Weighting};
 use crate::figure::{Axis, Plot, Scale, Series, Style};
-use crate::progress::Progress;
+use crate::progress::{Progress, unheard};
 use crate::quantity::fixed;
 use crate::statistics::{Computed, Summary};
 
@@ -53,8 +53,7 @@ impl Rankings<'_> {
         &self,
         laid: &Laid,
         observer: Observer,
-        n: usize,
-        (share, doing): (f64, &str),
+        (n, doing): (usize, &str),
         progress: &mut Progress<'_>,
     ) -> Result<Vec<Found>, ExperimentError> {
         let studies = Studies {
@@ -63,7 +62,7 @@ impl Rankings<'_> {
             size: (planned(&laid.design), 1),
             seed: self.options.seed,
         };
-        studies.each(n, (share, doing), progress, found)
+        studies.each((n, doing), progress, found)
     }
 
     /// Comparisons, sweeps, and what it would take.
@@ -87,7 +86,9 @@ impl Rankings<'_> {
             .push(table("model-error", "error_db", &errors));
         let drawn = [looks_plot(&looks), errors_plot(&errors)];
         for (name, plot) in drawn {
-            section.figures.push(drawn_of(&name, &plot));
+            section
+                .figures
+                .push(drawn_of(&format!("{name}-curves"), &plot));
             all.sweeps.push((format!("replication-{name}"), plot));
         }
         section.note(
@@ -137,9 +138,11 @@ impl Rankings<'_> {
             ),
         ];
         for (nth, (paper, laid, kind, printed)) in cases.into_iter().enumerate() {
-            let share = 0.02 + 0.04 * nth as f64;
             let n = self.options.n_studies;
-            let found = self.studies(laid, kind.observer, n, (share, paper), progress)?;
+            let part = [0.08 * nth as f64, 0.08 * (nth + 1) as f64];
+            let found = progress.within(part, |part| {
+                self.studies(laid, kind.observer, (n, paper), part)
+            })?;
             let mut add = |quantity: &str, printed: Option<f64>, values: Vec<f64>| {
                 if let Ok(obtained) = Spread::of(&values) {
                     all.comparisons.push(Comparison {
@@ -153,13 +156,23 @@ impl Rankings<'_> {
                 }
             };
             let means = found.iter().map(|study| study.0).collect();
-            add(printed.quantity, Some(printed.percent), means);
+            let is_printed = kind.observer.strategy != Strategy::None;
+            add(
+                printed.quantity,
+                is_printed.then_some(printed.percent),
+                means,
+            );
             if let Some(se) = printed.se {
                 let errors = found.iter().map(|study| study.1).collect();
                 add("its standard error over subjects, %", Some(se), errors);
             }
         }
         Ok(())
+    }
+
+    fn swept(&self, laid: &Laid, observer: Observer) -> Result<Vec<Found>, ExperimentError> {
+        let n = self.options.n_swept;
+        unheard(|progress| self.studies(laid, observer, (n, ""), progress))
     }
 
     fn over_looks(&self, progress: &mut Progress<'_>) -> Result<Vec<Swept>, ExperimentError> {
@@ -169,17 +182,17 @@ impl Rankings<'_> {
             ("all cues by their worth", Strategy::All, Weighting::Learnt),
         ];
         let mut swept = Vec::new();
-        for (observer, strategy, weighting) in kinds {
-            for looks in LOOKS {
+        for (nth, (observer, strategy, weighting)) in kinds.into_iter().enumerate() {
+            for (at, looks) in LOOKS.into_iter().enumerate() {
                 let how = Observer {
                     strategy,
                     weighting,
                     looks,
                     ..Observer::default()
                 };
-                let n = self.options.n_swept;
-                let doing = (0.25, "looks");
-                let found = self.studies(self.virtually, how, n, doing, progress)?;
+                let part = (nth * LOOKS.len() + at) as f64 / (3 * LOOKS.len()) as f64;
+                progress.step(0.4 + 0.35 * part, "looks")?;
+                let found = self.swept(self.virtually, how)?;
                 push(&mut swept, observer, f64::from(looks), &found);
             }
         }
@@ -193,16 +206,17 @@ impl Rankings<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<Vec<Swept>, ExperimentError> {
         let mut swept = Vec::new();
-        for (observer, looks) in [("one look", 1), (AS_FITTED, nearest)] {
-            for real_error_db in ERRORS_DB {
+        let kinds = [("one look", 1), (AS_FITTED, nearest)];
+        for (nth, (observer, looks)) in kinds.into_iter().enumerate() {
+            for (at, real_error_db) in ERRORS_DB.into_iter().enumerate() {
                 let how = Observer {
                     looks,
                     real_error_db,
                     ..Observer::default()
                 };
-                let n = self.options.n_swept;
-                let doing = (0.4, "model error");
-                let found = self.studies(self.real, how, n, doing, progress)?;
+                let part = (nth * ERRORS_DB.len() + at) as f64 / (2 * ERRORS_DB.len()) as f64;
+                progress.step(0.75 + 0.25 * part, "error of the model")?;
+                let found = self.swept(self.real, how)?;
                 push(&mut swept, observer, real_error_db, &found);
             }
         }
@@ -210,7 +224,7 @@ impl Rankings<'_> {
     }
 }
 
-const AS_FITTED: &str = "looks by which levels give experiment 2";
+const AS_FITTED: &str = "as many as experiment 2 takes";
 
 fn push(swept: &mut Vec<Swept>, observer: &'static str, at: f64, found: &[Found]) {
     let means: Vec<f64> = found.iter().map(|study| study.0).collect();

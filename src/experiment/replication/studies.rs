@@ -64,16 +64,15 @@ impl Studies<'_> {
     /// A study cannot be held, or it was cancelled.
     pub(super) fn each<T: Send>(
         &self,
-        n: usize,
-        (share, doing): (f64, &str),
+        (n, doing): (usize, &str),
         progress: &mut Progress<'_>,
         found: impl Fn(&Subjects) -> T + Sync,
     ) -> Result<Vec<T>, ExperimentError> {
         let n_together = 8 * n_threads();
         let mut all = Vec::with_capacity(n);
         while all.len() < n {
-            progress.step(share, doing)?;
             let first = all.len();
+            progress.step(first as f64 / n as f64, doing)?;
             let mut some: Vec<Option<Result<T, ExperimentError>>> = Vec::new();
             some.resize_with(n_together.min(n - first), || None);
             in_pieces(
