@@ -5,12 +5,15 @@ use super::studies::{Spread, Studies, Subjects, planned};
 use super::{Comparison, Kind, Laid, Options, Replication, by_levels, practised, printed};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, rank_trial};
+use crate::experiment::observer::Jnd;
 use crate::progress::{Progress, unheard};
 use crate::quantity::level_db;
 use crate::statistics::mds::{Dissimilarities, Loss, Map, Mds, Ties};
+use crate::statistics::procrustes::Procrustes;
 use crate::statistics::properties::BestTurn;
 use crate::statistics::ranking::{MeanRanks, RankTrial};
 use crate::statistics::{Computed, Undefined};
+use crate::tactile::Band;
 
 /// Starts of a plane map of one study of many.
 const N_STARTS: usize = 20;
@@ -21,6 +24,8 @@ const N_STARTS_OF_ONE: usize = 50;
 struct Mapped {
     map: Map,
     turn: BestTurn,
+    /// What is left over once the map is laid over the places of the levels, m² of Procrustes.
+    m2: f64,
 }
 
 /// Correlations of the plane map over studies, and one study by every loss and rule for ties.
@@ -107,7 +112,11 @@ fn mapped(trials: &[RankTrial], laid: &Laid, mds: &Mds) -> Computed<Mapped> {
     let map = plane.ok_or_else(|| Undefined::because("no plane map"))?;
     let [low, high] = levels_db(laid);
     let turn = BestTurn::of(&map.points, [&low, &high])?;
-    Ok(Mapped { map, turn })
+    let steps = |band: Band, db: &f64| Jnd::Published.steps(band, *db);
+    let place = |(low, high): (&f64, &f64)| vec![steps(Band::Low, low), steps(Band::High, high)];
+    let places: Vec<Vec<f64>> = low.iter().zip(&high).map(place).collect();
+    let m2 = Procrustes::of(&map.points, &places)?.m2;
+    Ok(Mapped { map, turn, m2 })
 }
 
 /// What is felt of every stimulus, dB by band.
@@ -121,9 +130,10 @@ fn levels_db(laid: &Laid) -> [Vec<f64>; 2] {
 
 fn compare(found: &[Mapped], kind: &Kind, all: &mut Replication) {
     let [r1, r2] = printed::CORRELATIONS;
-    let rows: [(&str, Option<f64>, fn(&Mapped) -> f64); 4] = [
+    let rows: [(&str, Option<f64>, fn(&Mapped) -> f64); 5] = [
         ("r of dimension 1 and A40", Some(r1), |m| m.turn.r[0]),
         ("r of dimension 2 and A320", Some(r2), |m| m.turn.r[1]),
+        ("m² of the map laid over the levels", None, |m| m.m2),
         ("S-stress of the plane map", None, |m| m.map.sstress),
         ("stress-1 of the same map", None, |m| m.map.stress1),
     ];

@@ -68,6 +68,12 @@ fn printed_and_obtained_stand_beside_each_other_and_come_again() {
 
     let r1 = found("r of dimension 1 and A40", "levels, one look", &all);
     assert!(r1.obtained.mean > 0.5 && r1.obtained.high <= 1.0, "{r1:?}");
+    let m2 = found(
+        "m² of the map laid over the levels",
+        "levels, one look",
+        &all,
+    );
+    assert!(m2.obtained.mean < 0.2 && m2.obtained.low >= 0.0, "{m2:?}");
     let guesses = found("right answers, %", "guesses", &all);
     assert!(guesses.obtained.mean < 60.0, "{guesses:?}");
     assert_eq!(all.sweeps.len(), 2);
