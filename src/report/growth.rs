@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::rendering::cloths::{self, WIDTH_MM, exeter, placed, scene_of};
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::geometry::{Displacement, Point, Velocity};
 use crate::quantity;
 use crate::render::array::{Accuracy, ArrayRenderer, Method};
@@ -260,15 +260,10 @@ fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
             ..Series::default()
         });
     }
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        range: None,
-    };
     Plot {
         title: format!("Cost of a second of exploration over {}", grown.name()),
-        x: axis(grown.name()),
-        y: axis("CPU time for a second, s"),
+        x: Axis::log(grown.name()),
+        y: Axis::log("CPU time for a second, s"),
         series,
         footnote: String::new(),
     }

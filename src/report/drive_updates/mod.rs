@@ -8,7 +8,7 @@ mod amplitudes;
 mod spectrum;
 mod writer;
 
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::{Random, quantile};
 use crate::quantity::with_unit;
 use crate::render::RenderError;
@@ -254,16 +254,8 @@ fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Plot {
     });
     Plot {
         title: format!("Spectrum of the drive waveform, {case}"),
-        x: Axis {
-            label: "frequency, Hz".to_owned(),
-            scale: Scale::Log,
-            range: Some([5.0, 20_000.0]),
-        },
-        y: Axis {
-            label: "level of a twelfth of an octave, dB re the loudest".to_owned(),
-            scale: Scale::Linear,
-            range: Some([-120.0, 0.0]),
-        },
+        x: Axis::log("frequency, Hz").within([5.0, 20_000.0]),
+        y: Axis::linear("level of a twelfth of an octave, dB re the loudest").within([-120.0, 0.0]),
         series: series.collect(),
         footnote: "one channel at 48 kHz, Blackman window over the whole".to_owned(),
     }

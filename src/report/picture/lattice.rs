@@ -258,11 +258,7 @@ fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
             scale: sweep.scale,
             range: None,
         },
-        y: Axis {
-            label: "right, %".to_owned(),
-            range: Some([0.0, 100.0]),
-            ..Axis::default()
-        },
+        y: Axis::linear("right, %").within([0.0, 100.0]),
         series: series.collect(),
         footnote: format!(
             "Right: within {:.0} % of the shorter vector. Otherwise 6 dB over the noise, any turn, \
