@@ -272,7 +272,7 @@ fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::{CancelFlag, Progress};
+    use crate::report::tests::quick;
 
     #[test]
     fn the_exponent_of_a_power_law_is_found() {
@@ -286,10 +286,7 @@ mod tests {
 
     #[test]
     fn every_size_costs_something_and_is_plotted() {
-        let mut report = |_: f64, _: &str| {};
-        let mut progress = Progress::new(&mut report, CancelFlag::new());
-        let mut bench = Bench::new(Effort::Quick, 1, &mut progress);
-        let findings = GrowthStudy.run(&mut bench).unwrap();
+        let findings = quick(&GrowthStudy, 1);
         assert_eq!(findings.plots.len(), 3);
         assert_eq!(findings.notes.len(), 9, "{:?}", findings.notes);
         for grown in Grown::ALL {

@@ -6,7 +6,27 @@ use super::pareto::tests::row;
 use super::*;
 use crate::figure::{Plot, Series};
 use crate::files::{ScratchFolder, Table};
-use crate::progress::CancelFlag;
+use crate::progress::{CancelFlag, unheard};
+
+/// What a study finds in quick mode.
+pub(super) fn quick(study: &dyn Study, seed: u64) -> Findings {
+    unheard(|progress| study.run(&mut Bench::new(Effort::Quick, seed, progress))).unwrap()
+}
+
+/// Two runs found the same, and no row lacks an error or a cost.
+pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
+    assert_eq!(first.rows.len(), second.rows.len());
+    for (a, b) in first.rows.iter().zip(&second.rows) {
+        assert_eq!(
+            (a.error, a.error_p99, &a.more),
+            (b.error, b.error_p99, &b.more)
+        );
+        assert!(
+            a.error.is_some_and(f64::is_finite) && a.cost.is_some(),
+            "{a:?}"
+        );
+    }
+}
 
 /// A study that does what it is told.
 struct Told {
@@ -165,9 +185,7 @@ fn the_table_holds_what_the_plot_shows() {
         &[],
     )
     .unwrap();
-    let findings = crate::progress::unheard(|progress| {
-        studies[0].run(&mut Bench::new(Effort::Quick, 7, progress))
-    });
+    let findings = unheard(|progress| studies[0].run(&mut Bench::new(Effort::Quick, 7, progress)));
     let plot = chart::error_against_time(studies[0].as_ref(), &findings.unwrap()).unwrap();
     let (methods, fronts) = (table.text("method").unwrap(), table.text("pareto").unwrap());
     let errors = table.required_numbers("error_db").unwrap();

@@ -184,8 +184,7 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
 }
 
 fn step_of(row: &Row) -> Option<f64> {
-    let found = row.more.iter().find(|(name, _)| *name == "step_s");
-    found.and_then(|(_, text)| text.parse().ok())
+    row.further_number("step_s")
 }
 
 /// What the rows come to.

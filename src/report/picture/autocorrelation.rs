@@ -262,7 +262,7 @@ fn plot(rows: &[Row]) -> Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::picture::tests::quick;
+    use crate::report::picture::tests::{n_drawn, quick};
 
     #[test]
     fn transforms_keep_their_promise_and_the_short_cut_shows_up_as_wrong() {
@@ -276,13 +276,7 @@ mod tests {
                 assert!(error < PROMISED, "{row:?}");
             }
         }
-        let drawn: usize = findings.plots[0]
-            .1
-            .series
-            .iter()
-            .map(|s| s.points.len())
-            .sum();
-        assert_eq!(drawn, findings.rows.len());
+        assert_eq!(n_drawn(&findings), findings.rows.len());
     }
 
     #[test]

@@ -244,8 +244,7 @@ fn rms_db(row: &Row) -> Option<f64> {
 }
 
 fn bias_db(row: &Row) -> Option<f64> {
-    let (_, text) = row.more.iter().find(|(name, _)| *name == "bias_db")?;
-    text.parse().ok()
+    row.further_number("bias_db")
 }
 
 fn series(rows: &[Row], observer: &Observer, value: Value) -> Vec<Series> {
