@@ -80,7 +80,7 @@ fn a_broken_file_is_told_of_and_kept_under_another_name() {
             "{notice}"
         );
         assert_eq!(notice.lines().count(), 1, "{notice}");
-        let kept = fs::read_to_string(folder.join(&format!("settings.toml.broken{aside}")));
+        let kept = fs::read_to_string(folder.join(format!("settings.toml.broken{aside}")));
         assert_eq!(kept.unwrap(), text);
         settings.save_now().unwrap();
         assert_eq!(Settings::in_folder(&folder).1, None, "whole again");
