@@ -154,6 +154,7 @@ mod tests {
     use crate::app::Drive;
     use crate::app::command::{FileCommand, Purpose};
     use crate::app::take::Take;
+    use crate::files::ScratchFolder;
     use crate::geometry::Point;
     use crate::scene::{ExplorationPath, PathRow};
 
@@ -161,8 +162,7 @@ mod tests {
     fn the_recording_at_hand_is_written_as_every_kind() {
         let ctx = egui::Context::default();
         let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
-        let folder = std::env::temp_dir().join(format!("selvedge-clips-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("clips");
         let write = |bench: &mut Workbench, kind| {
             let path = folder.join(format!("a.{}", ending(kind)));
             let file = FileCommand::Use(Purpose::Clip(kind), path.clone());
@@ -192,6 +192,5 @@ mod tests {
             bench.clip_path(ClipKind::Hjif),
             folder.join("slow-stroke.hjif")
         );
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

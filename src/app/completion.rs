@@ -94,6 +94,7 @@ fn completed(typed: &str, names: &[String]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     fn complete(typed: &str, names: &[&str]) -> Option<String> {
         let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
@@ -134,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_folder_lists_folders_and_files_with_the_ending() {
-        let root = std::env::temp_dir().join(format!("selvedge-complete-{}", std::process::id()));
+        let root = ScratchFolder::new("complete");
         fs::create_dir_all(root.join("inner")).unwrap();
         fs::write(root.join("a.toml"), "").unwrap();
         fs::write(root.join("b.csv"), "").unwrap();
@@ -142,6 +143,5 @@ mod tests {
         names.sort();
         assert_eq!(names, ["a.toml", &format!("inner{MAIN_SEPARATOR}")]);
         assert!(names_in(&root.join("none"), ".toml").is_empty());
-        fs::remove_dir_all(&root).unwrap();
     }
 }

@@ -139,6 +139,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::files::ScratchFolder;
     use crate::scene::PlacedTextile;
     use crate::tactile::Band;
 
@@ -209,8 +210,7 @@ mod tests {
 
     #[test]
     fn saving_is_no_step_of_undo() {
-        let folder = std::env::temp_dir().join(format!("selvedge-document-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("document");
         let path = folder.join("a.scene.toml");
         let mut document = document();
         document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
@@ -219,7 +219,6 @@ mod tests {
         assert_eq!(Scene::read(&path).unwrap(), *document.scene());
         document.undo();
         assert!(document.is_edited(), "undone after saving");
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
@@ -239,8 +238,7 @@ mod tests {
 
     #[test]
     fn a_library_of_the_program_keeps_its_name_wherever_the_scene_is_saved() {
-        let folder = std::env::temp_dir().join(format!("selvedge-moved-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("moved");
         for (named, is_kept) in [("seventy-four", true), ("textiles", false)] {
             let scene = Scene {
                 library: Some(named.into()),
@@ -257,7 +255,6 @@ mod tests {
                 library.display()
             );
         }
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     proptest! {

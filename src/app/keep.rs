@@ -167,14 +167,14 @@ mod tests {
     use super::*;
     use crate::app::command::Command;
     use crate::app::headless::Headless;
+    use crate::files::ScratchFolder;
     use crate::textile::{Manifest, build};
 
     /// A window whose own libraries lie in a folder of this test's.
-    fn window(name: &str) -> (Headless, PathBuf) {
-        let folder = std::env::temp_dir().join(format!("selvedge-{name}-{}", std::process::id()));
-        drop(std::fs::remove_dir_all(&folder));
+    fn window(name: &str) -> (Headless, ScratchFolder) {
+        let folder = ScratchFolder::new(name);
         let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
-        window.bench.transient.keeping.own_folder = Some(folder.clone());
+        window.bench.transient.keeping.own_folder = Some(folder.to_owned());
         window.pass(1);
         (window, folder)
     }
@@ -219,19 +219,17 @@ mod tests {
             Some(own.as_path()),
             "the library has all that there was"
         );
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
     fn several_are_kept_with_numbers_and_the_next_go_into_the_same_folder() {
-        let (mut window, folder) = window("several");
+        let (mut window, _folder) = window("several");
         window.dispatch(Keep::Save(new_textiles(2)));
         window.dispatch(Keep::Save(new_textiles(1)));
         window.pass(1);
         let ids = window.bench.loaded.library().ids()[16..].to_vec();
         assert_eq!(ids, ["own", "own-2", "own-3"]);
         assert_eq!(window.bench.loaded.textiles().len(), 4, "none was placed");
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

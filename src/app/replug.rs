@@ -149,11 +149,11 @@ mod tests {
     use std::sync::mpsc::sync_channel;
 
     use super::*;
+    use crate::files::ScratchFolder;
 
     #[test]
     fn a_lost_port_is_told_once_when_it_is_back_under_another_name() {
-        let folder = std::env::temp_dir().join(format!("selvedge-back-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("back");
         let (old, new) = (folder.join("array"), folder.join("array-2"));
         symlink("/dev/null", &old).unwrap();
         let mut replug = Replug::default();
@@ -176,7 +176,6 @@ mod tests {
         assert_eq!(replug.back(), Some(&found));
         replug.let_go();
         assert!(replug.back().is_none());
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

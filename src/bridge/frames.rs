@@ -117,12 +117,12 @@ fn head(profile: &ArrayProfile) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::Table;
+    use crate::files::{ScratchFolder, Table};
 
     #[test]
     fn rows_hold_the_codes_of_every_contactor_and_the_head_their_scale() {
-        let name = format!("selvedge-frames-{}.csv", std::process::id());
-        let path = std::env::temp_dir().join(name);
+        let folder = ScratchFolder::made("frames");
+        let path = folder.join("a.csv");
         let profile = ArrayProfile::default();
         let mut frames = FrameTable::create(&path, (&profile, 2), true).unwrap();
         frames
@@ -132,8 +132,7 @@ mod tests {
             .take(1, Some(77), &[[60.0, 60.0], [0.0, 0.0]])
             .unwrap();
         frames.finish().unwrap();
-        let text = std::fs::read_to_string(&path).unwrap();
-        std::fs::remove_file(&path).unwrap();
+        let text = folder.read("a.csv");
         assert!(text.contains("# full_scale_um = 50 at 40 Hz"), "{text}");
         let columns = ["tick", "t_s", "apply_tick"];
         let codes = ["code40_0", "code320_0", "code40_1", "code320_1"];

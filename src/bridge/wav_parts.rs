@@ -129,6 +129,7 @@ mod tests {
 
     use super::super::wav::SampleFormat;
     use super::*;
+    use crate::files::ScratchFolder;
 
     const SPEC: WavSpec = WavSpec {
         n_channels: 2,
@@ -138,13 +139,6 @@ mod tests {
         part: None,
     };
 
-    fn folder(name: &str) -> PathBuf {
-        let name = format!("selvedge-wav-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        fs::create_dir_all(&folder).unwrap();
-        folder
-    }
-
     fn samples(path: &Path) -> Vec<i16> {
         let reader = hound::WavReader::open(path).unwrap();
         reader.into_samples().map(Result::unwrap).collect()
@@ -152,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_waveform_beyond_the_limit_goes_on_in_numbered_files() {
-        let folder = folder("parts");
+        let folder = ScratchFolder::made("parts");
         let path = folder.join("a.wav");
         // Room for a hundred frames or so around header and text.
         let mut parts = WavParts::with_limit(&path, SPEC, 600).unwrap();
@@ -175,23 +169,21 @@ mod tests {
             "{text}"
         );
         assert_eq!(fs::read_dir(&folder).unwrap().count(), paths.len());
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
     fn a_waveform_that_fits_keeps_its_name() {
-        let folder = folder("whole");
+        let folder = ScratchFolder::made("whole");
         let path = folder.join("a.wav");
         let mut parts = WavParts::create(&path, SPEC).unwrap();
         parts.write(&[0.5; 8]).unwrap();
         assert_eq!(parts.finish().unwrap(), std::slice::from_ref(&path));
         assert_eq!(samples(&path).len(), 8);
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
     fn what_is_not_finished_leaves_nothing() {
-        let folder = folder("half");
+        let folder = ScratchFolder::made("half");
         let mut parts = WavParts::with_limit(&folder.join("a.wav"), SPEC, 600).unwrap();
         parts.write(&[0.5; 800]).unwrap();
         assert!(parts.write(&[0.5; 3]).is_err(), "no whole frames");
@@ -199,6 +191,5 @@ mod tests {
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
         let nowhere = WavParts::create(&folder.join("none/a.wav"), SPEC).unwrap_err();
         assert!(nowhere.to_string().contains("none/a.wav"), "{nowhere}");
-        fs::remove_dir_all(&folder).unwrap();
     }
 }

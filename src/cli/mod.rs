@@ -22,6 +22,7 @@ mod identify;
 mod input;
 mod mds;
 mod mds_json;
+mod method;
 mod output;
 mod picture;
 mod picture_relief;

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
+use super::method::MethodArgs;
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::play_source::{Moving, SourceArgs};
@@ -22,7 +23,6 @@ use crate::bridge::{
     StopHandle, StopHow, Target, fault_bit,
 };
 use crate::engine::{DeviceWaveform, Notice, PreparedScene};
-use crate::render::array::{Accuracy, Method};
 use crate::scene::LoadedScene;
 
 /// How long to wait for the device before something is said of it: it is polled this often.
@@ -60,19 +60,8 @@ pub(super) struct PlayArgs {
     log: Option<PathBuf>,
     #[arg(long, value_name = "F.csv", help = SESSION_LOG_HELP)]
     session_log: Option<PathBuf>,
-    /// How to render: reference, banded, table or auto
-    #[arg(long, value_name = "METHOD", default_value = "auto")]
-    method: Method,
-    /// Largest level error that auto and table may make, dB: auto takes the cheapest method that is
-    /// proved to keep to it, 0 takes reference
-    #[arg(
-        long,
-        value_name = "DB",
-        default_value_t = Accuracy::default().budget_db,
-        value_parser = super::render::budget_db,
-        allow_negative_numbers = true
-    )]
-    budget_db: f64,
+    #[command(flatten)]
+    how: MethodArgs,
 }
 
 /// Plays, and says how punctual it was.
@@ -81,8 +70,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     if let Some(port) = &args.port {
         check_port(port)?;
     }
-    let accuracy = Accuracy::within_db(args.budget_db);
-    let mut scene = PreparedScene::prepare(&loaded, args.method, &accuracy)?;
+    let mut scene = PreparedScene::prepare(&loaded, args.how.method, &args.how.accuracy())?;
     if let Some(array) = &args.array {
         array::fit(array, &loaded)?;
         scene.drive_as(array);
@@ -98,7 +86,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     let session_log = session_log.transpose()?;
     let stop = signals::stop_flag()?;
     let profile = scene.profile().clone();
-    let moving = Moving::begin(&args.source, scene, loaded.scene.size_mm)?;
+    let moving = Moving::begin(&args.source, scene, loaded.scene().size_mm)?;
     let port = match (&args.port, &args.audio) {
         (_, Some(card)) => return play_audio::play(card, moving, &profile, &stop),
         (port, None) => port.clone().unwrap_or_default(),

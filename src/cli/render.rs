@@ -9,6 +9,7 @@ use std::time::Instant;
 use clap::Args;
 use serde::Serialize;
 
+use super::method::MethodArgs;
 use super::render_out::{AmplitudeTable, Clips, WavKind};
 use super::terminal::Meter;
 use super::{CliError, output, signals};
@@ -16,7 +17,7 @@ use crate::app;
 use crate::engine::ClipKind;
 use crate::files::to_json_string;
 use crate::progress::Cancelled;
-use crate::render::array::{Accuracy, Method};
+use crate::render::array::Method;
 use crate::render::{RenderScene, Replay, RunStats, replay};
 use crate::scene::{ExplorationPath, LoadedScene};
 
@@ -33,19 +34,8 @@ pub(super) struct RenderArgs {
     /// Amplitudes after gains, one row a contactor a tick (standard output if no file is asked for)
     #[arg(long, value_name = "A.csv")]
     out: Option<PathBuf>,
-    /// How to render: reference, banded, table or auto
-    #[arg(long, value_name = "METHOD", default_value = "auto")]
-    method: Method,
-    /// Largest level error that auto and table may make, dB: auto takes the cheapest method that is
-    /// proved to keep to it, 0 takes reference
-    #[arg(
-        long,
-        value_name = "DB",
-        default_value_t = Accuracy::default().budget_db,
-        value_parser = budget_db,
-        allow_negative_numbers = true
-    )]
-    budget_db: f64,
+    #[command(flatten)]
+    how: MethodArgs,
     /// The drive waveform, one channel a contactor; full scale is 50 µm
     #[arg(long, value_name = "W.wav")]
     wav: Option<PathBuf>,
@@ -82,15 +72,6 @@ impl RenderArgs {
     }
 }
 
-/// An error budget as it is typed, dB.
-pub(super) fn budget_db(text: &str) -> Result<f64, String> {
-    let budget_db = text.parse().ok();
-    let is_budget = |budget_db: &f64| *budget_db >= 0.0 && budget_db.is_finite();
-    budget_db
-        .filter(is_budget)
-        .ok_or_else(|| "give a number of dB, 0 or above".to_owned())
-}
-
 /// What `--stats` writes.
 #[derive(Debug, Serialize)]
 struct StatsFile<'a> {
@@ -114,7 +95,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let mut sinks = Sinks::open(args, &loaded, &scene)?;
     let first = run_method(
         &scene,
-        (args.method, args),
+        (args.how.method, args),
         &path,
         &mut |tick, pose, frames| sinks.take(tick, pose.t_s, frames, &stop),
     )?;
@@ -135,7 +116,7 @@ fn run_method(
     let what = Replay {
         scene,
         method,
-        accuracy: Accuracy::within_db(args.budget_db),
+        accuracy: args.how.accuracy(),
         measures_error: args.stats.is_some(),
     };
     let started = Instant::now();
@@ -210,7 +191,7 @@ impl<'a> Sinks<'a> {
             .transpose()?;
         let displays = scene.displays.iter();
         let n_contactors = displays.map(|display| display.offsets.len()).sum();
-        let clips = Clips::create(&clips, n_contactors, &loaded.scene.name)?;
+        let clips = Clips::create(&clips, n_contactors, &loaded.scene().name)?;
         Ok(Self { table, clips })
     }
 

@@ -55,7 +55,7 @@ impl<'a> AmplitudeTable<'a> {
             for contactor in 0..frame.n_contactors() {
                 let position = frame.contactor_position(contactor);
                 let textile = frame.textile(contactor);
-                let placed = textile.and_then(|index| self.loaded.scene.textiles.get(index));
+                let placed = textile.and_then(|index| self.loaded.scene().textiles.get(index));
                 let exact_um = frame.amplitude_um(contactor);
                 let single_um = frame.amplitudes_um()[contactor];
                 let row = self.out.rows();

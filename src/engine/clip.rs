@@ -253,11 +253,8 @@ pub fn write_clip(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
     use crate::progress::{CancelFlag, unheard};
-
-    fn place(name: &str) -> PathBuf {
-        std::env::temp_dir().join(format!("selvedge-clip-{}-{name}", std::process::id()))
-    }
 
     fn clip(path: &Path, kind: ClipKind) -> ClipWriter {
         let profile = ArrayProfile::default();
@@ -267,8 +264,9 @@ mod tests {
     #[test]
     fn frames_of_what_a_device_played_say_at_which_of_its_ticks() {
         let profile = ArrayProfile::default();
+        let folder = ScratchFolder::made("clip");
         let header_of = |apply_ticks: &[Option<u32>]| {
-            let path = place(&format!("{}.csv", apply_ticks.len()));
+            let path = folder.join("a.csv");
             let array = (&profile, 2);
             let mut writer =
                 ClipWriter::of_played(&path, ClipKind::Frames, array, "", apply_ticks.into())
@@ -277,8 +275,7 @@ mod tests {
                 writer.take(tick, &[[1.0, 2.0]; 2]).unwrap();
             }
             unheard(|progress| writer.finish(progress)).unwrap();
-            let text = std::fs::read_to_string(&path).unwrap();
-            std::fs::remove_file(&path).unwrap();
+            let text = folder.read("a.csv");
             let rows = text.lines().filter(|line| !line.starts_with('#'));
             let start = |row: &str| row.split(',').take(3).map(str::to_owned).collect();
             rows.map(start).collect::<Vec<Vec<String>>>()
@@ -295,7 +292,8 @@ mod tests {
     fn a_second_has_the_frames_of_its_rate_in_either_waveform() {
         for (kind, rate_hz, bits) in [(ClipKind::ARCHIVE, 8000, 16), (ClipKind::FLOAT, 48_000, 32)]
         {
-            let path = place(&format!("{rate_hz}.wav"));
+            let folder = ScratchFolder::made("clip");
+            let path = folder.join("a.wav");
             let mut writer = clip(&path, kind);
             for tick in 0..40 {
                 writer.take(tick, &[[25.0, 10.0]; 24]).unwrap();
@@ -313,7 +311,6 @@ mod tests {
                 (24, rate_hz, bits)
             );
             assert_eq!(reader.duration(), rate_hz);
-            std::fs::remove_file(&path).unwrap();
         }
     }
 
@@ -343,7 +340,8 @@ mod tests {
         };
         let path = ExplorationPath::new(vec![row(0.0), row(10.0)]).unwrap();
         for kind in [ClipKind::ARCHIVE, ClipKind::Hjif, ClipKind::Frames] {
-            let place = place("stopped");
+            let folder = ScratchFolder::made("clip");
+            let place = folder.join("stopped");
             let profile = ArrayProfile::default();
             let create = || ClipWriter::create(&place, kind, (&profile, 1), "test").unwrap();
             let flag = CancelFlag::new();

@@ -18,7 +18,7 @@ use super::glimpse::{Glimpser, MOST_GLIMPSES};
 use super::input::{Control, PointerInput, ReplayInput, StrokeInput, start_lines};
 use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::recording::recording;
-use super::runner::{Channels, Clock, Runner};
+use super::runner::{Channels, Clock, NoticeRing, Runner};
 use super::vibration::Vibration;
 use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
@@ -108,7 +108,7 @@ impl Engine {
         let channels = Channels {
             orders: orders_out,
             retired: retired_in,
-            notices: notices_in,
+            notices: NoticeRing::new(notices_in),
             snapshots: snapshots_in,
             glimpser: Glimpser::new(glimpses_in),
             tap: None,

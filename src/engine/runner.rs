@@ -16,7 +16,7 @@ use super::meters::{DurationHistogram, RecentMedian};
 use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch, Tap};
-use crate::bridge::StopHow;
+use crate::bridge::{Bridge, SentFrame, StopHow};
 
 /// A tick that begins later than this after it was due is late.
 const LATE: Duration = Duration::from_millis(1);
@@ -45,18 +45,33 @@ impl Clock {
 pub(super) struct Channels {
     pub(super) orders: Consumer<Order>,
     pub(super) retired: Producer<Retired>,
-    pub(super) notices: Producer<Notice>,
+    pub(super) notices: NoticeRing,
     pub(super) snapshots: Input<Snapshot>,
     pub(super) glimpser: Glimpser,
     /// Whom to tell what is felt.
     pub(super) tap: Option<Box<Tap>>,
 }
 
+/// Notices on their way to the handle; those that find no room are counted.
+pub(super) struct NoticeRing {
+    notices: Producer<Notice>,
+    n_lost: u64,
+}
+
+impl NoticeRing {
+    pub(super) fn new(notices: Producer<Notice>) -> Self {
+        Self { notices, n_lost: 0 }
+    }
+
+    fn tell(&mut self, notice: Notice) {
+        self.n_lost += u64::from(self.notices.push(notice).is_err());
+    }
+}
+
 /// Everything that the engine's thread owns.
 pub(super) struct Runner {
     core: EngineCore,
     channels: Channels,
-    notices_lost: u64,
     switch: StopSwitch,
     presses_heard: u64,
     pub(super) clock: Clock,
@@ -83,7 +98,6 @@ impl Runner {
         Self {
             core,
             channels,
-            notices_lost: 0,
             presses_heard: switch.presses(),
             switch,
             clock,
@@ -140,26 +154,13 @@ impl Runner {
 
     fn tick(&mut self, due: Instant) {
         let started = self.clock.now();
-        let Self {
-            core,
-            channels,
-            notices_lost,
-            ..
-        } = self;
-        core.tick(started, &mut |notice| {
-            tell(&mut channels.notices, notices_lost, notice);
-        });
+        let notices = &mut self.channels.notices;
+        self.core.tick(started, &mut |notice| notices.tell(notice));
         // A stop that came while this tick was made must not be followed by its frame.
         self.heed_stop();
         let sent = self.send();
-        let Self {
-            core,
-            channels,
-            notices_lost,
-            ..
-        } = self;
-        let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
-        let ended = core.record(sent, &mut say);
+        let notices = &mut self.channels.notices;
+        let ended = self.core.record(sent, &mut |notice| notices.tell(notice));
         self.retire(ended);
         self.channels.glimpser.look(&self.core);
         if let Some(tap) = &mut self.channels.tap {
@@ -175,21 +176,15 @@ impl Runner {
         self.publish();
     }
 
-    fn send(&mut self) -> Option<crate::bridge::SentFrame> {
+    fn send(&mut self) -> Option<SentFrame> {
         self.link.send(self.core.felt_um(), self.core.fresh_stamp())
     }
 
     /// The last device tick that began, if one did.
     fn hear(&mut self) -> Option<(u32, [Instant; 2])> {
         let mut tick = None;
-        let Self {
-            link,
-            channels,
-            notices_lost,
-            ..
-        } = self;
-        let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
-        while let Some(news) = link.hear(&mut say) {
+        let notices = &mut self.channels.notices;
+        while let Some(news) = self.link.hear(&mut |notice| notices.tell(notice)) {
             match news {
                 News::Tick(number, times) => tick = Some((number, times)),
                 News::Limits(comp_limit) => self.core.set_link_limit(Some(comp_limit)),
@@ -250,14 +245,9 @@ impl Runner {
     }
 
     fn obey_core(&mut self, order: CoreOrder) {
-        let Self {
-            core,
-            channels,
-            notices_lost,
-            ..
-        } = self;
-        let mut say = |notice| tell(&mut channels.notices, notices_lost, notice);
-        for retired in core.obey(order, &mut say) {
+        let notices = &mut self.channels.notices;
+        let mut say = |notice| notices.tell(notice);
+        for retired in self.core.obey(order, &mut say) {
             self.retire(retired);
         }
     }
@@ -289,7 +279,7 @@ impl Runner {
         }
     }
 
-    fn connect(&mut self, bridge: Option<Box<crate::bridge::Bridge>>) {
+    fn connect(&mut self, bridge: Option<Box<Bridge>>) {
         let last = self.link.connect(bridge);
         self.core.set_link_limit(None);
         self.pacer.forget_device();
@@ -312,10 +302,13 @@ impl Runner {
     /// Writes a snapshot and wakes the window if it shows something new.
     fn publish(&mut self) {
         let until_felt = self.link.until_felt();
-        let glimpses_lost = self.channels.glimpser.n_lost();
+        let (glimpses_lost, notices_lost) = (
+            self.channels.glimpser.n_lost(),
+            self.channels.notices.n_lost,
+        );
         let snapshot = self.channels.snapshots.input_buffer_mut();
         self.core.fill(snapshot, until_felt);
-        snapshot.counters.notices_lost = self.notices_lost;
+        snapshot.counters.notices_lost = notices_lost;
         snapshot.counters.glimpses_lost = glimpses_lost;
         snapshot.counters.commands_obeyed = self.commands_obeyed;
         snapshot.counters.frames_unheard = self.link.n_unheard();
@@ -338,7 +331,7 @@ impl Runner {
     }
 
     fn say(&mut self, notice: Notice) {
-        tell(&mut self.channels.notices, &mut self.notices_lost, notice);
+        self.channels.notices.tell(notice);
         self.waker.wake();
     }
 
@@ -347,11 +340,5 @@ impl Runner {
         if let Some(retired) = retired {
             drop(self.channels.retired.push(retired));
         }
-    }
-}
-
-fn tell(notices: &mut Producer<Notice>, lost: &mut u64, notice: Notice) {
-    if notices.push(notice).is_err() {
-        *lost += 1;
     }
 }

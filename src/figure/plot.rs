@@ -23,6 +23,41 @@ pub struct Axis {
     pub range: Option<[f64; 2]>,
 }
 
+impl Axis {
+    /// One on which values are laid evenly, from the least to the largest.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            ..Self::default()
+        }
+    }
+
+    /// One on which they are laid by their logarithm.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self {
+            scale: Scale::Log,
+            ..Self::linear(label)
+        }
+    }
+
+    /// One with labels at whole numbers alone.
+    pub fn whole(label: impl Into<String>) -> Self {
+        Self {
+            scale: Scale::Whole,
+            ..Self::linear(label)
+        }
+    }
+
+    /// The same from here to there, whatever the values.
+    #[must_use]
+    pub fn within(self, ends: [f64; 2]) -> Self {
+        Self {
+            range: Some(ends),
+            ..self
+        }
+    }
+}
+
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Style {

@@ -15,18 +15,10 @@ fn stripes(n_columns: usize, n_rows: usize) -> Raster {
     }
 }
 
-fn axis(label: &str, scale: Scale, range: [f64; 2]) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        scale,
-        range: Some(range),
-    }
-}
-
 fn sample(raster: Raster) -> Figure {
     let picture = Panel {
-        x: axis("time, s", Scale::Linear, [-8.0, 0.0]),
-        y: axis("frequency, Hz", Scale::Log, [10.0, 1000.0]),
+        x: Axis::linear("time, s").within([-8.0, 0.0]),
+        y: Axis::log("frequency, Hz").within([10.0, 1000.0]),
         width: 6.0,
         raster: Some(raster),
         rules: vec![Rule {
@@ -38,8 +30,8 @@ fn sample(raster: Raster) -> Figure {
         ..Panel::default()
     };
     let strip = Panel {
-        x: axis("gain", Scale::Linear, [0.0, 1.0]),
-        y: axis("frequency, Hz", Scale::Log, [10.0, 1000.0]),
+        x: Axis::linear("gain").within([0.0, 1.0]),
+        y: Axis::log("frequency, Hz").within([10.0, 1000.0]),
         upright: Upright::Shared,
         series: vec![Series {
             name: "40 Hz".to_owned(),
@@ -55,7 +47,7 @@ fn sample(raster: Raster) -> Figure {
             panels: vec![picture, strip],
             height_px: 240.0,
             bar: Some(ColourBar {
-                axis: axis("level, dB re 1 µm", Scale::Linear, [-40.0, 20.0]),
+                axis: Axis::linear("level, dB re 1 µm").within([-40.0, 20.0]),
                 colours: vec![[0, 0, 255], [255, 0, 0]],
             }),
         }],
@@ -130,8 +122,8 @@ fn rows_grow_downward_where_a_table_is_drawn() {
     let mut figure = sample(stripes(4, 6));
     let panel = &mut figure.rows[0].panels[0];
     panel.upright = Upright::Downward;
-    panel.x = axis("column", Scale::Whole, [-0.5, 3.5]);
-    panel.y = axis("row", Scale::Whole, [-0.5, 5.5]);
+    panel.x = Axis::whole("column").within([-0.5, 3.5]);
+    panel.y = Axis::whole("row").within([-0.5, 5.5]);
     panel.words = vec![Words {
         at: [0.0, 0.0],
         text: "first".to_owned(),

@@ -13,16 +13,8 @@ fn sample() -> Plot {
     table.marked = vec![0];
     Plot {
         title: "Rendering: level error against time a tick".to_owned(),
-        x: Axis {
-            label: "CPU time a tick, s".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
-        y: Axis {
-            label: "level error, dB".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
+        x: Axis::log("CPU time a tick, s"),
+        y: Axis::log("level error, dB"),
         series: vec![
             table,
             line("banded", &[[3e-6, 0.01], [9e-6, 0.001]], Style::Dots),

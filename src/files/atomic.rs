@@ -74,17 +74,16 @@ pub(super) fn staged_path(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     #[test]
     fn a_file_is_replaced_whole_and_nothing_is_left_beside_it() {
-        let folder = std::env::temp_dir().join(format!("selvedge-atomic-{}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("atomic");
         let path = folder.join("a.txt");
         write_atomic(&path, b"one").unwrap();
         write_atomic(&path, "\u{feff}two".as_bytes()).unwrap();
         assert_eq!(read_text(&path).unwrap(), "two");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

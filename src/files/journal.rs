@@ -193,6 +193,7 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     const COLUMNS: [&str; 3] = ["trial", "answer", "note"];
     const ROWS: [[&str; 3]; 3] = [
@@ -200,28 +201,6 @@ mod tests {
         ["2", "jute", "\"rough\"\nand two lines"],
         ["3", "wool", ""],
     ];
-
-    struct Folder(PathBuf);
-
-    impl Folder {
-        fn new(name: &str) -> Self {
-            let name = format!("selvedge-journal-{name}-{}", std::process::id());
-            let path = std::env::temp_dir().join(name);
-            drop(fs::remove_dir_all(&path));
-            fs::create_dir_all(&path).unwrap();
-            Self(path)
-        }
-
-        fn log(&self) -> PathBuf {
-            self.0.join("log.csv")
-        }
-    }
-
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            drop(fs::remove_dir_all(&self.0));
-        }
-    }
 
     fn written(path: &Path) -> Vec<u8> {
         let mut journal = Journal::create(path, &COLUMNS).unwrap();
@@ -233,8 +212,8 @@ mod tests {
 
     #[test]
     fn killed_at_any_byte_at_most_the_last_row_is_lost_and_kept_aside() {
-        let folder = Folder::new("kill");
-        let path = folder.log();
+        let folder = ScratchFolder::made("kill");
+        let path = folder.join("log.csv");
         let bytes = written(&path);
         let header = bytes.iter().position(|&b| b == b'\n').unwrap() + 1;
         for cut in header..=bytes.len() {
@@ -265,8 +244,8 @@ mod tests {
 
     #[test]
     fn a_table_is_not_overwritten_and_has_one_writer() {
-        let folder = Folder::new("lock");
-        let path = folder.log();
+        let folder = ScratchFolder::made("lock");
+        let path = folder.join("log.csv");
         let first = Journal::create(&path, &COLUMNS).unwrap();
         let again = Journal::create(&path, &COLUMNS).unwrap_err();
         assert!(matches!(again, FileError::Exists { .. }), "{again}");
@@ -278,8 +257,8 @@ mod tests {
 
     #[test]
     fn other_columns_are_refused_and_so_are_rows_that_are_none() {
-        let folder = Folder::new("columns");
-        let path = folder.log();
+        let folder = ScratchFolder::made("columns");
+        let path = folder.join("log.csv");
         drop(written(&path));
         let turned = Journal::reopen(&path, &["answer", "trial", "note"]).unwrap_err();
         assert!(turned.to_string().contains("another order"), "{turned}");
@@ -293,8 +272,8 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_full_disk_is_an_error_and_the_row_can_be_added_again() {
-        let folder = Folder::new("full");
-        let path = folder.log();
+        let folder = ScratchFolder::made("full");
+        let path = folder.join("log.csv");
         let bytes = written(&path);
         let mut journal = Journal::reopen(&path, &COLUMNS).unwrap().journal;
         let disk = std::mem::replace(

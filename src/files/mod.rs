@@ -26,7 +26,6 @@ mod matrix;
 mod npy;
 mod picture;
 mod rgb16;
-#[cfg(test)]
 mod scratch;
 mod staged;
 mod table;
@@ -52,7 +51,6 @@ pub use matrix::NamedMatrix;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
 pub use rgb16::{Rgb16Image, decode_picture};
-#[cfg(test)]
 pub(crate) use scratch::ScratchFolder;
 pub use staged::Staged;
 pub use table::{Table, TableWriter};

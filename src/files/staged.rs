@@ -86,11 +86,11 @@ impl Drop for Staged {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     #[test]
     fn half_a_file_is_gone_and_a_whole_one_is_in_its_place() {
-        let folder = std::env::temp_dir().join(format!("selvedge-staged-{}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("staged");
         let path = folder.join("a.bin");
         fs::write(&path, b"old").unwrap();
         let staged = Staged::new(&path);
@@ -108,6 +108,5 @@ mod tests {
             Staged::new(&folder).create().is_err(),
             "a folder is no file"
         );
-        fs::remove_dir_all(&folder).unwrap();
     }
 }

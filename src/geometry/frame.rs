@@ -3,7 +3,7 @@
 //! Names say which way a frame is read: `workspace_from_textile.point(p)` takes textile
 //! coordinates to workspace coordinates, `…into_point(p)` the other way.
 
-use super::{Point, Rotation, Velocity};
+use super::{Point, Rotation};
 
 /// A frame whose origin and axes are given in its parent's coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,11 +24,6 @@ impl Frame {
     pub fn into_point(&self, parent: Point) -> Point {
         Point::default() + self.rotation.inverse().turn(parent - self.origin)
     }
-
-    /// This frame's components of a velocity given in the parent.
-    pub fn into_velocity(&self, parent: Velocity) -> Velocity {
-        self.rotation.inverse().turn_velocity(parent)
-    }
 }
 
 #[cfg(test)]
@@ -44,17 +39,5 @@ mod tests {
         let there = Point::new(7.0, 11.0);
         let back = frame.point(frame.into_point(there));
         assert!((back - there).length_mm() < 1e-13, "{back:?}");
-    }
-
-    #[test]
-    fn a_quarter_turned_textile_reads_upward_motion_as_along_its_warp() {
-        let frame = Frame {
-            origin: Point::default(),
-            rotation: Rotation::from_degrees(90.0),
-        };
-        assert_eq!(
-            frame.into_velocity(Velocity::new(0.0, 5.0)),
-            Velocity::new(5.0, 0.0)
-        );
     }
 }

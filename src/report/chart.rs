@@ -3,7 +3,7 @@
 use super::pareto::error_and_cost;
 use super::readable;
 use super::{Findings, Row, Study, pareto};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 
 /// More promises than this are not drawn.
 const MOST_PROMISES: usize = 4;
@@ -46,15 +46,10 @@ pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Opti
     } else {
         format!("{measure}, {unit}")
     };
-    let axis = |label: String| Axis {
-        label,
-        scale: Scale::Log,
-        range: None,
-    };
     Some(Plot {
         title: format!("{}: {measure} against run time", titled(study.name())),
-        x: axis(format!("CPU time a {}, s", study.cost_of())),
-        y: axis(y_label),
+        x: Axis::log(format!("CPU time a {}, s", study.cost_of())),
+        y: Axis::log(y_label),
         series,
         footnote: format!(
             "Ringed: on its case nothing else is both cheaper and more exact. An error of \

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use crate::bridge::ArrayProfile;
 use crate::engine::{ClipKind, ClipWriter, EngineError};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::{median, quantile};
 use crate::progress::unheard;
 use crate::quantity;
@@ -213,15 +213,10 @@ fn note(file: &File, [first_s, middle_s, last_s]: &Rounds) -> String {
 }
 
 fn plot(series: Vec<Series>) -> Plot {
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        range: None,
-    };
     Plot {
         title: "Cost of writing a clip over its length".to_owned(),
-        x: axis("length, s"),
-        y: axis("CPU time, s"),
+        x: Axis::log("length, s"),
+        y: Axis::log("CPU time, s"),
         series,
         footnote: String::new(),
     }

@@ -44,8 +44,7 @@ pub(super) fn further_columns(rows: &[Row]) -> Vec<&'static str> {
 
 /// A further cell of a row; empty where it has none.
 pub(super) fn further_cell<'a>(row: &'a Row, name: &str) -> &'a str {
-    let found = row.more.iter().find(|(other, _)| *other == name);
-    found.map_or("", |(_, text)| text)
+    row.further(name).unwrap_or_default()
 }
 
 /// The CSV text of what a study found. `path` only names it in errors.

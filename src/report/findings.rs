@@ -57,6 +57,17 @@ impl Row {
         let promised = self.promised?;
         Some(self.error.is_some_and(|error| error <= promised))
     }
+
+    /// What stands in a further column; `None` where it has no such cell.
+    pub fn further(&self, column: &str) -> Option<&str> {
+        let found = self.more.iter().find(|(name, _)| *name == column);
+        found.map(|(_, text)| text.as_str())
+    }
+
+    /// The number in a further column; `None` where there is none.
+    pub fn further_number(&self, column: &str) -> Option<f64> {
+        self.further(column)?.parse().ok()
+    }
 }
 
 #[cfg(test)]

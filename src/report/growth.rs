@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::rendering::cloths::{self, WIDTH_MM, exeter, placed, scene_of};
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::geometry::{Displacement, Point, Velocity};
 use crate::quantity;
 use crate::render::array::{Accuracy, ArrayRenderer, Method};
@@ -260,15 +260,10 @@ fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
             ..Series::default()
         });
     }
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        range: None,
-    };
     Plot {
         title: format!("Cost of a second of exploration over {}", grown.name()),
-        x: axis(grown.name()),
-        y: axis("CPU time for a second, s"),
+        x: Axis::log(grown.name()),
+        y: Axis::log("CPU time for a second, s"),
         series,
         footnote: String::new(),
     }
@@ -277,7 +272,7 @@ fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::{CancelFlag, Progress};
+    use crate::report::tests::quick;
 
     #[test]
     fn the_exponent_of_a_power_law_is_found() {
@@ -291,10 +286,7 @@ mod tests {
 
     #[test]
     fn every_size_costs_something_and_is_plotted() {
-        let mut report = |_: f64, _: &str| {};
-        let mut progress = Progress::new(&mut report, CancelFlag::new());
-        let mut bench = Bench::new(Effort::Quick, 1, &mut progress);
-        let findings = GrowthStudy.run(&mut bench).unwrap();
+        let findings = quick(&GrowthStudy, 1);
         assert_eq!(findings.plots.len(), 3);
         assert_eq!(findings.notes.len(), 9, "{:?}", findings.notes);
         for grown in Grown::ALL {

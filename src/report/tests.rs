@@ -1,14 +1,32 @@
 //! The runner on studies made up for it: right, wrong, failing, panicking, endless.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::path::Path;
 
 use super::pareto::tests::row;
 use super::*;
 use crate::figure::{Plot, Series};
-use crate::files::Table;
-use crate::progress::CancelFlag;
+use crate::files::{ScratchFolder, Table};
+use crate::progress::{CancelFlag, unheard};
+
+/// What a study finds in quick mode.
+pub(super) fn quick(study: &dyn Study, seed: u64) -> Findings {
+    unheard(|progress| study.run(&mut Bench::new(Effort::Quick, seed, progress))).unwrap()
+}
+
+/// Two runs found the same, and no row lacks an error or a cost.
+pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
+    assert_eq!(first.rows.len(), second.rows.len());
+    for (a, b) in first.rows.iter().zip(&second.rows) {
+        assert_eq!(
+            (a.error, a.error_p99, &a.more),
+            (b.error, b.error_p99, &b.more)
+        );
+        assert!(
+            a.error.is_some_and(f64::is_finite) && a.cost.is_some(),
+            "{a:?}"
+        );
+    }
+}
 
 /// A study that does what it is told.
 struct Told {
@@ -81,33 +99,9 @@ fn one_is_wrong(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     })
 }
 
-/// A folder that goes when the test is over.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new() -> Self {
-        static NUMBER: AtomicU32 = AtomicU32::new(0);
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let name = format!("selvedge-runner-{}-{number}", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
-
-fn run_in(folder: &Folder, studies: &[Box<dyn Study>], cancel: &CancelFlag) -> (Report, Vec<f64>) {
+fn run_in(folder: &Path, studies: &[Box<dyn Study>], cancel: &CancelFlag) -> (Report, Vec<f64>) {
     let options = Options {
-        out: folder.0.clone(),
+        out: folder.to_owned(),
         effort: Effort::Quick,
         seed: 7,
         is_long: false,
@@ -141,7 +135,7 @@ const COLUMNS: [&str; 16] = [
 
 #[test]
 fn a_wrong_method_shows_up_as_wrong() {
-    let folder = Folder::new();
+    let folder = ScratchFolder::made("runner");
     let studies = [told("made-up", one_is_wrong)];
     let (report, _) = run_in(&folder, &studies, &CancelFlag::new());
     assert_eq!(report.n_broken(), 1);
@@ -181,7 +175,7 @@ fn a_wrong_method_shows_up_as_wrong() {
 
 #[test]
 fn the_table_holds_what_the_plot_shows() {
-    let folder = Folder::new();
+    let folder = ScratchFolder::made("runner");
     let studies = [told("made-up", one_is_wrong)];
     run_in(&folder, &studies, &CancelFlag::new());
     let table = Table::read(
@@ -191,9 +185,7 @@ fn the_table_holds_what_the_plot_shows() {
         &[],
     )
     .unwrap();
-    let findings = crate::progress::unheard(|progress| {
-        studies[0].run(&mut Bench::new(Effort::Quick, 7, progress))
-    });
+    let findings = unheard(|progress| studies[0].run(&mut Bench::new(Effort::Quick, 7, progress)));
     let plot = chart::error_against_time(studies[0].as_ref(), &findings.unwrap()).unwrap();
     let (methods, fronts) = (table.text("method").unwrap(), table.text("pareto").unwrap());
     let errors = table.required_numbers("error_db").unwrap();
@@ -214,13 +206,13 @@ fn the_table_holds_what_the_plot_shows() {
     assert_eq!(plot.series.len(), 4, "three methods and a promise");
     assert_eq!(folder.read("made-up.svg"), plot.to_svg());
     for name in ["made-up.png", "made-up-further.svg", "made-up-further.png"] {
-        assert!(folder.0.join(name).is_file(), "{name}");
+        assert!(folder.join(name).is_file(), "{name}");
     }
 }
 
 #[test]
 fn the_index_says_where_how_and_how_to_repeat_it() {
-    let folder = Folder::new();
+    let folder = ScratchFolder::made("runner");
     run_in(
         &folder,
         &[told("made-up", one_is_wrong)],
@@ -249,7 +241,7 @@ fn the_index_says_where_how_and_how_to_repeat_it() {
 
 #[test]
 fn a_study_that_fails_or_panics_harms_no_other() {
-    let folder = Folder::new();
+    let folder = ScratchFolder::made("runner");
     let fails = |_: &mut Bench<'_>| {
         Err(ReportError::Unknown {
             name: "x".to_owned(),
@@ -266,7 +258,7 @@ fn a_study_that_fails_or_panics_harms_no_other() {
     let failures: Vec<(&str, &str)> = report.failures().collect();
     assert_eq!(failures.len(), 2);
     assert_eq!(failures[1], ("panics", "it panicked: out of cloth"));
-    assert!(!report.is_cancelled && folder.0.join("made-up.csv").is_file());
+    assert!(!report.is_cancelled && folder.join("made-up.csv").is_file());
     let index = folder.read("index.md");
     for text in [
         "**fails failed**: no study",
@@ -283,7 +275,7 @@ fn a_study_that_fails_or_panics_harms_no_other() {
 
 #[test]
 fn a_cancelled_report_keeps_what_is_finished() {
-    let folder = Folder::new();
+    let folder = ScratchFolder::made("runner");
     let cancel = CancelFlag::new();
     let cancels = |bench: &mut Bench<'_>| {
         bench.step(0.5, "halfway")?;
@@ -295,7 +287,7 @@ fn a_cancelled_report_keeps_what_is_finished() {
         told("never", cancels),
     ];
     let options = Options {
-        out: folder.0.clone(),
+        out: folder.to_owned(),
         effort: Effort::Full,
         seed: 1,
         is_long: false,
@@ -308,7 +300,7 @@ fn a_cancelled_report_keeps_what_is_finished() {
     })
     .unwrap();
     assert!(report.is_cancelled && matches!(report.outcomes[1].1, Outcome::Stopped));
-    assert!(folder.0.join("made-up.csv").is_file() && !folder.0.join("cancels.csv").exists());
+    assert!(folder.join("made-up.csv").is_file() && !folder.join("cancels.csv").exists());
     let index = folder.read("index.md");
     assert!(index.contains("**Stopped before it was done.**"), "{index}");
     assert!(index.contains("Not finished: cancels, never."), "{index}");

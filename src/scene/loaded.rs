@@ -20,8 +20,7 @@ const SHIPPED_PATH: &str = "four-alternatives.scene.toml";
 /// A scene whose textiles are loaded. Cheap to clone: textiles and library are shared.
 #[derive(Debug, Clone)]
 pub struct LoadedScene {
-    /// The scene.
-    pub scene: Scene,
+    scene: Scene,
     library: Arc<Library>,
     textiles: Vec<Arc<Textile>>,
     levels_db: Vec<Option<f64>>,

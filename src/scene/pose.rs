@@ -22,6 +22,16 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// The same place, without motion.
+    #[must_use]
+    pub fn at_rest(self) -> Self {
+        Self {
+            velocity: Velocity::ZERO,
+            angular_rad_per_s: 0.0,
+            ..self
+        }
+    }
+
     /// How fast a display turns that stood at `before_deg` one tick before it stands at `now_deg`.
     pub fn turning_rad_per_s(before_deg: f64, now_deg: f64) -> f64 {
         (now_deg - before_deg).to_radians() * TICKS_PER_S

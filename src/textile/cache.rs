@@ -157,30 +157,14 @@ fn line(bytes: &[u8]) -> Option<(&str, &[u8])> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
-    struct Scratch(PathBuf);
-
-    impl Scratch {
-        fn new(name: &str) -> Self {
-            let name = format!("selvedge-cache-{name}-{}", std::process::id());
-            let folder = std::env::temp_dir().join(name);
-            drop(fs::remove_dir_all(&folder));
-            Self(folder)
-        }
-
-        fn entries(&self) -> Vec<String> {
-            let mut names: Vec<String> = (fs::read_dir(&self.0).into_iter().flatten().flatten())
-                .map(|entry| entry.file_name().into_string().unwrap())
-                .collect();
-            names.sort();
-            names
-        }
-    }
-
-    impl Drop for Scratch {
-        fn drop(&mut self) {
-            drop(fs::remove_dir_all(&self.0));
-        }
+    fn entries(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = (fs::read_dir(folder).into_iter().flatten().flatten())
+            .map(|entry| entry.file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
     }
 
     fn files(fill: u8, n: usize) -> Vec<BuiltFile> {
@@ -194,12 +178,12 @@ mod tests {
 
     #[test]
     fn what_is_kept_comes_back_and_what_is_damaged_does_not() {
-        let scratch = Scratch::new("damage");
-        let cache = BuildCache::in_folder(&scratch.0);
+        let scratch = ScratchFolder::new("damage");
+        let cache = BuildCache::in_folder(&scratch);
         assert_eq!(cache.get("k"), None, "nothing yet");
         cache.put("k", &files(b'\n', 100));
         assert_eq!(cache.get("k"), Some(files(b'\n', 100)));
-        let path = scratch.0.join("k.textile");
+        let path = scratch.join("k.textile");
         let whole = fs::read(&path).unwrap();
         for at in [0, 30, 90, 120, whole.len() - 1] {
             let mut bytes = whole.clone();
@@ -217,10 +201,10 @@ mod tests {
 
     #[test]
     fn what_was_not_used_for_longest_makes_room() {
-        let scratch = Scratch::new("room");
-        let cache = BuildCache::bounded(&scratch.0, 3500);
-        fs::create_dir_all(&scratch.0).unwrap();
-        fs::write(scratch.0.join("notes.txt"), [0; 9000]).unwrap();
+        let scratch = ScratchFolder::new("room");
+        let cache = BuildCache::bounded(&scratch, 3500);
+        fs::create_dir_all(&scratch).unwrap();
+        fs::write(scratch.join("notes.txt"), [0; 9000]).unwrap();
         let minutes_ago = |key: &str, minutes: u64| {
             let file = fs::File::options().append(true).open(cache.path(key));
             let when = SystemTime::now() - Duration::from_mins(minutes);
@@ -233,12 +217,12 @@ mod tests {
         assert!(cache.get("a").is_some(), "now it was used last");
         cache.put("d", &files(0, 500));
         assert_eq!(
-            scratch.entries(),
+            entries(&scratch),
             ["a.textile", "c.textile", "d.textile", "notes.txt"]
         );
         cache.put("e", &files(0, 5000));
         assert_eq!(cache.get("e"), None, "larger than the bound");
-        fs::remove_dir_all(&scratch.0).unwrap();
+        fs::remove_dir_all(&scratch).unwrap();
         assert_eq!(cache.get("d"), None, "deleted by somebody");
         cache.put("d", &files(0, 5));
         assert!(cache.get("d").is_some(), "and there again");
@@ -246,18 +230,18 @@ mod tests {
 
     #[test]
     fn a_folder_that_cannot_be_made_is_no_error() {
-        let scratch = Scratch::new("file");
-        fs::write(&scratch.0, "no folder").unwrap();
-        let cache = BuildCache::in_folder(&scratch.0);
+        let scratch = ScratchFolder::new("file");
+        fs::write(&scratch, "no folder").unwrap();
+        let cache = BuildCache::in_folder(&scratch);
         cache.put("k", &files(0, 5));
         assert_eq!(cache.get("k"), None);
-        fs::remove_file(&scratch.0).unwrap();
+        fs::remove_file(&scratch).unwrap();
     }
 
     #[test]
     fn many_writers_leave_whole_entries_and_nothing_else() {
-        let scratch = Scratch::new("writers");
-        let cache = BuildCache::in_folder(&scratch.0);
+        let scratch = ScratchFolder::new("writers");
+        let cache = BuildCache::in_folder(&scratch);
         std::thread::scope(|scope| {
             for _ in 0..4 {
                 let named = std::thread::Builder::new().name("selvedge-test".to_owned());
@@ -270,7 +254,7 @@ mod tests {
                 named.spawn_scoped(scope, write).unwrap();
             }
         });
-        assert_eq!(scratch.entries(), ["k.textile"]);
+        assert_eq!(entries(&scratch), ["k.textile"]);
         assert_eq!(cache.get("k"), Some(files(7, 2000)));
     }
 }

@@ -80,8 +80,30 @@ pub(crate) fn wait_for_log(lab: &Lab, is_so: impl Fn(&str) -> bool) {
     panic!("the device's log never said so");
 }
 
+/// SIGKILL, so that nothing of the host runs any more: the device comes to rest by itself, no later
+/// than 100 ms after the host's last word, and has no amplitude then. Gives its log.
+pub(crate) fn rest_without_its_host(lab: &Lab, device: Device, mut host: Child) -> Rows {
+    host.kill().unwrap();
+    host.wait().unwrap();
+    // The last state of all, since no host is left to arm again.
+    wait_for_log(lab, |log| {
+        let mut states = log.lines().filter(|line| line.contains(",state,"));
+        let last = states.next_back().unwrap_or_default();
+        last.contains(",state,READY,") || last.contains(",state,IDLE,")
+    });
+    let rows = device.end(lab);
+    let ages_ms = at_each_rest(&rows, "age_ms");
+    assert!(
+        !ages_ms.is_empty() && ages_ms.iter().all(|ms| *ms <= 100.0),
+        "{ages_ms:?}"
+    );
+    let sums = at_each_rest(&rows, "amp_sum");
+    assert!(sums.iter().all(|sum| *sum == 0.0), "{sums:?}");
+    rows
+}
+
 /// Ends of output in the log: rows of `column` at each change from output to rest.
-pub(crate) fn at_each_rest(rows: &Rows, column: &str) -> Vec<f64> {
+fn at_each_rest(rows: &Rows, column: &str) -> Vec<f64> {
     let (events, states) = (rows.text("event"), rows.text("state"));
     let numbers = rows.numbers(column);
     let mut was_live = false;

@@ -5,7 +5,7 @@
 
 use std::process::{Child, Stdio};
 
-use crate::bridge_device::{Device, at_each_rest, wait_for_log};
+use crate::bridge_device::{Device, rest_without_its_host, wait_for_log};
 use crate::program::Lab;
 
 fn n_frames(log: &str) -> usize {
@@ -34,24 +34,9 @@ fn play(lab: &Lab) -> Child {
 fn when_the_host_is_killed_the_device_is_at_zero_within_100_ms_of_the_last_frame() {
     let lab = Lab::with_scene();
     let device = Device::start(&lab, &[]);
-    let mut host = play(&lab);
+    let host = play(&lab);
     wait_for_log(&lab, |log| n_frames(log) >= 60);
-    // SIGKILL: nothing of the host runs after this.
-    host.kill().unwrap();
-    host.wait().unwrap();
-    // The last row of all, since no host is left to arm again.
-    wait_for_log(&lab, |log| {
-        let last = log.lines().next_back().unwrap_or_default();
-        last.contains(",state,READY,") || last.contains(",state,IDLE,")
-    });
-    let rows = device.end(&lab);
-    let ages_ms = at_each_rest(&rows, "age_ms");
-    assert!(
-        !ages_ms.is_empty() && ages_ms.iter().all(|ms| *ms <= 100.0),
-        "{ages_ms:?}"
-    );
-    let sums = at_each_rest(&rows, "amp_sum");
-    assert!(sums.iter().all(|sum| *sum == 0.0), "{sums:?}");
+    let rows = rest_without_its_host(&lab, device, host);
     // By the device's clock too: from the last frame that took effect to rest.
     let (events, us) = (rows.text("event"), rows.numbers("dev_us"));
     let last = (0..rows.len())

@@ -5,7 +5,7 @@
 
 use std::process::Stdio;
 
-use crate::bridge_device::{Device, at_each_rest, wait_for_log};
+use crate::bridge_device::{Device, rest_without_its_host, wait_for_log};
 use crate::bridge_end_to_end::undisturbed;
 use crate::program::{Lab, Outcome, Rows};
 
@@ -109,28 +109,14 @@ fn two_seconds_of_samples_arrive_whole_and_none_is_missing_by_the_devices_clock(
 fn when_the_host_is_killed_samples_end_within_100_ms_of_the_last_ones() {
     let lab = Lab::with_scene();
     let device = Device::start(&lab, &ABLE);
-    let mut host = lab
+    let host = lab
         .command(&[&PLAY[..], &["--loop"]].concat())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
     wait_for_log(&lab, |log| log.matches(",samples packets=").count() >= 40);
-    host.kill().unwrap();
-    host.wait().unwrap();
-    wait_for_log(&lab, |log| {
-        let mut states = log.lines().filter(|line| line.contains(",state,"));
-        let last = states.next_back().unwrap_or_default();
-        last.contains(",state,READY,") || last.contains(",state,IDLE,")
-    });
-    let rows = device.end(&lab);
-    let ages_ms = at_each_rest(&rows, "age_ms");
-    assert!(
-        !ages_ms.is_empty() && ages_ms.iter().all(|ms| *ms <= 100.0),
-        "{ages_ms:?}"
-    );
-    let sums = at_each_rest(&rows, "amp_sum");
-    assert!(sums.iter().all(|sum| *sum == 0.0), "{sums:?}");
+    rest_without_its_host(&lab, device, host);
 }
 
 #[test]

@@ -21,9 +21,14 @@ pub(crate) struct Outcome {
 impl Lab {
     /// An empty folder.
     pub(crate) fn new() -> Self {
+        Self::named("lab")
+    }
+
+    /// The same with a name that tells whose it is.
+    pub(crate) fn named(name: &str) -> Self {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let name = format!("selvedge-lab-{}-{number}", std::process::id());
+        let name = format!("selvedge-{name}-{}-{number}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         fs::create_dir_all(&folder).unwrap();
         Self { folder }
@@ -114,12 +119,13 @@ impl Outcome {
     pub(crate) fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
         let code = output.status.code().unwrap_or(-1);
-        // On a machine that is busy any work may take the second from which on it shows progress.
-        let is_progress = |line: &&str| line.contains(" %, ");
+        // On a machine that is busy any work may take the second from which on it shows progress,
+        // and frames may come late, which is told and no failure.
+        let is_of_load = |line: &&str| line.contains(" %, ") || line.contains("frames came late");
         let err = text(&output.stderr);
         let err: String = err
             .split_inclusive('\n')
-            .filter(|line| !is_progress(line))
+            .filter(|line| !is_of_load(line))
             .collect();
         Self {
             code,

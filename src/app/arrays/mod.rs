@@ -182,6 +182,7 @@ impl Arrays {
 #[cfg(test)]
 mod keeping_tests {
     use super::*;
+    use crate::files::ScratchFolder;
     use crate::scene::{ArrayLayout, Geometry};
 
     fn display(layout: ArrayLayout) -> Display {
@@ -240,7 +241,7 @@ mod keeping_tests {
 
     #[test]
     fn what_was_changed_is_in_the_folder_at_the_next_start() {
-        let path = std::env::temp_dir().join(format!("selvedge-rigs-{}", std::process::id()));
+        let path = ScratchFolder::new("rigs");
         let (mut arrays, flaws) = Arrays::in_folder(&path);
         assert_eq!(flaws, Vec::<String>::new());
         arrays.keep(rig());
@@ -257,6 +258,5 @@ mod keeping_tests {
             assert_eq!(arrays.save_if_changed(&ctx, 3.0).0, None);
         }
         assert_eq!(Arrays::in_folder(&path).0.named("rig"), None);
-        std::fs::remove_dir_all(&path).unwrap();
     }
 }

@@ -146,12 +146,7 @@ impl Route {
         let mut n_on = vec![0_u64; scene.textiles.len()];
         for look in 0..n_looks {
             let pose = self.pose_at(look * n_ticks / n_looks);
-            let on = pose.and_then(|pose| {
-                scene.textiles.iter().rposition(|cloth| {
-                    let local = cloth.workspace_from_textile().into_point(pose.position);
-                    cloth.contains(local)
-                })
-            });
+            let on = pose.and_then(|pose| scene.textile_at(pose.position));
             if let Some(n) = on.and_then(|index| n_on.get_mut(index)) {
                 *n += 1;
             }

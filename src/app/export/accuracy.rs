@@ -1,9 +1,9 @@
 //! How accurate rendering was found to be, what ticks cost, and every method on the scene.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::accuracy::{AccuracyView, ERRORS_DB, edges_db};
-use crate::figure::{At, Extent, Ink, Panel, Row, Rule, Scale, Series, Style};
+use crate::figure::{At, Axis, Extent, Ink, Panel, Row, Rule, Series, Style};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -151,8 +151,8 @@ fn error_panel(found: &[Found], view: &AccuracyView<'_>) -> Panel {
     };
     Panel {
         title: "Level error".to_owned(),
-        x: axis("level error, dB", Scale::Log, ERRORS_DB),
-        y: axis("amplitudes", Scale::Linear, [0.0, 1.05 * most(&series)]),
+        x: Axis::log("level error, dB").within(ERRORS_DB),
+        y: Axis::linear("amplitudes").within([0.0, 1.05 * most(&series)]),
         series: series.to_vec(),
         rules: rules
             .into_iter()
@@ -168,8 +168,8 @@ fn cost_panel(found: &[Found]) -> Panel {
     let top = most(std::slice::from_ref(&series));
     Panel {
         title: "Time a tick".to_owned(),
-        x: axis("wall time, s", Scale::Log, [1e-7, 0.1]),
-        y: axis("ticks", Scale::Linear, [0.0, 1.05 * top]),
+        x: Axis::log("wall time, s").within([1e-7, 0.1]),
+        y: Axis::linear("ticks").within([0.0, 1.05 * top]),
         series: vec![series],
         rules: vec![Rule {
             at: At::X(0.025),
@@ -190,12 +190,8 @@ fn method_panel(found: &[Found]) -> Panel {
     });
     Panel {
         title: "Methods on this scene".to_owned(),
-        x: crate::figure::Axis {
-            label: "CPU time a tick, s".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
-        y: axis("level error, dB", Scale::Log, ERRORS_DB),
+        x: Axis::log("CPU time a tick, s"),
+        y: Axis::log("level error, dB").within(ERRORS_DB),
         series: series.collect(),
         ..Panel::default()
     }

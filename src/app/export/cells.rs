@@ -1,8 +1,7 @@
 //! Numbers of all contactors as cells of one band: rows and columns as they stand.
 
-use super::axis;
 use super::spectrograms::ink;
-use crate::figure::{Panel, Raster, Scale, Upright, Words};
+use crate::figure::{Axis, Panel, Raster, Upright, Words};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -18,8 +17,8 @@ pub(super) fn panel(
     Panel {
         title: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
         ink: ink(band),
-        x: axis("column", Scale::Whole, ends(n_columns)),
-        y: axis("row", Scale::Whole, ends(n_rows)),
+        x: Axis::whole("column").within(ends(n_columns)),
+        y: Axis::whole("row").within(ends(n_rows)),
         upright: Upright::Downward,
         raster: Some(Raster {
             n_columns,

@@ -1,9 +1,9 @@
 //! The library as the collection shows it: one row a textile, and the plot.
 
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::collection::{CollectionView, Entry, Measure};
 use crate::app::view::ShelfItem;
-use crate::figure::{Axis, Ink, Panel, Row, Scale, Series, Style, Tone, Weight, Words};
+use crate::figure::{Axis, Ink, Panel, Row, Series, Style, Tone, Weight, Words};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -103,15 +103,11 @@ fn panel(view: &CollectionView<'_>) -> Panel {
 }
 
 fn axis_of(measure: &Measure, view: &CollectionView<'_>) -> Axis {
-    let scale = if measure.is_log() {
-        Scale::Log
-    } else {
-        Scale::Linear
-    };
     let label = measure.label(view.items);
-    Axis {
-        range: None,
-        ..axis(&label, scale, [0.0, 1.0])
+    if measure.is_log() {
+        Axis::log(label)
+    } else {
+        Axis::linear(label)
     }
 }
 

@@ -1,11 +1,11 @@
 //! By how much two runs on the same path differ: by contactor and over time.
 
 use super::spectrograms::ink;
-use super::{Exported, N_COLOURS, Origin, Sheet, axis, cells};
+use super::{Exported, N_COLOURS, Origin, Sheet, cells};
 use crate::app::compare::Side;
 use crate::app::panes::scale_of_differences_db;
 use crate::app::theme::Diverging;
-use crate::figure::{ColourBar, Panel, Row, Scale, Series, Style, Weight};
+use crate::figure::{Axis, ColourBar, Panel, Row, Series, Style, Weight};
 use crate::quantity;
 use crate::render::LevelDifference;
 use crate::scene::TICKS_PER_S;
@@ -141,7 +141,7 @@ fn bar(map: Diverging, most_db: f64) -> ColourBar {
     let last = f64::from(N_COLOURS - 1);
     let share = |i: u8| 2.0 * f64::from(i) / last - 1.0;
     ColourBar {
-        axis: axis("mean of B − A, dB", Scale::Linear, [-most_db, most_db]),
+        axis: Axis::linear("mean of B − A, dB").within([-most_db, most_db]),
         colours: (0..N_COLOURS).map(|i| colour(map, share(i))).collect(),
     }
 }
@@ -195,8 +195,8 @@ fn time_panel(found: &[Found], difference: &LevelDifference) -> Panel {
         .iter()
         .flat_map(|&end| Band::ALL.map(|band| line(band, end)));
     Panel {
-        x: axis("time along the path, s", Scale::Linear, [0.0, end_s]),
-        y: axis("B − A, dB", Scale::Linear, [-most_db, most_db]),
+        x: Axis::linear("time along the path, s").within([0.0, end_s]),
+        y: Axis::linear("B − A, dB").within([-most_db, most_db]),
         series: series.collect(),
         ..Panel::default()
     }

@@ -1,9 +1,9 @@
 //! What compression does to the library: level in, level out.
 
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::panes::compression_ends_db;
 use crate::app::view::{LibraryDot, SceneView};
-use crate::figure::{Ink, Panel, Row, Scale, Series, Style, Tone, Words};
+use crate::figure::{Axis, Ink, Panel, Row, Series, Style, Tone, Words};
 use crate::quantity;
 
 /// The curve with the library's textiles as dots on it.
@@ -42,8 +42,8 @@ pub(super) fn curve(scene: &SceneView, reference_db: f64, origin: Origin) -> Exp
         tone: Tone::Aside,
     };
     let panel = Panel {
-        x: axis("level in, dB re 1 µm", Scale::Linear, ends),
-        y: axis("level out, dB re 1 µm", Scale::Linear, ends),
+        x: Axis::linear("level in, dB re 1 µm").within(ends),
+        y: Axis::linear("level out, dB re 1 µm").within(ends),
         series: vec![
             line("uncompressed", unchanged, Ink::Grey, Style::Dashed),
             line(&compressed, ends.map(at), Ink::Black, Style::Line),

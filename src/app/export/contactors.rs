@@ -1,10 +1,10 @@
 //! Both bands of every contactor as two tables of cells.
 
-use super::{Exported, Origin, Sheet, axis, bar, cells, rgb};
+use super::{Exported, Origin, Sheet, bar, cells, rgb};
 use crate::app::panes::{HeatmapStyle, cell_digits};
 use crate::app::theme::ColourMap;
 use crate::app::view::{Dot, Live, SceneView};
-use crate::figure::{Panel, Row, Scale, Tone, Words};
+use crate::figure::{Axis, Panel, Row, Tone, Words};
 use crate::tactile::Band;
 
 /// Height of a row of cells, px.
@@ -26,7 +26,7 @@ pub(super) fn heatmaps(
     let row = Row {
         panels: Band::ALL.map(panel).to_vec(),
         height_px: (CELL_PX * n_rows as f64).clamp(least, most),
-        bar: Some(bar(style.map, axis("peak amplitude, µm", Scale::Log, ends))),
+        bar: Some(bar(style.map, Axis::log("peak amplitude, µm").within(ends))),
     };
     let note = "Peak amplitudes after gains and before output limits; a dash: off every textile. \
                 Row 0 is at the fingertip, column 0 on its left.";

@@ -1,9 +1,9 @@
 //! The drive waveform: the last two ticks of what drives a contactor.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::panes::{DriveWaveView, WaveScale};
-use crate::figure::{At, Extent, Ink, Panel, Row, Rule, Scale, Series, Style, Weight};
+use crate::figure::{At, Axis, Extent, Ink, Panel, Row, Rule, Series, Style, Weight};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -67,8 +67,8 @@ fn panel(samples: &[Sample], view: &DriveWaveView, most_um: f64) -> Panel {
         ..Series::default()
     };
     Panel {
-        x: axis("time, s", Scale::Linear, [0.0, f64::from(SHOWN_MS) * 1e-3]),
-        y: axis("displacement, µm", Scale::Linear, [-most_um, most_um]),
+        x: Axis::linear("time, s").within([0.0, f64::from(SHOWN_MS) * 1e-3]),
+        y: Axis::linear("displacement, µm").within([-most_um, most_um]),
         series: vec![
             series("40 Hz", Ink::Amber, Weight::Normal, &|sample| sample[1]),
             series("320 Hz", Ink::Cyan, Weight::Normal, &|sample| sample[2]),

@@ -1,10 +1,10 @@
 //! Measurements that are imported: strokes of the tester with what is evaluated of them, or the
 //! relief of a map with the strokes over it.
 
-use super::{Exported, Origin, Sheet, axis, bar};
+use super::{Exported, Origin, Sheet, bar};
 use crate::app::importing::{Body, Found, Heights};
 use crate::app::theme::ColourMap;
-use crate::figure::{Ink, Panel, Raster, Row, Scale, Series, Style, Weight};
+use crate::figure::{Axis, Ink, Panel, Raster, Row, Series, Style, Weight};
 use crate::quantity;
 use crate::textile::{KesImport, MarkKind};
 
@@ -175,8 +175,8 @@ fn relief_row(found: &Heights, relief: &crate::app::widgets::Relief, map: Colour
         ..Series::default()
     });
     let panel = Panel {
-        x: axis("along the warp, mm", Scale::Linear, [0.0, size_mm[0]]),
-        y: axis("along the weft, mm", Scale::Linear, [0.0, size_mm[1]]),
+        x: Axis::linear("along the warp, mm").within([0.0, size_mm[0]]),
+        y: Axis::linear("along the weft, mm").within([0.0, size_mm[1]]),
         raster: Some(Raster {
             n_columns: colours.width(),
             cells,
@@ -189,7 +189,7 @@ fn relief_row(found: &Heights, relief: &crate::app::widgets::Relief, map: Colour
         height_px: (WIDTH_PX * size_mm[1] / size_mm[0]).clamp(80.0, MOST_HIGH_PX),
         bar: Some(bar(
             map,
-            axis("height, µm", Scale::Linear, relief.range_um()),
+            Axis::linear("height, µm").within(relief.range_um()),
         )),
     }
 }
@@ -206,8 +206,8 @@ fn profile_of(found: &Heights) -> (Sheet, Row) {
     let points = points.map(|(sample, height_um)| [sample * step_mm, height_um]);
     let [low, high] = envelope.map_or([0.0, 1.0], crate::app::importing::Envelope::range);
     let panel = Panel {
-        x: axis("place, mm", Scale::Linear, [0.0, map.size_mm()[0]]),
-        y: axis("height, µm", Scale::Linear, [low, high]),
+        x: Axis::linear("place, mm").within([0.0, map.size_mm()[0]]),
+        y: Axis::linear("height, µm").within([low, high]),
         series: vec![Series {
             points: points.collect(),
             ..Series::default()

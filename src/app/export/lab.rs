@@ -1,11 +1,11 @@
 //! The textile lab: the profile that is looked at and the amplitudes over speed along it.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::lab::{Felt, Lab, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
 use crate::app::panes::response_ends_db;
-use crate::figure::{Axis, Panel, Row, Scale, Series, Style, Weight};
+use crate::figure::{Axis, Panel, Row, Series, Style, Weight};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -137,12 +137,8 @@ fn profile_panel(lab: &Lab, lines: &[Line]) -> Panel {
         ..Series::default()
     };
     Panel {
-        x: axis("place along the stroke, mm", Scale::Linear, ends),
-        y: Axis {
-            label: "height, µm".to_owned(),
-            scale: Scale::Linear,
-            range: None,
-        },
+        x: Axis::linear("place along the stroke, mm").within(ends),
+        y: Axis::linear("height, µm"),
         series: vec![
             series(&|line| line.compared_um, Weight::Thin, "compared"),
             series(&|line| line.height_um, Weight::Normal, "recipe"),
@@ -178,8 +174,8 @@ fn curve_panel(lines: &[Line], scale: AmplitudeScale) -> Panel {
         });
     }
     Panel {
-        x: axis("speed, mm/s", Scale::Log, SPEEDS_MM_PER_S),
-        y: axis("level, dB re 1 µm", Scale::Linear, response_ends_db(scale)),
+        x: Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S),
+        y: Axis::linear("level, dB re 1 µm").within(response_ends_db(scale)),
         series,
         ..Panel::default()
     }

@@ -1,9 +1,9 @@
 //! How long things take on the link to the device.
 
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::view::LinkTiming;
 use crate::bridge::{Distribution, DistributionBar};
-use crate::figure::{Ink, Panel, Row, Scale, Series, Style};
+use crate::figure::{Axis, Ink, Panel, Row, Series, Style};
 
 /// Both distributions of the pane; `None` where nothing was measured.
 pub(super) fn distributions(timing: &LinkTiming, origin: Origin) -> Option<Exported> {
@@ -67,8 +67,8 @@ fn panel(name: &str, distribution: &Distribution) -> Panel {
     let most = points.iter().map(|[_, count]| *count).fold(1.0, f64::max);
     Panel {
         title: name.to_owned(),
-        x: axis("time, s", Scale::Log, [3e-5, 0.3]),
-        y: axis("how often", Scale::Linear, [0.0, 1.05 * most]),
+        x: Axis::log("time, s").within([3e-5, 0.3]),
+        y: Axis::linear("how often").within([0.0, 1.05 * most]),
         series: vec![Series {
             points,
             style: Style::Stems,

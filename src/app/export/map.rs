@@ -1,11 +1,11 @@
 //! Maps over the cloth: what every textile of the scene would give all over at one velocity.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis, bar, rgb};
+use super::{Exported, Origin, Sheet, bar, rgb};
 use crate::app::maps::ShownMap;
 use crate::app::probe::Probe;
 use crate::app::view::Cloth;
-use crate::figure::{Panel, Raster, Row, Scale};
+use crate::figure::{Axis, Panel, Raster, Row};
 use crate::quantity;
 
 /// Most panels side by side.
@@ -60,7 +60,7 @@ pub(super) fn maps(
         height_px: height_px(some),
         bar: Some(bar(
             wanted.colours,
-            axis("peak amplitude, µm", Scale::Log, ends),
+            Axis::log("peak amplitude, µm").within(ends),
         )),
     };
     let rows = all.chunks(n_a_row).map(row).collect();
@@ -131,8 +131,8 @@ fn panel(one: &Mapped<'_>) -> Panel {
             .to_owned(),
         ink: ink(wanted.band),
         width: n_warp as f64,
-        x: axis("u, mm", Scale::Linear, ends(n_warp)),
-        y: axis("w, mm", Scale::Linear, ends(n_weft)),
+        x: Axis::linear("u, mm").within(ends(n_warp)),
+        y: Axis::linear("w, mm").within(ends(n_weft)),
         raster: Some(Raster {
             n_columns: n_warp,
             cells: places.map(colour).collect(),

@@ -52,7 +52,7 @@ pub(crate) use write::{ExportError, Kind};
 
 use super::arrangement::Pane;
 use crate::app::theme::ColourMap;
-use crate::figure::{Axis, ColourBar, Figure, Row, Scale};
+use crate::figure::{Axis, ColourBar, Figure, Row};
 
 /// Colours of a bar: more than the eye tells apart.
 const N_COLOURS: u8 = 33;
@@ -118,15 +118,6 @@ impl Exported {
             figure,
             origin,
         }
-    }
-}
-
-/// An axis with given ends.
-fn axis(label: &str, scale: Scale, range: [f64; 2]) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        scale,
-        range: Some(range),
     }
 }
 

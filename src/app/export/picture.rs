@@ -1,8 +1,8 @@
 //! A picture's directions by both measures, and what was found of its lattice.
 
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::picturing::Found;
-use crate::figure::{Ink, Panel, Row, Scale, Series, Style};
+use crate::figure::{Axis, Ink, Panel, Row, Series, Style};
 use crate::quantity;
 
 /// The two curves over angle; nothing before they are there.
@@ -33,12 +33,8 @@ pub(super) fn directions(found: &Found) -> Option<Exported> {
         ..Series::default()
     };
     let panel = Panel {
-        x: axis(
-            "direction, degrees clockwise from x",
-            Scale::Linear,
-            [0.0, 180.0],
-        ),
-        y: axis("share of the highest", Scale::Linear, [0.0, 1.05]),
+        x: Axis::linear("direction, degrees clockwise from x").within([0.0, 180.0]),
+        y: Axis::linear("share of the highest").within([0.0, 1.05]),
         series: vec![
             line(0, "mean concentration", Ink::Black, Style::Line),
             line(1, "Hough transform", Ink::Grey, Style::Line),

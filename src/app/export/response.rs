@@ -1,11 +1,11 @@
 //! A textile's amplitudes over the direction and over the speed of movement.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::curves::speeds_mm_per_s;
 use crate::app::panes::{ResponseView, response_ends_db};
 use crate::app::probe::SPEEDS_MM_PER_S;
-use crate::figure::{Axis, Panel, Row, Scale, Series, Style, Weight};
+use crate::figure::{Axis, Panel, Row, Series, Style, Weight};
 use crate::quantity;
 use crate::render::array::PointSpread;
 use crate::tactile::Band;
@@ -22,13 +22,9 @@ struct Asked {
 pub(super) fn curves(view: &ResponseView<'_>, origin: Origin) -> Exported {
     let asked = asked(view);
     let ends_db = response_ends_db(view.scale);
-    let level = |label: &str| axis(label, Scale::Linear, ends_db);
-    let around = axis(
-        "direction from the warp, ° counter-clockwise",
-        Scale::Linear,
-        [0.0, 360.0],
-    );
-    let speed = axis("speed, mm/s", Scale::Log, SPEEDS_MM_PER_S);
+    let level = |label: &str| Axis::linear(label).within(ends_db);
+    let around = Axis::linear("direction from the warp, ° counter-clockwise").within([0.0, 360.0]);
+    let speed = Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S);
     let of = |over: &str, x: Axis, at: &dyn Fn(&Asked) -> f64| {
         let chosen: Vec<&Asked> = asked.iter().filter(|one| one.over == over).collect();
         panel(&chosen, (x, level("level, dB re 1 µm")), at)

@@ -1,10 +1,10 @@
 //! The spatial spectra under a contactor: every bin of all four directions.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::panes::{SPATIAL_LEVELS_DB, density_db, means_of, wavenumber_per_mm};
 use crate::app::signals::{SpatialCurve, SpatialView};
-use crate::figure::{At, Extent, Ink, Panel, Row, Rule, Scale, Series, Style, Weight};
+use crate::figure::{At, Axis, Extent, Ink, Panel, Row, Rule, Series, Style, Weight};
 use crate::quantity;
 use crate::surface::{Direction, N_BINS};
 use crate::tactile::Band;
@@ -19,16 +19,9 @@ pub(super) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: O
         series.extend(lines(view, curve));
     }
     let panel = Panel {
-        x: axis(
-            "wavenumber, cycles/mm",
-            Scale::Log,
-            [wavenumber_per_mm(1), wavenumber_per_mm(N_BINS)],
-        ),
-        y: axis(
-            "power density, dB re 1 µm² per cycle/mm",
-            Scale::Linear,
-            SPATIAL_LEVELS_DB,
-        ),
+        x: Axis::log("wavenumber, cycles/mm")
+            .within([wavenumber_per_mm(1), wavenumber_per_mm(N_BINS)]),
+        y: Axis::linear("power density, dB re 1 µm² per cycle/mm").within(SPATIAL_LEVELS_DB),
         series,
         rules: carriers(view),
         ..Panel::default()

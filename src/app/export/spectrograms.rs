@@ -1,13 +1,11 @@
 //! Both spectrograms: every cell that is shown, and the picture with its axes and its colour bar.
 
-use super::{Exported, Origin, Sheet, axis, bar, rgb};
+use super::{Exported, Origin, Sheet, bar, rgb};
 use crate::app::amplitude::AmplitudeScale;
 use crate::app::panes::{CONTACT_LEVELS_DB, ContactSpectrumView, ShownColumn, contact_share};
 use crate::app::signals::{LEAST_HZ, MOST_HZ, N_COLUMNS, N_ROWS, row_centre_hz};
 use crate::app::theme::ColourMap;
-use crate::figure::{
-    At, Axis, Extent, Ink, Panel, Raster, Row, Rule, Scale, Series, Style, Upright,
-};
+use crate::figure::{At, Axis, Extent, Ink, Panel, Raster, Row, Rule, Series, Style, Upright};
 use crate::scene::TICKS_PER_S;
 use crate::tactile::{Band, Filters};
 
@@ -30,7 +28,7 @@ pub(super) fn contact(
     };
     let bar = bar(
         map,
-        axis("level, dB re 1 µm", Scale::Linear, CONTACT_LEVELS_DB),
+        Axis::linear("level, dB re 1 µm").within(CONTACT_LEVELS_DB),
     );
     let row = Row {
         panels: vec![picture, filters(view.filters)],
@@ -68,7 +66,7 @@ pub(super) fn drive(
     let row = Row {
         panels: vec![picture],
         height_px: HEIGHT_PX,
-        bar: Some(bar(map, axis("peak amplitude, µm", Scale::Log, ends))),
+        bar: Some(bar(map, Axis::log("peak amplitude, µm").within(ends))),
     };
     let title = format!("Spectrum that drives contactor {contactor}");
     let note = "Amplitude spectrum (peak) of the drive, after gains and before output limits: \
@@ -111,7 +109,7 @@ fn sheet(columns: &[ShownColumn], value: &'static str) -> Sheet {
 }
 
 fn frequencies() -> Axis {
-    axis("frequency, Hz", Scale::Log, [LEAST_HZ, MOST_HZ])
+    Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ])
 }
 
 /// The picture with its axes, the newest column at its right edge.
@@ -129,7 +127,7 @@ fn picture(columns: &[ShownColumn], colour: impl Fn(f32) -> [u8; 3]) -> Panel {
     let shown_s = N_COLUMNS as f64 / TICKS_PER_S;
     let felt = "felt time before the newest tick, s";
     Panel {
-        x: axis(felt, Scale::Linear, [-shown_s, 0.0]),
+        x: Axis::linear(felt).within([-shown_s, 0.0]),
         y: frequencies(),
         raster: Some(Raster {
             n_columns: N_COLUMNS,
@@ -155,7 +153,7 @@ fn filters(filters: &Filters) -> Panel {
         }
     };
     Panel {
-        x: axis("gain", Scale::Whole, [0.0, 1.0]),
+        x: Axis::whole("gain").within([0.0, 1.0]),
         y: frequencies(),
         upright: Upright::Shared,
         series: Band::ALL.map(curve).to_vec(),

@@ -1,9 +1,9 @@
 //! The strips of the timeline: speed and mean levels, tick for tick.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, Sheet, axis};
+use super::{Exported, Origin, Sheet};
 use crate::app::panes::{StripTick, TIMELINE_LEVELS_DB, Timeline};
-use crate::figure::{Axis, Ink, Panel, Row, Scale, Series, Style};
+use crate::figure::{Axis, Ink, Panel, Row, Series, Style};
 use crate::quantity;
 use crate::tactile::Band;
 
@@ -14,12 +14,12 @@ const GAP: [f64; 2] = [f64::NAN; 2];
 
 /// What the timeline shows.
 pub(super) fn strips(timeline: &Timeline, origin: Origin) -> Exported {
-    let x = axis(timeline.time_label, Scale::Linear, timeline.range_s);
+    let x = Axis::linear(timeline.time_label).within(timeline.range_s);
     let speed = |tick: &StripTick| Some(tick.felt.speed_mm_per_s);
     let speeds = Panel {
         x: x.clone(),
         is_x_shared: timeline.has_levels,
-        y: axis("speed, mm/s", Scale::Linear, [0.0, timeline.top_mm_per_s]),
+        y: Axis::linear("speed, mm/s").within([0.0, timeline.top_mm_per_s]),
         series: vec![Series {
             points: line(&timeline.ticks, speed),
             style: Style::Line,
@@ -62,7 +62,7 @@ fn levels(ticks: &[StripTick], x: Axis) -> Panel {
     };
     Panel {
         x,
-        y: axis("mean level, dB re 1 µm", Scale::Linear, TIMELINE_LEVELS_DB),
+        y: Axis::linear("mean level, dB re 1 µm").within(TIMELINE_LEVELS_DB),
         series: Band::ALL.map(series).to_vec(),
         ..Panel::default()
     }

@@ -1,9 +1,9 @@
 //! Why a contactor does what it does: its chain of numbers, and the energy of every bin.
 
 use super::spectrograms::ink;
-use super::{Exported, Origin, axis};
+use super::{Exported, Origin};
 use crate::app::why::{Why, sheet};
-use crate::figure::{Panel, Row, Scale, Series, Style};
+use crate::figure::{Axis, Panel, Row, Series, Style};
 use crate::quantity;
 use crate::tactile::{Band, Filters};
 
@@ -38,17 +38,17 @@ pub(super) fn explanation(why: &Why, filters: &Filters, origin: Origin) -> Expor
         ink: ink(band),
         ..Series::default()
     };
-    let frequency = || axis("frequency, Hz", Scale::Log, FREQUENCIES_HZ);
+    let frequency = || Axis::log("frequency, Hz").within(FREQUENCIES_HZ);
     let energy = Panel {
         x: frequency(),
         is_x_shared: true,
-        y: axis("energy of a bin, µm²", Scale::Linear, [0.0, most_um2]),
+        y: Axis::linear("energy of a bin, µm²").within([0.0, most_um2]),
         series: Band::ALL.map(stems).to_vec(),
         ..Panel::default()
     };
     let gains = Panel {
         x: frequency(),
-        y: axis("filter gain", Scale::Linear, [0.0, 1.0]),
+        y: Axis::linear("filter gain").within([0.0, 1.0]),
         series: Band::ALL.map(|band| curve(filters, band)).to_vec(),
         ..Panel::default()
     };

@@ -6,36 +6,13 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::app::theme::ColourMap;
+use crate::files::ScratchFolder;
 use crate::progress::unheard;
 use crate::progress::{CancelFlag, Cancelled, Progress};
 use crate::surface::Representation;
 use crate::textile::KesAsk;
 use crate::textile::metrology::{HeightImport, ImportOptions};
 use crate::textile::{ColumnRole, KesFile, KesImport, KesOptions, KesReading, Measurement, Words};
-
-/// A folder of files; removed when dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("selvedge-importing-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-
-    fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.0.join(name);
-        fs::write(&path, content).unwrap();
-        path
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.0).unwrap();
-    }
-}
 
 /// Both ways over 30 mm, by place, with a decimal comma.
 pub(crate) fn export() -> String {
@@ -100,7 +77,7 @@ fn kept(importing: &Importing) -> Vec<NewTextile> {
 
 #[test]
 fn strokes_become_the_textile_that_the_command_line_makes() {
-    let folder = Folder::new("strokes");
+    let folder = ScratchFolder::made("strokes");
     let path = folder.write("twill.txt", export());
     let mut importing = importing(std::slice::from_ref(&path));
     let strokes = importing.found().unwrap().strokes().unwrap();
@@ -135,7 +112,7 @@ fn strokes_become_the_textile_that_the_command_line_makes() {
 
 #[test]
 fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
-    let folder = Folder::new("asks");
+    let folder = ScratchFolder::made("asks");
     let volts = folder.write("volts.txt", export().replace("forward um", "forward V"));
     let mut importing = importing(&[volts]);
     let found = failure(&importing);
@@ -175,7 +152,7 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
 
 #[test]
 fn a_map_becomes_a_textile_for_every_place() {
-    let folder = Folder::new("map");
+    let folder = ScratchFolder::made("map");
     let path = folder.write("cloth.txt", matrix());
     let mut importing = importing(std::slice::from_ref(&path));
     assert_eq!(importing.found().unwrap().kind, Measurement::Heights);
@@ -215,7 +192,7 @@ fn a_map_becomes_a_textile_for_every_place() {
 
 #[test]
 fn a_map_that_is_felt_at_every_point_brings_its_file_along() {
-    let folder = Folder::new("areal");
+    let folder = ScratchFolder::made("areal");
     let path = folder.write("cloth.txt", matrix());
     let mut importing = importing(std::slice::from_ref(&path));
     let heights = &mut importing.draft.told.heights;
@@ -225,22 +202,22 @@ fn a_map_that_is_felt_at_every_point_brings_its_file_along() {
     read(&mut importing);
     let made = kept(&importing);
     for file in &made[0].files {
-        let textile = folder.0.join("library").join(&made[0].id);
+        let textile = folder.join("library").join(&made[0].id);
         fs::create_dir_all(&textile).unwrap();
         fs::write(textile.join(&file.name), &file.bytes).unwrap();
     }
-    let library = crate::textile::Library::named(&folder.0.join("library"), None).unwrap();
+    let library = crate::textile::Library::named(&folder.join("library"), None).unwrap();
     let textile = library.load("cloth").unwrap();
     assert_eq!(textile.surface().representation(), Representation::Areal);
 }
 
 #[test]
 fn nonsense_is_one_line_at_the_files() {
-    let folder = Folder::new("nonsense");
+    let folder = ScratchFolder::made("nonsense");
     let nothing = folder.write("empty.txt", "");
     let words = folder.write("words.txt", "there is nothing\nto measure here\n");
     let picture = folder.write("picture.bin", [0_u8; 400]);
-    for path in [nothing, words, picture, folder.0.join("missing.txt")] {
+    for path in [nothing, words, picture, folder.join("missing.txt")] {
         let importing = importing(std::slice::from_ref(&path));
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let found = failure(&importing);
@@ -248,9 +225,9 @@ fn nonsense_is_one_line_at_the_files() {
         assert!(found.line.contains(&name), "{found:?}");
         assert!(importing.refusal().is_some());
     }
-    let huge = fs::File::create(folder.0.join("huge.txt")).unwrap();
+    let huge = fs::File::create(folder.join("huge.txt")).unwrap();
     huge.set_len(3 << 30).unwrap();
-    let importing = importing(&[folder.0.join("huge.txt")]);
+    let importing = importing(&[folder.join("huge.txt")]);
     assert!(
         failure(&importing).line.contains("has 3072 MB"),
         "{:?}",
@@ -260,7 +237,7 @@ fn nonsense_is_one_line_at_the_files() {
 
 #[test]
 fn only_what_has_changed_is_read_anew() {
-    let folder = Folder::new("again");
+    let folder = ScratchFolder::made("again");
     let path = folder.write("twill.txt", export());
     let mut importing = importing(std::slice::from_ref(&path));
     let reading = |importing: &Importing| {
@@ -286,7 +263,7 @@ fn only_what_has_changed_is_read_anew() {
 
 #[test]
 fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
-    let folder = Folder::new("cancel");
+    let folder = ScratchFolder::made("cancel");
     let path = folder.write("twill.txt", export());
     let mut importing = Importing::default();
     importing.add(vec![path]).unwrap();
@@ -310,7 +287,7 @@ fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
 
 #[test]
 fn an_id_that_the_library_has_is_said() {
-    let folder = Folder::new("taken");
+    let folder = ScratchFolder::made("taken");
     let path = folder.write("twill.txt", export());
     let importing = importing(std::slice::from_ref(&path));
     assert_eq!(
@@ -359,7 +336,7 @@ fn real_height_maps_are_read_when_they_are_there() {
 
 #[test]
 fn what_the_pane_shows_is_exported_with_where_it_comes_from() {
-    let folder = Folder::new("export");
+    let folder = ScratchFolder::made("export");
     let path = folder.write("twill.txt", export());
     let importing = importing(std::slice::from_ref(&path));
     let found = importing.found().unwrap();

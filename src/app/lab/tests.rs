@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::*;
+use crate::files::ScratchFolder;
 use crate::progress::unheard;
 use crate::surface::Direction;
 use crate::textile::Place;
@@ -88,7 +89,7 @@ fn a_recipe_that_another_took_the_place_of_comes_back_with_all_its_steps() {
 
 #[test]
 fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
-    let folder = std::env::temp_dir().join(format!("selvedge-lab-{}", std::process::id()));
+    let folder = ScratchFolder::new("lab");
     let textile = folder.join("measured");
     std::fs::create_dir_all(&textile).unwrap();
     let row = |i: u32| {
@@ -112,7 +113,6 @@ fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
         (parent.id.as_str(), compared.name.as_str()),
         ("measured", "M")
     );
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

@@ -18,6 +18,7 @@ use crate::app::sources::SourcesView;
 use crate::app::theme;
 use crate::app::view::Live;
 use crate::bridge::{ArrayProfile, FaultWords, FoundPort, RecognisedBy};
+use crate::files::ScratchFolder;
 
 /// A window with nothing in it but `content`, and what is wished for in it.
 fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
@@ -45,8 +46,7 @@ fn click(harness: &mut Harness<'_, Wishes>, name: &str) -> Vec<Command> {
 
 #[test]
 fn tab_completes_the_path_and_enter_opens_it() {
-    let folder = std::env::temp_dir().join(format!("selvedge-ask-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = ScratchFolder::made("ask");
     let scene = folder.join("silk.scene.toml");
     fs::write(&scene, "").unwrap();
     let mut ask = Ask::new(Purpose::OpenScene, Some(&folder.join("si")));
@@ -72,7 +72,6 @@ fn tab_completes_the_path_and_enter_opens_it() {
     let wanted = FileCommand::Use(Purpose::OpenScene, scene);
     assert_eq!(harness.state(), &[wanted.into()]);
     drop(harness);
-    fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

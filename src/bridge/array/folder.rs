@@ -106,10 +106,11 @@ impl ProfileFolder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     #[test]
     fn own_profiles_stand_in_the_place_of_the_programs_until_they_are_removed() {
-        let path = std::env::temp_dir().join(format!("selvedge-arrays-{}", std::process::id()));
+        let path = ScratchFolder::new("arrays");
         let folder = ProfileFolder::new(&path);
         assert_eq!(folder.read().len(), 0, "no folder, no profiles");
         assert_eq!(folder.find("5x5").unwrap().limit_um, [50.0, 50.0]);
@@ -135,6 +136,5 @@ mod tests {
         );
         folder.remove("5x5").unwrap();
         assert_eq!(folder.find("5x5").unwrap().limit_um, [50.0, 50.0]);
-        fs::remove_dir_all(&path).unwrap();
     }
 }

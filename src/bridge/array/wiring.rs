@@ -60,11 +60,6 @@ impl WiringWalk {
         self.answers.iter().flatten().count()
     }
 
-    /// What was said of a channel.
-    pub fn answer_of(&self, channel: usize) -> Option<Answer> {
-        self.answers.get(channel).copied().flatten()
-    }
-
     /// The channels that were said to drive a contactor.
     pub fn channels_of(&self, contactor: usize) -> Vec<usize> {
         let named = Some(Answer::Contactor(contactor));
@@ -391,7 +386,7 @@ mod tests {
         assert_eq!(all.channel(), Some(0));
         all.answer(Answer::Contactor(1));
         all.back();
-        assert_eq!((all.channel(), all.answer_of(0)), (Some(0), None));
+        assert_eq!((all.channel(), all.n_answered()), (Some(0), 0));
         all.answer(Answer::Contactor(0));
         all.ask(7);
         assert_eq!((all.channel(), all.channels_of(0)), (Some(1), vec![0]));

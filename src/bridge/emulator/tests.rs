@@ -78,13 +78,7 @@ mod behind_a_pty {
     use super::*;
     use crate::bridge::BridgeError;
     use crate::bridge::port::SerialLink;
-
-    fn folder(name: &str) -> PathBuf {
-        let folder =
-            std::env::temp_dir().join(format!("selvedge-bridge-{}-{name}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
-        folder
-    }
+    use crate::files::ScratchFolder;
 
     type Running = (Arc<AtomicBool>, JoinHandle<Result<(), BridgeError>>);
 
@@ -97,7 +91,7 @@ mod behind_a_pty {
 
     #[test]
     fn a_host_finds_it_by_its_link_and_may_come_again() {
-        let folder = folder("again");
+        let folder = ScratchFolder::made("again");
         let (link, log) = (folder.join("array"), folder.join("log.csv"));
         let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
         let (stop, thread) = run(emulator);
@@ -114,12 +108,11 @@ mod behind_a_pty {
         assert!(header.starts_with("dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0"));
         assert!(lines.next().unwrap().contains(",state,READY,,65535,1,0,"));
         assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
     fn a_pulled_cable_ends_the_port_and_the_device_comes_back_under_another_name() {
-        let folder = folder("replug");
+        let folder = ScratchFolder::made("replug");
         let (link, log) = (folder.join("array"), folder.join("log.csv"));
         let unplug = OneOff {
             at_us: 400_000,
@@ -157,12 +150,11 @@ mod behind_a_pty {
         );
         assert!(log.contains(",fault unplug ends 300000 us,"), "{log}");
         assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
     fn only_links_to_terminals_are_replaced() {
-        let folder = folder("taken");
+        let folder = ScratchFolder::made("taken");
         let (file, link) = (folder.join("file"), folder.join("link"));
         fs::write(&file, "precious").unwrap();
         let refused = |path: &std::path::Path| {
@@ -184,6 +176,5 @@ mod behind_a_pty {
         );
         drop(emulator);
         assert!(fs::symlink_metadata(&link).is_err());
-        fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -9,6 +9,7 @@ use super::*;
 #[cfg(unix)]
 use crate::bridge::Coder;
 use crate::bridge::message::DeviceState;
+use crate::files::ScratchFolder;
 
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -184,8 +185,7 @@ fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
 
     use crate::bridge::emulator::PtyEmulator;
 
-    let folder = std::env::temp_dir().join(format!("selvedge-stream-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = ScratchFolder::made("stream");
     let (link, log) = (folder.join("array"), folder.join("log.csv"));
     let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
     let ended = Arc::new(AtomicBool::new(false));
@@ -217,7 +217,6 @@ fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
     device.join().unwrap().unwrap();
 
     check_log(&fs::read_to_string(&log).unwrap(), &sent);
-    fs::remove_dir_all(&folder).unwrap();
 }
 
 /// Letting a port go takes a moment; whoever opens it again at once need not know.
@@ -228,7 +227,8 @@ fn a_port_can_be_opened_again_at_once() {
 
     use crate::bridge::emulator::PtyEmulator;
 
-    let link = std::env::temp_dir().join(format!("selvedge-again-{}", std::process::id()));
+    let folder = ScratchFolder::made("again");
+    let link = folder.join("array");
     let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
     let ended = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&ended);

@@ -122,10 +122,12 @@ impl Spool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     #[test]
     fn rows_come_back_whole_over_many_blocks_and_nothing_is_left() {
-        let path = std::env::temp_dir().join(format!("selvedge-spool-{}.x", std::process::id()));
+        let folder = ScratchFolder::made("spool");
+        let path = folder.join("a.x");
         let mut spool = Spool::beside(&path, 3);
         let n_ticks = 2 * BLOCK_TICKS + 7;
         for tick in 0..n_ticks {
@@ -146,22 +148,9 @@ mod tests {
             assert_eq!(numbers, expected);
             assert_eq!(last.unwrap(), expected[n_ticks - 1]);
         }
-        let beside = |spool: &Spool| {
-            let folder = spool.place.parent().unwrap();
-            let name = spool
-                .place
-                .file_name()
-                .unwrap()
-                .to_string_lossy()
-                .into_owned();
-            let entries = folder.read_dir().unwrap().flatten();
-            entries
-                .filter(|e| e.file_name().to_string_lossy().starts_with(&name))
-                .count()
-        };
-        assert_eq!(beside(&spool), 1);
-        let place = Spool::beside(&path, 3);
+        let n_files = || folder.read_dir().unwrap().count();
+        assert_eq!(n_files(), 1);
         drop(spool);
-        assert_eq!(beside(&place), 0);
+        assert_eq!(n_files(), 0);
     }
 }

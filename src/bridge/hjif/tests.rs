@@ -1,11 +1,9 @@
 //! Files of MPEG haptics, read by a reader of our own that insists on every required field.
 
-use std::path::PathBuf;
-
 use serde::Deserialize;
 
 use super::*;
-use crate::files::from_json_str;
+use crate::files::{ScratchFolder, from_json_str};
 use crate::progress::{CancelFlag, unheard};
 
 /// Required fields, as the reference parser of the format has them; none is optional here.
@@ -79,10 +77,6 @@ struct Keyframe {
     frequency_modulation: i32,
 }
 
-fn place(name: &str) -> PathBuf {
-    std::env::temp_dir().join(format!("selvedge-{name}-{}.hjif", std::process::id()))
-}
-
 fn spec(n_channels: usize) -> HjifSpec {
     HjifSpec {
         n_channels,
@@ -92,14 +86,14 @@ fn spec(n_channels: usize) -> HjifSpec {
 }
 
 fn written(name: &str, n_channels: usize, ticks: &[Vec<[f32; 2]>]) -> Experience {
-    let path = place(name);
+    let folder = ScratchFolder::made(name);
+    let path = folder.join("a.hjif");
     let mut writer = HjifWriter::create(&path, spec(n_channels)).unwrap();
     for tick in ticks {
         writer.take(tick).unwrap();
     }
     unheard(|progress| writer.finish(progress)).unwrap();
-    let text = std::fs::read_to_string(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
+    let text = folder.read("a.hjif");
     check(from_json_str(&text, &path).unwrap())
 }
 
@@ -211,7 +205,8 @@ fn numbers_that_are_none_are_silent() {
 
 #[test]
 fn a_file_that_is_stopped_is_not_there() {
-    let path = place("stopped");
+    let folder = ScratchFolder::made("stopped");
+    let path = folder.join("a.hjif");
     let mut writer = HjifWriter::create(&path, spec(2)).unwrap();
     writer.take(&[[1.0, 1.0]; 2]).unwrap();
     let flag = CancelFlag::new();

@@ -47,10 +47,12 @@ mod tests {
     use std::process::{Command, Stdio};
 
     use super::*;
+    use crate::files::ScratchFolder;
 
     #[test]
     fn a_program_that_holds_a_port_is_named() {
-        let path = std::env::temp_dir().join(format!("selvedge-held-{}", std::process::id()));
+        let folder = ScratchFolder::made("held");
+        let path = folder.join("port");
         let file = File::create(&path).unwrap();
         assert_eq!(holder_of(&path), None, "this program is not another one");
         let mut sleeper = Command::new("sleep")
@@ -66,7 +68,6 @@ mod tests {
         });
         sleeper.kill().unwrap();
         sleeper.wait().unwrap();
-        std::fs::remove_file(&path).unwrap();
         assert!(named, "{wanted}");
     }
 }

@@ -204,6 +204,7 @@ fn node_of(path: &Path) -> Option<(u64, u64)> {
 )]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
 
     fn usb(serial: Option<&str>) -> Option<UsbIdentity> {
         Some(UsbIdentity {
@@ -305,8 +306,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn a_link_that_comes_back_with_a_number_is_found_beside_the_old_one() {
-        let folder = std::env::temp_dir().join(format!("selvedge-replug-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = ScratchFolder::made("replug");
         let old = folder.join("array");
         let link = |name: &str, to: &str| {
             std::os::unix::fs::symlink(to, folder.join(name)).unwrap();
@@ -327,6 +327,5 @@ mod tests {
         std::fs::remove_file(&back.path).unwrap();
         link("array-3", "/dev/null");
         assert_eq!(again.look().unwrap().path, folder.join("array-3"));
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -4,12 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::bridge::{ArrayProfile, Bridge, BridgeEvent, Target};
-
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("selvedge-log-{name}-{}", std::process::id()));
-    drop(fs::remove_dir_all(&folder));
-    folder
-}
+use crate::files::ScratchFolder;
 
 fn entry(note: Note) -> Entry {
     Entry {
@@ -22,7 +17,7 @@ fn entry(note: Note) -> Entry {
 
 #[test]
 fn a_log_is_continued_and_keeps_its_one_header() {
-    let folder = folder("continued");
+    let folder = ScratchFolder::new("continued");
     let path = folder.join("deep/link.csv");
     for _ in 0..2 {
         let log = SessionLog::append(&path, None).unwrap();
@@ -34,12 +29,11 @@ fn a_log_is_continued_and_keeps_its_one_header() {
     let events: Vec<_> = text.lines().map(|line| line.split(',').nth(4)).collect();
     let expected = ["event", "link", "arm", "link", "arm"].map(Some);
     assert_eq!(events, expected, "{text}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_link_tells_its_whole_life() {
-    let folder = folder("life");
+    let folder = ScratchFolder::new("life");
     let path = folder.join("link.csv");
     let log = SessionLog::append(&path, None).unwrap();
     let mut bridge = Bridge::open(Target::Emulator, ArrayProfile::default(), 24, || {});
@@ -81,12 +75,11 @@ fn a_link_tells_its_whole_life() {
         text.contains("state=RUN") && text.contains("state=READY"),
         "{text}"
     );
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn two_links_write_to_one_log_and_a_full_ring_says_how_much_is_missing() {
-    let folder = folder("two");
+    let folder = ScratchFolder::new("two");
     let path = folder.join("link.csv");
     let log = SessionLog::append(&path, None).unwrap();
     let mut first = log.feed("a");
@@ -113,12 +106,11 @@ fn two_links_write_to_one_log_and_a_full_ring_says_how_much_is_missing() {
         .parse()
         .unwrap();
     assert_eq!((count("arm") + n_lost, count("armed")), (400, 1));
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_bounded_log_makes_way_and_forgets_the_oldest() {
-    let folder = folder("bounded");
+    let folder = ScratchFolder::new("bounded");
     let path = folder.join("link.csv");
     let bound = LogBound {
         bytes: 400,
@@ -141,14 +133,12 @@ fn a_bounded_log_makes_way_and_forgets_the_oldest() {
     }
     let newest = fs::read_to_string(&path).unwrap();
     assert!(newest.contains("line 039"), "{newest}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_log_that_cannot_be_written_says_so_at_once() {
-    let folder = folder("unwritable");
+    let folder = ScratchFolder::new("unwritable");
     fs::create_dir_all(&folder).unwrap();
     let error = SessionLog::append(&folder, None).unwrap_err().to_string();
     assert!(error.starts_with("cannot write the session log"), "{error}");
-    fs::remove_dir_all(folder).unwrap();
 }

@@ -19,7 +19,6 @@ use super::{
     SourceKind, TICKS_PER_S, VelocityMethod,
 };
 use crate::bridge::{Coder, SentFrame};
-use crate::geometry::Velocity;
 use crate::scene::Pose;
 
 /// From a command's refusal to the window: every tick has at most a few.
@@ -130,13 +129,13 @@ impl EngineCore {
             }
             Reading::Lifted => {
                 self.follow();
-                self.pose = at_rest(self.pose);
+                self.pose = self.pose.at_rest();
             }
             Reading::Ended => {
                 if !self.has_ended {
                     say(Notice::SourceEnded);
                 }
-                self.pose = at_rest(self.pose);
+                self.pose = self.pose.at_rest();
             }
         }
         self.has_ended = reading == Reading::Ended;
@@ -144,7 +143,7 @@ impl EngineCore {
             self.pose = recorder.as_replayed(self.pose);
         }
         self.rendered = if self.is_stopped {
-            at_rest(self.pose)
+            self.pose.at_rest()
         } else {
             self.pose
         };
@@ -214,7 +213,7 @@ impl EngineCore {
         self.is_stopped = true;
         self.vibration.end();
         self.control(Control::Pause);
-        self.rendered = at_rest(self.pose);
+        self.rendered = self.pose.at_rest();
         self.scene.render(self.rendered, &self.mask);
         self.end_recording()
     }
@@ -359,13 +358,5 @@ impl EngineCore {
             is_recording: self.recorder.is_some(),
             n_ticks,
         }
-    }
-}
-
-fn at_rest(pose: Pose) -> Pose {
-    Pose {
-        velocity: Velocity::ZERO,
-        angular_rad_per_s: 0.0,
-        ..pose
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Everything takes effect at the next tick. What is replaced goes back to be dropped elsewhere.
 
-use super::{EngineCore, Say, at_rest};
+use super::{EngineCore, Say};
 use crate::engine::input::PointerInput;
 use crate::engine::order::{CoreOrder, NextScene, Retired};
 use crate::engine::vibration::Vibration;
@@ -86,10 +86,10 @@ impl EngineCore {
                 if self.track.position().is_none() && self.playable.is_none() {
                     self.pose = Pose {
                         position: self.scene.start(),
-                        ..at_rest(self.pose)
+                        ..self.pose.at_rest()
                     };
                 }
-                self.rendered = at_rest(self.pose);
+                self.rendered = self.pose.at_rest();
                 self.scene.render(self.rendered, &self.mask);
                 [recording, Some(Retired::Scene(retired))]
             }
@@ -120,7 +120,7 @@ impl EngineCore {
         self.track.forget();
         self.last_angle_deg = None;
         self.has_ended = false;
-        self.pose = at_rest(self.pose);
+        self.pose = self.pose.at_rest();
         std::mem::replace(&mut self.playable, source).map(Retired::Source)
     }
 

@@ -1,6 +1,6 @@
 //! What commands and the stop switch do, and what is news.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 use super::*;
 
@@ -229,15 +229,7 @@ fn many_scenes_at_once_are_obeyed_as_what_they_replace_is_taken_back() {
 
 #[test]
 fn nothing_changing_is_no_news() {
-    let n_news = Arc::new(AtomicU64::new(0));
-    let heard = Arc::clone(&n_news);
-    let on_news = move || {
-        heard.fetch_add(1, Ordering::SeqCst);
-    };
-    let config = EngineConfig {
-        on_news: Some(Box::new(on_news)),
-        ..config(Method::Auto)
-    };
+    let (config, n_news) = config_counting_news(Method::Auto);
     let mut engine = Engine::without_thread(config, Instant::now()).unwrap();
     let settle = || std::thread::sleep(Duration::from_millis(50));
     engine.advance_ticks(2);

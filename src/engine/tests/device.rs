@@ -12,6 +12,7 @@ use crate::bridge::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
 use crate::bridge::{DeviceModel, PtyEmulator};
 use crate::engine::input::PointerInput;
 use crate::engine::order::{CoreOrder, Order};
+use crate::files::ScratchFolder;
 
 /// Waits for what must come, for as long as a busy machine may take.
 fn wait<T>(engine: &mut Engine, what: &str, mut look: impl FnMut(&mut Engine) -> Option<T>) -> T {
@@ -271,9 +272,7 @@ fn with_device<T>(
     model: DeviceModel,
     work: impl FnOnce(&Path, &AtomicBool) -> T,
 ) -> (T, String) {
-    let name = format!("selvedge-{name}-{}", std::process::id());
-    let folder = std::env::temp_dir().join(name);
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = ScratchFolder::made(name);
     let (link, log) = (folder.join("array"), folder.join("log.csv"));
     let emulator = PtyEmulator::new(model, &link, Some(&log)).unwrap();
     let is_over = AtomicBool::new(false);
@@ -285,7 +284,6 @@ fn with_device<T>(
         done
     });
     let text = std::fs::read_to_string(&log).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
     (done, text)
 }
 

@@ -1,6 +1,6 @@
 //! Contactors of the first display that are switched off.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 use super::*;
 
@@ -71,15 +71,7 @@ fn a_mask_outlives_scenes_and_covers_only_what_it_names() {
 
 #[test]
 fn a_mask_and_a_gain_are_news_even_while_nothing_moves() {
-    let n_news = Arc::new(AtomicU64::new(0));
-    let heard = Arc::clone(&n_news);
-    let on_news = move || {
-        heard.fetch_add(1, Ordering::SeqCst);
-    };
-    let config = EngineConfig {
-        on_news: Some(Box::new(on_news)),
-        ..config(Method::Auto)
-    };
+    let (config, n_news) = config_counting_news(Method::Auto);
     let mut engine = Engine::without_thread(config, Instant::now()).unwrap();
     let source = InputSource::Replay(path());
     engine.send(Command::SetSource(source)).unwrap();

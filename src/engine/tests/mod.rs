@@ -14,7 +14,7 @@ mod vibration;
 
 use std::io::Cursor;
 use std::sync::Arc;
-
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use super::*;
@@ -73,6 +73,20 @@ fn config(method: Method) -> EngineConfig {
         scene: prepared(exeter(), method),
         on_news: None,
     }
+}
+
+/// The same, and how often its owner was told that there is news.
+fn config_counting_news(method: Method) -> (EngineConfig, Arc<AtomicU64>) {
+    let n_news = Arc::new(AtomicU64::new(0));
+    let heard = Arc::clone(&n_news);
+    let on_news = move || {
+        heard.fetch_add(1, Ordering::SeqCst);
+    };
+    let config = EngineConfig {
+        on_news: Some(Box::new(on_news)),
+        ..config(method)
+    };
+    (config, n_news)
 }
 
 /// An engine in told time, and that time.

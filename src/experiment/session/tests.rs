@@ -17,7 +17,11 @@ pub(super) fn subject() -> Subject {
 }
 
 /// Some answer to a task.
-fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
+pub(in crate::experiment) fn any_answer(
+    design: &Design,
+    task: &Task,
+    random: &mut Random,
+) -> Answer {
     match task {
         Task::Rank { .. } => {
             let mut ranks = [1, 2, 3, 4];

@@ -36,7 +36,6 @@ use table::TableEvaluator;
 use super::gains::Gains;
 use super::plan::{Contacts, Counters, DisplayPlan, Rules, ScenePlan};
 use super::{PlacedLevel, RenderError, RenderScene};
-use crate::geometry::Velocity;
 use crate::scene::Pose;
 use crate::tactile::Tuning;
 
@@ -357,12 +356,7 @@ fn finite_pose(pose: &Pose, counters: &mut Counters) -> Option<Pose> {
     let is_placed = pose.position.is_finite() && pose.angle_deg.is_finite();
     let is_moving = pose.velocity.is_finite() && pose.angular_rad_per_s.is_finite();
     counters.poses_not_finite += u64::from(!(is_placed && is_moving));
-    let at_rest = Pose {
-        velocity: Velocity::ZERO,
-        angular_rad_per_s: 0.0,
-        ..*pose
-    };
-    is_placed.then_some(if is_moving { *pose } else { at_rest })
+    is_placed.then(|| if is_moving { *pose } else { pose.at_rest() })
 }
 
 #[cfg(test)]

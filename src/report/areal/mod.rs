@@ -11,7 +11,7 @@ use cases::Case;
 
 use super::rendering::cloths::{exeter, placed, poses_between, scene_of};
 use super::{Bench, Findings, ReportError, Row, Study};
-use crate::figure::{Axis, Plot, Scale, Series};
+use crate::figure::{Axis, Plot, Series};
 use crate::geometry::Point;
 use crate::numerics::{Random, quantile};
 use crate::quantity::{level_db, with_unit};
@@ -284,15 +284,10 @@ fn number(value: f64) -> String {
 }
 
 fn plot(series: Vec<Series>) -> Plot {
-    let axis = |label: &str, range| Axis {
-        label: label.to_owned(),
-        scale: Scale::Linear,
-        range,
-    };
     Plot {
         title: "One profile a direction beside every point".to_owned(),
-        x: axis("level error of a contactor, dB", None),
-        y: axis("share of errors below, %", Some([0.0, 100.0])),
+        x: Axis::linear("level error of a contactor, dB"),
+        y: Axis::linear("share of errors below, %").within([0.0, 100.0]),
         series,
         footnote: "Random places and strokes of 20 to 300 mm/s; the tester's wire of 5 mm."
             .to_owned(),

@@ -1,20 +1,11 @@
 //! The study runs, repeats, and keeps its promise.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress};
-use crate::report::Effort;
-
-fn run() -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    ArealStudy
-        .run(&mut Bench::new(Effort::Quick, 7, &mut progress))
-        .unwrap()
-}
+use crate::report::tests::quick;
 
 #[test]
 fn one_profile_is_audibly_off_and_tables_of_all_points_are_not() {
-    let findings = run();
+    let findings = quick(&ArealStudy, 7);
     assert_eq!(findings.rows.len(), 6, "three surfaces of two reliefs");
     assert_eq!((findings.plots.len(), findings.notes.len()), (1, 2));
     assert_eq!(findings.n_broken(), 0, "{:?}", findings.rows);
@@ -24,7 +15,7 @@ fn one_profile_is_audibly_off_and_tables_of_all_points_are_not() {
         assert!(is_areal == (error < 0.05), "{row:?}");
         assert!(row.cost.is_some() && row.bytes.is_some_and(|bytes| bytes <= 300_000_000));
     }
-    let again = run();
+    let again = quick(&ArealStudy, 7);
     for (a, b) in findings.rows.iter().zip(&again.rows) {
         assert_eq!(
             (a.error, a.error_p99, a.bytes),

@@ -2,7 +2,7 @@
 
 use super::{Findings, Row, SAMPLE_S, propagator};
 use crate::bridge::{ContactorModel, MOST_QUALITY, Skin};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::ode::StepMethod;
 use crate::quantity::time_span;
 use crate::report::Bench;
@@ -60,15 +60,10 @@ fn line(name: &str, points: Vec<[f64; 2]>) -> Series {
 }
 
 fn plot(series: Vec<Series>) -> Plot {
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        range: None,
-    };
     Plot {
         title: "Longest stable step".to_owned(),
-        x: axis("stiffness of the skin, N/m"),
-        y: axis("step, s"),
+        x: Axis::log("stiffness of the skin, N/m"),
+        y: Axis::log("step, s"),
         series,
         footnote: format!(
             "Skin without damping. Steps up to {} were looked at.",

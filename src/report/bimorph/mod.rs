@@ -12,7 +12,7 @@ mod truth;
 
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use crate::bridge::{ContactorModel, MOST_QUALITY, SAMPLES_PER_S};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::ode::{Propagator, StepMethod};
 use cases::{Case, Step};
 use truth::held_response;
@@ -169,15 +169,10 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
             style: Style::LineAndDots,
             ..Series::default()
         });
-        let axis = |label: &str| Axis {
-            label: label.to_owned(),
-            scale: Scale::Log,
-            range: None,
-        };
         let plot = Plot {
             title: format!("Error against step: {}", case.name),
-            x: axis("step, s"),
-            y: axis("error of the displacement, of it"),
+            x: Axis::log("step, s"),
+            y: Axis::log("error of the displacement, of it"),
             series: series.into(),
             footnote: "The worse of 40 and 320 Hz; no dot where a method grows without end. \
                        Steps above 125 µs hold their input as long as they last."
@@ -189,8 +184,7 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
 }
 
 fn step_of(row: &Row) -> Option<f64> {
-    let found = row.more.iter().find(|(name, _)| *name == "step_s");
-    found.and_then(|(_, text)| text.parse().ok())
+    row.further_number("step_s")
 }
 
 /// What the rows come to.

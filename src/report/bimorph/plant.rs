@@ -4,7 +4,7 @@
 
 use super::{CARRIERS_HZ, Findings, Row, SAMPLE_S, truth::held_response};
 use crate::bridge::{ContactorModel, MOST_QUALITY, Plant, Skin};
-use crate::figure::{Axis, Ink, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Ink, Plot, Series, Style};
 use crate::numerics::ode::StepMethod;
 use crate::report::Bench;
 
@@ -120,15 +120,10 @@ pub(super) fn responses() -> Plot {
         ink: Ink::Grey,
         ..Series::default()
     });
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        range: None,
-    };
     Plot {
         title: "Displacement of the pin for a volt, by load".to_owned(),
-        x: axis("frequency, Hz"),
-        y: axis("displacement, µm/V"),
+        x: Axis::log("frequency, Hz"),
+        y: Axis::log("displacement, µm/V"),
         series,
         footnote: "A model of 25 × 1.5 × 0.6 mm from design-sheet values, Q 40.".to_owned(),
     }

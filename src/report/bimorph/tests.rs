@@ -2,13 +2,11 @@
 
 use super::*;
 use crate::bridge::Skin;
-use crate::progress::unheard;
-use crate::report::Effort;
+use crate::report::tests::quick;
 
 #[test]
 fn the_exact_hold_keeps_its_promise_everywhere_and_no_other_method_does() {
-    let found = unheard(|progress| BimorphStudy.run(&mut Bench::new(Effort::Quick, 1, progress)));
-    let findings = found.unwrap();
+    let findings = quick(&BimorphStudy, 1);
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");
     let sample = |method: StepMethod| {

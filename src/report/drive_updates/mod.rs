@@ -8,7 +8,7 @@ mod amplitudes;
 mod spectrum;
 mod writer;
 
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::{Random, quantile};
 use crate::quantity::with_unit;
 use crate::render::RenderError;
@@ -233,12 +233,9 @@ fn level_errors_db(amplitudes: &[[f32; 2]], samples: &[f32]) -> Vec<f64> {
     errors_db
 }
 
-/// A further column of a row as a number; NaN where there is none.
-fn column(row: &Row, name: &str) -> f64 {
-    let found = row.more.iter().find(|column| column.0 == name);
-    found
-        .and_then(|column| column.1.parse().ok())
-        .unwrap_or(f64::NAN)
+/// NaN where there is none.
+fn above_640_hz_db(row: &Row) -> f64 {
+    row.further_number(ABOVE_640_HZ).unwrap_or(f64::NAN)
 }
 
 fn decibels(power_ratio: f64) -> f64 {
@@ -254,16 +251,8 @@ fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Plot {
     });
     Plot {
         title: format!("Spectrum of the drive waveform, {case}"),
-        x: Axis {
-            label: "frequency, Hz".to_owned(),
-            scale: Scale::Log,
-            range: Some([5.0, 20_000.0]),
-        },
-        y: Axis {
-            label: "level of a twelfth of an octave, dB re the loudest".to_owned(),
-            scale: Scale::Linear,
-            range: Some([-120.0, 0.0]),
-        },
+        x: Axis::log("frequency, Hz").within([5.0, 20_000.0]),
+        y: Axis::linear("level of a twelfth of an octave, dB re the loudest").within([-120.0, 0.0]),
         series: series.collect(),
         footnote: "one channel at 48 kHz, Blackman window over the whole".to_owned(),
     }
@@ -282,7 +271,7 @@ fn notes(rows: &[Row]) -> Vec<String> {
     };
     let mut notes: Vec<String> = SWITCHINGS.iter().map(told).collect();
     let gains_db = rows.chunks_exact(SWITCHINGS.len()).map(|case| {
-        let [zero_db, immediate_db] = [0, 1].map(|n| column(&case[n], ABOVE_640_HZ));
+        let [zero_db, immediate_db] = [0, 1].map(|n| above_640_hz_db(&case[n]));
         immediate_db - zero_db
     });
     let least_db = with_unit(gains_db.fold(f64::INFINITY, f64::min), 1, "dB");
@@ -303,20 +292,11 @@ fn notes(rows: &[Row]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::{CancelFlag, Progress};
-    use crate::report::Effort;
-
-    fn run() -> Findings {
-        let mut report = |_: f64, _: &str| {};
-        let mut progress = Progress::new(&mut report, CancelFlag::new());
-        DriveUpdatesStudy
-            .run(&mut Bench::new(Effort::Quick, 7, &mut progress))
-            .unwrap()
-    }
+    use crate::report::tests::quick;
 
     #[test]
     fn a_zero_crossing_is_quieter_above_the_bands_and_a_line_quieter_still() {
-        let findings = run();
+        let findings = quick(&DriveUpdatesStudy, 7);
         assert_eq!(findings.rows.len(), 2 * SWITCHINGS.len());
         for case in findings.rows.chunks(SWITCHINGS.len()) {
             let [zero, immediate, line, ..] = case else {
@@ -328,7 +308,7 @@ mod tests {
                 "{}: {energies:?}",
                 zero.case
             );
-            let above_db = [zero, immediate, line].map(|row| column(row, ABOVE_640_HZ));
+            let above_db = [zero, immediate, line].map(above_640_hz_db);
             assert!(
                 above_db[0] < above_db[1] - 5.0 && above_db[2] < above_db[0] - 20.0,
                 "{}: {above_db:?}",
@@ -365,7 +345,7 @@ mod tests {
     #[test]
     fn the_same_seed_gives_the_same_numbers() {
         let numbers = || {
-            run()
+            quick(&DriveUpdatesStudy, 7)
                 .rows
                 .into_iter()
                 .map(|row| (row.error, row.more))

@@ -3,7 +3,7 @@
 
 use super::scenes::Case;
 use super::{ALL, NONE};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::render::array::Method;
 use crate::report::Row;
 
@@ -45,16 +45,8 @@ pub(super) fn plot(rows: &[Row], cases: &[Case]) -> (String, Plot) {
     let names: Vec<String> = names.collect();
     let plot = Plot {
         title: format!("What savings save of a tick by {method}"),
-        x: Axis {
-            label: "scene".to_owned(),
-            scale: Scale::Whole,
-            range: Some([0.5, cases.len() as f64 + 0.5]),
-        },
-        y: Axis {
-            label: "CPU time as a share of that with no saving".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
+        x: Axis::whole("scene").within([0.5, cases.len() as f64 + 0.5]),
+        y: Axis::log("CPU time as a share of that with no saving"),
         series: series.collect(),
         footnote: format!("Scenes: {}.", names.join(", ")),
     };

@@ -1,7 +1,7 @@
 //! The study of what is left out: complete, exact, and open to savings of other floors.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress};
+use crate::report::tests::quick;
 
 /// A saving of some other floor.
 #[derive(Debug)]
@@ -31,11 +31,8 @@ impl SavingRule for Hidden {
 
 #[test]
 fn every_saving_is_tried_on_six_scenes_and_changes_nothing() {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    let mut bench = Bench::new(Effort::Quick, 1, &mut progress);
     let study = LeftOutStudy::default().with(Box::new(Hidden));
-    let findings = study.run(&mut bench).unwrap();
+    let findings = quick(&study, 1);
     let cases = scenes::cases(Effort::Quick).unwrap();
     assert_eq!(cases.len(), 6);
     for case in &cases {

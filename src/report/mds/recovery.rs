@@ -1,7 +1,7 @@
 //! Known configurations under noise: how much of the map is lost.
 
 use super::{Bench, Dissimilarities, Findings, Mds, ReportError, Row, made};
-use crate::figure::{Axis, Plot, Scale, Series};
+use crate::figure::{Axis, Plot, Series};
 use crate::numerics::{Random, median};
 use crate::statistics::procrustes::Procrustes;
 
@@ -36,15 +36,10 @@ pub(super) fn add(bench: &mut Bench<'_>, findings: &mut Findings) -> Result<(), 
             ..Series::default()
         });
     }
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Linear,
-        range: None,
-    };
     let plot = Plot {
         title: "Mds: what noise takes from a known map".to_owned(),
-        x: axis("noise, standard deviation of the logarithm"),
-        y: axis("m² left over after Procrustes"),
+        x: Axis::linear("noise, standard deviation of the logarithm"),
+        y: Axis::linear("m² left over after Procrustes"),
         series,
         footnote: "Medians over random configurations in a plane. Numbers: mds.csv.".to_owned(),
     };

@@ -1,19 +1,11 @@
 //! The study runs, repeats and finds what is known.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress};
-use crate::report::Effort;
-
-fn run() -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    let mut bench = Bench::new(Effort::Quick, 3, &mut progress);
-    MdsStudy.run(&mut bench).unwrap()
-}
+use crate::report::tests::quick;
 
 #[test]
 fn the_study_repeats_and_keeps_its_promises() {
-    let (first, second) = (run(), run());
+    let (first, second) = (quick(&MdsStudy, 3), quick(&MdsStudy, 3));
     assert_eq!(
         first.n_broken(),
         0,

@@ -144,14 +144,10 @@ fn plot(id: &str, original: &[f64], drawn: &[f64]) -> Plot {
         style: Style::Line,
         ..Series::default()
     };
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        ..Axis::default()
-    };
     Plot {
         title: format!("A drawn profile beside the original: {id}"),
-        x: axis("place, mm"),
-        y: axis("height, µm"),
+        x: Axis::linear("place, mm"),
+        y: Axis::linear("height, µm"),
         series: vec![
             line("original, band-limited", original),
             line("drawn", drawn),

@@ -1,16 +1,9 @@
 //! The studies run, repeat, and find what is known.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress, thread_cpu_seconds};
-use crate::report::{Bench, Effort, Findings, Study};
-
-fn run(study: &dyn Study) -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    study
-        .run(&mut Bench::new(Effort::Quick, 3, &mut progress))
-        .unwrap()
-}
+use crate::progress::thread_cpu_seconds;
+use crate::report::tests::quick;
+use crate::report::{Findings, Study};
 
 fn error(findings: &Findings, method: &str, setting: &str, case: &str) -> f64 {
     let is_it = |row: &&crate::report::Row| {
@@ -30,7 +23,7 @@ fn every_quick_study_repeats_and_keeps_its_promises() {
     ];
     for study in studies {
         let start_s = thread_cpu_seconds();
-        let (first, second) = (run(study), run(study));
+        let (first, second) = (quick(study, 3), quick(study, 3));
         println!(
             "{}: {:.1} s CPU",
             study.name(),
@@ -51,7 +44,7 @@ fn every_quick_study_repeats_and_keeps_its_promises() {
 
 #[test]
 fn resampling_by_the_transform_is_exact_and_lines_fall_with_the_square() {
-    let findings = run(&ResamplingStudy);
+    let findings = quick(&ResamplingStudy, 3);
     let case = "waves down to 1.25 mm";
     assert!(
         error(&findings, "Fourier", "0.1 mm", case) < 1e-9,
@@ -66,7 +59,7 @@ fn resampling_by_the_transform_is_exact_and_lines_fall_with_the_square() {
 
 #[test]
 fn all_of_its_own_coefficients_give_the_profile_back() {
-    let findings = run(&FourierStudy);
+    let findings = quick(&FourierStudy, 3);
     assert!(
         error(&findings, "own coefficients", "100 harmonics", "denim") < 1e-9,
         "{findings:?}"

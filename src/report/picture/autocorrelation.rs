@@ -2,7 +2,7 @@
 //! takes the picture for one that repeats.
 
 use super::spoilt::Spoilt;
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::{Grid, PlaneTransform, Random};
 use crate::report::growth::exponent;
 use crate::report::{Bench, Findings, ReportError, Row, Study};
@@ -244,11 +244,6 @@ fn notes(rows: &[Row], most_by_definition: usize) -> Vec<String> {
 }
 
 fn plot(rows: &[Row]) -> Plot {
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        range: None,
-    };
     let series = Way::ALL.map(|way| Series {
         name: way.name().to_owned(),
         points: times(rows, way),
@@ -257,8 +252,8 @@ fn plot(rows: &[Row]) -> Plot {
     });
     Plot {
         title: "Autocorrelation: run time by the side of the picture".to_owned(),
-        x: axis("side of the picture, px"),
-        y: axis("CPU time a picture, s"),
+        x: Axis::log("side of the picture, px"),
+        y: Axis::log("CPU time a picture, s"),
         series: series.into(),
         footnote: "One thread; all shifts up to half the side.".to_owned(),
     }
@@ -267,7 +262,7 @@ fn plot(rows: &[Row]) -> Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::picture::tests::quick;
+    use crate::report::picture::tests::{n_drawn, quick};
 
     #[test]
     fn transforms_keep_their_promise_and_the_short_cut_shows_up_as_wrong() {
@@ -281,13 +276,7 @@ mod tests {
                 assert!(error < PROMISED, "{row:?}");
             }
         }
-        let drawn: usize = findings.plots[0]
-            .1
-            .series
-            .iter()
-            .map(|s| s.points.len())
-            .sum();
-        assert_eq!(drawn, findings.rows.len());
+        assert_eq!(n_drawn(&findings), findings.rows.len());
     }
 
     #[test]

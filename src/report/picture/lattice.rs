@@ -231,11 +231,6 @@ impl Tally {
     }
 }
 
-fn further(row: &Row, name: &str) -> Option<f64> {
-    let cell = row.more.iter().find(|(key, _)| *key == name)?;
-    cell.1.parse().ok()
-}
-
 fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
     let of_sweep = format!("{} ", sweep.name);
     let series = estimates.iter().map(|estimate| Series {
@@ -243,7 +238,12 @@ fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
         points: rows
             .iter()
             .filter(|row| row.method == estimate.name && row.case.starts_with(&of_sweep))
-            .filter_map(|row| Some([further(row, "value")?, further(row, "right_percent")?]))
+            .filter_map(|row| {
+                Some([
+                    row.further_number("value")?,
+                    row.further_number("right_percent")?,
+                ])
+            })
             .collect(),
         style: Style::LineAndDots,
         ..Series::default()
@@ -258,11 +258,7 @@ fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
             scale: sweep.scale,
             range: None,
         },
-        y: Axis {
-            label: "right, %".to_owned(),
-            range: Some([0.0, 100.0]),
-            ..Axis::default()
-        },
+        y: Axis::linear("right, %").within([0.0, 100.0]),
         series: series.collect(),
         footnote: format!(
             "Right: within {:.0} % of the shorter vector. Otherwise 6 dB over the noise, any turn, \
@@ -289,8 +285,10 @@ fn notes(rows: &[Row]) -> Vec<String> {
     let usual = rows.iter().filter(|row| row.case == "usual");
     let shares: Vec<String> = usual
         .filter_map(|row| {
-            let share = further(row, "right_percent")?;
-            let finer = further(row, "finer_percent").filter(|finer| *finer > 0.0);
+            let share = row.further_number("right_percent")?;
+            let finer = row
+                .further_number("finer_percent")
+                .filter(|finer| *finer > 0.0);
             let finer = finer.map_or_else(String::new, |x| format!(" (a finer one: {x:.0} %)"));
             Some(format!("{} {share:.0} %{finer}", row.method))
         })

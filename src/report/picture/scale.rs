@@ -3,7 +3,7 @@
 use super::drawings::{BINDINGS, Binding};
 use super::spoilt::Spoilt;
 use super::{RIGHT, analysed, share_off};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::Random;
 use crate::report::{Bench, Findings, ReportError, Row, Study};
 
@@ -141,16 +141,8 @@ fn least(name: &str, points: &[[f64; 2]]) -> String {
 fn plot(series: Vec<Series>) -> Plot {
     Plot {
         title: "Pictures reduced: share whose lattice is right".to_owned(),
-        x: Axis {
-            label: "shorter lattice vector, px".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
-        y: Axis {
-            label: "right, %".to_owned(),
-            range: Some([0.0, 100.0]),
-            ..Axis::default()
-        },
+        x: Axis::log("shorter lattice vector, px"),
+        y: Axis::linear("right, %").within([0.0, 100.0]),
         series,
         footnote: format!(
             "{N_PERIODS} periods a side, 20 dB over the noise. Right: within {:.0} % of the \

@@ -2,19 +2,17 @@
 
 use super::lattice::{ESTIMATES, Estimate, of_estimates};
 use super::*;
-use crate::progress::{CancelFlag, Progress, thread_cpu_seconds};
+use crate::progress::{thread_cpu_seconds, unheard};
 use crate::report::{Bench, Effort, Findings, Row, Study};
 
 fn with_bench<T>(work: impl FnOnce(&mut Bench<'_>) -> T) -> T {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    work(&mut Bench::new(Effort::Quick, 3, &mut progress))
+    unheard(|progress| work(&mut Bench::new(Effort::Quick, 3, progress)))
 }
 
 /// What a study finds in quick mode.
 pub(super) fn quick(study: &dyn Study) -> Findings {
     let start_s = thread_cpu_seconds();
-    let findings = with_bench(|bench| study.run(bench)).unwrap();
+    let findings = crate::report::tests::quick(study, 3);
     println!(
         "{}: {:.1} s CPU",
         study.name(),
@@ -30,11 +28,14 @@ pub(super) fn quick(study: &dyn Study) -> Findings {
     findings
 }
 
+/// How many points its first plot shows.
+pub(super) fn n_drawn(findings: &Findings) -> usize {
+    let (_, plot) = &findings.plots[0];
+    plot.series.iter().map(|series| series.points.len()).sum()
+}
+
 fn cell(row: &Row, name: &str) -> f64 {
-    let found = row.more.iter().find(|(key, _)| *key == name);
-    found
-        .and_then(|(_, text)| text.parse().ok())
-        .unwrap_or(f64::NAN)
+    row.further_number(name).unwrap_or(f64::NAN)
 }
 
 fn agree(first: &Findings, second: &Findings) {
@@ -111,13 +112,7 @@ fn pictures_are_right_while_threads_are_resolved_and_have_no_lattice_when_not() 
             );
         }
     }
-    let drawn: usize = findings.plots[0]
-        .1
-        .series
-        .iter()
-        .map(|s| s.points.len())
-        .sum();
-    assert_eq!(drawn, findings.rows.len());
+    assert_eq!(n_drawn(&findings), findings.rows.len());
 }
 
 #[test]

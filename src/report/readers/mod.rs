@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::{Bench, Findings, ReportError, Row, Study};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::files::Number;
 use crate::numerics::{Grid, Random};
 use crate::textile::metrology::{
@@ -163,15 +163,10 @@ fn plot(lines: Vec<Vec<[f64; 2]>>) -> Plot {
         style: Style::LineAndDots,
         ..Series::default()
     });
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Log,
-        ..Axis::default()
-    };
     Plot {
         title: "Reading measured heights".to_owned(),
-        x: axis("points"),
-        y: axis("CPU time, s"),
+        x: Axis::log("points"),
+        y: Axis::log("CPU time, s"),
         series: series.collect(),
         ..Plot::default()
     }

@@ -1,18 +1,11 @@
 //! The study of rendering: complete, and wrong methods show up as wrong.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress};
-
-fn findings() -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    let mut bench = Bench::new(Effort::Quick, 7, &mut progress);
-    RenderingStudy.run(&mut bench).unwrap()
-}
+use crate::report::tests::quick;
 
 #[test]
 fn every_method_is_tried_on_every_textile_and_wrong_ones_show() {
-    let findings = findings();
+    let findings = quick(&RenderingStudy, 7);
     let of = |method: &str, setting: &str| -> Vec<&Row> {
         let is_it = |row: &&Row| row.method == method && row.setting == setting;
         findings.rows.iter().filter(is_it).collect()

@@ -183,8 +183,8 @@ fn crossings(textiles: &[PlacedSurface]) -> Vec<Pose> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::unheard;
-    use crate::report::{Effort, pareto};
+    use crate::report::pareto;
+    use crate::report::tests::quick;
     use crate::scene::LoadedScene;
 
     fn study(method: Method, accuracy: Accuracy) -> ThisSceneStudy {
@@ -197,7 +197,7 @@ mod tests {
     }
 
     fn findings(study: &ThisSceneStudy) -> Findings {
-        unheard(|progress| study.run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap()
+        quick(study, 1)
     }
 
     #[test]

@@ -290,10 +290,6 @@ fn of_sweep(
 }
 
 fn plot(name: &str, label: &str, curves: Vec<(Method, Vec<[f64; 2]>)>) -> Plot {
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        ..Axis::default()
-    };
     let series = curves.into_iter().map(|(method, points)| Series {
         name: method.label().to_owned(),
         points,
@@ -302,8 +298,8 @@ fn plot(name: &str, label: &str, curves: Vec<(Method, Vec<[f64; 2]>)>) -> Plot {
     });
     Plot {
         title: format!("Shading: correlation with the weave by {name}"),
-        x: axis(label),
-        y: axis("correlation of heights"),
+        x: Axis::linear(label),
+        y: Axis::linear("correlation of heights"),
         series: series.collect(),
         footnote: format!(
             "A plain weave whose yarns touch; light from {}°, tilt {}°, where it is not varied.",

@@ -1,20 +1,13 @@
 //! The study runs, repeats, and finds what is known.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress, thread_cpu_seconds};
-use crate::report::Effort;
-
-fn run() -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    let mut bench = Bench::new(Effort::Quick, 3, &mut progress);
-    ShadingStudy.run(&mut bench).unwrap()
-}
+use crate::progress::thread_cpu_seconds;
+use crate::report::tests::quick;
 
 #[test]
 fn the_quick_study_repeats_keeps_its_promise_and_ranks_the_methods() {
     let start_s = thread_cpu_seconds();
-    let (first, second) = (run(), run());
+    let (first, second) = (quick(&ShadingStudy, 3), quick(&ShadingStudy, 3));
     println!("{:.1} s CPU", 0.5 * (thread_cpu_seconds() - start_s));
     assert_eq!(first.n_broken(), 0, "{:?}", first.rows);
     assert_eq!((&first.notes, first.plots.len()), (&second.notes, 3));

@@ -1,7 +1,7 @@
 //! Window length and bin spacing: the amplitudes that a short window finds, against the formula of
 //! a sum of waves and against the whole profile of a textile.
 
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::{Random, quantile};
 use crate::quantity::with_unit;
 use crate::report::{Bench, Row, Timing};
@@ -206,15 +206,8 @@ pub(super) fn plot() -> Plot {
     });
     Plot {
         title: "What the window costs a wave that sounds at 40 Hz".to_owned(),
-        x: Axis {
-            label: "speed, mm/s".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
-        y: Axis {
-            label: "level of A40 re the wave, dB".to_owned(),
-            ..Axis::default()
-        },
+        x: Axis::log("speed, mm/s"),
+        y: Axis::linear("level of A40 re the wave, dB"),
         series: series.to_vec(),
         footnote: "mean power over points; bins one over the window's length apart".to_owned(),
     }

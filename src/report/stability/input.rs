@@ -1,11 +1,10 @@
 //! Files that hold what no surface and no picture can be.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::path::Path;
 
 use super::{Case, Verdict, failed, refused, verdict};
-use crate::files::{Rgb8Image, decode_png, encode_png};
+use crate::files::{Rgb8Image, ScratchFolder, decode_png, encode_png};
 use crate::surface::{Direction, LocalSpectra, Profile};
 use crate::textile::Library;
 
@@ -88,26 +87,14 @@ fn profile(n_samples: u16, step_mm: f64) -> String {
     format!("x_mm,height_um\n{rows}")
 }
 
-/// A folder that goes when the trial is over.
-struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
-
 /// Loads a textile with this profile from a library on disk; tells how many points it has.
 fn load(profile: &str) -> Result<usize, String> {
-    static NUMBER: AtomicU32 = AtomicU32::new(0);
-    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let name = format!("selvedge-stability-{}-{number}", std::process::id());
-    let folder = Folder(std::env::temp_dir().join(name));
-    let place = folder.0.join("cloth");
+    let folder = ScratchFolder::new("stability");
+    let place = folder.join("cloth");
     fs::create_dir_all(&place).map_err(failed)?;
     fs::write(place.join("textile.toml"), MANIFEST).map_err(failed)?;
     fs::write(place.join("warp.csv"), profile).map_err(failed)?;
-    let library = Library::open(&folder.0).map_err(failed)?;
+    let library = Library::open(&folder).map_err(failed)?;
     let textile = library.load("cloth").map_err(|error| {
         let text = error.to_string();
         text.replace(&format!("{}/", place.display()), "")

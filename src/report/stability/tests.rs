@@ -3,11 +3,11 @@
 use super::*;
 use crate::progress::unheard;
 use crate::report::Effort;
+use crate::report::tests::quick;
 
 #[test]
 fn every_extreme_case_comes_out_as_promised() {
-    let findings = unheard(|progress| Stability.run(&mut Bench::new(Effort::Quick, 1, progress)));
-    let findings = findings.unwrap();
+    let findings = quick(&Stability, 1);
     assert!(findings.rows.len() > 40, "{} cases", findings.rows.len());
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");

@@ -5,7 +5,7 @@ mod observers;
 mod tests;
 mod ways;
 
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::{in_pieces, n_threads};
 use crate::quantity;
 
@@ -217,19 +217,14 @@ fn plots(findings: &mut Findings, observers: &[Observer]) {
     let files = ["steady", "lapses", "shallow", "shallow-lapses"];
     for (file, observer) in files.iter().zip(observers) {
         let kinds = [
-            ("error", "rms error, dB", Scale::Log, rms_db as Value),
-            ("bias", "mean error, dB", Scale::Linear, bias_db),
+            ("error", Axis::log("rms error, dB"), rms_db as Value),
+            ("bias", Axis::linear("mean error, dB"), bias_db),
         ];
-        for (kind, label, scale, value) in kinds {
-            let axis = |label: &str, scale: Scale| Axis {
-                label: label.to_owned(),
-                scale,
-                range: None,
-            };
+        for (kind, axis, value) in kinds {
             let plot = Plot {
                 title: format!("Staircases: {kind} of the threshold over trials"),
-                x: axis("trials", Scale::Log),
-                y: axis(label, scale),
+                x: Axis::log("trials"),
+                y: axis,
                 series: series(&findings.rows, observer, value),
                 footnote: format!("{}. Numbers: staircases.csv.", observer.name),
             };
@@ -252,8 +247,7 @@ fn rms_db(row: &Row) -> Option<f64> {
 }
 
 fn bias_db(row: &Row) -> Option<f64> {
-    let (_, text) = row.more.iter().find(|(name, _)| *name == "bias_db")?;
-    text.parse().ok()
+    row.further_number("bias_db")
 }
 
 fn series(rows: &[Row], observer: &Observer, value: Value) -> Vec<Series> {

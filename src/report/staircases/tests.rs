@@ -1,19 +1,11 @@
 //! The study repeats, and its errors shrink as they should.
 
 use super::*;
-use crate::progress::{CancelFlag, Progress};
-use crate::report::Effort;
-
-fn run() -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    let mut bench = Bench::new(Effort::Quick, 3, &mut progress);
-    StaircasesStudy.run(&mut bench).unwrap()
-}
+use crate::report::tests::quick;
 
 #[test]
 fn errors_shrink_with_trials_in_every_way() {
-    let findings = run();
+    let findings = quick(&StaircasesStudy, 3);
     let error = |method: &str, n_trials: f64| {
         let is_it = |row: &&Row| row.method == method && row.size == Some(n_trials);
         let row = findings.rows.iter().find(is_it);

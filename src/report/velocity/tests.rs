@@ -5,16 +5,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::engine::VelocityMethod;
 use crate::geometry::{Displacement, Point, Velocity};
-use crate::progress::{CancelFlag, Progress};
-use crate::report::Effort;
-
-fn run(effort: Effort) -> Findings {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    VelocityStudy
-        .run(&mut Bench::new(effort, 7, &mut progress))
-        .unwrap()
-}
+use crate::report::tests::{assert_complete_and_same, quick};
 
 fn error_of(findings: &Findings, method: &str, case_end: &str) -> f64 {
     let row = findings
@@ -26,19 +17,10 @@ fn error_of(findings: &Findings, method: &str, case_end: &str) -> f64 {
 
 #[test]
 fn a_quick_study_has_every_method_and_numbers_that_repeat() {
-    let (first, second) = (run(Effort::Quick), run(Effort::Quick));
+    let (first, second) = (quick(&VelocityStudy, 7), quick(&VelocityStudy, 7));
     // Two pointers, five methods and maybe the default apart, four strokes and all of them.
     assert!(first.rows.len() >= 2 * 5 * 5, "{}", first.rows.len());
-    for (a, b) in first.rows.iter().zip(&second.rows) {
-        assert_eq!(
-            (a.error, a.error_p99, &a.more),
-            (b.error, b.error_p99, &b.more)
-        );
-        assert!(
-            a.error.is_some_and(f64::is_finite) && a.cost.is_some(),
-            "{a:?}"
-        );
-    }
+    assert_complete_and_same(&first, &second);
     assert_eq!(first.plots.len(), 3);
     assert!(first.plots[0].1.series.len() == 5, "a series a method");
     assert!(first.notes.len() > 5, "{:?}", first.notes);
@@ -46,7 +28,7 @@ fn a_quick_study_has_every_method_and_numbers_that_repeat() {
 
 #[test]
 fn smoothing_helps_a_steady_stroke_and_a_mouse_at_rest_is_at_rest() {
-    let findings = run(Effort::Quick);
+    let findings = quick(&VelocityStudy, 7);
     let raw = error_of(&findings, "finite difference", "constant 100 mm/s");
     for method in ["line fit", "Kalman"] {
         let smooth = error_of(&findings, method, "constant 100 mm/s");

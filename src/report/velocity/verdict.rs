@@ -1,7 +1,7 @@
 //! What follows from the velocity study: error against delay, and which method to begin with.
 
 use crate::engine::VelocityMethod;
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::quantity::{fixed, time_span, with_unit};
 
 use super::Outcome;
@@ -65,15 +65,8 @@ fn plot(what: &str, dots: Vec<(&Candidate, &Tally)>) -> Plot {
     }
     Plot {
         title: format!("Velocity error against delay, {what}"),
-        x: Axis {
-            label: "delay on strokes that vary, ms".to_owned(),
-            ..Axis::default()
-        },
-        y: Axis {
-            label: "rms velocity error, mm/s".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
+        x: Axis::linear("delay on strokes that vary, ms"),
+        y: Axis::log("rms velocity error, mm/s"),
         series,
         footnote: "one dot a setting; marked: the default; settings beyond 1000 mm/s left out"
             .to_owned(),

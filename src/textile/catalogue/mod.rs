@@ -60,6 +60,7 @@ pub fn write_figure(figure: &Figure, out: &Path, name: &str) -> Result<(), Texti
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ScratchFolder;
     use crate::progress::{CancelFlag, unheard};
 
     #[test]
@@ -85,7 +86,7 @@ mod tests {
     #[test]
     fn a_catalogue_has_a_sheet_for_every_textile_and_stops_when_asked() {
         let store = Library::shipped().unwrap().files_of("silk-crepe").unwrap();
-        let root = std::env::temp_dir().join(format!("selvedge-sheets-{}", std::process::id()));
+        let root = ScratchFolder::new("sheets");
         let folder = root.join("cloths").join("silk");
         for name in [
             "textile.toml",
@@ -123,6 +124,5 @@ mod tests {
             matches!(stopped, Err(TextileError::Cancelled(_))),
             "{stopped:?}"
         );
-        fs::remove_dir_all(&root).unwrap();
     }
 }

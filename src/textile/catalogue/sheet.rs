@@ -2,7 +2,7 @@
 //! friction; figures and provenance below.
 
 use crate::figure::{
-    Axis, ColourBar, Figure, Ink, Panel, Raster, Row, Scale, Series, Style, Upright, Weight, Words,
+    Axis, ColourBar, Figure, Ink, Panel, Raster, Row, Series, Style, Upright, Weight, Words,
 };
 use crate::quantity::level_db;
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
@@ -48,17 +48,9 @@ pub fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
     })
 }
 
-fn axis(label: &str, scale: Scale, range: Option<[f64; 2]>) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        scale,
-        range,
-    }
-}
-
 /// The cloth from its lower left corner, tiled as on a display.
 fn picture(textile: &Textile) -> Result<Panel, TextileError> {
-    let side = |label| axis(label, Scale::Linear, Some([0.0, PICTURE_MM]));
+    let side = |label| Axis::linear(label).within([0.0, PICTURE_MM]);
     let mut panel = Panel {
         title: "appearance".to_owned(),
         width: 250.0,
@@ -151,12 +143,8 @@ fn amplitudes(textile: &Textile) -> Panel {
     Panel {
         title: "amplitude against speed".to_owned(),
         width: 430.0,
-        x: axis(
-            "speed along one axis, mm/s",
-            Scale::Log,
-            Some(SPEEDS_MM_PER_S),
-        ),
-        y: axis("peak amplitude, µm", Scale::Log, Some(AMPLITUDES_UM)),
+        x: Axis::log("speed along one axis, mm/s").within(SPEEDS_MM_PER_S),
+        y: Axis::log("peak amplitude, µm").within(AMPLITUDES_UM),
         series,
         ..Panel::default()
     }
@@ -175,16 +163,12 @@ fn profiles(textile: &Textile) -> Vec<Row> {
             heights.iter().map(move |height| (height - mean).abs())
         })
         .fold(0.1, f64::max);
-    let range = Some([-1.05 * largest_um, 1.05 * largest_um]);
+    let heights_um = Axis::linear("height, µm").within([-1.05 * largest_um, 1.05 * largest_um]);
     let panel = |direction: Direction| {
         let mut panel = Panel {
             title: direction.label().to_owned(),
-            x: axis(
-                "distance travelled, mm",
-                Scale::Linear,
-                Some([0.0, PICTURE_MM]),
-            ),
-            y: axis("height, µm", Scale::Linear, range),
+            x: Axis::linear("distance travelled, mm").within([0.0, PICTURE_MM]),
+            y: heights_um.clone(),
             upright: if direction.is_reverse() {
                 Upright::Shared
             } else {
@@ -252,16 +236,8 @@ fn spectra(textile: &Textile) -> Row {
         let highest_per_mm = BIN_SPACING_PER_MM * (N_BINS_SHOWN as f64 + 0.5);
         Panel {
             title: direction.label().to_owned(),
-            x: axis(
-                "point, mm",
-                Scale::Linear,
-                Some([-0.5, n_points as f64 - 0.5]),
-            ),
-            y: axis(
-                "cycles/mm",
-                Scale::Linear,
-                Some([0.5 * BIN_SPACING_PER_MM, highest_per_mm]),
-            ),
+            x: Axis::linear("point, mm").within([-0.5, n_points as f64 - 0.5]),
+            y: Axis::linear("cycles/mm").within([0.5 * BIN_SPACING_PER_MM, highest_per_mm]),
             upright: if direction == Direction::WarpForward {
                 Upright::Upward
             } else {
@@ -278,7 +254,7 @@ fn spectra(textile: &Textile) -> Row {
         panels: Direction::ALL.map(panel).to_vec(),
         height_px: 190.0,
         bar: Some(ColourBar {
-            axis: axis("power, dB re 1 µm²", Scale::Linear, Some(POWERS_DB)),
+            axis: Axis::linear("power, dB re 1 µm²").within(POWERS_DB),
             colours: (0..=8).map(|i| grey(f64::from(i) / 8.0)).collect(),
         }),
     }
@@ -291,8 +267,8 @@ fn friction(textile: &Textile) -> Result<Option<Row>, TextileError> {
     };
     let panel = Panel {
         title: "friction along the warp".to_owned(),
-        x: axis("distance travelled, mm", Scale::Linear, None),
-        y: axis("coefficient", Scale::Linear, None),
+        x: Axis::linear("distance travelled, mm"),
+        y: Axis::linear("coefficient"),
         series: vec![Series {
             points: corners(|i| i as f64 * trace.step_mm(), trace.mu()),
             style: Style::Line,

@@ -7,6 +7,7 @@ mod relief;
 mod side;
 mod strand;
 mod stroke;
+pub(crate) mod usual;
 mod variation;
 mod yarn;
 

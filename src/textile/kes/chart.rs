@@ -105,9 +105,8 @@ impl KesImport {
         panel_row(Panel {
             title,
             y: Axis {
-                label: "height, µm".to_owned(),
                 range: self.height_range_um(),
-                ..Axis::default()
+                ..Axis::linear("height, µm")
             },
             series: vec![
                 part(0..heights.len(), Ink::Grey, Weight::Thin),
@@ -140,10 +139,7 @@ impl KesImport {
         let (miu, mmd) = (figure(self.figures().miu), figure(self.figures().mmd));
         Some(panel_row(Panel {
             title: format!("friction: MIU {miu}, MMD {mmd}"),
-            y: Axis {
-                label: "coefficient".to_owned(),
-                ..Axis::default()
-            },
+            y: Axis::linear("coefficient"),
             series: vec![
                 line(whole, Ink::Grey, Weight::Thin),
                 line(part, Ink::Black, Weight::Normal),

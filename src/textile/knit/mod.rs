@@ -16,7 +16,7 @@ pub use structure::Structure;
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
+use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over, usual};
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
 use crate::numerics::Random;
@@ -80,13 +80,13 @@ pub struct Knit {
     #[serde(default)]
     pub pile_clump: f64,
     /// Standard deviation of the loop size from place to place.
-    #[serde(default = "default_tension")]
+    #[serde(default = "usual::tension_drift")]
     pub tension_drift: f64,
     /// Over what length tension and bow change, mm.
-    #[serde(default = "default_drift_mm")]
+    #[serde(default = "usual::drift_mm")]
     pub drift_mm: f64,
     /// Standard deviation of the places of wales and courses, share of their pitch.
-    #[serde(default = "default_pitch")]
+    #[serde(default = "usual::pitch_cv")]
     pub pitch_cv: f64,
     /// Standard deviation of the bow of a course, µm.
     #[serde(default)]
@@ -98,10 +98,10 @@ pub struct Knit {
     #[serde(default)]
     pub pucker_um: f64,
     /// Size of the puckers, mm.
-    #[serde(default = "default_pucker_mm")]
+    #[serde(default = "usual::pucker_mm")]
     pub pucker_mm: f64,
     /// Noise of the probe, µm rms.
-    #[serde(default = "default_noise_um")]
+    #[serde(default = "usual::noise_um")]
     pub noise_um: f64,
     /// The yarn.
     pub yarn: Yarn,
@@ -115,21 +115,6 @@ fn default_bulge() -> f64 {
 }
 fn default_leg_spread() -> f64 {
     0.03
-}
-fn default_tension() -> f64 {
-    0.1
-}
-fn default_drift_mm() -> f64 {
-    4.0
-}
-fn default_pitch() -> f64 {
-    0.05
-}
-fn default_pucker_mm() -> f64 {
-    2.0
-}
-fn default_noise_um() -> f64 {
-    0.2
 }
 
 profile_file_keys!(Knit);

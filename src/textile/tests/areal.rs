@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::files::ScratchFolder;
 use crate::surface::{AREAL_WIRE_MM, Direction, Probe, Representation, Surface};
 use crate::tactile::{Filters, Levels, Tuning};
 use crate::textile::*;
@@ -40,8 +41,7 @@ fn economical_is_the_default_and_changes_no_recipe() {
 
 #[test]
 fn an_areal_textile_is_loaded_felt_and_indexed_like_any_other() {
-    let folder = std::env::temp_dir().join(format!("selvedge-areal-{}", std::process::id()));
-    drop(std::fs::remove_dir_all(&folder));
+    let folder = ScratchFolder::new("areal");
     let path = Path::new("t.toml");
     for (id, keys) in [("along", ""), ("areal", "representation = \"areal\"")] {
         let recipe = twill(keys).to_toml(path).unwrap();
@@ -57,7 +57,6 @@ fn an_areal_textile_is_loaded_felt_and_indexed_like_any_other() {
     let index = build::index_of(&library, Tuning::default(), 1).unwrap();
     let [a, b] = [0, 1].map(|nth: usize| index.textiles[nth].level_db().unwrap());
     assert!((a - b).abs() < 12.0, "the same cloth: {a} and {b} dB");
-    drop(std::fs::remove_dir_all(&folder));
 }
 
 #[test]

@@ -1,19 +1,11 @@
 //! New textiles in libraries.
 
 use std::fs;
-use std::path::PathBuf;
 
 use super::super::*;
-use crate::files::sha256_hex;
+use crate::files::{ScratchFolder, sha256_hex};
 use crate::progress::unheard;
 use crate::surface::Direction;
-
-/// A folder of this test's own, empty.
-fn folder(name: &str) -> PathBuf {
-    let path = std::env::temp_dir().join(format!("selvedge-keep-{name}-{}", std::process::id()));
-    drop(fs::remove_dir_all(&path));
-    path
-}
 
 fn brownian(hurst: f64) -> Vec<BuiltFile> {
     let text = format!(
@@ -31,7 +23,7 @@ fn keep(library: &Library, name: &str, to: &std::path::Path) -> (Library, Vec<St
 
 #[test]
 fn a_library_of_the_program_is_copied_and_gains_a_textile_while_its_reference_stays() {
-    let to = folder("copy");
+    let to = ScratchFolder::new("copy");
     let shipped = Library::shipped().unwrap();
     let (own, ids) = keep(&shipped, "My own", &to);
     assert_eq!(ids, ["my-own"]);
@@ -51,23 +43,21 @@ fn a_library_of_the_program_is_copied_and_gains_a_textile_while_its_reference_st
         }
         assert_eq!(here.manifest(), there.manifest(), "{id}");
     }
-    fs::remove_dir_all(&to).unwrap();
 }
 
 #[test]
 fn the_index_that_keeping_writes_is_the_one_that_building_would_write() {
-    let to = folder("index");
+    let to = ScratchFolder::new("index");
     let (own, _) = keep(&Library::shipped().unwrap(), "x", &to);
     let whole = build::index_of(&own, own.default_tuning(), 2).unwrap();
     let kept = own.index().unwrap();
     assert_eq!(kept.content_hash, whole.content_hash);
     assert_eq!(kept.textiles, whole.textiles);
-    fs::remove_dir_all(&to).unwrap();
 }
 
 #[test]
 fn an_id_that_is_taken_gets_a_number_and_nothing_is_written_over() {
-    let to = folder("twice");
+    let to = ScratchFolder::new("twice");
     let shipped = Library::shipped().unwrap();
     let taken = shipped.ids()[2].clone();
     let (own, first) = keep(&shipped, &taken, &to);
@@ -78,23 +68,21 @@ fn an_id_that_is_taken_gets_a_number_and_nothing_is_written_over() {
     assert_eq!(second, [format!("{taken}-3")]);
     assert_eq!(own.ids().len(), 18);
     assert_eq!(before, sha256_hex([fs::read(&file).unwrap().as_slice()]));
-    fs::remove_dir_all(&to).unwrap();
 }
 
 #[test]
 fn a_folder_without_an_index_stays_without_one() {
-    let to = folder("plain");
+    let to = ScratchFolder::new("plain");
     fs::create_dir_all(&to).unwrap();
     write(&brownian(0.2), &to.join("first")).unwrap();
     let (own, _) = keep(&Library::open(&to).unwrap(), "second", &to);
     assert_eq!(own.ids(), ["first", "second"]);
     assert!(own.index().is_none());
-    fs::remove_dir_all(&to).unwrap();
 }
 
 #[test]
 fn what_is_no_textile_is_refused_before_anything_is_written() {
-    let to = folder("nothing");
+    let to = ScratchFolder::new("nothing");
     let mut files = brownian(0.5);
     files.remove(0);
     let shipped = Library::shipped().unwrap();

@@ -1,8 +1,9 @@
 //! What the models, the builder and folder libraries promise.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use crate::files::ScratchFolder;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, Surface};
 use crate::tactile::{Filters, Levels};
 use crate::textile::*;
@@ -198,27 +199,9 @@ fn reverse_strokes_cover_the_same_cloth_and_differ() {
     );
 }
 
-/// A folder of its own for a test, removed at the end.
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("selvedge-{name}-{}", std::process::id()));
-        drop(fs::remove_dir_all(&folder));
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
-
 #[test]
 fn a_made_textile_is_a_library_entry_with_a_picture() {
-    let scratch = Scratch::new("made");
+    let scratch = ScratchFolder::made("made");
     let recipe = weave("basket-2-2", [12.0; 2], "", "");
     let made = make(&recipe, Path::new("recipe.toml"), &scratch.0.join("w")).unwrap();
     let library = Library::open(&scratch.0).unwrap();
@@ -250,7 +233,7 @@ fn what_is_measured_is_no_recipe() {
 
 #[test]
 fn libraries_read_only_what_is_asked_for_and_name_what_is_missing() {
-    let scratch = Scratch::new("lazy");
+    let scratch = ScratchFolder::made("lazy");
     let root = &scratch.0;
     let heights: String = (0..1000).fold("x_mm,height_um\n".to_owned(), |text, i| {
         text + &format!("{},{}\n", f64::from(i) * 0.005, (f64::from(i) * 0.3).sin())

@@ -6,30 +6,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::files::sha256_hex;
+use crate::files::{ScratchFolder, sha256_hex};
 use crate::progress::unheard;
 use crate::tactile::{Filters, Levels};
 use crate::textile::build::index_of;
 use crate::textile::*;
-
-/// A folder that is gone afterwards.
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new(name: &str) -> Self {
-        let name = format!("selvedge-74-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        drop(fs::remove_dir_all(&folder));
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
 
 fn seventy_four() -> Library {
     Library::named(Path::new(SEVENTY_FOUR), None).unwrap()
@@ -114,7 +95,7 @@ fn the_most_typical_of_each_kind_are_the_main_library() {
     let chosen: BTreeSet<String> = typical.into_iter().map(|(_, id)| id).collect();
     let main = Library::shipped().unwrap();
     assert_eq!(chosen, main.ids().iter().cloned().collect());
-    let scratch = Scratch::new("no-index");
+    let scratch = ScratchFolder::made("no-index");
     let bare = Library::open(&scratch.0).unwrap();
     let error = most_typical(&bare).unwrap_err().to_string();
     assert!(error.contains("library.toml"), "{error}");
@@ -175,7 +156,7 @@ fn the_other_side_of_a_cloth_is_another_surface() {
 
 #[test]
 fn what_is_built_is_kept_and_what_is_kept_is_what_is_built() {
-    let scratch = Scratch::new("kept");
+    let scratch = ScratchFolder::made("kept");
     let cache = BuildCache::in_folder(&scratch.0.join("cache"));
     let library = Library::named(Path::new(SEVENTY_FOUR), Some(&cache)).unwrap();
     let id = "polyester-honeycomb";
@@ -208,7 +189,7 @@ fn what_is_built_is_kept_and_what_is_kept_is_what_is_built() {
 
 #[test]
 fn one_thread_and_two_make_the_same_bytes() {
-    let scratch = Scratch::new("threads");
+    let scratch = ScratchFolder::made("threads");
     let recipes = scratch.0.join("three.toml");
     let source = "source = { kind = \"weave\", seed = 1, interlacing = \"plain\", \
         warp_per_cm = 20, weft_per_cm = 18, warp = { width_um = 300, thickness_um = 150, \
@@ -256,7 +237,7 @@ fn one_thread_and_two_make_the_same_bytes() {
 
 #[test]
 fn a_wrong_recipe_is_named_with_its_place() {
-    let scratch = Scratch::new("wrong");
+    let scratch = ScratchFolder::made("wrong");
     let path = scratch.0.join("r.toml");
     let base = "[[textile]]\nid = \"a\"\nname = \"A\"\nconstruction = \"knitted\"\n\
         fibre = \"wool\"\n[textile.source]\nkind = \"knit\"\nseed = 1\nstructure = \"jersey\"\n\

@@ -16,7 +16,7 @@ pub use interlacing::{Interlacing, NAMES};
 use serde::{Deserialize, Serialize};
 
 use super::TextileError;
-use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over};
+use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over, usual};
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
 use crate::numerics::Random;
@@ -67,13 +67,13 @@ pub struct Weave {
     #[serde(default)]
     pub float_lift_um: f64,
     /// Standard deviation of the crimp share from place to place.
-    #[serde(default = "default_tension")]
+    #[serde(default = "usual::tension_drift")]
     pub tension_drift: f64,
     /// Over what length tension and bow change, mm.
-    #[serde(default = "default_drift_mm")]
+    #[serde(default = "usual::drift_mm")]
     pub drift_mm: f64,
     /// Standard deviation of the places of yarns, share of their pitch.
-    #[serde(default = "default_pitch")]
+    #[serde(default = "usual::pitch_cv")]
     pub pitch_cv: f64,
     /// Standard deviation of the bow of a yarn, µm.
     #[serde(default)]
@@ -82,10 +82,10 @@ pub struct Weave {
     #[serde(default)]
     pub pucker_um: f64,
     /// Size of the puckers, mm.
-    #[serde(default = "default_pucker_mm")]
+    #[serde(default = "usual::pucker_mm")]
     pub pucker_mm: f64,
     /// Noise of the probe, µm rms.
-    #[serde(default = "default_noise_um")]
+    #[serde(default = "usual::noise_um")]
     pub noise_um: f64,
     /// The warp yarn.
     pub warp: Yarn,
@@ -98,21 +98,6 @@ fn half() -> f64 {
 }
 fn default_compaction() -> f64 {
     0.9
-}
-fn default_tension() -> f64 {
-    0.1
-}
-fn default_drift_mm() -> f64 {
-    4.0
-}
-fn default_pitch() -> f64 {
-    0.05
-}
-fn default_pucker_mm() -> f64 {
-    2.0
-}
-fn default_noise_um() -> f64 {
-    0.2
 }
 
 profile_file_keys!(Weave);

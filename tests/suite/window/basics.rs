@@ -165,11 +165,11 @@ fn the_emulator_is_armed_by_a_button_and_disarmed_by_escape() {
 #[test]
 fn a_scene_that_does_not_parse_leaves_a_notice_and_the_last_one_in_place() {
     let folder = Folder::new("broken");
-    let broken = folder.0.join("broken.scene.toml");
+    let broken = folder.path("broken.scene.toml");
     fs::write(&broken, SCENE.replace("origin_mm", "orogin_mm")).unwrap();
     let mut harness = window(&folder.scene());
     harness.run();
-    for path in [broken, folder.0.join("nowhere.scene.toml")] {
+    for path in [broken, folder.path("nowhere.scene.toml")] {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         harness.state_mut().open_scene(path);
         harness.run();
@@ -310,7 +310,7 @@ fn a_screenshot_of_nothing_or_of_a_broken_scene_is_refused_in_one_line() {
         ..Screenshot::default()
     };
     let missing = Screenshot {
-        scene: Some(folder.0.join("no.scene.toml")),
+        scene: Some(folder.path("no.scene.toml")),
         ..Screenshot::default()
     };
     for wanted in [tiny, missing] {

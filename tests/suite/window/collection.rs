@@ -11,29 +11,21 @@ use selvedge::textile::Library;
 use super::*;
 
 /// A folder with a scene without textiles over a library that is part of the program.
-struct Bare(PathBuf);
+struct Bare(Lab);
 
 impl Bare {
     fn new(name: &str, library: &str) -> Self {
-        let folder =
-            std::env::temp_dir().join(format!("selvedge-bare-{name}-{}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
+        let folder = Lab::named(name);
         let scene = format!(
             "name = \"Bare\"\n{library}size_mm = [260.0, 260.0]\n[[display]]\n\
              geometry = \"exeter-24\"\n"
         );
-        fs::write(folder.join("bare.scene.toml"), scene).unwrap();
+        folder.write("bare.scene.toml", scene);
         Self(folder)
     }
 
     fn scene(&self) -> PathBuf {
-        self.0.join("bare.scene.toml")
-    }
-}
-
-impl Drop for Bare {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.0).unwrap();
+        self.0.path("bare.scene.toml")
     }
 }
 

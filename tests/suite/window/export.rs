@@ -33,10 +33,10 @@ fn a_pane_is_saved_from_its_button_as_the_kind_that_was_typed() {
         let field = harness.get_by_role_and_label(Role::TextInput, "Export as PNG, SVG or CSV");
         let suggested = field.value().unwrap_or_default();
         assert!(
-            suggested.starts_with(&folder.0.display().to_string()),
+            suggested.starts_with(&folder.path("").display().to_string()),
             "{suggested}"
         );
-        let path = folder.0.join(name);
+        let path = folder.path(name);
         type_path(&mut harness, &path.display().to_string());
         let bytes = fs::read(&path).unwrap_or_default();
         assert!(
@@ -66,7 +66,7 @@ fn a_map_over_the_cloth_is_exported_and_without_one_it_is_said_how_to_show_it() 
     );
     press(&mut harness, Modifiers::NONE, Key::K);
     choose(&mut harness, button, "Save as PNG, SVG or CSV…");
-    let path = folder.0.join("map.csv");
+    let path = folder.path("map.csv");
     type_path(&mut harness, &path.display().to_string());
     let table = fs::read_to_string(&path).unwrap();
     let rows: Vec<&str> = table

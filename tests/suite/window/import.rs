@@ -1,6 +1,5 @@
 //! The import pane: from files of a tester or of a profilometer to textiles in the library.
 
-use eframe::egui::Key;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
@@ -41,7 +40,7 @@ fn matrix() -> String {
 }
 
 fn with_file(folder: &Folder, name: &str, content: &str) -> (Harness<'static, Workbench>, PathBuf) {
-    let path = folder.0.join(name);
+    let path = folder.path(name);
     fs::write(&path, content).unwrap();
     let mut harness = window(&folder.scene());
     harness.run();
@@ -49,18 +48,6 @@ fn with_file(folder: &Folder, name: &str, content: &str) -> (Harness<'static, Wo
     harness.state_mut().import_file(path.clone());
     harness.run_steps(4);
     (harness, path)
-}
-
-/// Types into a field over what it holds.
-fn type_into(harness: &mut Harness<'_, Workbench>, label: &str, text: &str) {
-    harness
-        .get_by_role_and_label(Role::TextInput, label)
-        .focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.step();
-    harness.event(eframe::egui::Event::Text(text.to_owned()));
-    harness.run_steps(4);
 }
 
 fn choose(harness: &mut Harness<'_, Workbench>, list: &str, entry: &str) {
@@ -79,7 +66,7 @@ fn an_empty_pane_says_what_to_do_and_asks_for_files() {
     harness.render().unwrap();
     assert!(harness.query_by_label_contains("Kawabata").is_some());
     assert!(harness.query_by_label_contains("X3P").is_some());
-    let path = folder.0.join("twill.txt");
+    let path = folder.path("twill.txt");
     fs::write(&path, export()).unwrap();
     harness
         .get_by_role_and_label(Role::Button, "Choose files…")
@@ -125,7 +112,7 @@ fn strokes_go_through_all_steps_into_the_library() {
         .get_by_role_and_label(Role::Button, "Save to the library")
         .click();
     harness.run_steps(6);
-    let made = folder.0.join("library/wool-twill");
+    let made = folder.path("library/wool-twill");
     let manifest = fs::read_to_string(made.join("textile.toml")).unwrap();
     for part in [
         "name = \"Wool twill\"",
@@ -220,7 +207,7 @@ fn a_map_gives_a_textile_for_every_place() {
         .click();
     harness.run_steps(6);
     for id in ["ripples-1", "ripples-2"] {
-        let manifest = folder.0.join("library").join(id).join("textile.toml");
+        let manifest = folder.path("library").join(id).join("textile.toml");
         let manifest = fs::read_to_string(manifest).unwrap();
         assert!(manifest.contains("place_mm = "), "{id}: {manifest}");
     }

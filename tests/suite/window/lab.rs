@@ -23,11 +23,7 @@ fn in_front(folder: &Folder) -> Harness<'static, Workbench> {
 /// Clicks a number and types another.
 fn type_number(harness: &mut Harness<'_, Workbench>, name: &str, text: &str) {
     harness.get_by_label(&format!("{name} value")).click();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.step();
-    harness.event(eframe::egui::Event::Text(text.to_owned()));
-    harness.step();
+    type_over(harness, text);
     press(harness, Modifiers::NONE, Key::Enter);
 }
 
@@ -108,7 +104,7 @@ fn what_is_kept_reads_back_as_the_textile_that_its_recipe_makes() {
     harness.run_steps(3);
     harness.get_by_label("Keep").click();
     harness.run_steps(4);
-    let root = folder.0.join("library");
+    let root = folder.path("library");
     let library = Library::open(&root).unwrap();
     let kept = library.load("brownian-surface").unwrap();
     let provenance = kept.manifest().provenance.as_ref().unwrap();
@@ -149,7 +145,7 @@ fn a_family_is_tried_and_all_of_it_is_kept() {
     harness.render().unwrap();
     harness.get_by_label("Keep all 5").click();
     harness.run_steps(4);
-    let library = Library::open(&folder.0.join("library")).unwrap();
+    let library = Library::open(&folder.path("library")).unwrap();
     let kept = (1..=5).map(|n| library.manifest(&format!("brownian-surface-{n}")).unwrap());
     let names: Vec<String> = kept.map(|manifest| manifest.name).collect();
     assert_eq!(names[0], "Brownian surface, Hurst exponent 0.1");

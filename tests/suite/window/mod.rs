@@ -31,6 +31,8 @@ use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, TestRenderer};
 use selvedge::app::{Drive, Rasteriser, Workbench};
 
+use crate::program::Lab;
+
 /// The rasteriser of the window's own screenshots as the renderer of the tests.
 struct Soft(Rasteriser);
 
@@ -58,8 +60,8 @@ impl TestRenderer for Soft {
     }
 }
 
-/// A folder with a scene whose one textile fills the workspace; removed when dropped.
-struct Folder(PathBuf);
+/// A folder with a scene whose one textile fills the workspace.
+struct Folder(Lab);
 
 impl Folder {
     fn new(name: &str) -> Self {
@@ -68,26 +70,22 @@ impl Folder {
 
     /// The same with a textile of this size.
     fn with_size(name: &str, [width_mm, height_mm]: [f64; 2]) -> Self {
-        let folder =
-            std::env::temp_dir().join(format!("selvedge-window-{name}-{}", std::process::id()));
-        let textile = folder.join("library/ripple");
-        fs::create_dir_all(&textile).unwrap();
-        fs::write(textile.join("warp_forward.csv"), ripple()).unwrap();
-        fs::write(textile.join("textile.toml"), MANIFEST).unwrap();
+        let folder = Lab::named(name);
+        folder.write("library/ripple/warp_forward.csv", ripple());
+        folder.write("library/ripple/textile.toml", MANIFEST);
         let size = format!("origin_mm = [0.0, 0.0]\nsize_mm = [{width_mm:?}, {height_mm:?}]");
         let scene = SCENE.replace("origin_mm = [0.0, 0.0]\nsize_mm = [200.0, 200.0]", &size);
-        fs::write(folder.join("test.scene.toml"), scene).unwrap();
+        folder.write("test.scene.toml", scene);
         Self(folder)
     }
 
-    fn scene(&self) -> PathBuf {
-        self.0.join("test.scene.toml")
+    /// The place of a file.
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path(name)
     }
-}
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.0).unwrap();
+    fn scene(&self) -> PathBuf {
+        self.path("test.scene.toml")
     }
 }
 
@@ -191,13 +189,27 @@ fn repaint_delay(harness: &Harness<'_, Workbench>) -> Duration {
     harness.output().viewport_output[&ViewportId::ROOT].repaint_delay
 }
 
-/// Answers the field that asks for a path.
-fn type_path(harness: &mut Harness<'_, Workbench>, path: &str) {
+/// Types over what the field with the focus holds.
+fn type_over(harness: &mut Harness<'_, Workbench>, text: &str) {
     harness.run_steps(2);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
     harness.step();
-    harness.event(eframe::egui::Event::Text(path.to_owned()));
+    harness.event(eframe::egui::Event::Text(text.to_owned()));
     harness.step();
+}
+
+/// Types into a field over what it holds.
+fn type_into(harness: &mut Harness<'_, Workbench>, label: &str, text: &str) {
+    harness
+        .get_by_role_and_label(Role::TextInput, label)
+        .focus();
+    type_over(harness, text);
+    harness.run_steps(3);
+}
+
+/// Answers the field that asks for a path.
+fn type_path(harness: &mut Harness<'_, Workbench>, path: &str) {
+    type_over(harness, path);
     press(harness, Modifiers::NONE, Key::Enter);
 }
 

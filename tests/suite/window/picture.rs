@@ -30,7 +30,7 @@ fn cloth(path: &Path) {
 
 /// A window with a picture opened in its pane.
 fn with_picture(folder: &Folder, write: impl Fn(&Path)) -> Harness<'static, Workbench> {
-    let path = folder.0.join("Blue twill.png");
+    let path = folder.path("Blue twill.png");
     write(&path);
     let mut harness = window(&folder.scene());
     harness.run();
@@ -39,17 +39,6 @@ fn with_picture(folder: &Folder, write: impl Fn(&Path)) -> Harness<'static, Work
     click_tab(&mut harness, "Picture");
     harness.run_steps(4);
     harness
-}
-
-fn type_into(harness: &mut Harness<'_, Workbench>, label: &str, text: &str) {
-    harness
-        .get_by_role_and_label(Role::TextInput, label)
-        .focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.step();
-    harness.event(eframe::egui::Event::Text(text.to_owned()));
-    harness.run_steps(4);
 }
 
 fn feel(harness: &mut Harness<'_, Workbench>) {
@@ -79,15 +68,12 @@ fn a_picture_a_scale_and_a_height_are_enough_to_feel_a_cloth() {
     assert!((lengths[0] - 20.0).abs() < 0.2, "{lattice:?}");
     assert!((lengths[1] - 24.0).abs() < 0.2, "{lattice:?}");
     feel(&mut harness);
-    assert!(
-        !folder.0.join("library/blue-twill").exists(),
-        "no scale yet"
-    );
+    assert!(!folder.path("library/blue-twill").exists(), "no scale yet");
     type_into(&mut harness, "scale", "600");
     type_into(&mut harness, "height", "80");
     harness.render().unwrap();
     feel(&mut harness);
-    let made = folder.0.join("library/blue-twill");
+    let made = folder.path("library/blue-twill");
     let manifest = fs::read_to_string(made.join("textile.toml")).unwrap();
     for part in [
         "kind = \"picture\"",
@@ -96,7 +82,7 @@ fn a_picture_a_scale_and_a_height_are_enough_to_feel_a_cloth() {
     ] {
         assert!(manifest.contains(part), "{part} in {manifest}");
     }
-    let library = selvedge::textile::Library::open(&folder.0.join("library")).unwrap();
+    let library = selvedge::textile::Library::open(&folder.path("library")).unwrap();
     library.load("blue-twill").unwrap();
     let scene = harness.state().scene();
     let is_placed = scene.textiles.iter().any(|one| one.id == "blue-twill");
@@ -121,7 +107,7 @@ fn a_hidden_pane_works_nothing_out() {
         "nothing changed"
     );
     click_tab(&mut harness, "Workspace");
-    let path = folder.0.join("other.png");
+    let path = folder.path("other.png");
     cloth(&path);
     harness.state_mut().open_picture(path);
     click_tab(&mut harness, "Workspace");

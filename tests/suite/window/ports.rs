@@ -50,7 +50,7 @@ fn a_port_that_another_program_holds_is_a_notice_and_the_last_state_stays() {
 #[test]
 fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
     let folder = Folder::new("vanishing");
-    let link = folder.0.join("array");
+    let link = folder.path("array");
     let port = link.to_str().unwrap();
     let mut device = Device::behind(&link);
     let mut harness = window(&folder.scene());
@@ -82,7 +82,7 @@ fn a_device_that_vanishes_while_armed_is_a_notice_and_can_be_connected_again() {
 #[test]
 fn a_device_that_comes_back_under_another_name_is_told_and_connects_with_one_click() {
     let folder = Folder::new("replugged");
-    let (link, other) = (folder.0.join("array"), folder.0.join("array-2"));
+    let (link, other) = (folder.path("array"), folder.path("array-2"));
     let mut device = Device::behind(&link);
     let mut harness = window(&folder.scene());
     harness.run();

@@ -108,7 +108,7 @@ fn a_vanished_textile_is_refused_with_a_notice_and_the_last_state_stays() {
     let folder = Folder::new("vanished");
     let mut harness = window(&folder.scene());
     harness.run();
-    let other = folder.0.join("library/other");
+    let other = folder.path("library/other");
     fs::create_dir_all(&other).unwrap();
     fs::write(
         other.join("textile.toml"),
@@ -213,7 +213,7 @@ fn an_exploration_is_recorded_replayed_stepped_and_saved() {
     press(&mut harness, Modifiers::NONE, Key::Period);
     assert_eq!(harness.state().replayed_tick(), Some(held + 1), "one tick");
     press(&mut harness, Modifiers::COMMAND, Key::E);
-    let path = folder.0.join("take.csv");
+    let path = folder.path("take.csv");
     type_path(&mut harness, path.to_str().unwrap());
     let text = fs::read_to_string(&path).unwrap();
     assert_eq!(
@@ -234,7 +234,7 @@ fn an_exploration_is_recorded_replayed_stepped_and_saved() {
 #[test]
 fn a_recording_that_is_none_is_refused_with_its_line() {
     let folder = Folder::new("norecording");
-    let path = folder.0.join("broken.csv");
+    let path = folder.path("broken.csv");
     fs::write(&path, "t_s,x_mm,y_mm\n0,1,2\n0,three,4\n").unwrap();
     let mut harness = window(&folder.scene());
     harness.run();

@@ -6,7 +6,7 @@ mod over_cloth;
 mod spectra;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ use crate::app::compare::Standing;
 use crate::app::headless::Headless;
 use crate::app::lab::{Beginning, LabCommand};
 use crate::app::workspace::Overlay;
-use crate::files::{self, Table};
+use crate::files::{self, ScratchFolder, Table};
 use crate::tactile::Band;
 use crate::{figure, quantity};
 
@@ -108,24 +108,6 @@ impl Headless {
 
     fn notices(&self) -> String {
         self.bench.notices().join("\n")
-    }
-}
-
-/// A folder that is removed when dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("selvedge-export-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.0).unwrap();
     }
 }
 
@@ -253,10 +235,10 @@ fn the_timeline_holds_speed_and_means_of_every_tick() {
 
 #[test]
 fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
-    let folder = Folder::new("seen");
+    let folder = ScratchFolder::made("seen");
     let mut desk = Headless::collected(60);
     for what in ALL {
-        let path = folder.0.join(what.file_name(Kind::Csv));
+        let path = folder.join(what.file_name(Kind::Csv));
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         desk.pass_ticks(7);
@@ -270,18 +252,18 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
         assert!(desk.bench.transient.ask.is_none(), "answered");
     }
     assert_eq!(desk.notices(), "");
-    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), ALL.len());
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), ALL.len());
 }
 
 #[test]
 fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
-    let folder = Folder::new("kind");
+    let folder = ScratchFolder::made("kind");
     let mut desk = Headless::explored(30);
     let purpose = Purpose::Export(Exportable::Pane(Pane::DriveWave));
     desk.file(FileCommand::Ask(purpose));
     desk.pass_ticks(2);
     for name in ["wave.pdf", "wave", "wave.png.txt"] {
-        let path = folder.0.join(name);
+        let path = folder.join(name);
         desk.file(FileCommand::Use(purpose, path));
         let notices = desk.notices();
         assert!(notices.contains(name), "{notices}");
@@ -291,14 +273,14 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
         );
         assert!(desk.bench.transient.ask.is_some(), "the field stays");
     }
-    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 0);
-    let path = folder.0.join("WAVE.SVG");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+    let path = folder.join("WAVE.SVG");
     desk.file(FileCommand::Use(purpose, path.clone()));
     assert!(
         figure::is_well_formed(&fs::read_to_string(path).unwrap()),
         "mended"
     );
-    let nowhere = folder.0.join("missing/wave.csv");
+    let nowhere = folder.join("missing/wave.csv");
     desk.file(FileCommand::Use(purpose, nowhere));
     assert!(
         desk.notices().contains("cannot write"),

@@ -1,7 +1,5 @@
 //! Files that a window has opened before anything is exported.
 
-use std::{fs, thread};
-
 use super::*;
 use crate::app::importing::ImportCommand;
 use crate::app::importing::tests::export;
@@ -10,17 +8,16 @@ use crate::app::picturing::PictureCommand;
 impl Headless {
     /// Reads strokes of the tester.
     pub(super) fn import(&mut self) {
-        let folder = Folder::new(&format!("strokes-{:?}", thread::current().id()));
-        let path = folder.0.join("twill.txt");
-        fs::write(&path, export()).unwrap();
+        let folder = ScratchFolder::made("strokes");
+        let path = folder.write("twill.txt", export());
         self.dispatch(ImportCommand::Add(vec![path]));
         self.bench.follow_import(&self.ctx);
     }
 
     /// Works out a picture of a cloth.
     pub(super) fn open_picture(&mut self) {
-        let folder = Folder::new(&format!("picture-{:?}", thread::current().id()));
-        let path = folder.0.join("weave.png");
+        let folder = ScratchFolder::made("picture");
+        let path = folder.join("weave.png");
         let grey = |i: u32| {
             let (x, y) = (f64::from(i % 160), f64::from(i / 160));
             let shares = [0.45 * x, 0.35 * y, 0.45 * x + 0.35 * y].map(f64::sin);

@@ -252,7 +252,7 @@ pub(super) const OPTIONS: &[FaultOption] = &[
         "The supply trips where the amplifiers take more than so many mA",
         |said, text| whole(text, "current in mA")
             .map(|most_ma| said.faults.over_current_ma = Some(most_ma))),
-    once!("hv-sag-at", "High voltage sags at", Device, HvSag, 
+    once!("hv-sag-at", "High voltage sags at", Device, HvSag,
         "The high voltage breaks down, for 2s"),
     option!("dead", "Dead channels", Channels, Many, "CHANNEL", "", "3",
         "Channels that move nothing, from 0",

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
+use crate::experiment::session::tests::any_answer;
 use crate::files::ScratchFolder as Scratch;
 use crate::numerics::Random;
 
@@ -15,40 +16,6 @@ fn files_of(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         (name, fs::read(entry.path()).unwrap())
     };
     entries.map(|entry| of(entry.unwrap())).collect()
-}
-
-/// Whatever may be answered.
-fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
-    match task {
-        Task::Rank { .. } => {
-            let mut ranks = [1, 2, 3, 4];
-            random.shuffle(&mut ranks);
-            Answer::Ranks(ranks)
-        }
-        Task::OddOne { .. } => odd(task, random.index(3) == 0, Grade::ALL[random.index(3)]),
-        Task::Adjust { starts, .. } => Answer::Adjusted {
-            values: starts.clone(),
-            steps: Vec::new(),
-        },
-        Task::Judge { .. } | Task::JudgePair { .. } => judged(task, random.index(2) == 0, 2),
-        Task::Interval { .. } => Answer::Chosen {
-            position: random.index(2),
-            confidence: None,
-        },
-        Task::Estimate { .. } => Answer::Magnitude(1.0 + random.uniform()),
-        Task::Rate { .. } => {
-            let Method::Rating(rating) = &design.method else {
-                panic!("no rating");
-            };
-            Answer::Ratings(
-                rating
-                    .scales
-                    .iter()
-                    .map(|_| 100.0 * random.uniform())
-                    .collect(),
-            )
-        }
-    }
 }
 
 fn is_picture(file: &str) -> bool {

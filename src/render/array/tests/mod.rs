@@ -14,7 +14,7 @@ mod response;
 mod rules;
 
 use super::*;
-use crate::geometry::{Displacement, Frame, Point, Rotation};
+use crate::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use crate::render::{ContactorArray, PlacedSurface};
 use crate::surface::Surface;
 use std::sync::Arc;

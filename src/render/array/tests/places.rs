@@ -7,6 +7,12 @@ use crate::tactile::Band;
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
+/// A cloth with one wave, and the 24.
+fn one_cloth() -> RenderScene {
+    let cloth = cloth::uniform(cloth::sine(1.0, 0.5));
+    scene_of(vec![placed(&cloth, [0.0, 0.0], 0.0)], exeter())
+}
+
 #[test]
 fn the_textile_listed_last_is_on_top() {
     let (weak, strong) = (cloth::sine(1.0, 0.5), cloth::sine(8.0, 0.5));
@@ -56,14 +62,7 @@ fn a_hundred_overlapping_textiles_are_felt_as_the_topmost() {
 
 #[test]
 fn contactors_beyond_an_edge_are_silent_and_those_inside_sound() {
-    let scene = scene_of(
-        vec![placed(
-            &cloth::uniform(cloth::sine(1.0, 0.5)),
-            [0.0, 0.0],
-            0.0,
-        )],
-        exeter(),
-    );
+    let scene = one_cloth();
     for method in METHODS {
         let mut renderer = renderer(&scene, method);
         let frame = &renderer.tick(&[pose([0.0, 50.0], [90.0, 0.0])])[0];
@@ -148,14 +147,7 @@ fn contactors_of_a_row_share_the_weft_and_of_a_column_the_warp() {
 
 #[test]
 fn a_turning_display_moves_its_contactors_apart() {
-    let scene = scene_of(
-        vec![placed(
-            &cloth::uniform(cloth::sine(1.0, 0.5)),
-            [0.0, 0.0],
-            0.0,
-        )],
-        exeter(),
-    );
+    let scene = one_cloth();
     for method in METHODS {
         let mut renderer = renderer(&scene, method);
         let turning = Pose {

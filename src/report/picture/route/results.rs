@@ -2,7 +2,7 @@
 
 use super::felt::{Felt, rank_correlation};
 use super::ways::{Subject, Way};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::numerics::median;
 use crate::report::{Bench, Findings, Row, Timing};
 use crate::surface::BIN_SPACING_PER_MM;
@@ -316,14 +316,10 @@ fn levels(results: &[Tried], band: usize, name: &str) -> Plot {
         style: Style::Dashed,
         ..Series::default()
     });
-    let axis = |label: String| Axis {
-        label,
-        ..Axis::default()
-    };
     Plot {
         title: format!("Level at {name} Hz by every route against the relief's own"),
-        x: axis(format!("A{name} of the relief, dB re 1 µm")),
-        y: axis(format!("A{name} by the route, dB re 1 µm")),
+        x: Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
+        y: Axis::linear(format!("A{name} by the route, dB re 1 µm")),
         series,
         footnote: "100 mm/s; a dot a cloth and route. Above the line a cloth feels stronger than \
                    it is."
@@ -358,15 +354,8 @@ fn spectra(fine: &Tried) -> Plot {
     }
     Plot {
         title: format!("Spectrum along the warp of {}", fine.name),
-        x: Axis {
-            label: "wavenumber, cycles/mm".to_owned(),
-            ..Axis::default()
-        },
-        y: Axis {
-            label: "amplitude a bin, µm".to_owned(),
-            scale: Scale::Log,
-            range: None,
-        },
+        x: Axis::linear("wavenumber, cycles/mm"),
+        y: Axis::log("amplitude a bin, µm"),
         series: all,
         footnote: "Rms over all places of the stroke.".to_owned(),
     }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use super::*;
+use crate::files::ScratchFolder;
 use crate::textile::{Construction, Library, Words};
 
 #[test]
@@ -137,10 +138,10 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
         fibre: "cotton".to_owned(),
         ..Words::of("Twill")
     };
-    let folder = std::env::temp_dir().join(format!("selvedge-kes-{}", std::process::id()));
+    let folder = ScratchFolder::new("kes");
     crate::textile::write(&import.files(&words).unwrap(), &folder.join("twill")).unwrap();
     let textile = Library::open(&folder).unwrap().load("twill").unwrap();
-    std::fs::remove_dir_all(&folder).ok();
+    drop(folder);
     let trace = textile.friction();
     assert!(
         trace.is_err(),

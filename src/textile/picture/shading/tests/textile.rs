@@ -1,10 +1,9 @@
 //! A shape to the fingertip: files, manifests, and what is refused.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::*;
-use crate::files::FileError;
+use crate::files::{FileError, ScratchFolder};
 use crate::surface::{Direction, Representation};
 use crate::textile::{BuiltFile, Library, Manifest, Source, TextileError, write};
 
@@ -45,9 +44,8 @@ fn source(manifest: &Manifest) -> PictureSource {
 }
 
 /// A library of one textile in a folder of its own.
-fn library(test: &str, files: &[BuiltFile]) -> (PathBuf, Library) {
-    let folder = format!("selvedge-shading-{test}-{}", std::process::id());
-    let folder = std::env::temp_dir().join(folder);
+fn library(test: &str, files: &[BuiltFile]) -> (ScratchFolder, Library) {
+    let folder = ScratchFolder::new(test);
     write(files, &folder.join(NAME)).unwrap();
     let library = Library::open(&folder).unwrap();
     (folder, library)
@@ -99,7 +97,7 @@ fn a_textile_of_a_picture_says_how_it_was_found_and_is_felt() {
         text.contains("kind = \"picture\"") && !text.contains("= nan"),
         "{text}"
     );
-    let (folder, library) = library("felt", &files);
+    let (_folder, library) = library("felt", &files);
     let textile = library.load(NAME).unwrap();
     for direction in Direction::ALL {
         let profile = textile.surface().profile(direction).unwrap();
@@ -108,7 +106,6 @@ fn a_textile_of_a_picture_says_how_it_was_found_and_is_felt() {
     }
     assert!(textile.fall_backs().is_empty());
     assert!(textile.appearance().unwrap().is_some());
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
@@ -117,8 +114,8 @@ fn the_map_alone_gives_the_same_strokes_and_an_areal_surface() {
     let alone = with_source(&files, |keys| {
         keys.set_files(crate::textile::ProfileFiles::default(), None);
     });
-    let (folder, whole) = library("whole", &files);
-    let (folder_alone, map) = library("alone", &alone);
+    let (_whole_folder, whole) = library("whole", &files);
+    let (_map_folder, map) = library("alone", &alone);
     let [a, b] = [&whole, &map].map(|library| library.load(NAME).unwrap());
     for direction in Direction::ALL {
         let [a, b] = [&a, &b].map(|textile| textile.surface().profile(direction).unwrap());
@@ -129,12 +126,9 @@ fn the_map_alone_gives_the_same_strokes_and_an_areal_surface() {
         );
     }
     let areal = with_source(&files, |keys| keys.representation = Representation::Areal);
-    let (folder_areal, areal) = library("areal", &areal);
+    let (_areal_folder, areal) = library("areal", &areal);
     let surface = areal.load(NAME).unwrap();
     assert_eq!(surface.surface().representation(), Representation::Areal);
-    for folder in [folder, folder_alone, folder_areal] {
-        fs::remove_dir_all(folder).unwrap();
-    }
 }
 
 #[test]
@@ -168,10 +162,9 @@ fn another_map_than_the_one_hashed_is_refused() {
         keys.set_files(crate::textile::ProfileFiles::default(), None);
     });
     mixed[0] = other[0].clone();
-    let (folder, library) = library("mixed", &mixed);
+    let (_folder, library) = library("mixed", &mixed);
     let error = library.load(NAME).unwrap_err().to_string();
     assert!(error.contains("sha256"), "{error}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
