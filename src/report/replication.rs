@@ -120,3 +120,36 @@ fn row(one: &Comparison) -> Row {
         ..Row::default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::replication::Spread;
+
+    #[test]
+    fn a_row_says_what_was_printed_what_came_out_and_whether_it_lies_within() {
+        let one = |printed| Comparison {
+            paper: "a paper",
+            quantity: "right, %".to_owned(),
+            printed,
+            observer: "levels",
+            assumed: "nothing",
+            obtained: Spread {
+                n: 20,
+                mean: 50.0,
+                se: 0.5,
+                low: 45.0,
+                high: 55.0,
+            },
+        };
+        let beyond = row(&one(Some(64.0)));
+        assert_eq!(beyond.error, Some(14.0));
+        assert_eq!(beyond.further("printed_within"), Some("no"));
+        let inside = row(&one(Some(54.9)));
+        assert_eq!(inside.further("printed_within"), Some("yes"));
+        let nothing = row(&one(None));
+        assert_eq!(nothing.error, None);
+        assert_eq!(nothing.further("printed_within"), Some(""));
+        assert_eq!(nothing.further("obtained"), Some("50.000"));
+    }
+}

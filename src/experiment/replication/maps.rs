@@ -128,9 +128,12 @@ fn levels_db(laid: &Laid) -> [Vec<f64>; 2] {
     })
 }
 
+/// A number of a map.
+type Of = fn(&Mapped) -> f64;
+
 fn compare(found: &[Mapped], kind: &Kind, all: &mut Replication) {
     let [r1, r2] = printed::CORRELATIONS;
-    let rows: [(&str, Option<f64>, fn(&Mapped) -> f64); 5] = [
+    let rows: [(&str, Option<f64>, Of); 5] = [
         ("r of dimension 1 and A40", Some(r1), |m| m.turn.r[0]),
         ("r of dimension 2 and A320", Some(r2), |m| m.turn.r[1]),
         ("m² of the map laid over the levels", None, |m| m.m2),

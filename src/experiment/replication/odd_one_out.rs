@@ -154,7 +154,7 @@ fn chance(laid: &Laid, progress: &mut Progress<'_>) -> Result<Vec<Null>, Cancell
 fn elbow(found: &Found, chance: &[Null]) -> Computed<Elbow> {
     let data = found.data.as_ref().map_err(Clone::clone)?;
     let maps = unheard(|progress| mds().maps(data, 1..=MOST_DIMENSIONS, progress));
-    let maps = maps.map_err(|_| Undefined::because("stopped"))?;
+    let maps = maps.map_err(|_stopped| Undefined::because("stopped"))?;
     let losses: Vec<(usize, f64)> = maps.iter().map(|map| (map.dims, map.stress1)).collect();
     let five: Vec<f64> = chance.iter().map(Null::five_percent).collect();
     Ok(Elbow::of(&losses, chance.first().map(Null::mean), &five))

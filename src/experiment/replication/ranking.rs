@@ -7,7 +7,7 @@ use super::{printed, printed_line};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, scatter};
 use crate::experiment::observer::{Observer, Strategy, Weighting};
-use crate::figure::{Axis, Plot, Scale, Series, Style};
+use crate::figure::{Axis, Plot, Series, Style};
 use crate::progress::{Progress, unheard};
 use crate::quantity::fixed;
 use crate::statistics::{Computed, Summary};
@@ -100,11 +100,8 @@ impl Rankings<'_> {
         Ok(section)
     }
 
-    fn compare(
-        &self,
-        all: &mut Replication,
-        progress: &mut Progress<'_>,
-    ) -> Result<(), ExperimentError> {
+    /// What is compared with what was printed.
+    fn cases(&self) -> [(&'static str, &Laid, Kind, printed::Share); 5] {
         let with_error = |kind: Kind, assumed: &'static str| Kind {
             assumed,
             observer: Observer {
@@ -115,7 +112,7 @@ impl Rankings<'_> {
         };
         let differs = "real and virtual cloth differ by 3 dB in each band (sd)";
         let both = "cues beyond levels have the noise of levels; real and virtual differ by 3 dB";
-        let cases = [
+        [
             (VIRTUAL, self.virtually, by_levels(), printed::VIRTUAL),
             (
                 VIRTUAL,
@@ -136,7 +133,15 @@ impl Rankings<'_> {
                 with_error(practised(), both),
                 printed::REAL_PRACTISED,
             ),
-        ];
+        ]
+    }
+
+    fn compare(
+        &self,
+        all: &mut Replication,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), ExperimentError> {
+        let cases = self.cases();
         for (nth, (paper, laid, kind, printed)) in cases.into_iter().enumerate() {
             let n = self.options.n_studies;
             let part = [0.08 * nth as f64, 0.08 * (nth + 1) as f64];
@@ -334,8 +339,11 @@ fn looks_plot(swept: &[Swept]) -> (String, Plot) {
         printed_line("chance", printed::CHANCE.percent, ends),
     ]);
     let title = "A virtual target: identification over looks";
-    let mut plot = plot(title, "looks that exploring is worth", series);
-    plot.x.scale = Scale::Log;
+    let label = "looks that exploring is worth";
+    let plot = Plot {
+        x: Axis::log(label),
+        ..plot(title, label, series)
+    };
     ("looks".to_owned(), plot)
 }
 
@@ -354,15 +362,8 @@ fn errors_plot(swept: &[Swept]) -> (String, Plot) {
 fn plot(title: &str, label: &str, series: Vec<Series>) -> Plot {
     Plot {
         title: title.to_owned(),
-        x: Axis {
-            label: label.to_owned(),
-            ..Axis::default()
-        },
-        y: Axis {
-            label: "target ranked first, %".to_owned(),
-            range: Some([0.0, 100.0]),
-            ..Axis::default()
-        },
+        x: Axis::linear(label),
+        y: Axis::linear("target ranked first, %").within([0.0, 100.0]),
         series,
         ..Plot::default()
     }
