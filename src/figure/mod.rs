@@ -36,6 +36,7 @@ mod ticks;
 
 #[cfg(test)]
 pub(crate) use pixels::is_well_formed;
+pub use look::Paper;
 pub use pixels::{FigureError, Pixels};
 pub use plot::{Axis, Ink, Plot, Scale, Series, Style, Weight};
 pub use sheet::{At, ColourBar, Extent, Figure, Panel, Raster, Row, Rule, Tone, Upright, Words};
