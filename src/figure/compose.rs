@@ -200,7 +200,12 @@ impl<'a> LaidRow<'a> {
         for (value, label) in frame.y.labelled.iter().zip(&title.ticks) {
             let y_px = frame.y_px(*value).unwrap_or_else(|| frame.bottom_px());
             let right_px = frame.right_px();
-            hairline(body, frame.inks.grey, [right_px, y_px], [right_px + 4.0, y_px]);
+            hairline(
+                body,
+                frame.inks.grey,
+                [right_px, y_px],
+                [right_px + 4.0, y_px],
+            );
             let at = [right_px + 8.0, y_px + 4.0];
             text(body, at, ("start", 11, frame.inks.grey), label);
         }
@@ -226,12 +231,7 @@ fn draw_gradient(bar: &ColourBar, index: usize, frame: &Frame, body: &mut Vec<St
 }
 
 impl<'a> Laid<'a> {
-    fn of(
-        panel: &'a Panel,
-        corner_px: [f64; 2],
-        size_px: [f64; 2],
-        inks: &'static Inks,
-    ) -> Self {
+    fn of(panel: &'a Panel, corner_px: [f64; 2], size_px: [f64; 2], inks: &'static Inks) -> Self {
         let values = |axis: usize| {
             let points = panel.series.iter().flat_map(|series| &series.points);
             points.map(move |point| point[axis])
@@ -333,7 +333,12 @@ impl<'a> Laid<'a> {
         }
         body.push(line_of(rule, start, end, frame.inks));
         let (at, anchor) = label;
-        text(body, at, (anchor, 11, rule.ink.letters(frame.inks)), &rule.label);
+        text(
+            body,
+            at,
+            (anchor, 11, rule.ink.letters(frame.inks)),
+            &rule.label,
+        );
     }
 
     /// Words at their places; the names of dots below one another where they would touch.

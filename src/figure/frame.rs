@@ -88,7 +88,12 @@ impl Frame {
     pub(super) fn draw_marks(&self, body: &mut Vec<String>) {
         let (left_px, bottom_px) = (self.corner_px[0], self.bottom_px());
         for x_px in self.x.labelled.iter().filter_map(|value| self.x_px(*value)) {
-            hairline(body, self.inks.grey, [x_px, bottom_px], [x_px, bottom_px + 4.0]);
+            hairline(
+                body,
+                self.inks.grey,
+                [x_px, bottom_px],
+                [x_px, bottom_px + 4.0],
+            );
         }
         for y_px in self.y.labelled.iter().filter_map(|value| self.y_px(*value)) {
             hairline(body, self.inks.grey, [left_px - 4.0, y_px], [left_px, y_px]);

@@ -34,9 +34,9 @@ mod tests;
 mod text;
 mod ticks;
 
+pub use look::Paper;
 #[cfg(test)]
 pub(crate) use pixels::is_well_formed;
-pub use look::Paper;
 pub use pixels::{FigureError, Pixels};
 pub use plot::{Axis, Ink, Plot, Scale, Series, Style, Weight};
 pub use sheet::{At, ColourBar, Extent, Figure, Panel, Raster, Row, Rule, Tone, Upright, Words};

@@ -110,7 +110,12 @@ fn document(title: &str, height_px: f64, frame: &Frame, body: &str) -> String {
     let opening = opening(title, height_px, &[("frame".to_owned(), frame)]);
     let paper = paper(height_px, frame.inks);
     let mut heading = Vec::new();
-    text(&mut heading, [MARGIN_PX, 28.0], ("start", 16, frame.inks.ink), title);
+    text(
+        &mut heading,
+        [MARGIN_PX, 28.0],
+        ("start", 16, frame.inks.ink),
+        title,
+    );
     let heading = heading.concat();
     format!("{opening}{paper}{heading}{body}</svg>\n")
 }

@@ -128,8 +128,7 @@ impl Journal {
     /// asked for and let go at once: who opens the table in that very moment is told that it is
     /// busy.
     pub fn is_written(path: &Path) -> bool {
-        let is_taken =
-            |file: File| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
+        let is_taken = |file: File| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
         File::open(path).is_ok_and(is_taken)
     }
 

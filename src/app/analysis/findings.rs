@@ -103,7 +103,9 @@ fn interim(found: &[Found]) -> Vec<String> {
     for one in found {
         let design = &one.design;
         let key = (&*design.study, &*design.experiment, &*design.hash);
-        let of_design = subjects.entry(key).or_insert_with(|| (one, BTreeSet::new()));
+        let of_design = subjects
+            .entry(key)
+            .or_insert_with(|| (one, BTreeSet::new()));
         of_design.1.insert(&one.subject.pseudonym);
     }
     let told = |(one, subjects): &(&Found, BTreeSet<&str>)| {

@@ -120,6 +120,7 @@ impl Analysing {
     }
 
     /// Runs of drawing that were begun.
+    #[cfg(test)]
     pub(crate) fn n_drawn(&self) -> u64 {
         self.pictures.n_begun()
     }
@@ -156,7 +157,7 @@ impl Analysing {
     }
 
     /// Stops the analysis under way; the last result stays.
-    pub(crate) fn stop(&mut self) {
+    pub(crate) fn stop(&self) {
         if let Some(task) = &self.task {
             task.stop();
         }

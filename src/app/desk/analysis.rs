@@ -13,12 +13,11 @@ impl Desk<'_> {
         let experiment = &transient.experiment;
         let held = experiment.held.as_deref();
         let analysing = &mut transient.analysing;
-        match held {
-            Some(held) => analysing.offer(held.log.parent()),
-            None => {
-                analysing.is_uncovered = false;
-                analysing.offer(Some(&experiment.form.folder()));
-            }
+        if let Some(held) = held {
+            analysing.offer(held.log.parent());
+        } else {
+            analysing.is_uncovered = false;
+            analysing.offer(Some(&experiment.form.folder()));
         }
         let mut fields = analysing.fields.clone();
         let mut hands = AnalysisHands {

@@ -9,6 +9,7 @@ use crate::app::arrangement::{self, Pane};
 use crate::app::command::{FileCommand, Purpose, ShowCommand};
 use crate::app::export::Exportable;
 use crate::app::window::Workbench;
+use crate::experiment::analysis::Table;
 
 impl Workbench {
     pub(super) fn dispatch_analysis(&mut self, ctx: &egui::Context, command: AnalysisCommand) {
@@ -27,7 +28,7 @@ impl Workbench {
             AnalysisCommand::Stop => analysing.stop(),
             AnalysisCommand::Select(section) => analysing.select(section),
             AnalysisCommand::Uncover(is_uncovered) => analysing.is_uncovered = is_uncovered,
-            AnalysisCommand::CopyTable(nth) => match analysing.table(nth).map(|t| t.to_csv()) {
+            AnalysisCommand::CopyTable(nth) => match analysing.table(nth).map(Table::to_csv) {
                 Some(Ok(text)) => ctx.copy_text(text),
                 Some(Err(error)) => self.transient.notices.give(error.to_string()),
                 None => {}

@@ -6,8 +6,9 @@ use eframe::egui::Theme;
 
 use super::write::ExportError;
 use super::{
-    Exportable, Exported, Kind, Origin, accuracy, analysis, collection, comparison, compression, contactors,
-    drive, import, lab, link, map, picture, response, spatial, spectrograms, timeline, why,
+    Exportable, Exported, Kind, Origin, accuracy, analysis, collection, comparison, compression,
+    contactors, drive, import, lab, link, map, picture, response, spatial, spectrograms, timeline,
+    why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;

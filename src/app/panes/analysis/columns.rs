@@ -36,6 +36,8 @@ pub(crate) struct TableLook {
     pub(super) columns: Vec<ColumnLook>,
     /// All of them with the space between, points.
     pub(super) width: f32,
+    /// Whether one of them has a unit.
+    pub(super) has_units: bool,
 }
 
 /// How a column is laid out.
@@ -59,6 +61,7 @@ impl TableLook {
             .collect();
         let widths: f32 = columns.iter().map(|column| column.width + GAP).sum();
         Self {
+            has_units: columns.iter().any(|column| !column.unit.is_empty()),
             columns,
             width: widths,
         }
@@ -69,7 +72,14 @@ impl ColumnLook {
     fn of(ui: &Ui, table: &Table, at: usize) -> Self {
         let column = &table.columns[at];
         let cells = || table.rows.iter().filter_map(move |row| row.get(at));
-        let decimals = decimals(cells().filter_map(Cell::number), &column.name);
+        let has_texts = cells().any(|cell| matches!(cell, Cell::Text(_)));
+        let digits = decimals(cells().filter_map(Cell::number), &column.name);
+        // Dashes alone stand where numbers would.
+        let decimals = if has_texts {
+            digits
+        } else {
+            digits.or(Some(0))
+        };
         let (heading, unit) = headed(column);
         let mut texts: Vec<String> = cells().map(|cell| told(cell, column, decimals)).collect();
         texts.sort_by_key(|text| std::cmp::Reverse(text.chars().count()));
@@ -111,7 +121,8 @@ fn headed(column: &Column) -> (String, String) {
         return (words.to_owned(), unit.to_owned());
     }
     let known = UNITS.iter().find(|(end, _)| column.name.ends_with(end));
-    let unit = known.map(|(_, unit)| *unit).filter(|unit| !heading.contains(unit));
+    let says = |unit: &&str| heading.split(' ').next_back() == Some(unit);
+    let unit = known.map(|(_, unit)| *unit).filter(|unit| !says(unit));
     (heading, unit.unwrap_or_default().to_owned())
 }
 
@@ -224,7 +235,12 @@ mod tests {
         let pair = |heading: &str, unit: &str| (heading.to_owned(), unit.to_owned());
         assert_eq!(of("angle_deg", "angle, °"), pair("angle", "°"));
         assert_eq!(of("threshold_db", "threshold"), pair("threshold", "dB"));
-        assert_eq!(of("ci_low_percent", "95 % CI from"), pair("95 % CI from", ""));
+        let from = pair("95 % CI from", "%");
+        assert_eq!(of("ci_low_percent", "95 % CI from"), from);
+        assert_eq!(
+            of("share_percent", "called real %"),
+            pair("called real %", "")
+        );
         assert_eq!(of("percent", "%"), pair("%", ""));
         assert_eq!(of("d_prime", "d′, 4-AFC"), pair("d′, 4-AFC", ""));
     }
@@ -234,7 +250,10 @@ mod tests {
         let p = column("p", "p");
         let cell = Cell::Undefined("one subject has no spread".to_owned());
         assert_eq!(told(&cell, &p, Some(4)), "–");
-        assert_eq!(tip(&cell, &p), "p: not computable: one subject has no spread");
+        assert_eq!(
+            tip(&cell, &p),
+            "p: not computable: one subject has no spread"
+        );
         assert_eq!(tip(&Cell::Number(-0.125), &p), "p: −0.125");
     }
 }

@@ -23,14 +23,14 @@ const STEP_PX: f32 = 16.0;
 /// The room of the button on a figure, points.
 const SAVE: [f32; 2] = [64.0, 24.0];
 
-/// How wide a figure is in a pane, points.
-fn width(ui: &Ui) -> f32 {
-    ui.available_width().clamp(WIDTHS[0], WIDTHS[1])
+/// How wide a figure is in a room of this width, points.
+fn width(room: f32) -> f32 {
+    room.clamp(WIDTHS[0], WIDTHS[1])
 }
 
-/// How figures are wanted here.
-pub(super) fn sight(ui: &Ui) -> Sight {
-    let px = (width(ui) * ui.ctx().pixels_per_point() / STEP_PX).ceil() * STEP_PX;
+/// How figures are wanted in a room of this width.
+pub(super) fn sight(ui: &Ui, room: f32) -> Sight {
+    let px = (width(room) * ui.ctx().pixels_per_point() / STEP_PX).ceil() * STEP_PX;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -56,17 +56,17 @@ pub(super) fn picture_of<'a>(
     pictures.images.get(nth).filter(|_| is_same)
 }
 
-/// Shows a figure.
+/// Shows a figure in a room of this width.
 pub(super) fn show(
     ui: &mut Ui,
-    (nth, drawn): (usize, &Drawn),
+    (nth, drawn, room): (usize, &Drawn, f32),
     picture: Option<&Result<Arc<ColorImage>, String>>,
     looks: &mut Looks,
     wishes: &mut Wishes,
 ) {
     let [laid_width, laid_height] = drawn.figure.size_px();
     #[expect(clippy::cast_possible_truncation, reason = "a ratio, for the screen")]
-    let size = vec2(1.0, (laid_height / laid_width) as f32) * width(ui);
+    let size = vec2(1.0, (laid_height / laid_width) as f32) * width(room);
     let area = ScrollArea::horizontal()
         .id_salt(("figure", nth))
         .auto_shrink([false, true]);
@@ -79,8 +79,10 @@ pub(super) fn show(
             Some(Err(line)) => say(ui, rect, line),
             None => say(ui, rect, title),
         }
+        // Within reach however wide the picture is.
+        let right = rect.right().min(ui.clip_rect().right());
         let corner = Rect::from_min_size(
-            pos2(rect.right() - SAVE[0], rect.top() + 10.0),
+            pos2(right - SAVE[0], rect.top() + 10.0),
             vec2(SAVE[0], SAVE[1]),
         );
         let mut child = ui.new_child(UiBuilder::new().max_rect(corner));
@@ -104,7 +106,8 @@ fn paint(ui: &Ui, rect: Rect, (nth, image): (usize, &Arc<ColorImage>), looks: &m
     }
     if let Some((_, texture)) = kept {
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
+        ui.painter()
+            .image(texture.id(), rect, whole, Color32::WHITE);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use eframe::egui::{ProgressBar, Role, Ui, WidgetInfo, vec2};
+use eframe::egui::{Align, Layout, ProgressBar, Role, Ui, WidgetInfo, vec2};
 
 use crate::app::analysis::{AnalysisCommand, AnalysisView, Choice, Effort, Fields};
 use crate::app::command::{FileCommand, Purpose};
@@ -15,17 +15,22 @@ use crate::app::widgets::{button, fold, toggle};
 const NAME: f32 = 44.0;
 
 /// Shows it all.
-pub(super) fn show(
-    ui: &mut Ui,
-    view: &AnalysisView<'_>,
-    fields: &mut Fields,
-    wishes: &mut Wishes,
-) {
-    let any = f32::INFINITY;
+pub(super) fn show(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wishes: &mut Wishes) {
+    let mut name = None;
     row_of(ui, NAME, ("folder", ""), |ui, label| {
-        let hint = "/path/to/study";
-        text(ui, label, &mut fields.folder, (hint, any, Need::Optional));
+        name = Some(label.clone());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let tip = "Choose a folder and analyse it";
+            if toggle(ui, "choose…", false, tip) {
+                wishes.push(FileCommand::Ask(Purpose::OpenLogs).into());
+            }
+        });
     });
+    if let Some(name) = name {
+        // Below its name, since paths are long.
+        let about = ("/path/to/study", f32::INFINITY, Need::Optional);
+        text(ui, &name, &mut fields.folder, about);
+    }
     row_of(ui, NAME, ("seed", ""), |ui, label| {
         text(ui, label, &mut fields.seed, ("1", 72.0, Need::Optional));
         show_effort(ui, view.choice, wishes);
@@ -38,7 +43,7 @@ pub(super) fn show(
             wishes.push(AnalysisCommand::Stop.into());
         }
     } else {
-        show_buttons(ui, view, wishes);
+        show_button(ui, view, wishes);
     }
     if let Some(line) = view.failure {
         note(ui, line, Tone::Wrong);
@@ -48,21 +53,16 @@ pub(super) fn show(
     }
 }
 
-fn show_buttons(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        let verb = if view.found.is_some() {
-            "Analyse again"
-        } else {
-            "Analyse"
-        };
-        if button(ui, verb, "Read the logs and compute everything", view.refusal) {
-            wishes.push(AnalysisCommand::Begin.into());
-        }
-        if button(ui, "Choose…", "Choose a folder and analyse it", None) {
-            wishes.push(FileCommand::Ask(Purpose::OpenLogs).into());
-        }
-    });
+fn show_button(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
+    let verb = if view.found.is_some() {
+        "Analyse again"
+    } else {
+        "Analyse"
+    };
+    let tip = "Read the logs and compute everything";
+    if button(ui, verb, tip, view.refusal) {
+        wishes.push(AnalysisCommand::Begin.into());
+    }
 }
 
 fn show_effort(ui: &mut Ui, choice: &Choice, wishes: &mut Wishes) {

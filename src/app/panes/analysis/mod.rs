@@ -107,6 +107,7 @@ fn show_found(
     inside_margin(ui, room, |ui| {
         for warning in &found.warnings {
             note(ui, warning, Tone::Wrong);
+            ui.add_space(STEP);
         }
         if let Some(who) = view.held {
             show_held(ui, who, view.is_covered, wishes);
@@ -118,7 +119,9 @@ fn show_found(
         let area = ScrollArea::vertical()
             .id_salt(("analysed", &at.key))
             .auto_shrink(false);
-        area.show(ui, |ui| section::show(ui, view, at, looks, wishes))
+        // With or without a bar that scrolls, figures are as wide.
+        let room = ui.available_width();
+        area.show(ui, |ui| section::show(ui, view, (at, room), looks, wishes))
             .inner
     })
 }
@@ -142,7 +145,10 @@ fn show_held(ui: &mut Ui, who: &str, is_covered: bool, wishes: &mut Wishes) {
         };
         ui.label(RichText::new(words).font(theme::small()));
         let (verb, tip) = if is_covered {
-            ("Show them", "Results are seen by whoever looks at this screen")
+            (
+                "Show them",
+                "Results are seen by whoever looks at this screen",
+            )
         } else {
             ("Cover them", "Nobody who takes part ought to see results")
         };
@@ -163,7 +169,9 @@ fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wishes:
     ScrollArea::vertical().show(&mut child, |ui| {
         ui.spacing_mut().item_spacing.y = STEP;
         ui.label(RichText::new("Analyse sessions").font(theme::title()));
-        ui.label(RichText::new("Choose the folder that the sessions were kept in.").color(palette.text));
+        let words = "Choose the folder that the sessions were kept in.";
+        ui.label(RichText::new(words).color(palette.text));
+        ui.add_space(STEP);
         if let Some(who) = view.held {
             let words = format!(
                 "A session of {who} is being held. Who takes part is left out unless you ask for it."

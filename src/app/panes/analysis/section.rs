@@ -12,7 +12,9 @@ use crate::app::theme::{self, Palette, STEP};
 use crate::experiment::analysis::Section;
 
 /// Lines longer than this are hard to read, points.
-const MEASURE: f32 = 680.0;
+const MEASURE: f32 = 640.0;
+/// The bar at the right of what scrolls, points.
+const BAR: f32 = 12.0;
 
 /// Tables and figures of the section at hand as they are laid out.
 #[derive(Default)]
@@ -45,11 +47,11 @@ impl std::fmt::Debug for Looks {
     }
 }
 
-/// Shows a section; says how its figures are wanted, if it has any.
+/// Shows a section in a room of this width; says how its figures are wanted, if it has any.
 pub(super) fn show(
     ui: &mut Ui,
     view: &AnalysisView<'_>,
-    section: &Section,
+    (section, room): (&Section, f32),
     looks: &mut Looks,
     wishes: &mut Wishes,
 ) -> Option<Sight> {
@@ -63,11 +65,12 @@ pub(super) fn show(
             ui.add(Label::new(words::job(note, palette)).wrap());
         });
     }
-    ui.add_space(2.0 * STEP);
-    let sight = (!section.figures.is_empty()).then(|| figure::sight(ui));
+    ui.add_space(3.0 * STEP);
+    let room = room - BAR;
+    let sight = (!section.figures.is_empty()).then(|| figure::sight(ui, room));
     for (nth, drawn) in section.figures.iter().enumerate() {
         let picture = figure::picture_of(view, nth);
-        figure::show(ui, (nth, drawn), picture, looks, wishes);
+        figure::show(ui, (nth, drawn, room), picture, looks, wishes);
         ui.add_space(4.0 * STEP);
     }
     for (nth, one) in section.tables.iter().enumerate() {

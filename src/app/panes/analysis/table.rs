@@ -37,17 +37,14 @@ pub(super) fn show(
     };
     let look = look.get_or_insert_with(|| TableLook::of(ui, table));
     show_caption(ui, (nth, table), wishes);
-    let room = ui.available_width();
     let area = ScrollArea::horizontal()
         .id_salt(("table", nth))
         .auto_shrink([false, true]);
     area.show(ui, |ui| {
         let lines = look.columns.iter().map(|column| n_lines(ui, column)).max();
-        let head = HEAD_LINE * lines.unwrap_or(1) as f32 + 2.0 * STEP;
-        let size = vec2(
-            look.width.max(room.min(look.width)),
-            head + LINE * table.rows.len() as f32,
-        );
+        let n_lines = lines.unwrap_or(1) + usize::from(look.has_units);
+        let head = HEAD_LINE * n_lines as f32 + 2.0 * STEP;
+        let size = vec2(look.width, head + LINE * table.rows.len() as f32);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let sheet = Sheet {
             table,
@@ -79,18 +76,19 @@ fn show_caption(ui: &mut Ui, (nth, table): (usize, &Table), wishes: &mut Wishes)
     });
 }
 
-/// Lines that a heading and its unit take.
+/// Lines that a heading takes without its unit.
 fn n_lines(ui: &Ui, column: &ColumnLook) -> usize {
-    let job = heading(ui, column);
+    let job = heading(ui, column, &column.heading);
     ui.painter().layout_job(job).rows.len().min(MOST_HEAD_LINES)
 }
 
-/// A heading with its unit below or behind it, dimmer.
-fn heading(ui: &Ui, column: &ColumnLook) -> LayoutJob {
+/// A heading, or its unit, which is dimmer.
+fn heading(ui: &Ui, column: &ColumnLook, words: &str) -> LayoutJob {
     let palette = Palette::in_ui(ui);
-    let format = |color| TextFormat {
+    let is_unit = words == column.unit;
+    let format = TextFormat {
         font_id: theme::small(),
-        color,
+        color: if is_unit { palette.dim } else { palette.text },
         line_height: Some(HEAD_LINE),
         ..TextFormat::default()
     };
@@ -107,10 +105,7 @@ fn heading(ui: &Ui, column: &ColumnLook) -> LayoutJob {
         },
         ..LayoutJob::default()
     };
-    job.append(&column.heading, 0.0, format(palette.text));
-    if !column.unit.is_empty() {
-        job.append(&format!(" {}", column.unit), 0.0, format(palette.dim));
-    }
+    job.append(words, 0.0, format);
     job
 }
 
@@ -156,7 +151,11 @@ impl Sheet<'_> {
     /// What is painted of the first column, and of the others, which go behind it.
     fn painters(&self, ui: &Ui) -> [Painter; 2] {
         let clip = ui.clip_rect();
-        let first = self.look.columns.first().map_or(0.0, |c| c.width + 0.5 * GAP);
+        let first = self
+            .look
+            .columns
+            .first()
+            .map_or(0.0, |c| c.width + 0.5 * GAP);
         let edge = clip.left().max(self.rect.left()) + first;
         let rest = clip.with_min_x(edge.min(clip.right()));
         [ui.painter().clone(), ui.painter().with_clip_rect(rest)]
@@ -168,7 +167,8 @@ impl Sheet<'_> {
         let painters = self.painters(ui);
         for row in from..to {
             let top = self.rect.top() + self.head + LINE * row as f32;
-            let line = Rect::from_min_size(pos2(self.rect.left(), top), vec2(self.rect.width(), LINE));
+            let line =
+                Rect::from_min_size(pos2(self.rect.left(), top), vec2(self.rect.width(), LINE));
             let id = ui.scope_id().with(("row", self.nth, row));
             let response = ui.interact(line, id, Sense::hover());
             response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.said(row)));
@@ -181,7 +181,10 @@ impl Sheet<'_> {
                 let cell = Rect::from_min_size(pos2(left, top), vec2(column.width, LINE));
                 self.paint(ui, &painters[at.min(1)], (row, at), (cell, column));
             }
-            if let Some(at) = response.hover_pos().and_then(|to| self.column_at(to.x, clip)) {
+            if let Some(at) = response
+                .hover_pos()
+                .and_then(|to| self.column_at(to.x, clip))
+            {
                 let words = tip(&self.table.rows[row][at], &self.table.columns[at]);
                 response.on_hover_text_at_pointer(words);
             }
@@ -233,7 +236,10 @@ impl Sheet<'_> {
         let palette = Palette::in_ui(ui);
         let most = (self.rect.bottom() - self.head).max(self.rect.top());
         let top = clip.top().clamp(self.rect.top(), most);
-        let head = Rect::from_min_size(pos2(self.rect.left(), top), vec2(self.rect.width(), self.head));
+        let head = Rect::from_min_size(
+            pos2(self.rect.left(), top),
+            vec2(self.rect.width(), self.head),
+        );
         ui.painter().rect_filled(head, 0, palette.panel);
         let bottom = head.bottom() - 1.0;
         let line = Stroke::new(1.0, palette.hairline);
@@ -241,13 +247,19 @@ impl Sheet<'_> {
         let painters = self.painters(ui);
         for at in 0..self.look.columns.len() {
             let (left, column) = self.across(at, clip);
-            let galley = ui.painter().layout_job(heading(ui, column));
             let x = match column.decimals {
                 Some(_) => left + column.width,
                 None => left,
             };
-            let corner = pos2(x, bottom - STEP - galley.size().y);
-            painters[at.min(1)].galley(corner, galley, palette.text);
+            let painter = &painters[at.min(1)];
+            let mut below = bottom - STEP;
+            if self.look.has_units {
+                let galley = painter.layout_job(heading(ui, column, &column.unit));
+                below -= HEAD_LINE;
+                painter.galley(pos2(x, below), galley, palette.dim);
+            }
+            let galley = painter.layout_job(heading(ui, column, &column.heading));
+            painter.galley(pos2(x, below - galley.size().y), galley, palette.text);
         }
     }
 
@@ -259,7 +271,9 @@ impl Sheet<'_> {
             Cell::Undefined(_) => tip(cell, column),
             Cell::Number(_) | Cell::Text(_) => {
                 let told = told(cell, column, look.decimals);
-                format!("{} {told} {}", look.heading, look.unit).trim().to_owned()
+                format!("{} {told} {}", look.heading, look.unit)
+                    .trim()
+                    .to_owned()
             }
         };
         cells.map(said).collect::<Vec<_>>().join(", ")

@@ -4,6 +4,9 @@ use eframe::egui::text::{LayoutJob, TextFormat};
 
 use crate::app::theme::{self, Palette};
 
+/// Height of a line, points.
+const LINE: f32 = 15.0;
+
 /// How a piece of a sentence is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Manner {
@@ -42,7 +45,13 @@ fn pieces(words: &str) -> Vec<(&str, Manner)> {
 
 /// A sentence as it is read, without marks.
 pub(super) fn plain(words: &str) -> String {
-    pieces(words).into_iter().map(|(piece, _)| piece).collect()
+    let pieces = pieces(words).into_iter();
+    pieces.map(|(piece, _)| lettered(piece)).collect()
+}
+
+/// The window's fonts have no ᵀ: a transpose is written as M′ as well.
+fn lettered(piece: &str) -> String {
+    piece.replace('ᵀ', "′")
 }
 
 /// A sentence as it is drawn.
@@ -50,17 +59,17 @@ pub(super) fn job(words: &str, palette: &Palette) -> LayoutJob {
     let mut job = LayoutJob::default();
     for (piece, manner) in pieces(words) {
         let (font_id, color) = match manner {
-            Manner::Plain => (theme::body(), palette.dim),
-            Manner::Strong => (theme::body(), palette.text),
-            Manner::Name => (theme::number(), palette.text),
+            Manner::Plain => (theme::small(), palette.dim),
+            Manner::Strong => (theme::small(), palette.text),
+            Manner::Name => (theme::small_number(), palette.text),
         };
         let format = TextFormat {
             font_id,
             color,
-            line_height: Some(19.0),
+            line_height: Some(LINE),
             ..TextFormat::default()
         };
-        job.append(piece, 0.0, format);
+        job.append(&lettered(piece), 0.0, format);
     }
     job
 }
@@ -84,6 +93,7 @@ mod tests {
             ]
         );
         assert_eq!(plain("**incomplete** (3 of 4)"), "incomplete (3 of 4)");
+        assert_eq!(plain("|M − Mᵀ|"), "|M − M′|");
         assert_eq!(plain(""), "");
     }
 }
