@@ -272,6 +272,20 @@ mod tests {
     }
 
     #[test]
+    fn whether_a_table_is_written_is_seen_without_touching_it() {
+        let folder = Folder::new("seen");
+        let path = folder.log();
+        assert!(!Journal::is_written(&path), "there is none");
+        let mut journal = Journal::create(&path, &COLUMNS).unwrap();
+        assert!(Journal::is_written(&path));
+        journal.append(&ROWS[0]).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        drop(journal);
+        assert!(!Journal::is_written(&path), "nobody does any more");
+        assert_eq!(fs::read(&path).unwrap(), bytes);
+    }
+
+    #[test]
     fn a_table_is_not_overwritten_and_has_one_writer() {
         let folder = Folder::new("lock");
         let path = folder.log();

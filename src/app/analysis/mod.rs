@@ -187,9 +187,9 @@ impl Analysing {
     pub(crate) fn poll(&mut self) {
         match taken(&mut self.task) {
             Some((Ok(found), _)) => self.take(found),
-            Some((Err(_), true)) => {}
             Some((Err(line), false)) => self.failure = Some(line),
-            None => {}
+            // Whoever stopped it knows.
+            Some((Err(_), true)) | None => {}
         }
         if let Some((outcome, _)) = taken(&mut self.writing) {
             self.written = Some(outcome);

@@ -50,6 +50,12 @@ pub(super) fn show(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wi
     } else if view.is_past && view.share.is_none() {
         let words = "What is shown was found with other choices: analyse again.";
         note(ui, words, Tone::Quiet);
+    } else if let Some(found) = view.found {
+        let words = match found.n_sessions {
+            1 => "1 session".to_owned(),
+            n => format!("{n} sessions"),
+        };
+        note(ui, &words, Tone::Quiet);
     }
 }
 

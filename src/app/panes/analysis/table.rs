@@ -286,3 +286,45 @@ fn number_font(cell: &Cell) -> FontId {
         Cell::Number(_) | Cell::Undefined(_) => theme::number(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_ten_thousand_rows_those_in_sight_are_laid_out() {
+        let table = Table {
+            rows: vec![Vec::new(); 10_000],
+            ..Table::default()
+        };
+        let look = TableLook {
+            columns: Vec::new(),
+            width: 100.0,
+            has_units: false,
+        };
+        let sheet = |top: f32| {
+            let head = 22.0;
+            let size = vec2(100.0, head + LINE * 10_000.0);
+            let rect = Rect::from_min_size(pos2(0.0, top), size);
+            let (table, look) = (&table, &look);
+            Sheet {
+                table,
+                look,
+                rect,
+                head,
+                nth: 0,
+            }
+        };
+        let clip = Rect::from_min_max(pos2(0.0, 0.0), pos2(100.0, 400.0));
+        assert_eq!(sheet(0.0).in_sight(clip), [0, 19], "from its top");
+        assert_eq!(
+            sheet(500.0).in_sight(clip),
+            [0, 0],
+            "below what is in sight"
+        );
+        let [from, to] = sheet(-100_022.0).in_sight(clip);
+        assert_eq!((from, to), (5000, 5021), "in its middle");
+        let [from, to] = sheet(-300_000.0).in_sight(clip);
+        assert_eq!((from, to), (10_000, 10_000), "above what is in sight");
+    }
+}
