@@ -233,7 +233,7 @@ fn figures_are_drawn_once_and_only_while_they_are_in_sight() {
     for image in &pictures.images[..2] {
         let image = image.as_ref().unwrap();
         let n_inked = image.pixels.iter().filter(|pixel| pixel.a() > 128).count();
-        assert!(image.size[0] >= 560 && n_inked > 2000, "{n_inked} pixels");
+        assert!(image.size[0] >= 540 && n_inked > 2000, "{n_inked} pixels");
     }
     window.pass(30);
     assert_eq!(analysing(&window).n_drawn(), 1, "nothing has changed");

@@ -17,7 +17,7 @@ use crate::experiment::analysis::Drawn;
 use crate::figure::Paper;
 
 /// Widths that a figure can be read at, points.
-const WIDTHS: [f32; 2] = [560.0, 900.0];
+const WIDTHS: [f32; 2] = [540.0, 900.0];
 /// Widths in px are multiples of this, so that not every step of a resize draws anew.
 const STEP_PX: f32 = 16.0;
 /// The room of the button on a figure, points.

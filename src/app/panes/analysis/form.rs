@@ -7,7 +7,7 @@ use eframe::egui::{Align, Layout, ProgressBar, Role, Ui, WidgetInfo, vec2};
 use crate::app::analysis::{AnalysisCommand, AnalysisView, Choice, Effort, Fields};
 use crate::app::command::{FileCommand, Purpose};
 use crate::app::panes::Wishes;
-use crate::app::panes::import::fields::{Need, Tone, note, row_of, text};
+use crate::app::panes::import::fields::{LINE, Need, Tone, note, row_of, text};
 use crate::app::theme::{Palette, STEP};
 use crate::app::widgets::{button, fold, toggle};
 
@@ -28,8 +28,12 @@ pub(super) fn show(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wi
     });
     if let Some(name) = name {
         // Below its name, since paths are long.
-        let about = ("/path/to/study", f32::INFINITY, Need::Optional);
-        text(ui, &name, &mut fields.folder, about);
+        let line = Layout::left_to_right(Align::Center);
+        ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+            ui.spacing_mut().interact_size.y = LINE - 2.0;
+            let about = ("/path/to/study", f32::INFINITY, Need::Optional);
+            text(ui, &name, &mut fields.folder, about);
+        });
     }
     row_of(ui, NAME, ("seed", ""), |ui, label| {
         text(ui, label, &mut fields.seed, ("1", 72.0, Need::Optional));

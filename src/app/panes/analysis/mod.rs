@@ -26,7 +26,7 @@ pub(crate) use section::Looks;
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 640.0;
 /// Width of the left column, points.
-const LEFT: f32 = 264.0;
+const LEFT: f32 = 244.0;
 /// What is said before anything was analysed.
 const EMPTY: [&str; 3] = [
     "A folder that sessions were kept in: logs as CSV, each with its .json beside it. Several \
