@@ -1,4 +1,4 @@
-//! The analysis of logs: a folder is typed, its numbers stand in the window, and can be taken along.
+//! The analysis of logs: a folder is typed, its numbers stand in the window and are taken along.
 
 use eframe::egui::OutputCommand;
 use eframe::egui::accesskit::Role;

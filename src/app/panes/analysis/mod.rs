@@ -1,7 +1,7 @@
 //! Analysis: what the logs in a folder say, section by section.
 //!
-//! Folder, choices and the sections on the left; the section at hand on the right: what to know, its
-//! figures, its tables. Draws what `app::analysis` found; asks for everything by commands.
+//! Folder, choices and the sections on the left; the section at hand on the right: what to know,
+//! its figures, its tables. Draws what `app::analysis` found; asks for everything by commands.
 
 mod columns;
 mod figure;
@@ -174,7 +174,8 @@ fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wishes:
         ui.add_space(STEP);
         if let Some(who) = view.held {
             let words = format!(
-                "A session of {who} is being held. Who takes part is left out unless you ask for it."
+                "A session of {who} is being held. Who takes part is left out unless you ask for \
+                 it."
             );
             note(ui, &words, Tone::Quiet);
         }
