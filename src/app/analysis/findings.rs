@@ -2,7 +2,7 @@
 //! know before looking at it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::Asked;
 use crate::app::experiment::title_of;
@@ -26,19 +26,23 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Writes tables, figures and the page to read into a folder.
-    pub(crate) fn write(&self, folder: &Path) -> Result<(), String> {
+    /// Where a report goes unless another folder is chosen.
+    pub(crate) fn report_folder(&self) -> PathBuf {
+        self.asked.folder.join("analysis")
+    }
+
+    /// Writes tables, figures and the page to read into a folder; says where. Beside the logs a
+    /// table would be taken for one: there it is a folder within.
+    pub(crate) fn write(&self, folder: PathBuf) -> Result<PathBuf, String> {
         let same = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        if same(folder) == same(&self.asked.folder) {
-            return Err(format!(
-                "{} holds the logs, and a table there would be taken for one; choose another \
-                 folder",
-                folder.display()
-            ));
-        }
-        self.analysis
-            .write(folder)
-            .map_err(|error| error.to_string())
+        let folder = if same(&folder) == same(&self.asked.folder) {
+            self.report_folder()
+        } else {
+            folder
+        };
+        let written = self.analysis.write(&folder);
+        written.map_err(|error| error.to_string())?;
+        Ok(folder)
     }
 }
 

@@ -165,8 +165,7 @@ impl Analysing {
 
     /// Where a report goes unless another folder is chosen.
     pub(crate) fn report_folder(&self) -> Option<PathBuf> {
-        let found = self.found.as_ref()?;
-        Some(found.asked.folder.join("analysis"))
+        Some(self.found.as_ref()?.report_folder())
     }
 
     /// Writes the report of the last result into a folder.
@@ -175,10 +174,7 @@ impl Analysing {
             return;
         };
         self.written = None;
-        let work = move |_: &mut crate::progress::Progress<'_>| {
-            found.write(&folder)?;
-            Ok(folder)
-        };
+        let work = move |_: &mut crate::progress::Progress<'_>| found.write(folder);
         self.writing = Some(Task::start(("selvedge-report", ctx), is_at_once, work));
         ctx.request_repaint();
     }

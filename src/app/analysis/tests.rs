@@ -89,15 +89,16 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
 
     window.dispatch(AnalysisCommand::Write(folder.0.clone()));
     window.pass(2);
-    let told = analysing(&window).view(None).written.unwrap().unwrap_err();
-    assert!(told.contains("choose another folder"), "{told}");
-    assert!(!folder.0.join("index.md").exists());
+    assert!(!folder.0.join("index.md").exists(), "not among the logs");
     let out = analysing(&window).report_folder().unwrap();
-    window.dispatch(AnalysisCommand::Write(out.clone()));
-    window.pass(2);
     assert_eq!(analysing(&window).view(None).written, Some(Ok(&*out)));
     let page = fs::read_to_string(out.join("index.md")).unwrap();
     assert_eq!(page, expected.page());
+    let beyond = out.join("index.md").join("beyond");
+    window.dispatch(AnalysisCommand::Write(beyond));
+    window.pass(2);
+    let line = analysing(&window).view(None).written.unwrap().unwrap_err();
+    assert!(line.contains("beyond") && !line.contains('\n'), "{line}");
     let again = unheard(|progress| find_out(asked.clone(), None, progress)).unwrap();
     assert_eq!(again.n_sessions, 3, "the report is no session");
 }
