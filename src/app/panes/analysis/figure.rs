@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{
     Align2, Color32, ColorImage, ImageData, Pos2, Rect, Role, ScrollArea, Sense, TextureOptions,
     Ui, UiBuilder, WidgetInfo, pos2, vec2,
@@ -18,8 +19,6 @@ use crate::figure::Paper;
 
 /// Widths that a figure can be read at, points.
 const WIDTHS: [f32; 2] = [540.0, 900.0];
-/// Widths in px are multiples of this, so that not every step of a resize draws anew.
-const STEP_PX: f32 = 16.0;
 /// The room of the button on a figure, points.
 const SAVE: [f32; 2] = [64.0, 24.0];
 
@@ -30,7 +29,7 @@ fn width(room: f32) -> f32 {
 
 /// How figures are wanted in a room of this width.
 pub(super) fn sight(ui: &Ui, room: f32) -> Sight {
-    let px = (width(room) * ui.ctx().pixels_per_point() / STEP_PX).ceil() * STEP_PX;
+    let px = (width(room) * ui.ctx().pixels_per_point()).round();
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -106,8 +105,20 @@ fn paint(ui: &Ui, rect: Rect, (nth, image): (usize, &Arc<ColorImage>), looks: &m
     }
     if let Some((_, texture)) = kept {
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+        let rect = sharp(rect, image.size, ui.ctx().pixels_per_point());
         ui.painter()
             .image(texture.id(), rect, whole, Color32::WHITE);
+    }
+}
+
+/// Where a picture stands pixel on pixel; as it is while it is drawn for another width.
+fn sharp(rect: Rect, size_px: [usize; 2], pixels_per_point: f32) -> Rect {
+    let size = vec2(size_px[0] as f32, size_px[1] as f32) / pixels_per_point;
+    let is_as_wide = (size.x - rect.width()).abs() * pixels_per_point < 1.0;
+    if is_as_wide {
+        Rect::from_min_size(rect.min.round_to_pixels(pixels_per_point), size)
+    } else {
+        rect
     }
 }
 
@@ -118,4 +129,22 @@ fn say(ui: &Ui, rect: Rect, words: &str) {
     let (font, ink) = (theme::small(), palette.dim);
     ui.painter()
         .text(rect.center(), Align2::CENTER_CENTER, words, font, ink);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_of_the_right_width_stands_pixel_on_pixel() {
+        let rect = Rect::from_min_size(pos2(10.3, 20.6), vec2(600.2, 300.0));
+        let stands = sharp(rect, [1200, 601], 2.0);
+        assert_eq!(stands.min, pos2(10.5, 20.5));
+        assert_eq!(stands.size(), vec2(600.0, 300.5));
+        assert_eq!(
+            sharp(rect, [900, 451], 2.0),
+            rect,
+            "drawn for another width"
+        );
+    }
 }
