@@ -21,13 +21,14 @@ const PICTURES: f32 = 236.0;
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// The workspace and what stands behind it.
-const FRONT: [Pane; 6] = [
+const FRONT: [Pane; 7] = [
     Pane::Workspace,
     Pane::Lab,
     Pane::Import,
     Pane::Picture,
     Pane::Collection,
     Pane::Participant,
+    Pane::Analysis,
 ];
 
 /// A part of the window that can be moved, stacked and hidden.
@@ -71,11 +72,13 @@ pub(crate) enum Pane {
     Participant,
     /// A session of an experiment, as who holds it sees it.
     Experimenter,
+    /// What the logs of experiments say.
+    Analysis,
 }
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 19] = [
+    pub(crate) const ALL: [Self; 20] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -95,6 +98,7 @@ impl Pane {
         Self::Picture,
         Self::Participant,
         Self::Experimenter,
+        Self::Analysis,
     ];
 
     /// Its title.
@@ -119,6 +123,7 @@ impl Pane {
             Self::Picture => "Picture",
             Self::Participant => "Participant",
             Self::Experimenter => "Experimenter",
+            Self::Analysis => "Analysis",
         }
     }
 
@@ -143,7 +148,8 @@ impl Pane {
             | Self::Import
             | Self::Picture
             | Self::Participant
-            | Self::Experimenter => self.title(),
+            | Self::Experimenter
+            | Self::Analysis => self.title(),
         }
     }
 
@@ -371,128 +377,4 @@ pub(crate) fn is_shown(tree: &Tree<Pane>, pane: Pane) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn from_text(text: &str) -> Option<Tree<Pane>> {
-        super::from_text(text, Perspective::Explore)
-    }
-
-    const SIZES: [Vec2; 3] = [
-        Vec2::new(1400.0, 900.0),
-        Vec2::new(1280.0, 720.0),
-        Vec2::new(700.0, 450.0),
-    ];
-
-    #[test]
-    fn every_default_holds_every_pane_and_survives_being_kept() {
-        for size in SIZES {
-            let tree = default_tree(size);
-            assert_eq!(
-                panes_of(&tree).map_or(0, |panes| panes.len()),
-                Pane::ALL.len()
-            );
-            let text = to_text(&tree).unwrap();
-            assert_eq!(from_text(&text).as_ref(), Some(&tree), "{size:?}");
-        }
-    }
-
-    #[test]
-    fn a_damaged_arrangement_is_not_taken() {
-        let tree = default_tree(SIZES[0]);
-        let text = to_text(&tree).unwrap();
-        let damaged = [
-            String::new(),
-            "null".to_owned(),
-            text.replace("\"Bridge\"", "\"Tuning\""),
-            text.replace("\"Bridge\"", "\"Orchestra\""),
-            text[..text.len() / 2].to_owned(),
-        ];
-        for text in damaged {
-            assert_eq!(from_text(&text), None, "{text}");
-        }
-        let mut without = tree.clone();
-        let bridge = tile_of(&without, Pane::Bridge).unwrap();
-        without.tiles.remove(bridge);
-        assert_eq!(panes_of(&without), None, "a tab leads nowhere");
-        let mut circle = tree.clone();
-        let root = circle.root().unwrap();
-        let tuning = tile_of(&circle, Pane::Tuning).unwrap();
-        let parent = circle.tiles.parent_of(tuning).unwrap();
-        if let Some(Tile::Container(container)) = circle.tiles.get_mut(parent) {
-            container.add_child(root);
-        }
-        assert_eq!(panes_of(&circle), None, "it goes round");
-    }
-
-    /// The tree as a program without these panes would have kept it.
-    fn without(tree: &Tree<Pane>, panes: &[Pane]) -> Tree<Pane> {
-        let mut tree = tree.clone();
-        for pane in panes {
-            let id = tile_of(&tree, *pane).unwrap();
-            tree.remove_recursively(id);
-        }
-        tree
-    }
-
-    #[test]
-    fn an_arrangement_from_before_a_pane_was_there_takes_it_in_as_a_tab() {
-        for size in SIZES {
-            let default = default_tree(size);
-            for pane in Pane::ALL {
-                let mut older = without(&default, &[pane]);
-                older.simplify(&egui_tiles::SimplificationOptions {
-                    all_panes_must_have_tabs: true,
-                    ..egui_tiles::SimplificationOptions::default()
-                });
-                let tree = from_text(&to_text(&older).unwrap()).unwrap();
-                assert_eq!(
-                    panes_of(&tree).map(|panes| panes.len()),
-                    Some(Pane::ALL.len())
-                );
-                let shown = |tree: &Tree<Pane>| Pane::ALL.map(|pane| is_shown(tree, pane));
-                let own = pane.index();
-                for (other, (now, before)) in shown(&tree).iter().zip(shown(&older)).enumerate() {
-                    assert!(other == own || *now == before, "{pane:?}: {other} changed");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_new_pane_stands_behind_its_neighbours_wherever_they_were_put() {
-        let newer = [Pane::Response, Pane::Why, Pane::Accuracy, Pane::Compare];
-        let mut older = without(&default_tree(SIZES[0]), &newer);
-        let spatial = tile_of(&older, Pane::SpatialSpectra).unwrap();
-        let wave = tile_of(&older, Pane::DriveWave).unwrap();
-        let tabs = older.tiles.parent_of(wave).unwrap();
-        older.move_tile_to_container(spatial, tabs, 1, false);
-        let tree = from_text(&to_text(&older).unwrap()).unwrap();
-        let parent = |pane| tree.tiles.parent_of(tile_of(&tree, pane).unwrap());
-        assert_eq!(parent(Pane::Response), Some(tabs));
-        assert_eq!(parent(Pane::Why), Some(tabs));
-        let alone = Tree::new_tabs(Id::unique("alone"), vec![Pane::Workspace]);
-        let tree = from_text(&to_text(&alone).unwrap()).unwrap();
-        assert_eq!(
-            panes_of(&tree).map(|panes| panes.len()),
-            Some(Pane::ALL.len())
-        );
-        assert_eq!(
-            from_text(&to_text(&Tree::empty(Id::unique("nothing"))).unwrap()),
-            None
-        );
-    }
-
-    #[test]
-    fn a_pane_comes_to_the_front_before_it_is_hidden() {
-        let mut tree = default_tree(SIZES[0]);
-        assert!(!is_shown(&tree, Pane::DriveSpectrum), "behind another");
-        toggle(&mut tree, Pane::DriveSpectrum);
-        assert!(is_shown(&tree, Pane::DriveSpectrum));
-        assert!(!is_shown(&tree, Pane::ContactSpectrum), "now behind");
-        toggle(&mut tree, Pane::DriveSpectrum);
-        assert!(!is_shown(&tree, Pane::DriveSpectrum), "hidden");
-        toggle(&mut tree, Pane::DriveSpectrum);
-        assert!(is_shown(&tree, Pane::DriveSpectrum), "and back");
-    }
-}
+mod tests;

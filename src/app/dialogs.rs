@@ -134,6 +134,8 @@ impl Open {
             } else if purpose == Purpose::ImportFiles {
                 let files = dialog.pick_files();
                 files.map_or_else(|| vec![None], |files| files.into_iter().map(Some).collect())
+            } else if is_folder(purpose) {
+                vec![dialog.pick_folder()]
             } else {
                 vec![dialog.pick_file()]
             };
@@ -192,6 +194,20 @@ fn is_save(purpose: Purpose) -> bool {
     )
 }
 
+/// A dialog for folders that begins at the nearest one that is there.
+fn in_folder(dialog: rfd::FileDialog, start: Option<&Path>) -> rfd::FileDialog {
+    let start = start.and_then(|path| std::path::absolute(path).ok());
+    let mut folders = start.iter().flat_map(|path| path.ancestors());
+    match folders.find(|folder| folder.is_dir()) {
+        Some(folder) => dialog.set_directory(folder),
+        None => dialog,
+    }
+}
+
+fn is_folder(purpose: Purpose) -> bool {
+    matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
+}
+
 /// The dialog for a purpose, in the folder of `start` and, when it saves, with its name.
 fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
     let words = AskWords::of(purpose);
@@ -211,6 +227,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
         Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
         Purpose::OpenDesign => dialog.add_filter("Designs", &["toml"]),
+        Purpose::OpenLogs | Purpose::WriteReport => return in_folder(dialog, start),
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());
@@ -240,7 +257,11 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
         Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
         Purpose::Export(_) => ".png",
-        Purpose::ImportFiles | Purpose::OpenPicture | Purpose::OpenDesign => return path,
+        Purpose::ImportFiles
+        | Purpose::OpenPicture
+        | Purpose::OpenDesign
+        | Purpose::OpenLogs
+        | Purpose::WriteReport => return path,
     });
     let longer = path.with_file_name(name);
     if longer.exists() { path } else { longer }

@@ -28,6 +28,7 @@ impl Workbench {
         self.transient.comparison.poll();
         self.poll_import(ctx);
         self.transient.picturing.poll();
+        self.transient.analysing.poll();
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();

@@ -21,6 +21,7 @@
 
 mod accuracy;
 mod amplitude;
+mod analysis;
 mod arrangement;
 mod arrays;
 mod asked;

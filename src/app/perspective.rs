@@ -124,7 +124,8 @@ fn experiment(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
         Pane::Participant => 0,
         Pane::Experimenter => 1,
         Pane::Bridge => 2,
-        _ => 3,
+        Pane::Analysis => 3,
+        _ => 4,
     });
     if !is_roomy(size) {
         return tabs(tiles, &rest);

@@ -3,6 +3,7 @@
 use eframe::egui::{Rect, Vec2};
 
 use super::accuracy::AccuracyWatch;
+use super::analysis::Analysing;
 use super::audition::Audition;
 use super::clips::Clips;
 use super::collection::Collection;
@@ -22,7 +23,7 @@ use super::maps::Maps;
 use super::opening::{Opening, Origin};
 use super::panes::PictureTextures;
 use super::panes::{
-    Ask, ContactSpectrogram, DriveSpectrogram, LabPictures, Notices, SpatialSpectra,
+    AnalysisLooks, Ask, ContactSpectrogram, DriveSpectrogram, LabPictures, Notices, SpatialSpectra,
     TransportState, WaveScale,
 };
 use super::picturing::Picturing;
@@ -99,6 +100,10 @@ pub(crate) struct Transient {
     pub(crate) comparison: Comparison,
     /// Experiments and the session that is held.
     pub(crate) experiment: Experiment,
+    /// Logs that are analysed.
+    pub(crate) analysing: Analysing,
+    /// Tables and figures of an analysis as they are laid out.
+    pub(crate) analysis_looks: AnalysisLooks,
     /// Measurements that are imported.
     pub(crate) importing: Importing,
     /// A picture of a cloth on its way to a textile.

@@ -79,7 +79,8 @@ pub(crate) fn corner_width(pane: Pane) -> f32 {
         | Pane::Import
         | Pane::Picture
         | Pane::Participant
-        | Pane::Experimenter => 0.0,
+        | Pane::Experimenter
+        | Pane::Analysis => 0.0,
     };
     own + export
 }

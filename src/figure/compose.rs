@@ -2,14 +2,14 @@
 
 use super::frame::Frame;
 use super::legend::{self, LINE_PX};
-use super::look::{GREY, INK, looks};
+use super::look::{INK, Inks, looks};
 use super::marks::{hairline, haloed, text, upward_text};
 use super::raster::{Placed, hex};
 use super::svg::{MARGIN_PX, WIDTH_PX, opening, paper};
 use super::text::{escaped, wrapped};
 use super::ticks::Ruler;
 use super::{
-    At, ColourBar, Extent, Figure, FigureError, Ink, Panel, Row, Rule, Tone, Upright, Words,
+    At, ColourBar, Extent, Figure, FigureError, Ink, Panel, Paper, Row, Rule, Tone, Upright, Words,
 };
 
 /// Above the first row: the title.
@@ -50,6 +50,7 @@ struct LaidRow<'a> {
 /// A figure with every place in it.
 pub(super) struct Page<'a> {
     figure: &'a Figure,
+    inks: &'static Inks,
     rows: Vec<LaidRow<'a>>,
     notes_px: f64,
     notes: Vec<String>,
@@ -61,27 +62,29 @@ impl Figure {
     /// # Errors
     /// A raster cannot be made into a picture: it has no cells, or too many.
     pub fn to_svg(&self) -> Result<String, FigureError> {
-        let page = Page::of(self);
+        let page = Page::of(self, Paper::White);
         let images: Result<Vec<String>, _> = page.pictures().map(|one| one.image()).collect();
-        let ground = paper(page.height_px()) + &images?.concat();
+        let ground = paper(page.height_px(), page.inks) + &images?.concat();
         Ok(page.document(&ground))
     }
 }
 
 impl<'a> Page<'a> {
     /// Lays a figure out.
-    pub(super) fn of(figure: &'a Figure) -> Self {
+    pub(super) fn of(figure: &'a Figure, paper: Paper) -> Self {
+        let inks = paper.inks();
         let mut top_px = TITLE_PX;
         let mut rows = Vec::new();
         for row in &figure.rows {
             top_px += head_px(row);
-            rows.push(LaidRow::of(row, top_px));
+            rows.push(LaidRow::of(row, top_px, inks));
             top_px += row.height_px + foot_px(row);
         }
         let lines = figure.notes.iter();
         let notes = lines.flat_map(|note| wrapped(note, NOTE_CHARACTERS));
         Self {
             figure,
+            inks,
             rows,
             notes_px: top_px + 12.0,
             notes: notes.collect(),
@@ -103,8 +106,8 @@ impl<'a> Page<'a> {
     /// Everything that is drawn over a ground.
     pub(super) fn document(&self, ground: &str) -> String {
         let mut body = Vec::new();
-        let title = &self.figure.title;
-        text(&mut body, [MARGIN_PX, 28.0], ("start", 16, INK), title);
+        let (title, inks) = (&self.figure.title, self.inks);
+        text(&mut body, [MARGIN_PX, 28.0], ("start", 16, inks.ink), title);
         let mut clips = Vec::new();
         for (index, laid) in self.panels().enumerate() {
             let clip = format!("frame{index}");
@@ -116,7 +119,7 @@ impl<'a> Page<'a> {
         }
         for (line, note) in self.notes.iter().enumerate() {
             let at = [MARGIN_PX, self.notes_px + line as f64 * LINE_PX];
-            text(&mut body, at, ("start", 11, GREY), note);
+            text(&mut body, at, ("start", 11, inks.grey), note);
         }
         let opening = opening(title, self.height_px(), &clips);
         let about = self.about();
@@ -157,7 +160,7 @@ fn foot_px(row: &Row) -> f64 {
 }
 
 impl<'a> LaidRow<'a> {
-    fn of(row: &'a Row, top_px: f64) -> Self {
+    fn of(row: &'a Row, top_px: f64, inks: &'static Inks) -> Self {
         let before_px = |(index, panel): (usize, &Panel)| match panel.upright {
             Upright::Shared => SHARED_PX,
             Upright::Upward | Upright::Downward => LABELS_PX[index.min(1)],
@@ -173,7 +176,7 @@ impl<'a> LaidRow<'a> {
             left_px += before_px((index, panel));
             let width_px = (room_px * share(panel) / shares).floor();
             let size_px = [width_px, row.height_px];
-            panels.push(Laid::of(panel, [left_px, top_px], size_px));
+            panels.push(Laid::of(panel, [left_px, top_px], size_px, inks));
             left_px += width_px;
         }
         Self { row, panels }
@@ -190,19 +193,25 @@ impl<'a> LaidRow<'a> {
             corner_px: [last.frame.right_px() + BAR_GAP_PX, last.frame.corner_px[1]],
             size_px: [BAR_WIDTH_PX, self.row.height_px],
             is_downward: false,
+            inks: last.frame.inks,
         };
         draw_gradient(bar, index, &frame, body);
         let title = super::label::Labels::of(&frame.y, &bar.axis.label);
         for (value, label) in frame.y.labelled.iter().zip(&title.ticks) {
             let y_px = frame.y_px(*value).unwrap_or_else(|| frame.bottom_px());
             let right_px = frame.right_px();
-            hairline(body, GREY, [right_px, y_px], [right_px + 4.0, y_px]);
+            hairline(
+                body,
+                frame.inks.grey,
+                [right_px, y_px],
+                [right_px + 4.0, y_px],
+            );
             let at = [right_px + 8.0, y_px + 4.0];
-            text(body, at, ("start", 11, GREY), label);
+            text(body, at, ("start", 11, frame.inks.grey), label);
         }
         let middle_px = frame.corner_px[1] + 0.5 * frame.size_px[1];
         let at = [frame.right_px() + 52.0, middle_px];
-        upward_text(body, at, INK, &title.title);
+        upward_text(body, at, frame.inks.ink, &title.title);
     }
 }
 
@@ -222,7 +231,7 @@ fn draw_gradient(bar: &ColourBar, index: usize, frame: &Frame, body: &mut Vec<St
 }
 
 impl<'a> Laid<'a> {
-    fn of(panel: &'a Panel, corner_px: [f64; 2], size_px: [f64; 2]) -> Self {
+    fn of(panel: &'a Panel, corner_px: [f64; 2], size_px: [f64; 2], inks: &'static Inks) -> Self {
         let values = |axis: usize| {
             let points = panel.series.iter().flat_map(|series| &series.points);
             points.map(move |point| point[axis])
@@ -233,6 +242,7 @@ impl<'a> Laid<'a> {
             corner_px,
             size_px,
             is_downward: panel.upright == Upright::Downward,
+            inks,
         };
         Self { panel, frame }
     }
@@ -260,7 +270,7 @@ impl<'a> Laid<'a> {
         for rule in &panel.rules {
             self.draw_rule(rule, body);
         }
-        let looks = looks(&panel.series);
+        let looks = looks(&panel.series, frame.inks);
         for (series, look) in panel.series.iter().zip(&looks) {
             // Gaps in a panel mean something: a pause, silence.
             frame.draw_series(series, *look, clip, body);
@@ -269,10 +279,10 @@ impl<'a> Laid<'a> {
         self.draw_axes(body);
         self.draw_words(body);
         let [left_px, top_px] = frame.corner_px;
-        let head = ("start", 12, panel.ink.letters());
+        let head = ("start", 12, panel.ink.letters(frame.inks));
         text(body, [left_px, top_px - 9.0], head, &panel.title);
         let legend_at = [frame.right_px(), top_px - 13.0];
-        legend::draw_across(&panel.series, &looks, legend_at, body);
+        legend::draw_across(&panel.series, (&looks, frame.inks), legend_at, body);
     }
 
     fn draw_axes(&self, body: &mut Vec<String>) {
@@ -281,13 +291,13 @@ impl<'a> Laid<'a> {
             let x_title = frame.draw_x_labels(&panel.x.label, body);
             let middle_px = frame.corner_px[0] + 0.5 * frame.size_px[0];
             let below = [middle_px, frame.bottom_px() + 38.0];
-            text(body, below, ("middle", 12, INK), &x_title);
+            text(body, below, ("middle", 12, frame.inks.ink), &x_title);
         }
         if panel.upright != Upright::Shared {
             let y_title = frame.draw_y_labels(&panel.y.label, body);
             let middle_px = frame.corner_px[1] + 0.5 * frame.size_px[1];
             let at = [frame.corner_px[0] - 46.0, middle_px];
-            upward_text(body, at, INK, &y_title);
+            upward_text(body, at, frame.inks.ink, &y_title);
         }
     }
 
@@ -321,14 +331,26 @@ impl<'a> Laid<'a> {
         if !frame.has(start) {
             return;
         }
-        body.push(line_of(rule, start, end));
+        body.push(line_of(rule, start, end, frame.inks));
         let (at, anchor) = label;
-        text(body, at, (anchor, 11, rule.ink.letters()), &rule.label);
+        text(
+            body,
+            at,
+            (anchor, 11, rule.ink.letters(frame.inks)),
+            &rule.label,
+        );
     }
 
     /// Words at their places; the names of dots below one another where they would touch.
     fn draw_words(&self, body: &mut Vec<String>) {
         let mut taken: Vec<[f64; 2]> = Vec::new();
+        let inks = self.frame.inks;
+        // The colours of a raster do not follow the paper.
+        let dark = if self.panel.raster.is_some() {
+            INK
+        } else {
+            inks.ink
+        };
         for Words {
             at,
             text: words,
@@ -339,7 +361,7 @@ impl<'a> Laid<'a> {
                 continue;
             };
             match tone {
-                Tone::Dark => text(body, [x, y + 4.0], ("middle", 11, INK), words),
+                Tone::Dark => text(body, [x, y + 4.0], ("middle", 11, dark), words),
                 Tone::Light => text(body, [x, y + 4.0], ("middle", 11, "#ffffff"), words),
                 Tone::Aside => {
                     let mut at = [x + 8.0, y + 14.0];
@@ -350,14 +372,14 @@ impl<'a> Laid<'a> {
                         at[1] += NAME_PX[1];
                     }
                     taken.push(at);
-                    haloed(body, at, words);
+                    haloed(body, at, inks, words);
                 }
             }
         }
     }
 }
 
-fn line_of(rule: &Rule, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> String {
+fn line_of(rule: &Rule, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2], inks: &Inks) -> String {
     let dashes = match (rule.extent, rule.ink) {
         // Two rules may coincide: each fills the other's gaps.
         (Extent::Dashed, Ink::Cyan) => " stroke-dasharray=\"8 8\" stroke-dashoffset=\"8\"",
@@ -365,7 +387,7 @@ fn line_of(rule: &Rule, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> String {
         (Extent::Across | Extent::Edge, _) => "",
     };
     let width = if rule.extent == Extent::Edge { 2 } else { 1 };
-    let colour = rule.ink.colour().unwrap_or(GREY);
+    let colour = rule.ink.colour(inks).unwrap_or(inks.grey);
     format!(
         "<path d=\"M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}\" stroke=\"{colour}\" \
          stroke-width=\"{width}\"{dashes}/>\n"

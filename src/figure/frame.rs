@@ -1,7 +1,7 @@
 //! The frame that values are drawn in: two rulers on a rectangle, its grid, labels and series.
 
 use super::label::Labels;
-use super::look::{GREY, GRID, INK, Look};
+use super::look::{Inks, Look};
 use super::marks::{draw_dot, hairline, text};
 use super::ticks::Ruler;
 use super::{Series, Style};
@@ -21,6 +21,8 @@ pub(super) struct Frame {
     pub(super) size_px: [f64; 2],
     /// Whether the vertical ruler grows downward, as the rows of a table do.
     pub(super) is_downward: bool,
+    /// What it is drawn with.
+    pub(super) inks: &'static Inks,
 }
 
 impl Frame {
@@ -70,7 +72,7 @@ impl Frame {
             .iter()
             .filter_map(|value| self.x_px(*value))
         {
-            hairline(body, GRID, [x_px, top_px], [x_px, bottom_px]);
+            hairline(body, self.inks.grid, [x_px, top_px], [x_px, bottom_px]);
         }
         for y_px in self
             .y
@@ -78,7 +80,7 @@ impl Frame {
             .iter()
             .filter_map(|value| self.y_px(*value))
         {
-            hairline(body, GRID, [left_px, y_px], [right_px, y_px]);
+            hairline(body, self.inks.grid, [left_px, y_px], [right_px, y_px]);
         }
     }
 
@@ -86,10 +88,15 @@ impl Frame {
     pub(super) fn draw_marks(&self, body: &mut Vec<String>) {
         let (left_px, bottom_px) = (self.corner_px[0], self.bottom_px());
         for x_px in self.x.labelled.iter().filter_map(|value| self.x_px(*value)) {
-            hairline(body, GREY, [x_px, bottom_px], [x_px, bottom_px + 4.0]);
+            hairline(
+                body,
+                self.inks.grey,
+                [x_px, bottom_px],
+                [x_px, bottom_px + 4.0],
+            );
         }
         for y_px in self.y.labelled.iter().filter_map(|value| self.y_px(*value)) {
-            hairline(body, GREY, [left_px - 4.0, y_px], [left_px, y_px]);
+            hairline(body, self.inks.grey, [left_px - 4.0, y_px], [left_px, y_px]);
         }
     }
 
@@ -97,9 +104,10 @@ impl Frame {
     pub(super) fn draw_edge(&self, body: &mut Vec<String>) {
         let [left_px, top_px] = self.corner_px;
         let [width_px, height_px] = self.size_px;
+        let edge = self.inks.edge;
         body.push(format!(
             "<rect x=\"{left_px}\" y=\"{top_px}\" width=\"{width_px:.1}\" \
-             height=\"{height_px}\" fill=\"none\" stroke=\"#9a9a9a\"/>\n"
+             height=\"{height_px}\" fill=\"none\" stroke=\"{edge}\"/>\n"
         ));
     }
 
@@ -113,7 +121,7 @@ impl Frame {
             // A label that would touch the one before it is left out.
             if x_px - half_px > taken_px {
                 let at = [x_px, self.bottom_px() + 18.0];
-                text(body, at, ("middle", 11, GREY), label);
+                text(body, at, ("middle", 11, self.inks.grey), label);
                 taken_px = x_px + half_px + 4.0;
             }
         }
@@ -126,7 +134,7 @@ impl Frame {
         for (value, label) in self.y.labelled.iter().zip(&ticks) {
             let y_px = self.y_px(*value).unwrap_or_else(|| self.bottom_px());
             let at = [self.corner_px[0] - 8.0, y_px + 4.0];
-            text(body, at, ("end", 11, GREY), label);
+            text(body, at, ("end", 11, self.inks.grey), label);
         }
         title
     }
@@ -159,9 +167,9 @@ impl Frame {
                 draw_dot(body, at, look);
             }
             if series.marked.contains(&index) && self.has(at) {
-                let [x, y] = at;
+                let ([x, y], ink) = (at, self.inks.ink);
                 body.push(format!(
-                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"8\" fill=\"none\" stroke=\"{INK}\" \
+                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"8\" fill=\"none\" stroke=\"{ink}\" \
                      stroke-width=\"1.2\"/>\n"
                 ));
             }

@@ -1,6 +1,6 @@
 //! The legend: right of the frame, one line a series that has a name; or above it, in one line.
 
-use super::look::{INK, Look};
+use super::look::{Inks, Look};
 use super::marks::{draw_dot, text};
 use super::text::shortened;
 use super::{Series, Style};
@@ -27,7 +27,7 @@ pub(super) fn width_px(series: &[Series]) -> f64 {
 /// Draws the legend from its upper left corner; tells its height, px.
 pub(super) fn draw(
     series: &[Series],
-    looks: &[Look],
+    (looks, inks): (&[Look], &Inks),
     [x, y]: [f64; 2],
     body: &mut Vec<String>,
 ) -> f64 {
@@ -42,7 +42,7 @@ pub(super) fn draw(
         text(
             body,
             at,
-            ("start", 12, INK),
+            ("start", 12, inks.ink),
             &shortened(&series.name, LONGEST_NAME),
         );
         height_px += LINE_PX;
@@ -53,7 +53,7 @@ pub(super) fn draw(
 /// Draws the legend in one line above a frame; `right` is its end.
 pub(super) fn draw_across(
     series: &[Series],
-    looks: &[Look],
+    (looks, inks): (&[Look], &Inks),
     [right, y]: [f64; 2],
     body: &mut Vec<String>,
 ) {
@@ -64,7 +64,7 @@ pub(super) fn draw_across(
         }
         let name = shortened(&series.name, LONGEST_NAME);
         let start_px = right_px - CHARACTER_PX * name.chars().count() as f64;
-        text(body, [start_px, y + 4.0], ("start", 12, INK), &name);
+        text(body, [start_px, y + 4.0], ("start", 12, inks.ink), &name);
         draw_sample(series.style, *look, [start_px - SAMPLE_PX, y], body);
         right_px = start_px - SAMPLE_PX - BETWEEN_PX;
     }

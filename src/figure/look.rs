@@ -5,20 +5,79 @@
 
 use super::{Ink, Series, Style, Weight};
 
-/// Texts and the frame.
+/// Nearly black: texts on white, and on whatever is bright.
 pub(super) const INK: &str = "#222222";
-/// Labels of ticks, footnotes, and the first dashed line.
-pub(super) const GREY: &str = "#5a5a5a";
-/// Hairlines of the grid.
-pub(super) const GRID: &str = "#e4e4e4";
 
 const AMBER: &str = "#e69f00";
 const CYAN: &str = "#56b4e9";
-/// The same hues where letters are written in them: 4.5 : 1 on white.
-const DARK_AMBER: &str = "#8f5a00";
-const DARK_CYAN: &str = "#0b6a9e";
-/// Blue, vermilion, bluish green, reddish purple, black.
-const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", INK];
+
+/// What a picture is drawn on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Paper {
+    /// White paper: files.
+    #[default]
+    White,
+    /// Nothing: what is behind shows, and is bright.
+    OnLight,
+    /// Nothing: what is behind shows, and is dark.
+    OnDark,
+}
+
+/// The colours that go with a paper.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Inks {
+    /// The paper itself, or what is expected behind it.
+    pub(super) ground: &'static str,
+    /// Texts and the frame.
+    pub(super) ink: &'static str,
+    /// Labels of ticks, footnotes, and the first dashed line.
+    pub(super) grey: &'static str,
+    /// Hairlines of the grid.
+    pub(super) grid: &'static str,
+    /// The line around a frame.
+    pub(super) edge: &'static str,
+    /// Amber and cyan where letters are written in them: 4.5 : 1.
+    letters: [&'static str; 2],
+    /// Blue, vermilion, bluish green, reddish purple, and that of texts.
+    colours: [&'static str; 5],
+}
+
+const WHITE: Inks = Inks {
+    ground: "#ffffff",
+    ink: INK,
+    grey: "#5a5a5a",
+    grid: "#e4e4e4",
+    edge: "#9a9a9a",
+    letters: ["#8f5a00", "#0b6a9e"],
+    colours: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", INK],
+};
+
+const ON_LIGHT: Inks = Inks {
+    ground: "#f6f7f9",
+    grid: "#dde1e6",
+    ..WHITE
+};
+
+const ON_DARK: Inks = Inks {
+    ground: "#14171b",
+    ink: "#e7eaee",
+    grey: "#97a1ad",
+    grid: "#252a31",
+    edge: "#4a525c",
+    letters: [AMBER, CYAN],
+    colours: ["#4a9fe0", "#e8743b", "#2cb58a", "#d68fb6", "#e7eaee"],
+};
+
+impl Paper {
+    /// Its colours.
+    pub(super) fn inks(self) -> &'static Inks {
+        match self {
+            Self::White => &WHITE,
+            Self::OnLight => &ON_LIGHT,
+            Self::OnDark => &ON_DARK,
+        }
+    }
+}
 
 /// The shape of a dot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,36 +116,36 @@ impl Weight {
 
 impl Ink {
     /// Its colour, if it is not one that is given out.
-    pub(super) fn colour(self) -> Option<&'static str> {
+    pub(super) fn colour(self, inks: &Inks) -> Option<&'static str> {
         match self {
             Self::Own => None,
             Self::Amber => Some(AMBER),
             Self::Cyan => Some(CYAN),
-            Self::Black => Some(INK),
-            Self::Grey => Some(GREY),
+            Self::Black => Some(inks.ink),
+            Self::Grey => Some(inks.grey),
         }
     }
 
     /// The same for letters, which need more contrast with the paper.
-    pub(super) fn letters(self) -> &'static str {
+    pub(super) fn letters(self, inks: &Inks) -> &'static str {
         match self {
-            Self::Amber => DARK_AMBER,
-            Self::Cyan => DARK_CYAN,
-            Self::Grey => GREY,
-            Self::Own | Self::Black => INK,
+            Self::Amber => inks.letters[0],
+            Self::Cyan => inks.letters[1],
+            Self::Grey => inks.grey,
+            Self::Own | Self::Black => inks.ink,
         }
     }
 }
 
 /// How every series looks, in their order.
-pub(super) fn looks(series: &[Series]) -> Vec<Look> {
+pub(super) fn looks(series: &[Series], inks: &Inks) -> Vec<Look> {
     let (mut n_plain, mut n_dashed) = (0, 0);
     series
         .iter()
         .map(|series| {
             let dots = [Dot::Disc, Dot::Square, Dot::Triangle, Dot::Diamond];
             let weight = series.weight;
-            let given = series.ink.colour();
+            let given = series.ink.colour(inks);
             if let Some(colour) = given.or_else(|| colour_of_band(&series.name)) {
                 let dot = if series.ink == Ink::Grey {
                     Dot::Square
@@ -103,14 +162,14 @@ pub(super) fn looks(series: &[Series]) -> Vec<Look> {
                 n_dashed += 1;
                 if n_dashed == 1 {
                     return Look {
-                        colour: GREY,
+                        colour: inks.grey,
                         dot: Dot::Disc,
                         weight,
                     };
                 }
             }
             let look = Look {
-                colour: COLOURS[n_plain % COLOURS.len()],
+                colour: inks.colours[n_plain % inks.colours.len()],
                 dot: dots[n_plain % dots.len()],
                 weight,
             };
@@ -158,7 +217,7 @@ mod tests {
             "g",
             "h",
         ];
-        let looks = looks(&names.map(named));
+        let looks = looks(&names.map(named), &WHITE);
         assert_eq!((looks[1].colour, looks[2].colour), (AMBER, CYAN));
         for index in [0, 3, 4, 5, 6, 7] {
             let colour = looks[index].colour;
@@ -168,7 +227,8 @@ mod tests {
 
     #[test]
     fn twenty_series_look_different() {
-        let looks = looks(&(0..20).map(|n| named(&format!("m{n}"))).collect::<Vec<_>>());
+        let series: Vec<Series> = (0..20).map(|n| named(&format!("m{n}"))).collect();
+        let looks = looks(&series, &WHITE);
         for (index, look) in looks.iter().enumerate() {
             assert!(!looks[..index].contains(look), "{index}: {look:?}");
         }

@@ -1,6 +1,6 @@
 //! The small pieces that figures are drawn with: dots, hairlines, texts.
 
-use super::look::{Dot, GREY, Look};
+use super::look::{Dot, Inks, Look};
 use super::text::escaped;
 
 /// A dot of a series; the legend draws the same.
@@ -46,10 +46,10 @@ pub(super) fn upward_text(body: &mut Vec<String>, [x, y]: [f64; 2], colour: &str
 }
 
 /// The name of a dot, on a rim of paper that parts it from lines behind.
-pub(super) fn haloed(body: &mut Vec<String>, [x, y]: [f64; 2], what: &str) {
-    let what = escaped(what);
+pub(super) fn haloed(body: &mut Vec<String>, [x, y]: [f64; 2], inks: &Inks, what: &str) {
+    let (what, grey, ground) = (escaped(what), inks.grey, inks.ground);
     body.push(format!(
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\" fill=\"{GREY}\" stroke=\"#ffffff\" \
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\" fill=\"{grey}\" stroke=\"{ground}\" \
          stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">{what}</text>\n"
     ));
 }

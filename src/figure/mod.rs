@@ -34,6 +34,7 @@ mod tests;
 mod text;
 mod ticks;
 
+pub use look::Paper;
 #[cfg(test)]
 pub(crate) use pixels::is_well_formed;
 pub use pixels::{FigureError, Pixels};

@@ -10,7 +10,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 use super::compose::Page;
 use super::raster::Placed;
 use super::svg::{WIDTH_PX, paper};
-use super::{Figure, Plot, Raster};
+use super::{Figure, Paper, Plot, Raster};
 
 /// A picture of red, green, blue and alpha, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,18 +45,34 @@ impl Plot {
 }
 
 impl Figure {
+    /// Width and height of its picture at the size that it is laid out for, px.
+    pub fn size_px(&self) -> [f64; 2] {
+        [WIDTH_PX, Page::of(self, Paper::White).height_px()]
+    }
+
     /// The picture of [`Figure::to_svg`], `width` pixels wide.
     ///
     /// # Errors
     /// A width below 64 or above 8192; a raster without cells.
     pub fn to_pixels(&self, width: u32) -> Result<Pixels, FigureError> {
-        let page = Page::of(self);
+        self.to_pixels_on(Paper::White, width)
+    }
+
+    /// The same on another paper.
+    ///
+    /// # Errors
+    /// As [`Figure::to_pixels`].
+    pub fn to_pixels_on(&self, on: Paper, width: u32) -> Result<Pixels, FigureError> {
+        let page = Page::of(self, on);
         let height_px = page.height_px();
+        let ground = match on {
+            Paper::White => paper(height_px, on.inks()),
+            Paper::OnLight | Paper::OnDark => String::new(),
+        };
         // The renderer draws no rasters: they are put between the paper and the rest.
         let ground = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX}\" \
-             height=\"{height_px:.0}\">{}</svg>",
-            paper(height_px)
+             height=\"{height_px:.0}\">{ground}</svg>"
         );
         let layers = [ground.as_str(), &page.document("")];
         let pixmap = drawn(&layers, width, |pixmap, scale| {

@@ -161,3 +161,27 @@ fn nothing_senseless_harms_a_figure() {
     let empty = sample(Raster::default());
     assert!(empty.to_svg().is_ok(), "no cells are no rectangles");
 }
+
+#[test]
+fn on_a_dark_ground_a_figure_has_no_paper_and_bright_letters() {
+    let figure = sample(stripes(4, 6));
+    let [white, dark] =
+        [Paper::White, Paper::OnDark].map(|on| figure.to_pixels_on(on, 860).unwrap());
+    let [width_px, height_px] = figure.size_px();
+    assert_eq!([dark.width, dark.height], [white.width, white.height]);
+    assert!((dark.width as f64 - width_px).abs() < 1.0 && dark.height as f64 >= height_px.floor());
+    assert_eq!((white.rgba[3], dark.rgba[3]), (255, 0), "nothing behind");
+    let title = |pixels: &Pixels, is_ink: fn(&[u8]) -> bool| {
+        let rows = pixels.rgba.chunks_exact(4).take(36 * pixels.width);
+        rows.filter(|pixel| pixel[3] > 200 && is_ink(pixel)).count()
+    };
+    let (is_dark, is_bright) = (|p: &[u8]| p[0] < 90, |p: &[u8]| p[0] > 200);
+    assert!(title(&white, is_dark) > 100, "dark letters on white");
+    assert!(title(&dark, is_bright) > 100, "bright letters on nothing");
+    assert_eq!(title(&dark, is_dark), 0);
+    let red = |pixels: &Pixels| {
+        let pixels = pixels.rgba.chunks_exact(4);
+        pixels.filter(|p| **p == [255, 0, 0, 255]).count()
+    };
+    assert_eq!(red(&white), red(&dark), "cells keep their colours");
+}

@@ -5,7 +5,7 @@
 use super::Plot;
 use super::frame::Frame;
 use super::legend::{self, LINE_PX};
-use super::look::{GREY, INK, looks};
+use super::look::{Inks, Paper, looks};
 use super::marks::text;
 use super::text::{escaped, wrapped};
 use super::ticks::Ruler;
@@ -25,6 +25,7 @@ const FOOTNOTE_CHARACTERS: usize = 130;
 impl Plot {
     /// The picture as SVG text. The same plot gives the same bytes.
     pub fn to_svg(&self) -> String {
+        let inks = Paper::White.inks();
         let legend_px = legend::width_px(&self.series);
         let values = |axis: usize| {
             let points = self.series.iter().flat_map(|series| &series.points);
@@ -36,8 +37,9 @@ impl Plot {
             corner_px: [LEFT_PX, TOP_PX],
             size_px: [WIDTH_PX - LEFT_PX - MARGIN_PX - legend_px, FRAME_HEIGHT_PX],
             is_downward: false,
+            inks,
         };
-        let looks = looks(&self.series);
+        let looks = looks(&self.series, inks);
         let mut body = Vec::new();
         self.draw_axes(&frame, &mut body);
         let mut n_left_out = 0;
@@ -45,12 +47,12 @@ impl Plot {
             n_left_out += frame.draw_series(series, *look, "frame", &mut body);
         }
         let legend_at = [frame.right_px() + MARGIN_PX, TOP_PX + 8.0];
-        let legend_height_px = legend::draw(&self.series, &looks, legend_at, &mut body);
+        let legend_height_px = legend::draw(&self.series, (&looks, inks), legend_at, &mut body);
         let below_px = TOP_PX + (FRAME_HEIGHT_PX + BELOW_PX).max(legend_height_px + MARGIN_PX);
         let notes = wrapped(&self.note(n_left_out), FOOTNOTE_CHARACTERS);
         for (line, note) in notes.iter().enumerate() {
             let at = [MARGIN_PX, below_px + 6.0 + line as f64 * LINE_PX];
-            text(&mut body, at, ("start", 11, GREY), note);
+            text(&mut body, at, ("start", 11, inks.grey), note);
         }
         let height_px = below_px + notes.len() as f64 * LINE_PX + 12.0;
         document(&self.title, height_px, &frame, &body.concat())
@@ -73,9 +75,9 @@ impl Plot {
         let x_title = frame.draw_x_labels(&self.x.label, body);
         let y_title = frame.draw_y_labels(&self.y.label, body);
         let below = [LEFT_PX + 0.5 * frame.size_px[0], frame.bottom_px() + 40.0];
-        text(body, below, ("middle", 12, INK), &x_title);
+        text(body, below, ("middle", 12, frame.inks.ink), &x_title);
         let above = [MARGIN_PX, TOP_PX - 12.0];
-        text(body, above, ("start", 12, INK), &y_title);
+        text(body, above, ("start", 12, frame.inks.ink), &y_title);
     }
 }
 
@@ -98,16 +100,22 @@ fn clip(id: &str, frame: &Frame) -> String {
     )
 }
 
-/// White paper of this height.
-pub(super) fn paper(height_px: f64) -> String {
-    format!("<rect width=\"{WIDTH_PX}\" height=\"{height_px:.0}\" fill=\"#ffffff\"/>\n")
+/// Paper of this height.
+pub(super) fn paper(height_px: f64, inks: &Inks) -> String {
+    let ground = inks.ground;
+    format!("<rect width=\"{WIDTH_PX}\" height=\"{height_px:.0}\" fill=\"{ground}\"/>\n")
 }
 
 fn document(title: &str, height_px: f64, frame: &Frame, body: &str) -> String {
     let opening = opening(title, height_px, &[("frame".to_owned(), frame)]);
-    let paper = paper(height_px);
+    let paper = paper(height_px, frame.inks);
     let mut heading = Vec::new();
-    text(&mut heading, [MARGIN_PX, 28.0], ("start", 16, INK), title);
+    text(
+        &mut heading,
+        [MARGIN_PX, 28.0],
+        ("start", 16, frame.inks.ink),
+        title,
+    );
     let heading = heading.concat();
     format!("{opening}{paper}{heading}{body}</svg>\n")
 }

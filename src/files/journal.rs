@@ -124,6 +124,14 @@ impl Journal {
         Ok(())
     }
 
+    /// Whether somebody writes a table now. Nothing of it is read. A lock that readers share is
+    /// asked for and let go at once: who opens the table in that very moment is told that it is
+    /// busy.
+    pub fn is_written(path: &Path) -> bool {
+        let is_taken = |file: File| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
+        File::open(path).is_ok_and(is_taken)
+    }
+
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path
@@ -240,6 +248,20 @@ mod tests {
                 "resumed as never broken off"
             );
         }
+    }
+
+    #[test]
+    fn whether_a_table_is_written_is_seen_without_touching_it() {
+        let folder = Folder::new("seen");
+        let path = folder.log();
+        assert!(!Journal::is_written(&path), "there is none");
+        let mut journal = Journal::create(&path, &COLUMNS).unwrap();
+        assert!(Journal::is_written(&path));
+        journal.append(&ROWS[0]).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        drop(journal);
+        assert!(!Journal::is_written(&path), "nobody does any more");
+        assert_eq!(fs::read(&path).unwrap(), bytes);
     }
 
     #[test]

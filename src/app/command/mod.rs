@@ -16,6 +16,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::accuracy::AccuracyCommand;
+use super::analysis::AnalysisCommand;
 use super::arrangement::Pane;
 use super::collection::CollectionCommand;
 use super::compare::Choice;
@@ -69,6 +70,8 @@ pub(crate) enum Command {
     Lab(LabCommand),
     /// Run an experiment.
     Experiment(ExperimentCommand),
+    /// Analyse the logs of experiments.
+    Analysis(AnalysisCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -208,6 +211,10 @@ pub(crate) enum Purpose {
     OpenPicture,
     /// Run an experiment by this design.
     OpenDesign,
+    /// Analyse the logs in a folder.
+    OpenLogs,
+    /// Write the report of an analysis into a folder.
+    WriteReport,
 }
 
 /// What moves the display, and how that is recorded.

@@ -44,7 +44,11 @@ impl Desk<'_> {
 impl Workbench {
     /// Whether a pane would tell what a session must not.
     pub(super) fn is_veiled(&self, pane: Pane) -> bool {
-        let is_open = matches!(pane, Pane::Participant | Pane::Experimenter | Pane::Bridge);
+        // The analysis has a cover of its own.
+        let is_open = matches!(
+            pane,
+            Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
+        );
         self.transient.experiment.is_held() && !is_open
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! A pane that is hidden, or behind another, is not drawn, and nothing is computed for it.
 
+mod analysis;
 mod bridge;
 mod experiment;
 mod tiles;
@@ -79,6 +80,7 @@ impl Desk<'_> {
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane, |ui| self.show_experimenter(ui)),
+            Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
         }
     }
 
@@ -348,7 +350,8 @@ impl Desk<'_> {
             | Pane::Import
             | Pane::Picture
             | Pane::Participant
-            | Pane::Experimenter => {}
+            | Pane::Experimenter
+            | Pane::Analysis => {}
         }
     }
 }

@@ -37,7 +37,14 @@ impl Workbench {
             )
         };
         let (folder, kind) = last.unwrap_or_else(beside);
-        folder.join(what.file_name(kind))
+        let figure = self.transient.analysing.figure();
+        match figure.filter(|_| what == Exportable::Analysed) {
+            Some((section, drawn)) => {
+                let ending = kind.ending();
+                folder.join(format!("{}-{}.{ending}", section.key, drawn.key))
+            }
+            None => folder.join(what.file_name(kind)),
+        }
     }
 
     /// Writes what was seen when it was asked for.

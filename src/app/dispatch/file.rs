@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::app::analysis::AnalysisCommand;
 use crate::app::command::{FileCommand, Purpose};
 use crate::app::error::AppError;
 use crate::app::experiment::{Chosen, ExperimentCommand};
@@ -46,6 +47,14 @@ impl Workbench {
             FileCommand::Use(Purpose::OpenDesign, path) => {
                 self.transient.ask = None;
                 self.dispatch(ctx, ExperimentCommand::Open(path).into());
+            }
+            FileCommand::Use(Purpose::OpenLogs, path) => {
+                self.transient.ask = None;
+                self.dispatch(ctx, AnalysisCommand::Open(path).into());
+            }
+            FileCommand::Use(Purpose::WriteReport, path) => {
+                self.transient.ask = None;
+                self.dispatch(ctx, AnalysisCommand::Write(path).into());
             }
             FileCommand::CopyTable(what) => self.copy_table(ctx, what),
             FileCommand::Save => match self.document.path().cloned() {
@@ -90,6 +99,8 @@ impl Workbench {
                 Chosen::File(path) => Some(path.clone()),
                 Chosen::Shipped(_) => None,
             },
+            Purpose::OpenLogs => self.transient.analysing.fields.folder(),
+            Purpose::WriteReport => self.transient.analysing.report_folder(),
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = self.take.as_ref()?;
                 take.file().map(Path::to_owned)

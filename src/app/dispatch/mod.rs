@@ -1,6 +1,7 @@
 //! The one place where something changes: commands in, document, engine and transient state out.
 
 mod accuracy;
+mod analysis;
 mod array;
 mod collection;
 mod compare;
@@ -50,6 +51,7 @@ impl Workbench {
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Experiment(command) => self.dispatch_experiment(ctx, command),
+            Command::Analysis(command) => self.dispatch_analysis(ctx, command),
             Command::Show(command) => self.dispatch_show(ctx, &command),
             Command::Chosen(act) => self.act_on_chosen(ctx, act),
             Command::Dismiss => self.dismiss(),

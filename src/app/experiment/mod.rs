@@ -32,7 +32,7 @@ pub(crate) use view::{
     Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView,
 };
 
-use super::command::{Command, ShowCommand};
+use super::command::{Command, FileCommand, Purpose, ShowCommand};
 use super::task::Task;
 use crate::experiment::session::Session;
 
@@ -78,8 +78,12 @@ impl Experiment {
             Command::AllOff
             | Command::Device(_)
             | Command::Experiment(_)
+            | Command::Analysis(_)
             | Command::Dismiss
             | Command::DismissNotice(_) => true,
+            Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
+                matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
+            }
             Command::Show(command) => matches!(
                 command,
                 ShowCommand::Theme(_)

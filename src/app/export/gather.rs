@@ -6,8 +6,9 @@ use eframe::egui::Theme;
 
 use super::write::ExportError;
 use super::{
-    Exportable, Exported, Kind, Origin, accuracy, collection, comparison, compression, contactors,
-    drive, import, lab, link, map, picture, response, spatial, spectrograms, timeline, why,
+    Exportable, Exported, Kind, Origin, accuracy, analysis, collection, comparison, compression,
+    contactors, drive, import, lab, link, map, picture, response, spatial, spectrograms, timeline,
+    why,
 };
 use crate::app::arrangement::Pane;
 use crate::app::job::Job;
@@ -29,6 +30,7 @@ type Gather = fn(&mut Workbench) -> Result<Exported, &'static str>;
 fn gather_of(what: Exportable) -> Option<Gather> {
     let pane = match what {
         Exportable::Timeline => return Some(Workbench::gather_timeline),
+        Exportable::Analysed => return Some(Workbench::gather_analysed),
         Exportable::Pane(pane) => pane,
     };
     match pane {
@@ -48,7 +50,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Workspace => Some(Workbench::gather_maps),
         Pane::Collection => Some(Workbench::gather_collection),
         Pane::Bridge => Some(Workbench::gather_link),
-        Pane::Library | Pane::Participant | Pane::Experimenter => None,
+        Pane::Library | Pane::Participant | Pane::Experimenter | Pane::Analysis => None,
     }
 }
 
@@ -325,6 +327,14 @@ impl Workbench {
         let found = self.transient.picturing.found();
         let exported = found.and_then(|found| picture::directions(found));
         exported.ok_or("There is nothing to export yet: open a picture in the Picture pane")
+    }
+
+    fn gather_analysed(&mut self) -> Result<Exported, &'static str> {
+        let analysing = &self.transient.analysing;
+        let found = analysing.found().zip(analysing.figure());
+        let (found, (_, drawn)) =
+            found.ok_or("There is nothing to export yet: analyse sessions in the Analysis pane")?;
+        Ok(analysis::figure(found, drawn))
     }
 
     /// The scene as panes draw it, without a look at pictures.

@@ -22,6 +22,7 @@
 //! - what is exported is what was seen when it was asked for, however long the path takes
 
 mod accuracy;
+mod analysis;
 mod cells;
 mod collection;
 mod comparison;
@@ -64,6 +65,8 @@ pub(crate) enum Exportable {
     Pane(Pane),
     /// The strips at the bottom.
     Timeline,
+    /// A figure of the section of an analysis that is at hand.
+    Analysed,
 }
 
 impl Exportable {
@@ -75,6 +78,7 @@ impl Exportable {
             Self::Pane(Pane::Bridge) => "Times on the link",
             Self::Pane(pane) => pane.title(),
             Self::Timeline => "Timeline",
+            Self::Analysed => "Analysis",
         }
     }
 

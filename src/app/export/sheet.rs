@@ -1,5 +1,6 @@
 //! A table by its columns, and its CSV with the lines that say where it comes from.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::Origin;
@@ -8,7 +9,7 @@ use crate::files::{FileError, TableWriter};
 /// A table: named columns of one length.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Sheet {
-    columns: Vec<(&'static str, Values)>,
+    columns: Vec<(Cow<'static, str>, Values)>,
 }
 
 /// What a column holds.
@@ -71,8 +72,12 @@ impl Values {
 
 impl Sheet {
     /// The same with another column, whose name holds its unit.
-    pub(crate) fn with(mut self, name: &'static str, values: impl Into<Values>) -> Self {
-        self.columns.push((name, values.into()));
+    pub(crate) fn with(
+        mut self,
+        name: impl Into<Cow<'static, str>>,
+        values: impl Into<Values>,
+    ) -> Self {
+        self.columns.push((name.into(), values.into()));
         self
     }
 
@@ -91,7 +96,7 @@ impl Sheet {
         for (key, value) in origin.pairs() {
             told.extend(["# ", &key, " = ", &value, "\n"]);
         }
-        let header: Vec<&str> = self.columns.iter().map(|(name, _)| *name).collect();
+        let header: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_ref()).collect();
         let mut writer = TableWriter::new(told.into_bytes(), path, &header)?;
         for row in 0..self.n_rows() {
             for (_, values) in &self.columns {

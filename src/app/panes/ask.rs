@@ -84,6 +84,7 @@ impl AskWords {
                 ending: "",
             },
             Purpose::OpenDesign => design_words(),
+            Purpose::OpenLogs | Purpose::WriteReport => folder_words(purpose),
             Purpose::Clip(kind) => clip_words(kind),
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",
@@ -105,6 +106,27 @@ fn design_words() -> AskWords {
         missing: "Type the path of a design first",
         name: "design.toml",
         ending: ".toml",
+    }
+}
+
+fn folder_words(purpose: Purpose) -> AskWords {
+    if purpose == Purpose::OpenLogs {
+        return AskWords {
+            title: "Analyse the sessions in a folder",
+            verb: "Analyse",
+            hint: "/path/to/study",
+            missing: "Type the path of a folder first",
+            name: "study",
+            ending: "",
+        };
+    }
+    AskWords {
+        title: "Write the report into a folder",
+        verb: "Write",
+        hint: "/path/to/study/analysis",
+        missing: "Type the path of a folder first",
+        name: "analysis",
+        ending: "",
     }
 }
 

@@ -69,6 +69,8 @@ pub(crate) fn show_scene_menu(
         entry(ui, "Cloth from a picture…", picture.into(), None, wishes);
         let experiment = ShowCommand::Perspective(Perspective::Experiment);
         entry(ui, "Run an experiment…", experiment.into(), None, wishes);
+        let analyse = FileCommand::Ask(Purpose::OpenLogs);
+        entry(ui, "Analyse sessions…", analyse.into(), None, wishes);
         let open = FileCommand::Ask(Purpose::OpenRecording);
         entry(ui, "Open a recording…", open.into(), None, wishes);
         show_clips(ui, appearance.clips, wishes);

@@ -4,6 +4,7 @@
 //! before it paints is a pure query with tests of its own.
 
 mod accuracy;
+mod analysis;
 mod ask;
 mod bridge;
 mod collection;
@@ -34,6 +35,9 @@ mod tuning;
 mod why;
 
 pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_corner};
+pub(crate) use analysis::{
+    AnalysisHands, Looks as AnalysisLooks, Sight as AnalysisSight, show as show_analysis,
+};
 pub(crate) use ask::{Ask, AskWords, show as show_ask};
 pub(crate) use bridge::{
     ArrayView, BACK, BridgePane, BridgeTyped, back_notice, show as show_bridge,

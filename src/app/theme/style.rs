@@ -1,13 +1,15 @@
 //! The toolkit's own style, made from the palette, for both themes at once.
 
 use eframe::egui::{
-    self, Color32, CornerRadius, Margin, Stroke, TextStyle, Theme, style::WidgetVisuals, vec2,
+    self, Color32, CornerRadius, FontFamily, Margin, Stroke, TextStyle, Theme,
+    style::WidgetVisuals, vec2,
 };
 
 use super::{Palette, ROW, STEP};
 
 /// Gives `ctx` the two themes. The theme itself follows the system until somebody chooses.
 pub(crate) fn install(ctx: &egui::Context) {
+    ctx.set_fonts(fonts());
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| {
             style.visuals = visuals(theme);
@@ -30,6 +32,17 @@ pub(crate) fn install(ctx: &egui::Context) {
             style.animation_time = 0.0;
         });
     }
+}
+
+/// The toolkit's own fonts; signs that the proportional one lacks, as ′ and ₁, are taken from the
+/// monospaced one, as in figures.
+fn fonts() -> egui::FontDefinitions {
+    let mut fonts = egui::FontDefinitions::default();
+    let monospaced = fonts.families.get(&FontFamily::Monospace);
+    let signs = monospaced.and_then(|names| names.first().cloned());
+    let proportional = fonts.families.entry(FontFamily::Proportional);
+    proportional.or_default().extend(signs);
+    fonts
 }
 
 fn visuals(theme: Theme) -> egui::Visuals {

@@ -139,6 +139,18 @@ fn readable(value: f64) -> String {
     fixed(value, decimals)
 }
 
+impl Table {
+    /// The table as its CSV file has it: what is not computable is empty, its reason in a column of
+    /// its own.
+    ///
+    /// # Errors
+    /// None that a text in memory could have.
+    pub fn to_csv(&self) -> Result<String, ExperimentError> {
+        let bytes = csv_of(self, Path::new("table"))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
 fn write_table(
     table: &Table,
     out: &Path,

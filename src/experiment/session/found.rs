@@ -7,7 +7,7 @@ use super::Sidecar;
 use crate::experiment::ExperimentError;
 use crate::experiment::design::{Design, Subject};
 use crate::experiment::record::{Record, column_names, read_records};
-use crate::files::{self, FileError, Table};
+use crate::files::{self, FileError, Journal, Table};
 
 /// A session that was held.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +44,11 @@ pub fn find(folder: &Path) -> Result<Vec<Found>, ExperimentError> {
 }
 
 impl Found {
+    /// Whether the session is being held now, by this program or another.
+    pub fn is_held(&self) -> bool {
+        Journal::is_written(&self.log)
+    }
+
     /// The session of a log, which another process may be writing.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! The real window under test: no display, no graphics card, simulated time, our own rasteriser.
 
 mod accuracy;
+mod analysis;
 mod armed;
 mod around;
 mod basics;
