@@ -49,6 +49,7 @@ impl Workbench {
             }
             ExperimentCommand::Pause(is_wanted) => self.pause_session(ctx, is_wanted),
             ExperimentCommand::End => self.end_session(ctx),
+            ExperimentCommand::Window(act) => self.transient.experiment.window.act(act),
         }
     }
 
@@ -164,7 +165,8 @@ impl Workbench {
         self.send(engine::Command::SetContactorMask(Vec::new()));
         let perspective = Perspective::Experiment;
         self.dispatch_show(ctx, &ShowCommand::Perspective(perspective));
-        if !arrangement::is_shown(&self.tree, Pane::Participant) {
+        let is_apart = self.transient.experiment.window.is_open;
+        if !is_apart && !arrangement::is_shown(&self.tree, Pane::Participant) {
             self.dispatch_show(ctx, &ShowCommand::Pane(Pane::Participant));
         }
         self.present(ctx);

@@ -21,7 +21,7 @@ mod materials;
 mod now;
 mod view;
 
-pub(crate) use command::ExperimentCommand;
+pub(crate) use command::{ExperimentCommand, WindowAct};
 pub(crate) use draft::{Draft, Mark, Sure};
 pub(crate) use form::{Chosen, Form, Row, list, numbered, title_of};
 pub(crate) use guide::{HALF_MM, RADIUS_MM};
@@ -36,6 +36,42 @@ use super::command::{Command, ShowCommand};
 use super::task::Task;
 use crate::experiment::session::Session;
 
+/// The window that shows a participant's view and nothing else.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ParticipantsWindow {
+    /// Whether it is open: the workbench shows no participant's view then.
+    pub(crate) is_open: bool,
+    /// Whether it is to fill its screen.
+    pub(crate) fills_screen: bool,
+    /// Since when neither window has had the keyboard, s.
+    left_since_s: Option<f64>,
+}
+
+/// The keyboard may be on its way from one window to the other for so long, s.
+const PASSING_S: f64 = 0.25;
+
+impl ParticipantsWindow {
+    /// What becomes of it.
+    pub(crate) fn act(&mut self, act: WindowAct) {
+        match act {
+            WindowAct::Open => self.is_open = true,
+            WindowAct::Close => *self = Self::default(),
+            WindowAct::FillScreen(fills) => self.fills_screen = fills && self.is_open,
+        }
+    }
+
+    /// How long the windows must still be without the keyboard until another program is sure to
+    /// have it, s; `None` while one of them has it.
+    pub(crate) fn left_alone_s(&mut self, now_s: f64, has_keyboard: bool) -> Option<f64> {
+        if has_keyboard {
+            self.left_since_s = None;
+            return None;
+        }
+        let since_s = *self.left_since_s.get_or_insert(now_s);
+        Some((since_s + PASSING_S - now_s).max(0.0))
+    }
+}
+
 /// Experiments, as the window knows them: neither saved nor undoable.
 #[derive(Debug, Default)]
 pub(crate) struct Experiment {
@@ -45,6 +81,8 @@ pub(crate) struct Experiment {
     pub(crate) beginning: Option<Task<Begun>>,
     /// The session that is held.
     pub(crate) held: Option<Box<Held>>,
+    /// A window of the participant's own.
+    pub(crate) window: ParticipantsWindow,
     /// Whether the next recording that ends is of a trial that nobody answered.
     pub(crate) lets_recording_go: bool,
 }

@@ -7,8 +7,11 @@ mod session;
 use eframe::egui::{RichText, Ui};
 
 use super::Wishes;
-use crate::app::experiment::{ExperimenterView, Form};
+use crate::app::experiment::{
+    ExperimentCommand, ExperimenterView, Form, ParticipantsWindow, WindowAct,
+};
 use crate::app::theme::{Palette, STEP};
+use crate::app::widgets::{button, section};
 
 /// What is typed in the pane.
 pub(crate) struct ExperimenterHands<'a> {
@@ -21,7 +24,7 @@ pub(crate) struct ExperimenterHands<'a> {
 /// Shows the pane.
 pub(crate) fn show(
     ui: &mut Ui,
-    view: &ExperimenterView,
+    (view, window): (&ExperimenterView, ParticipantsWindow),
     hands: &mut ExperimenterHands<'_>,
     wishes: &mut Wishes,
 ) {
@@ -32,6 +35,37 @@ pub(crate) fn show(
             session::show(ui, held, hands.note.as_deref_mut(), wishes);
         }
     }
+    show_window(ui, window, wishes);
+}
+
+/// Where the participant's view is.
+fn show_window(ui: &mut Ui, window: ParticipantsWindow, wishes: &mut Wishes) {
+    section(ui, "Participant's window");
+    let mut act = |act| wishes.push(ExperimentCommand::Window(act).into());
+    if !window.is_open {
+        let tip = "The participant's view alone, in a window for a screen of its own";
+        if button(ui, "Open it", tip, None) {
+            act(WindowAct::Open);
+        }
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        let (words, tip) = if window.fills_screen {
+            ("Leave the full screen", "F11 in that window does the same")
+        } else {
+            (
+                "Fill its screen",
+                "Drag it to the participant's screen first; F11 in that window does the same",
+            )
+        };
+        if button(ui, words, tip, None) {
+            act(WindowAct::FillScreen(!window.fills_screen));
+        }
+        let tip = "Show the participant's view in the workbench again; the session goes on";
+        if button(ui, "Close it", tip, None) {
+            act(WindowAct::Close);
+        }
+    });
 }
 
 /// What stands in the place of a pane that would tell too much.

@@ -15,8 +15,9 @@ use eframe::egui::{
 use eframe::egui::{Role, WidgetText};
 
 use super::Wishes;
-use crate::app::experiment::{ExperimentCommand, ParticipantView, TrialView};
+use crate::app::experiment::{ExperimentCommand, ParticipantView, TrialView, WindowAct};
 use crate::app::theme::{self, Palette, STEP};
+use crate::app::widgets::button;
 use crate::app::workspace::Shown;
 
 /// Height of the line that says what is asked, points.
@@ -66,6 +67,25 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
         }
         ParticipantView::Trial(trial) => Some(show_trial(ui, trial, wishes)),
     }
+}
+
+/// Stands where the view was before it went to a window of its own.
+pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    ui.painter().rect_filled(ui.max_rect(), 0, palette.floor);
+    let height = ui.available_height();
+    ui.vertical_centered(|ui| {
+        ui.add_space((0.4 * height).max(STEP));
+        let words = "The participant's view is in a window of its own: drag it to another screen, \
+                     F11 fills that screen. Answers are typed there.";
+        ui.set_max_width(LINE.min(ui.available_width() - 8.0 * STEP));
+        ui.add(eframe::egui::Label::new(RichText::new(words).color(palette.dim)).wrap());
+        ui.add_space(2.0 * STEP);
+        let tip = "Close that window and show the view here";
+        if button(ui, "Show it here again", tip, None) {
+            wishes.push(ExperimentCommand::Window(WindowAct::Close).into());
+        }
+    });
 }
 
 fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown {
