@@ -228,5 +228,8 @@ impl Workbench {
         kept.greys_below = self.workspace.greys_below;
         kept.overlays = self.workspace.overlays;
         kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
+        let form = &self.transient.experiment.form;
+        kept.sessions_folder = form.kept_folder();
+        kept.design = form.chosen.word();
     }
 }

@@ -30,7 +30,7 @@ mod trial;
 
 pub use course::{Course, Step};
 pub use error::ExperimentError;
-pub use participants::{Participant, Participants, Particulars};
+pub use participants::{HANDS, Participant, Participants, Particulars, SEXES};
 pub use procedure::Procedure;
 pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
 pub use simulate::{SIMULATED, Simulation, simulated_subject};

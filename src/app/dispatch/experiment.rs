@@ -8,7 +8,7 @@ use eframe::egui;
 use crate::app::arrangement::{self, Pane};
 use crate::app::command::ShowCommand;
 use crate::app::experiment::{
-    Began, Begun, Chosen, ExperimentCommand, Held, Mark, Materials, Now, Pause, list, numbered,
+    Began, Begun, Chosen, ExperimentCommand, Held, Mark, Materials, Now, Pause, list,
 };
 use crate::app::perspective::Perspective;
 use crate::app::rendering::Rendering;
@@ -16,8 +16,8 @@ use crate::app::task::{Task, taken};
 use crate::app::view::Source;
 use crate::app::window::{FRAME, Workbench};
 use crate::engine::{self, InputSource, Recording};
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::session::{Session, Sidecar};
+use crate::experiment::design::Design;
+use crate::experiment::session::{Origin, Session, Sidecar};
 use crate::progress::Progress;
 use crate::scene::Display;
 
@@ -33,7 +33,7 @@ impl Workbench {
             ExperimentCommand::Open(path) => {
                 self.transient.experiment.form.choose(Chosen::File(path));
             }
-            ExperimentCommand::List => self.list_sessions(ctx),
+            ExperimentCommand::List => self.list_sessions(ctx, true),
             ExperimentCommand::Begin => self.begin_session(ctx),
             ExperimentCommand::Resume(log) => self.resume_session(ctx, log),
             ExperimentCommand::Pass => self.pass_step(ctx),
@@ -53,31 +53,39 @@ impl Workbench {
         }
     }
 
-    fn list_sessions(&mut self, ctx: &egui::Context) {
+    fn list_sessions(&mut self, ctx: &egui::Context, is_asked: bool) {
         let form = &mut self.transient.experiment.form;
         let folder = form.folder();
-        let work = move |_: &mut Progress<'_>| list(&folder);
-        form.listing = Some(Task::start(
-            ("selvedge-sessions", ctx),
-            self.is_stepped,
-            work,
-        ));
+        let work = move |_: &mut Progress<'_>| list(&folder, is_asked);
+        let name = ("selvedge-sessions", ctx);
+        form.lists(Task::start(name, self.is_stepped, work));
+    }
+
+    /// Lists a folder once it was typed, while somebody looks.
+    fn follow_folder(&mut self, ctx: &egui::Context) {
+        let is_due = self.transient.experiment.form.is_to_be_listed();
+        let is_typing = ctx.egui_wants_keyboard_input();
+        if is_due && !is_typing && arrangement::is_shown(&self.tree, Pane::Experimenter) {
+            self.list_sessions(ctx, false);
+        }
+        let form = &mut self.transient.experiment.form;
+        form.who.follow(&form.participants);
     }
 
     fn begin_session(&mut self, ctx: &egui::Context) {
         let form = &self.transient.experiment.form;
-        let (Some((design, subject, folder)), path) = (form.told(), form.chosen.path().to_owned())
-        else {
+        let (Some(told), path) = (form.told(), form.chosen.path().to_owned()) else {
             return;
         };
         let device = self.device_name();
-        let open = move |design: Design, subject: Subject| {
-            let subject = numbered(&folder, &design, subject)?;
-            let session = Session::create(&folder, design, subject, &device);
+        let (design, beside) = (told.design.clone(), path.clone());
+        let open = move || {
+            let subject = told.enrolled()?;
+            let origin = Origin::file(&device, &beside);
+            let session = Session::create(&told.folder, told.design, subject, origin);
             session.map_err(|error| error.to_string())
         };
-        let read = move || Ok((design, subject, path));
-        self.start_session(ctx, read, open);
+        self.start_session(ctx, move || Ok((design, path)), open);
     }
 
     fn resume_session(&mut self, ctx: &egui::Context, log: PathBuf) {
@@ -86,11 +94,10 @@ impl Workbench {
         let read = move || {
             let sidecar = Sidecar::read(&from).map_err(|error| error.to_string())?;
             let design = sidecar.design(&from).map_err(|error| error.to_string())?;
-            Ok((design, sidecar.subject(), from))
+            let file = sidecar.design_file(&from);
+            Ok((design, file.map_err(|error| error.to_string())?))
         };
-        let open = move |_: Design, _: Subject| {
-            Session::resume(&log, &device).map_err(|error| error.to_string())
-        };
+        let open = move || Session::resume(&log, &device).map_err(|error| error.to_string());
         self.start_session(ctx, read, open);
     }
 
@@ -98,8 +105,8 @@ impl Workbench {
     fn start_session(
         &mut self,
         ctx: &egui::Context,
-        read: impl FnOnce() -> Result<(Design, Subject, PathBuf), String> + Send + 'static,
-        open: impl FnOnce(Design, Subject) -> Result<Session, String> + Send + 'static,
+        read: impl FnOnce() -> Result<(Design, PathBuf), String> + Send + 'static,
+        open: impl FnOnce() -> Result<Session, String> + Send + 'static,
     ) {
         let is_busy = self.preparing.is_busy() || self.transient.opening.is_some();
         let experiment = &mut self.transient.experiment;
@@ -117,10 +124,10 @@ impl Workbench {
             progress
                 .step(0.1, "textiles")
                 .map_err(|stop| stop.to_string())?;
-            let (design, subject, path) = read()?;
+            let (design, path) = read()?;
             let materials = gather(&design, &path, how)?;
             progress.step(0.9, "log").map_err(|stop| stop.to_string())?;
-            let session = open(design, subject)?;
+            let session = open()?;
             Ok(Begun { session, materials })
         };
         let task = Task::start(("selvedge-session", ctx), self.is_stepped, work);
@@ -294,7 +301,7 @@ impl Workbench {
         self.transient.history.clear();
         self.transient.trail = crate::app::workspace::Trail::default();
         self.feel_document(ctx);
-        self.list_sessions(ctx);
+        self.list_sessions(ctx, false);
     }
 
     /// Takes a recording that has ended, if a session or what is left of one wants it.
@@ -322,10 +329,11 @@ impl Workbench {
     pub(crate) fn poll_experiment(&mut self, ctx: &egui::Context) {
         let form = &mut self.transient.experiment.form;
         match taken(&mut form.listing) {
-            Some((Ok(found), _)) => form.found = found,
+            Some((Ok(listed), _)) => form.take_listed(listed),
             Some((Err(line), _)) => form.failure = Some(line),
             None => {}
         }
+        self.follow_folder(ctx);
         match taken(&mut self.transient.experiment.beginning) {
             Some((Ok(begun), _)) => self.hold(ctx, begun),
             Some((Err(line), _)) => self.transient.experiment.form.failure = Some(line),

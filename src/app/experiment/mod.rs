@@ -20,10 +20,11 @@ mod held;
 mod materials;
 mod now;
 mod view;
+mod who;
 
 pub(crate) use command::{ExperimentCommand, WindowAct};
 pub(crate) use draft::{Draft, Mark, Sure};
-pub(crate) use form::{Chosen, Form, Row, list, numbered, title_of};
+pub(crate) use form::{Chosen, Form, Row, list, title_of};
 pub(crate) use guide::{HALF_MM, RADIUS_MM};
 pub(crate) use held::Held;
 pub(crate) use materials::Materials;
@@ -31,6 +32,7 @@ pub(crate) use now::{Began, Now, Pause};
 pub(crate) use view::{
     Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView,
 };
+pub(crate) use who::Who;
 
 use super::command::{Command, ShowCommand};
 use super::task::Task;

@@ -25,7 +25,7 @@ fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
     let form = &mut window.bench.transient.experiment.form;
     form.choose(small(folder, design));
     form.folder = folder.0.display().to_string();
-    form.pseudonym = pseudonym.to_owned();
+    form.who.pseudonym = pseudonym.to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     let experiment = &window.bench.transient.experiment;
@@ -148,7 +148,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     let before = window.bench.document.scene().clone();
     let form = &mut window.bench.transient.experiment.form;
     form.folder = folder.0.display().to_string();
-    form.pseudonym = "p01".to_owned();
+    form.who.pseudonym = "p01".to_owned();
     form.choose(small(&folder, "ranking-virtual-target"));
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
@@ -365,7 +365,7 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     window.pass(3);
     let failure = window.bench.transient.experiment.form.failure.clone();
     assert!(failure.unwrap().contains("resume it below"));
-    window.bench.transient.experiment.form.pseudonym = "p02".to_owned();
+    window.bench.transient.experiment.form.who.pseudonym = "p02".to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     assert_eq!(held(&window).subject.nth, 1, "the second of the study");

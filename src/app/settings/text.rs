@@ -53,6 +53,10 @@ struct Keys {
     array: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     window_size: Value<[f32; 2]>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    sessions_folder: Value<String>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    experiment_design: Value<String>,
     recent_scenes: Value<Vec<PathBuf>>,
     perspective: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
@@ -163,6 +167,8 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         array: taken("array", keys.array, odd),
         tablet_areas: areas(keys.tablet_areas_mm, odd),
         window_size: taken("window_size", keys.window_size, odd),
+        sessions_folder: taken("sessions_folder", keys.sessions_folder, odd),
+        design: taken("experiment_design", keys.experiment_design, odd),
         ..first
     }
     .with_recent_scenes(recent.unwrap_or_default())
@@ -242,6 +248,8 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         error_budget_db: Value::Known(kept.rendering.budget_db),
         array: kept.array.clone().into(),
         window_size: kept.window_size.into(),
+        sessions_folder: kept.sessions_folder.clone().into(),
+        experiment_design: kept.design.clone().into(),
         recent_scenes: Value::Known(recent.filter(is_text).cloned().collect()),
         perspective: word(&kept.perspective, &perspectives()).into(),
         arrangement: kept.arrangements[0].clone().into(),

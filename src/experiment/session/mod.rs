@@ -10,6 +10,7 @@
 //! The path of a trial is written before its row: a row that is there has all that belongs to it.
 
 mod found;
+mod origin;
 mod sidecar;
 mod whole;
 
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 pub use found::{Found, find};
+pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
 pub use whole::{unwritten, write_whole};
 
@@ -55,16 +57,18 @@ pub struct Circumstances<'a> {
 }
 
 impl Session {
-    /// Begins a session in a folder, which is made where it is missing.
+    /// Begins a session in a folder, which is made where it is missing. A library that the design
+    /// names is found again from where the design came from.
     ///
     /// # Errors
     /// The pseudonym is no name, this session was begun before, or it cannot be written.
-    pub fn create(
+    pub fn create<'a>(
         folder: &Path,
         design: Design,
         subject: Subject,
-        device: &str,
+        origin: impl Into<Origin<'a>>,
     ) -> Result<Self, ExperimentError> {
+        let origin = origin.into();
         check_pseudonym(&subject.pseudonym)?;
         fs::create_dir_all(folder).map_err(|source| FileError::Write {
             path: folder.to_owned(),
@@ -81,7 +85,8 @@ impl Session {
             journal => journal?,
         };
         let mut sidecar = Sidecar::of(&design, &subject, course.progress().1);
-        sidecar.open(Opening::at(SystemTime::now(), device, 0));
+        sidecar.come_from(&origin, &design, &path);
+        sidecar.open(Opening::at(SystemTime::now(), origin.device, 0));
         sidecar.write(&path)?;
         Ok(Self {
             design,

@@ -28,7 +28,7 @@ impl Drawn {
         let form = &mut drawn.window.bench.transient.experiment.form;
         form.choose(small(folder, design));
         form.folder = folder.0.display().to_string();
-        form.pseudonym = pseudonym.to_owned();
+        form.who.pseudonym = pseudonym.to_owned();
         drawn.window.dispatch(ExperimentCommand::Begin);
         drawn.pass(3);
         for _ in 0..6 {
