@@ -45,13 +45,13 @@ impl Desk<'_> {
             self.bench.engine.profile().limit_um,
         );
         let experiment = &mut transient.experiment;
-        let window = experiment.window;
+        let (window, noise) = (experiment.window, experiment.noise());
         let view = experiment.experimenter(link, now_s);
         let mut hands = ExperimenterHands {
             note: experiment.held.as_mut().map(|held| &mut held.note),
             form: &mut experiment.form,
         };
-        panes::show_experimenter(ui, (&view, window), &mut hands, self.wishes);
+        panes::show_experimenter(ui, (&view, noise.as_ref(), window), &mut hands, self.wishes);
     }
 }
 

@@ -8,7 +8,7 @@ use eframe::egui;
 use crate::app::arrangement::{self, Pane};
 use crate::app::command::ShowCommand;
 use crate::app::experiment::{
-    Began, Begun, Chosen, ExperimentCommand, Held, Mark, Materials, Now, Pause, list,
+    Began, Begun, Chosen, ExperimentCommand, Held, Mark, Materials, Now, Pause, list, write_noise,
 };
 use crate::app::perspective::Perspective;
 use crate::app::rendering::Rendering;
@@ -49,6 +49,7 @@ impl Workbench {
             }
             ExperimentCommand::Pause(is_wanted) => self.pause_session(ctx, is_wanted),
             ExperimentCommand::End => self.end_session(ctx),
+            ExperimentCommand::Noise => self.write_noise(ctx),
             ExperimentCommand::Window(act) => self.transient.experiment.window.act(act),
         }
     }
@@ -59,6 +60,27 @@ impl Workbench {
         let work = move |_: &mut Progress<'_>| list(&folder, is_asked);
         let name = ("selvedge-sessions", ctx);
         form.lists(Task::start(name, self.is_stepped, work));
+    }
+
+    fn write_noise(&mut self, ctx: &egui::Context) {
+        let experiment = &mut self.transient.experiment;
+        if experiment.form.kept_folder().is_none() || experiment.noise.is_some() {
+            return;
+        }
+        let folder = experiment.form.folder();
+        let work = move |progress: &mut Progress<'_>| write_noise(&folder, progress);
+        let name = ("selvedge-noise", ctx);
+        experiment.noise = Some(Task::start(name, self.is_stepped, work));
+    }
+
+    /// Takes what came of a masking noise.
+    fn poll_noise(&mut self) {
+        let experiment = &mut self.transient.experiment;
+        match taken(&mut experiment.noise) {
+            Some((Ok(()), _)) => experiment.form.has_noise = true,
+            Some((Err(line), _)) => self.transient.notices.give(line),
+            None => {}
+        }
     }
 
     /// Lists a folder once it was typed, while somebody looks.
@@ -334,6 +356,7 @@ impl Workbench {
             None => {}
         }
         self.follow_folder(ctx);
+        self.poll_noise();
         match taken(&mut self.transient.experiment.beginning) {
             Some((Ok(begun), _)) => self.hold(ctx, begun),
             Some((Err(line), _)) => self.transient.experiment.form.failure = Some(line),

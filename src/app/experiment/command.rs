@@ -45,6 +45,8 @@ pub(crate) enum ExperimentCommand {
     Pause(bool),
     /// End the session; what is answered is on disk.
     End,
+    /// Write a masking noise into the folder of sessions.
+    Noise,
     /// Do something with the participant's window.
     Window(WindowAct),
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use super::noise::NOISE_FILE;
 use super::who::Who;
 use crate::app::task::Task;
 use crate::experiment::design::{Design, Subject, is_name};
@@ -76,6 +77,8 @@ pub(crate) struct Form {
     pub(crate) found: Vec<Row>,
     /// Who took part there, as far as that was listed.
     pub(crate) participants: Participants,
+    /// Whether a masking noise lies there.
+    pub(crate) has_noise: bool,
     /// They are being listed.
     pub(crate) listing: Option<Task<Listed>>,
     /// The folder that was listed last.
@@ -89,6 +92,8 @@ pub(crate) struct Listed {
     pub(crate) found: Vec<Row>,
     /// Its table of participants.
     pub(crate) participants: Participants,
+    /// Whether a masking noise was written there.
+    pub(crate) has_noise: bool,
 }
 
 /// A session that was begun.
@@ -117,6 +122,7 @@ impl Default for Form {
             failure: None,
             found: Vec::new(),
             participants: Participants::default(),
+            has_noise: false,
             listing: None,
             listed: None,
         }
@@ -201,6 +207,7 @@ impl Form {
     pub(crate) fn take_listed(&mut self, listed: Listed) {
         self.found = listed.found;
         self.participants = listed.participants;
+        self.has_noise = listed.has_noise;
         self.who.leave_table();
         self.who.follow(&self.participants);
     }
@@ -271,6 +278,7 @@ pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
     Ok(Listed {
         found: find(folder).map_err(told)?.into_iter().map(row).collect(),
         participants: Participants::read(folder).map_err(told)?,
+        has_noise: folder.join(NOISE_FILE).is_file(),
     })
 }
 

@@ -18,6 +18,7 @@ mod form;
 mod guide;
 mod held;
 mod materials;
+mod noise;
 mod now;
 mod view;
 mod who;
@@ -28,6 +29,7 @@ pub(crate) use form::{Chosen, Form, Row, list, title_of};
 pub(crate) use guide::{HALF_MM, RADIUS_MM};
 pub(crate) use held::Held;
 pub(crate) use materials::Materials;
+pub(crate) use noise::{NoiseView, write_noise};
 pub(crate) use now::{Began, Now, Pause};
 pub(crate) use view::{
     Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView,
@@ -83,6 +85,8 @@ pub(crate) struct Experiment {
     pub(crate) beginning: Option<Task<Begun>>,
     /// The session that is held.
     pub(crate) held: Option<Box<Held>>,
+    /// A masking noise on its way to its file.
+    pub(crate) noise: Option<Task<()>>,
     /// A window of the participant's own.
     pub(crate) window: ParticipantsWindow,
     /// Whether the next recording that ends is of a trial that nobody answered.
@@ -107,6 +111,17 @@ impl Experiment {
     /// Width and height of what lies before the participant, mm.
     pub(crate) fn size_mm(&self) -> Option<[f64; 2]> {
         self.held.as_ref().map(|held| held.layout.size_mm)
+    }
+
+    /// How it stands with a masking noise, where the design asks for one.
+    pub(crate) fn noise(&self) -> Option<NoiseView> {
+        let form = &self.form;
+        let is_asked = match &self.held {
+            Some(held) => held.design.course.masking_noise,
+            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
+        };
+        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
+        is_asked.then(view)
     }
 
     /// Whether a command leaves what is felt to the session.

@@ -145,8 +145,6 @@ pub(crate) struct HeldView {
     pub(crate) table: Vec<(Option<usize>, String)>,
     /// The device.
     pub(crate) link: Link,
-    /// Whether a noise must cover what the device can be heard by.
-    pub(crate) wants_noise: bool,
     /// Whether a pause is wanted or on.
     pub(crate) pause: Pause,
     /// Whether a row is on its way to the disk.
@@ -298,7 +296,6 @@ impl Held {
             answered: self.draft.told(),
             table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
             link,
-            wants_noise: self.design.course.masking_noise,
             pause: self.pause,
             is_writing: self.is_writing(),
             failure: self.failure.clone(),

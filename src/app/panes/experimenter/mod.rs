@@ -4,11 +4,12 @@
 mod begin;
 mod session;
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::{ProgressBar, RichText, Ui};
 
 use super::Wishes;
+use super::import::fields::{Tone, note};
 use crate::app::experiment::{
-    ExperimentCommand, ExperimenterView, Form, ParticipantsWindow, WindowAct,
+    ExperimentCommand, ExperimenterView, Form, NoiseView, ParticipantsWindow, WindowAct,
 };
 use crate::app::theme::{Palette, STEP};
 use crate::app::widgets::{button, section};
@@ -24,7 +25,7 @@ pub(crate) struct ExperimenterHands<'a> {
 /// Shows the pane.
 pub(crate) fn show(
     ui: &mut Ui,
-    (view, window): (&ExperimenterView, ParticipantsWindow),
+    (view, noise, window): (&ExperimenterView, Option<&NoiseView>, ParticipantsWindow),
     hands: &mut ExperimenterHands<'_>,
     wishes: &mut Wishes,
 ) {
@@ -36,6 +37,38 @@ pub(crate) fn show(
         }
     }
     show_window(ui, window, wishes);
+    if let Some(noise) = noise {
+        let has_folder = hands.form.kept_folder().is_some();
+        show_noise(ui, noise, has_folder, wishes);
+    }
+}
+
+/// How it stands with the masking noise that the design asks for.
+fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, wishes: &mut Wishes) {
+    section(ui, "Masking noise");
+    match noise {
+        NoiseView::Writing(share) => {
+            ui.add(ProgressBar::new(*share).desired_height(4.0));
+            note(ui, "The noise is being written", Tone::Quiet);
+        }
+        NoiseView::At(path) => {
+            let words = "The design asks for it; this program does not play it. Let any player \
+                         repeat this file on the participant's earphones, so loud that the device \
+                         is not heard:";
+            note(ui, words, Tone::Quiet);
+            note(ui, path, Tone::Wrong);
+        }
+        NoiseView::Missing => {
+            let words = "The design asks for one; this program does not play it, but writes it as \
+                         a sound file for any player.";
+            note(ui, words, Tone::Quiet);
+            let refusal = (!has_folder).then_some("Say in which folder first");
+            let tip = "Pink noise, 30 Hz to 6 kHz, ten minutes that repeat without a seam";
+            if button(ui, "Write the noise", tip, refusal) {
+                wishes.push(ExperimentCommand::Noise.into());
+            }
+        }
+    }
 }
 
 /// Where the participant's view is.
