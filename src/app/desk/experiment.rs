@@ -7,7 +7,7 @@ use eframe::egui::{
 use super::Desk;
 use crate::app::arrangement::Pane;
 use crate::app::command::Command;
-use crate::app::experiment::{ExperimentCommand, Link, WindowAct};
+use crate::app::experiment::{ExperimentCommand, Link, ParticipantView, WindowAct};
 use crate::app::frame::{Felt, frame_as_armed};
 use crate::app::panes::{self, ExperimenterHands, Wishes};
 use crate::app::pointer::Pointed;
@@ -87,7 +87,13 @@ impl Workbench {
                 frame_as_armed(ui.ctx());
             }
             let panel = CentralPanel::default().frame(Frame::new());
-            let shown = panel.show(ui, |ui| panes::show_participant(ui, &view, wishes));
+            let shown = panel.show(ui, |ui| match &view {
+                ParticipantView::Nobody { is_coming } => {
+                    panes::show_before_session(ui, *is_coming);
+                    None
+                }
+                view => panes::show_participant(ui, view, wishes),
+            });
             Some((
                 shown.inner?,
                 Pointed::Participant,

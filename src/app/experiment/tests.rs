@@ -1,6 +1,8 @@
 //! Sessions in the window: what is answered is on disk, what is seen tells nothing, and the
 //! user's scene comes back.
 
+mod apart;
+mod before;
 mod drawn;
 
 use std::fs;

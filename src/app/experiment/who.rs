@@ -97,3 +97,62 @@ impl Who {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::UNIX_EPOCH;
+
+    use super::*;
+    use crate::files::ScratchFolder;
+
+    fn known(name: &str) -> Participants {
+        let folder = ScratchFolder::new(name);
+        std::fs::create_dir_all(&folder.0).unwrap();
+        let told = Particulars {
+            age_years: Some(31),
+            handedness: Some("left"),
+            ..Particulars::default()
+        };
+        let participant = Participant::new("p01", told).unwrap();
+        Participants::enrol(&folder.0, &participant, UNIX_EPOCH).unwrap();
+        Participants::read(&folder.0).unwrap()
+    }
+
+    #[test]
+    fn what_is_known_of_a_pseudonym_is_filled_in_and_taken_out_again() {
+        let known = known("who");
+        let mut who = Who {
+            pseudonym: " p01 ".to_owned(),
+            room: "B-214".to_owned(),
+            ..Who::default()
+        };
+        who.follow(&known);
+        assert!(who.is_known());
+        assert_eq!((who.age.as_str(), who.handedness.as_str()), ("31", "left"));
+        assert_eq!(who.room, "B-214", "what was typed stays");
+        who.pseudonym.push('2');
+        who.follow(&known);
+        assert!(!who.is_known());
+        assert_eq!((who.age.as_str(), who.handedness.as_str()), ("", ""));
+    }
+
+    #[test]
+    fn what_is_told_otherwise_than_before_is_contradicted() {
+        let known = known("who-otherwise");
+        let mut who = Who {
+            pseudonym: "p01".to_owned(),
+            ..Who::default()
+        };
+        who.follow(&known);
+        assert_eq!(known.contradiction(&who.told().unwrap()), None);
+        who.handedness = "right".to_owned();
+        who.follow(&known);
+        let line = known.contradiction(&who.told().unwrap()).unwrap();
+        assert!(
+            line.contains("handedness was left then, and is right now"),
+            "{line}"
+        );
+        who.age = "12.5".to_owned();
+        assert!(who.told().unwrap_err().contains("whole years"));
+    }
+}

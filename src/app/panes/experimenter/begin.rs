@@ -145,7 +145,7 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
     let refusal = no_folder.then_some("Say in which folder first");
     if button(
         ui,
-        "List them",
+        "List again",
         "Look which sessions the folder holds",
         refusal,
     ) {
@@ -155,7 +155,7 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
         show_row(ui, found, is_busy, wishes);
     }
     if form.found.is_empty() {
-        let words = "None is listed. One that was interrupted is resumed from here.";
+        let words = "There is none yet. One that was interrupted is resumed from here.";
         note(ui, words, Tone::Quiet);
     }
 }

@@ -11,7 +11,7 @@ use super::import::fields::{Tone, note};
 use crate::app::experiment::{
     ExperimentCommand, ExperimenterView, Form, NoiseView, ParticipantsWindow, WindowAct,
 };
-use crate::app::theme::{Palette, STEP};
+use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{button, section};
 
 /// What is typed in the pane.
@@ -30,13 +30,13 @@ pub(crate) fn show(
     wishes: &mut Wishes,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
+    show_window(ui, window, wishes);
     match view {
         ExperimenterView::Nobody { share } => begin::show(ui, hands.form, *share, wishes),
         ExperimenterView::Held(held) => {
             session::show(ui, held, hands.note.as_deref_mut(), wishes);
         }
     }
-    show_window(ui, window, wishes);
     if let Some(noise) = noise {
         let has_folder = hands.form.kept_folder().is_some();
         show_noise(ui, noise, has_folder, wishes);
@@ -73,18 +73,19 @@ fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, wishes: &mut Wis
 
 /// Where the participant's view is.
 fn show_window(ui: &mut Ui, window: ParticipantsWindow, wishes: &mut Wishes) {
-    section(ui, "Participant's window");
     let mut act = |act| wishes.push(ExperimentCommand::Window(act).into());
     if !window.is_open {
-        let tip = "The participant's view alone, in a window for a screen of its own";
-        if button(ui, "Open it", tip, None) {
+        let tip = "The participant's view alone, to be dragged to a screen of its own";
+        if button(ui, "Participant's window", tip, None) {
             act(WindowAct::Open);
         }
         return;
     }
     ui.horizontal_wrapped(|ui| {
+        let name = RichText::new("Participant's window").font(theme::small());
+        ui.label(name.color(Palette::in_ui(ui).dim));
         let (words, tip) = if window.fills_screen {
-            ("Leave the full screen", "F11 in that window does the same")
+            ("Make it smaller", "F11 in that window does the same")
         } else {
             (
                 "Fill its screen",

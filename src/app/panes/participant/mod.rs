@@ -1,6 +1,7 @@
 //! What a participant sees: large, calm, to be read from a metre away. Everything that is asked can
 //! be answered by keys alone.
 
+mod big;
 mod controls;
 mod ground;
 mod keys;
@@ -10,7 +11,7 @@ mod ranks;
 mod tests;
 
 use eframe::egui::{
-    Align2, Button, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2,
 };
 use eframe::egui::{Role, WidgetText};
 
@@ -24,6 +25,8 @@ use crate::app::workspace::Shown;
 const QUESTION: f32 = 56.0;
 /// Height of what is answered with, points.
 const ANSWER: f32 = 132.0;
+/// Height of the line that names the keys, points.
+const HINT: f32 = 24.0;
 /// No line of words is longer, points.
 const LINE: f32 = 720.0;
 
@@ -69,6 +72,19 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
     }
 }
 
+/// Stands in a window of the participant's own while no session is held.
+pub(crate) fn show_before(ui: &mut Ui, is_coming: bool) {
+    let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));
+    let words = if is_coming {
+        "The session is being prepared."
+    } else {
+        "The experimenter will begin the session."
+    };
+    show_words(&mut ui, "Welcome", words);
+}
+
 /// Stands where the view was before it went to a window of its own.
 pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
@@ -89,7 +105,11 @@ pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
 }
 
 fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown {
-    let [rect, foot] = split(ui, &sentence(trial.question), controls::height(trial.draft));
+    let [rect, foot] = split(
+        ui,
+        &sentence(&trial.question),
+        controls::height(trial.draft) + HINT,
+    );
     let shown = ground::show(ui, rect, &trial.ground);
     if let Some(intervals) = trial.intervals {
         ground::paint_intervals(ui, rect, intervals);
@@ -99,6 +119,11 @@ fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown 
         ui.disable();
     }
     controls::show(&mut ui, trial, wishes);
+    let palette = Palette::in_ui(&ui);
+    let (at, font) = (foot.center_bottom(), theme::body());
+    let hint = keys::hint(trial);
+    ui.painter()
+        .text(at, Align2::CENTER_BOTTOM, hint, font, palette.dim);
     if trial.is_open {
         keys::take(&ui, trial, wishes);
     }
@@ -164,10 +189,11 @@ fn show_pass(ui: &mut Ui, left_s: Option<f64>, wishes: &mut Wishes) {
         clock(left_s)
     };
     ui.vertical_centered(|ui| {
-        let text = RichText::new(words).font(theme::large());
-        let button = Button::new(text).min_size(vec2(180.0, 52.0));
-        let is_clicked = ui.add_enabled(may_pass, button).clicked();
-        let is_free = !ui.ctx().egui_wants_keyboard_input();
+        let button = ui.add_enabled_ui(may_pass, |ui| {
+            big::button(ui, (&words, &words), 180.0, false)
+        });
+        let is_clicked = button.inner.clicked();
+        let is_free = !ui.ctx().text_edit_focused();
         let is_key = is_free && ui.input(|input| input.key_pressed(Key::Enter));
         if may_pass && (is_clicked || is_key) {
             wishes.push(ExperimentCommand::Pass.into());

@@ -16,7 +16,7 @@ fn trial(draft: &Draft) -> TrialView<'_> {
             finger: None,
             feels: true,
         },
-        question: "rank all four, 1 for the one most like the target",
+        question: "rank all four, 1 for the one most like the target".to_owned(),
         draft,
         is_open: true,
         intervals: None,
