@@ -389,6 +389,7 @@ fn how_a_trial_was_explored_is_replayed_by_render() {
         apparatus: Apparatus::default(),
         note: "",
         path: Some(&explored),
+        samples: &[],
     };
     let Step::Trial(trial) = session.step() else {
         panic!("a trial waits");

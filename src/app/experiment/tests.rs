@@ -16,7 +16,7 @@ use crate::app::headless::Headless;
 use crate::app::view::Live;
 use crate::experiment::Task;
 use crate::experiment::design::Design;
-use crate::experiment::session::{find, path_file};
+use crate::experiment::session::{find, path_file, samples_file};
 use crate::files::ScratchFolder as Folder;
 use crate::scene::ExplorationPath;
 
@@ -117,6 +117,13 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     assert!(
         moved.fold(0.0, f64::max) > 20.0,
         "it replays how the finger moved"
+    );
+    let reports = fs::read_to_string(samples_file(&log, &trial, 1)).unwrap();
+    let rows: Vec<&str> = reports.lines().collect();
+    assert!(
+        rows[0] == "t_s,x_mm,y_mm" && rows.len() >= 60,
+        "{}",
+        rows.len()
     );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);

@@ -4,13 +4,15 @@
 //! ```text
 //! STUDY_EXPERIMENT_SUBJECT_1.csv      one row a trial, append-only
 //! STUDY_EXPERIMENT_SUBJECT_1.json     design, columns, every opening
-//! STUDY_EXPERIMENT_SUBJECT_1-paths/   how each trial was explored: path files to be replayed
+//! STUDY_EXPERIMENT_SUBJECT_1-paths/   how each trial was explored: path files to be replayed, and
+//!                                     what pointer or tablet reported, at its own rate
 //! ```
 //!
 //! The path of a trial is written before its row: a row that is there has all that belongs to it.
 
 mod found;
 mod origin;
+mod samples;
 mod sidecar;
 mod whole;
 
@@ -28,6 +30,7 @@ use super::course::{Course, Step};
 use super::design::{Design, Subject, is_name};
 use super::record::{Apparatus, Outcome, Record, Timing, column_names, read_records};
 use super::trial::{Answer, Trial};
+use crate::engine::RecordedSample;
 use crate::files::{FileError, Journal, Reopened};
 use crate::quantity::rfc3339;
 use crate::scene::ExplorationPath;
@@ -54,6 +57,8 @@ pub struct Circumstances<'a> {
     pub note: &'a str,
     /// How it was explored, if that was recorded.
     pub path: Option<&'a ExplorationPath>,
+    /// What pointer or tablet reported meanwhile, at its own rate.
+    pub samples: &'a [RecordedSample],
 }
 
 impl Session {
@@ -224,6 +229,10 @@ impl Session {
         if let Some(path) = circumstances.path {
             self.write_path(path, &record)?;
         }
+        if !circumstances.samples.is_empty() {
+            let file = samples_file(self.log(), &record.trial, record.attempt);
+            samples::write(circumstances.samples, &file)?;
+        }
         let cells = record.cells(&self.design, &self.subject);
         let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
         self.journal.append(&cells)?;
@@ -258,6 +267,13 @@ pub fn path_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
     };
     let name = format!("{practice}-{:03}{again}.csv", trial.number + 1);
     log.with_file_name(format!("{stem}-paths")).join(name)
+}
+
+/// The file of what pointer or tablet reported in a trial.
+pub fn samples_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
+    let path = path_file(log, trial, attempt);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-samples.csv"))
 }
 
 /// The log of a subject's session in a folder.
