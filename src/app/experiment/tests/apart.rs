@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::arrangement::Pane;
+use crate::app::pointer::Pointed;
 
 fn window_act(window: &mut Headless, act: WindowAct) {
     window.dispatch(ExperimentCommand::Window(act));
@@ -90,4 +91,24 @@ fn the_keyboard_is_lost_only_when_neither_window_has_it_for_a_while() {
     assert_eq!(window, ParticipantsWindow::default());
     window.act(WindowAct::FillScreen(true));
     assert!(!window.fills_screen, "there is no window to fill it");
+}
+
+#[test]
+fn a_movement_over_the_other_window_is_not_felt() {
+    let folder = Folder::new("apart-pointer");
+    let mut window = begun(&folder, "odd-one-out", "p01");
+    to_trial(&mut window);
+    explore(&mut window, 4);
+    let mut moved_to = |over, pixel| {
+        let stamp = window.bench.stamp();
+        let mut tap = window.bench.tap.lock().unwrap();
+        tap.moved_to_pixel(stamp, over, pixel);
+        drop(tap);
+        window.pass(2);
+        window.bench.transient.live.centre
+    };
+    let before = moved_to(Pointed::Workbench, [320.0, 300.0]);
+    assert!(before.is_some());
+    assert_eq!(moved_to(Pointed::Participant, [420.0, 340.0]), before);
+    assert_ne!(moved_to(Pointed::Workbench, [420.0, 340.0]), before);
 }

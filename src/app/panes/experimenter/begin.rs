@@ -61,7 +61,7 @@ fn show_who(ui: &mut Ui, who: &mut Who) {
     section(ui, "Participant");
     field(ui, "pseudonym", &mut who.pseudonym, ("p01", WIDE));
     if who.is_known() {
-        let words = "Took part before: what was told then is filled in, and stays as it is";
+        let words = "Took part before: what was told is filled in";
         note(ui, words, Tone::Quiet);
     }
     field(ui, "age, years", &mut who.age, ("not told", 84.0));

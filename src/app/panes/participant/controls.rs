@@ -17,9 +17,18 @@ const SCALE: f32 = 420.0;
 /// Height of a scale, points.
 const SCALE_ROW: f32 = 44.0;
 
-/// The room that an answer needs, points.
-pub(super) fn height(draft: &Draft) -> f32 {
+/// Width of the button that hands a ranking in, and the gap before it, points.
+const DONE: f32 = 168.0;
+
+/// Whether that button has room beside the ranks.
+fn is_wide(room: f32) -> bool {
+    room >= ranks::width() + DONE
+}
+
+/// The height that an answer needs where there is `room` across, points.
+pub(super) fn height(draft: &Draft, room: f32) -> f32 {
     match draft {
+        Draft::Ranks(_) if !is_wide(room) => super::ANSWER + big::ROW,
         Draft::Ratings { scales, .. } => SCALE_ROW * count(scales.len()) + big::ROW + 4.0 * STEP,
         Draft::Adjust { parameters, .. } => {
             SCALE_ROW * count(parameters.len()) + big::ROW + 4.0 * STEP
@@ -36,12 +45,19 @@ pub(super) fn show(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
     match trial.draft {
         Draft::Nothing => {}
         Draft::Ranks(order) => {
-            let button = 168.0;
-            row(ui, ranks::width() + button, |ui| {
+            let is_wide = is_wide(ui.available_width());
+            row(ui, ranks::width() + DONE, |ui| {
                 ranks::show(ui, order, wishes);
-                ui.add_space(2.0 * STEP);
-                show_done(ui, trial, wishes);
+                if is_wide {
+                    ui.add_space(2.0 * STEP);
+                    show_done(ui, trial, wishes);
+                }
             });
+            if !is_wide {
+                // What the first and the last rank mean stands between.
+                ui.add_space(5.0 * STEP);
+                row(ui, DONE, |ui| show_done(ui, trial, wishes));
+            }
         }
         Draft::Odd { position, grade } => {
             show_numbers(ui, N_TRIAD, *position, wishes);
@@ -149,12 +165,14 @@ fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, wishes: &mut Wishe
 fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, wishes: &mut Wishes) {
     if sure.n_grades > 0 {
         let width = f32::from(sure.n_grades) * 80.0 + 220.0;
+        let n = f32::from(sure.n_grades);
+        let side = ((ui.available_width() - 240.0) / n - 2.0 * STEP).clamp(44.0, 64.0);
         row(ui, width, |ui| {
             show_end(ui, "guessed");
             for grade in 1..=sure.n_grades {
                 let is_on = sure.grade == Some(grade);
                 let (words, label) = (grade.to_string(), format!("Sure {grade}"));
-                if big::button(ui, (&words, &label), 64.0, is_on).clicked() {
+                if big::button(ui, (&words, &label), side, is_on).clicked() {
                     wishes.push(ExperimentCommand::Mark(Mark::Confidence(grade)).into());
                 }
             }

@@ -155,4 +155,32 @@ mod tests {
             [Mark::TakeBack]
         );
     }
+
+    #[test]
+    fn the_keys_that_answer_are_named() {
+        let draft = Draft::Judge {
+            is_real: None,
+            sure: Sure {
+                n_grades: 3,
+                grade: None,
+            },
+        };
+        let ground = crate::app::experiment::Ground {
+            size_mm: [100.0; 2],
+            slots: Vec::new(),
+            picture: None,
+            finger: None,
+            feels: true,
+        };
+        let trial = TrialView {
+            ground,
+            question: String::new(),
+            draft: &draft,
+            is_open: true,
+            intervals: None,
+            may_play: false,
+        };
+        let words = "Keys: R or G, then 1 to 3 for how sure you are, Enter for Done";
+        assert_eq!(hint(&trial), words);
+    }
 }

@@ -108,7 +108,7 @@ fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown 
     let [rect, foot] = split(
         ui,
         &sentence(&trial.question),
-        controls::height(trial.draft) + HINT,
+        controls::height(trial.draft, ui.max_rect().width()) + HINT,
     );
     let shown = ground::show(ui, rect, &trial.ground);
     if let Some(intervals) = trial.intervals {
