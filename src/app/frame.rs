@@ -247,7 +247,7 @@ impl Workbench {
 pub(crate) type Felt = (workspace::Shown, Pointed, f32);
 
 /// Tells the tap where the workspace is, and feeds it when nobody else does.
-fn feel(bench: &mut Workbench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {
+fn feel(bench: &Workbench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {
     let transient = &bench.transient;
     let is_covered =
         transient.ask.is_some() || transient.question.is_some() || transient.is_help_shown;

@@ -7,7 +7,7 @@
 //! lines with random phases and a period of one minute: where the file ends it goes on as it began,
 //! and a player that repeats it makes no click.
 
-use std::io::{self, Write};
+use std::io::{self, Write as _};
 use std::path::Path;
 
 use super::ExperimentError;

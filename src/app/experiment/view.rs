@@ -258,13 +258,17 @@ impl Held {
 
     fn ground(&self, trial: Option<&Trial>, finger: Option<Point>) -> Ground {
         let target = trial.and_then(|trial| target_of(&self.design, trial));
-        // What is played is felt wherever the finger is.
-        let finger = finger.filter(|_| self.vibrations().is_empty());
+        // What is played is felt wherever the finger is, and nothing lies there.
+        let is_played = !self.vibrations().is_empty();
         Ground {
             size_mm: self.layout.size_mm,
-            slots: slots(&self.layout, trial),
+            slots: if is_played {
+                Vec::new()
+            } else {
+                slots(&self.layout, trial)
+            },
             picture: target.and_then(|id| self.materials.shelf.picture(id)),
-            finger,
+            finger: finger.filter(|_| !is_played),
             feels: self.is_felt(),
         }
     }

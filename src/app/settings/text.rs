@@ -130,11 +130,6 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             odd.push(key);
         }
     }
-    let overlays = taken("overlays", keys.overlays, odd);
-    let overlays = overlays.map_or(Some(first.overlays), |words| Overlays::from_words(&words));
-    if overlays.is_none() {
-        odd.push("overlays");
-    }
     let zoom_percent = taken("zoom_percent", keys.zoom_percent, odd);
     let top_um = taken("amplitude_top_um", keys.amplitude_top_um, odd);
     let is_locked = taken("amplitude_locked", keys.amplitude_locked, odd);
@@ -146,7 +141,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         colour_map: map.ok().flatten().unwrap_or(first.colour_map),
         zoom: zoom_percent.map_or(first.zoom, |percent| percent / 100.0),
         dots: dots.ok().flatten().unwrap_or(first.dots),
-        overlays: overlays.unwrap_or(first.overlays),
+        overlays: overlays(keys.overlays, odd).unwrap_or(first.overlays),
         has_numbers: taken("numbers", keys.numbers, odd).unwrap_or(first.has_numbers),
         greys_below: taken("grey_below_threshold", keys.grey_below_threshold, odd)
             .unwrap_or(first.greys_below),
@@ -172,6 +167,16 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         ..first
     }
     .with_recent_scenes(recent.unwrap_or_default())
+}
+
+/// The overlays, unless one of the words stands for none.
+fn overlays(value: Value<Vec<String>>, odd: &mut Vec<&'static str>) -> Option<Overlays> {
+    let words = taken("overlays", value, odd)?;
+    let overlays = Overlays::from_words(&words);
+    if overlays.is_none() {
+        odd.push("overlays");
+    }
+    overlays
 }
 
 /// The areas of tablets; one that is none leaves only its tablet as at first.

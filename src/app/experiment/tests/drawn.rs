@@ -21,7 +21,7 @@ impl Drawn {
     fn trial(folder: &Folder, design: &'static str, pseudonym: &str, theme: Theme) -> Self {
         let chosen = small(folder, design);
         let mut drawn = Self::begun(folder, chosen, pseudonym, (theme, SIZE));
-        drawn.to_trial();
+        drawn.go_to_trial();
         drawn
     }
 
@@ -52,7 +52,7 @@ impl Drawn {
     }
 
     /// Goes on until a trial waits.
-    fn to_trial(&mut self) {
+    fn go_to_trial(&mut self) {
         for _ in 0..6 {
             self.window.dispatch(ExperimentCommand::Pass);
             self.pass(2);
@@ -219,7 +219,7 @@ fn every_kind_of_trial_is_drawn_in_both_themes_in_wide_and_narrow_windows() {
         let folder = Folder::new(&format!("kind-{design}"));
         let chosen = small(&folder, design);
         let mut drawn = Drawn::begun(&folder, chosen, "p01", (theme, size));
-        drawn.to_trial();
+        drawn.go_to_trial();
         explore(&mut drawn.window, 8);
         for one in said(design) {
             mark(&mut drawn.window, one);
@@ -235,7 +235,7 @@ fn judgements_are_drawn_of_one_fabric_and_of_pairs() {
         let folder = Folder::new(&format!("judgement-{name}"));
         let chosen = written(&folder, &judgements(name));
         let mut drawn = Drawn::begun(&folder, chosen, "p01", (Theme::Dark, size));
-        drawn.to_trial();
+        drawn.go_to_trial();
         for one in said("real-or-generated") {
             mark(&mut drawn.window, one);
         }

@@ -28,8 +28,12 @@ pub(super) fn button(
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let is_enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::selected(egui::Role::Button, is_enabled, is_on, label));
-    let is_lit = response.hovered() && is_enabled;
-    paint(ui, rect, Face::of(palette, is_on, is_lit, is_enabled));
+    let face = match (is_enabled, is_on) {
+        (false, _) => Face::dead(palette),
+        (true, true) => Face::chosen(palette),
+        (true, false) => Face::loose(palette, response.hovered()),
+    };
+    paint(ui, rect, face);
     ring(ui, rect, &response);
     let ink = match (is_on, is_enabled) {
         (true, _) => palette.panel,
@@ -50,19 +54,30 @@ pub(super) struct Face {
 }
 
 impl Face {
-    fn of(palette: &Palette, is_on: bool, is_lit: bool, is_enabled: bool) -> Self {
-        let (fill, edge) = match (is_on, is_lit) {
-            _ if !is_enabled => (palette.panel, palette.hairline),
-            (true, _) => (palette.selection, palette.selection),
-            (false, true) => (palette.hovered, palette.text),
-            (false, false) => (palette.raised, palette.line),
-        };
-        Self { fill, edge }
+    /// Something that cannot be pressed now.
+    fn dead(palette: &Palette) -> Self {
+        Self {
+            fill: palette.panel,
+            edge: palette.hairline,
+        }
     }
 
-    /// Something that can be taken: a number that is not ranked yet.
+    /// Something that was chosen.
+    fn chosen(palette: &Palette) -> Self {
+        Self {
+            fill: palette.selection,
+            edge: palette.selection,
+        }
+    }
+
+    /// Something that can be pressed or taken.
     pub(super) fn loose(palette: &Palette, is_lit: bool) -> Self {
-        Self::of(palette, false, is_lit, true)
+        let (fill, edge) = if is_lit {
+            (palette.hovered, palette.text)
+        } else {
+            (palette.raised, palette.line)
+        };
+        Self { fill, edge }
     }
 
     /// A place for it.
