@@ -307,6 +307,27 @@ mod tests {
     use super::*;
 
     #[test]
+    fn folder_and_design_of_the_last_run_are_taken_up_unless_the_design_is_gone() {
+        let mut form = Form::default();
+        form.choose(Chosen::Shipped("rating"));
+        form.folder = " /lab/study ".to_owned();
+        let (folder, design) = (form.kept_folder(), form.chosen.word());
+        let mut next = Form::default();
+        next.take_up(folder.as_deref(), design.as_deref());
+        assert_eq!(
+            (next.folder.as_str(), &next.chosen),
+            ("/lab/study", &form.chosen)
+        );
+        let mut other = Form::default();
+        other.take_up(None, Some("/nowhere/design.toml"));
+        assert_eq!(
+            (other.folder.as_str(), &other.chosen),
+            ("", &Form::default().chosen)
+        );
+        assert!(other.design.is_ok());
+    }
+
+    #[test]
     fn a_form_says_what_is_missing_until_a_session_can_begin() {
         let mut form = Form::default();
         assert!(form.refusal().unwrap().contains("pseudonym"));
