@@ -314,6 +314,8 @@ mod tests {
                 .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
                 .into(),
             window_size: Some([1600.0, 1000.5]),
+            sessions_folder: Some("/lab/study 1".to_owned()),
+            design: Some("odd-one-out".to_owned()),
             ..Kept::default()
         };
         let scenes = ["/a/ä b.scene.toml", "/c.toml"].map(PathBuf::from);
