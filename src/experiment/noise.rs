@@ -1,11 +1,11 @@
 //! A noise that covers what contactors can be heard by, as a sound file for any player.
 //!
 //! Contactors are heard at their carriers (40 and 320 Hz), at multiples of them up to some kHz, and
-//! as a rustle where amplitudes change from tick to tick. The noise fills that band, 30 Hz to 6 kHz:
-//! pink, as strong in every third of an octave, so that it covers all of it with the least
+//! as a rustle where amplitudes change from tick to tick. The noise fills that band, 30 Hz to
+//! 6 kHz: pink, as strong in every third of an octave, so that it covers all of it with the least
 //! loudness; or white, for a device that rings high up. It is made in the frequency domain, from
-//! lines with random phases and a period of one minute: where the file ends it goes on as it began,
-//! and a player that repeats it makes no click.
+//! lines with random phases and a period of one minute: where the file ends it goes on as it
+//! began, and a player that repeats it makes no click.
 
 use std::io::{self, Write as _};
 use std::path::Path;
