@@ -11,7 +11,7 @@ pub enum AppError {
     /// There is no display to open a window on.
     #[error(
         "there is no display to open a window on; set DISPLAY or WAYLAND_DISPLAY, or use what \
-         works without one: selvedge screenshot, render, play, textile, bridge"
+         works without one: selvedge screenshot, render, play, textile, bridge, experiment"
     )]
     NoDisplay,
     /// The display cannot draw.

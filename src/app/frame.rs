@@ -12,7 +12,7 @@ use super::command::{Command, PlaySource, ShowCommand};
 use super::desk::Desk;
 use super::panes::{self, Wishes};
 use super::perspective::Perspective;
-use super::pointer::Ground;
+use super::pointer::{Ground, Pointed};
 use super::state::{After, Transient};
 use super::tab_row::TabRow;
 use super::take::Take;
@@ -41,10 +41,13 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
         (show_desk(bench, ui, &scene, &mut wishes), rect)
     });
     let (shown, rect) = desk.inner;
+    let apart = bench.show_participants_window(ui.ctx(), &mut wishes);
     bench.leave_plant();
     let over = shown.map_or(rect, |shown| shown.ground);
     show_overlays(bench, ui, over, &mut wishes);
-    feel(bench, ui.ctx(), &scene, shown);
+    let here = shown.map(|shown| (shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
+    bench.transient.ground = shown.map(|shown| shown.ground);
+    feel(bench, ui.ctx(), &scene, apart.or(here));
     mark_hovered(bench, ui.ctx(), &mut wishes);
     if bench.transient.live.is_armed() {
         frame_as_armed(ui.ctx());
@@ -54,7 +57,7 @@ pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
 
 /// Frames the whole window in red while high voltage is on: to be seen from across the room,
 /// whatever pane is in front.
-fn frame_as_armed(ctx: &egui::Context) {
+pub(crate) fn frame_as_armed(ctx: &egui::Context) {
     let layer = LayerId::new(Order::Foreground, Id::unique("armed frame"));
     let palette = Palette::of(ctx.theme());
     let stroke = Stroke::new(ARMED_FRAME, palette.danger);
@@ -240,18 +243,20 @@ impl Workbench {
     }
 }
 
+/// What the pointer feels on: where it is shown, in which window, and its pixels per point.
+pub(crate) type Felt = (workspace::Shown, Pointed, f32);
+
 /// Tells the tap where the workspace is, and feeds it when nobody else does.
-fn feel(
-    bench: &mut Workbench,
-    ctx: &egui::Context,
-    scene: &SceneView,
-    shown: Option<workspace::Shown>,
-) {
+fn feel(bench: &Workbench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {
     let transient = &bench.transient;
     let is_covered =
         transient.ask.is_some() || transient.question.is_some() || transient.is_help_shown;
-    let ground = shown.filter(|shown| shown.feels && !is_covered);
-    let ground = ground.map(|shown| Ground {
+    // What is asked and told here covers nothing in another window.
+    let ground = felt.filter(|(shown, window, _)| {
+        shown.feels && (*window == Pointed::Participant || !is_covered)
+    });
+    let ground = ground.map(|(shown, window, pixels_per_point)| Ground {
+        window,
         view: shown.view,
         rect: shown.ground,
         size_mm: bench
@@ -259,9 +264,8 @@ fn feel(
             .experiment
             .size_mm()
             .unwrap_or(scene.size_mm),
-        pixels_per_point: ctx.pixels_per_point(),
+        pixels_per_point,
     });
-    bench.transient.ground = shown.map(|shown| shown.ground);
     let mut tap = bench.tap.lock().unwrap_or_else(PoisonError::into_inner);
     tap.set_ground(ground);
     if bench.is_stepped {

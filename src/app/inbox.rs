@@ -169,6 +169,27 @@ impl Workbench {
         }
     }
 
+    /// Whether the keyboard went to another program.
+    fn is_keyboard_lost(&mut self, ctx: &egui::Context) -> bool {
+        let window = &mut self.transient.experiment.window;
+        if !window.is_open {
+            let is_left = |event: &egui::Event| matches!(event, egui::Event::WindowFocused(false));
+            return ctx.input(|input| input.events.iter().any(is_left));
+        }
+        let (now_s, has_any) = ctx.input(|input| {
+            let mut windows = input.raw.viewports.values();
+            (
+                input.time,
+                windows.any(|window| window.focused == Some(true)),
+            )
+        });
+        let wait_s = window.left_alone_s(now_s, has_any);
+        if wait_s.is_some_and(|wait_s| wait_s > 0.0) {
+            ctx.request_repaint_after(FRAME);
+        }
+        wait_s.is_some_and(|wait_s| wait_s <= 0.0)
+    }
+
     /// What was pressed on the keyboard.
     pub(crate) fn take_keys(&mut self, ctx: &egui::Context) {
         let moment = &mut self.transient.moment;
@@ -177,11 +198,8 @@ impl Workbench {
             moment.is_down = input.pointer.any_down();
             moment.t_s = input.time;
         });
-        let is_left = |event: &egui::Event| matches!(event, egui::Event::WindowFocused(false));
-        if self.settings.kept.stops_on_focus_loss
-            && self.transient.live.is_armed()
-            && ctx.input(|input| input.events.iter().any(is_left))
-        {
+        let is_watched = self.settings.kept.stops_on_focus_loss && self.transient.live.is_armed();
+        if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(ctx, Command::AllOff);
         }
         let is_held = self.transient.experiment.is_held();
@@ -211,5 +229,8 @@ impl Workbench {
         kept.greys_below = self.workspace.greys_below;
         kept.overlays = self.workspace.overlays;
         kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
+        let form = &self.transient.experiment.form;
+        kept.sessions_folder = form.kept_folder();
+        kept.design = form.chosen.word();
     }
 }

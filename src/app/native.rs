@@ -8,7 +8,7 @@ use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use eframe::egui::{Context, ViewportBuilder, ViewportCommand};
+use eframe::egui::{Context, ViewportBuilder, ViewportCommand, ViewportId};
 use eframe::{EframeWinitApplication, NativeOptions, Renderer, UserEvent};
 use winit::application::ApplicationHandler;
 use winit::event::{DeviceEvent, DeviceId, ElementState, StartCause, WindowEvent};
@@ -19,7 +19,9 @@ use winit::window::WindowId;
 use super::backlog::Backlog;
 use super::command::DeviceCommand;
 use super::error::AppError;
-use super::pointer::PointerTap;
+use super::pointer::{Pointed, PointerTap};
+#[cfg(target_os = "linux")]
+use super::pointer_x11::Listener;
 use super::window::{Drive, Workbench};
 use crate::engine::StopSwitch;
 
@@ -30,8 +32,31 @@ type Shared = Rc<RefCell<Option<Ears>>>;
 struct Ears {
     tap: Arc<Mutex<PointerTap>>,
     stop: StopSwitch,
-    /// Movements without a button held reach the tap by a thread of their own.
-    has_listener: bool,
+    /// The workbench's window.
+    workbench: Option<WindowId>,
+    /// Movements without a button held reach the tap by a thread of their own, if there is one.
+    listener: Option<Listener>,
+    /// The participant's window that was seen last, and whether that thread listens to it.
+    participant: Option<(WindowId, bool)>,
+}
+
+impl Ears {
+    /// Which of the windows this is, and whether a thread listens to it.
+    fn window_of(&mut self, id: WindowId) -> (Pointed, bool) {
+        if self.workbench.is_none_or(|workbench| workbench == id) {
+            return (Pointed::Workbench, self.listener.is_some());
+        }
+        let is_heard = match self.participant {
+            Some((known, is_heard)) if known == id => is_heard,
+            _ => {
+                let listener = self.listener.as_ref();
+                let is_heard = listener.is_some_and(|listener| listener.also(id.into()));
+                self.participant = Some((id, is_heard));
+                is_heard
+            }
+        };
+        (Pointed::Participant, is_heard)
+    }
 }
 
 /// Ends the workbench from any thread: the device stops at once, the window closes.
@@ -45,8 +70,9 @@ impl EndSwitch {
     /// Everything off; then the window closes as if its own button had been pressed.
     pub fn press(&self) {
         self.stop.press();
-        self.ctx.send_viewport_cmd(ViewportCommand::Close);
-        self.ctx.request_repaint();
+        // The participant's window may be the one that is being drawn.
+        (self.ctx).send_viewport_cmd_to(ViewportId::ROOT, ViewportCommand::Close);
+        self.ctx.request_repaint_of(ViewportId::ROOT);
     }
 }
 
@@ -87,7 +113,9 @@ pub fn run(
                 *for_app.borrow_mut() = Some(Ears {
                     tap: Arc::clone(&workbench.tap),
                     stop: stop.clone(),
-                    has_listener: has_listener(cc, &workbench.tap),
+                    workbench: cc.winit_window().map(|window| window.id()),
+                    listener: listener(cc, &workbench.tap),
+                    participant: None,
                 });
                 on_open(EndSwitch {
                     stop,
@@ -108,6 +136,7 @@ pub fn run(
         app,
         shared,
         backlog,
+        waits_over: Pointed::default(),
         n_held: 0,
     });
     if let Some(error) = failure.borrow_mut().take() {
@@ -139,18 +168,33 @@ fn workbench(
 
 /// Lets a thread of its own listen to the pointer, where that can be had.
 #[cfg(target_os = "linux")]
-fn has_listener(cc: &eframe::CreationContext<'_>, tap: &Arc<Mutex<PointerTap>>) -> bool {
+fn listener(cc: &eframe::CreationContext<'_>, tap: &Arc<Mutex<PointerTap>>) -> Option<Listener> {
     let tap = Arc::clone(tap);
-    super::pointer_x11::listen(cc, move |stamp, pixel| {
+    super::pointer_x11::listen(cc, move |stamp, is_workbench, pixel| {
+        let window = if is_workbench {
+            Pointed::Workbench
+        } else {
+            Pointed::Participant
+        };
         let mut tap = tap.lock().unwrap_or_else(PoisonError::into_inner);
-        tap.moved_to_pixel(stamp, pixel);
+        tap.moved_to_pixel(stamp, window, pixel);
     })
 }
 
-/// Here the window's own events are all there is.
+/// Here the windows' own events are all there is.
 #[cfg(not(target_os = "linux"))]
-fn has_listener(_cc: &eframe::CreationContext<'_>, _tap: &Arc<Mutex<PointerTap>>) -> bool {
-    false
+enum Listener {}
+
+#[cfg(not(target_os = "linux"))]
+impl Listener {
+    fn also(&self, _window: u64) -> bool {
+        match *self {}
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn listener(_cc: &eframe::CreationContext<'_>, _tap: &Arc<Mutex<PointerTap>>) -> Option<Listener> {
+    None
 }
 
 /// The toolkit's own handler, with an ear in front of it.
@@ -158,16 +202,25 @@ struct Stamping<'a> {
     app: EframeWinitApplication<'a>,
     shared: Shared,
     backlog: Backlog,
+    /// The window that what waits there is over.
+    waits_over: Pointed,
     /// Buttons of the pointer that are held.
     n_held: u32,
 }
 
 impl Stamping<'_> {
-    fn listen(&mut self, event: &WindowEvent) {
+    /// Which window this is, and whether a thread listens to the pointer over it.
+    fn window_of(&self, id: WindowId) -> (Pointed, bool) {
+        let mut shared = self.shared.borrow_mut();
+        let ears = shared.as_mut();
+        ears.map_or_else(Default::default, |ears| ears.window_of(id))
+    }
+
+    fn listen(&mut self, id: WindowId, event: &WindowEvent) {
+        let (window, is_heard) = self.window_of(id);
         if let WindowEvent::CursorMoved { position, .. } = event {
-            let has_listener = |ears: &Ears| ears.has_listener;
-            if self.n_held > 0 || !self.shared.borrow().as_ref().is_some_and(has_listener) {
-                self.backlog.moved([position.x, position.y]);
+            if self.n_held > 0 || !is_heard {
+                self.moved(window, [position.x, position.y]);
             }
             return;
         }
@@ -188,19 +241,33 @@ impl Stamping<'_> {
                 ElementState::Pressed => self.n_held += 1,
                 ElementState::Released => self.n_held = self.n_held.saturating_sub(1),
             },
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => stop.press(),
+            // The participant's window comes and goes while a device is armed.
+            WindowEvent::CloseRequested | WindowEvent::Destroyed
+                if window == Pointed::Workbench =>
+            {
+                stop.press();
+            }
             _ => {}
         }
     }
 
+    fn moved(&mut self, window: Pointed, pixel: [f64; 2]) {
+        if window != self.waits_over {
+            self.pass_on();
+            self.waits_over = window;
+        }
+        self.backlog.moved(pixel);
+    }
+
     /// Hands what was heard of the pointer to the engine.
     fn pass_on(&mut self) {
+        let window = self.waits_over;
         let shared = self.shared.borrow();
         let tap = shared.as_ref().map(|ears| &ears.tap);
         let mut tap = tap.map(|tap| tap.lock().unwrap_or_else(PoisonError::into_inner));
         self.backlog.pass_on(Instant::now(), |stamp, pixel| {
             if let Some(tap) = &mut tap {
-                tap.moved_to_pixel(stamp, pixel);
+                tap.moved_to_pixel(stamp, window, pixel);
             }
         });
     }
@@ -208,7 +275,7 @@ impl Stamping<'_> {
 
 impl ApplicationHandler<UserEvent> for Stamping<'_> {
     fn window_event(&mut self, event_loop: &ActiveEventLoop, id: WindowId, event: WindowEvent) {
-        self.listen(&event);
+        self.listen(id, &event);
         self.app.window_event(event_loop, id, event);
     }
 

@@ -11,9 +11,21 @@ use eframe::egui::{Pos2, Rect, pos2};
 use super::workspace::{ViewTransform, is_near};
 use crate::engine::{PointerSample, PointerSender};
 
+/// The window that the pointer is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Pointed {
+    /// The workbench.
+    #[default]
+    Workbench,
+    /// The participant's window.
+    Participant,
+}
+
 /// Where the workspace was drawn last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ground {
+    /// In which window.
+    pub(crate) window: Pointed,
     /// How mm are laid on the screen.
     pub(crate) view: ViewTransform,
     /// The part of the screen that belongs to the workspace, points.
@@ -45,9 +57,12 @@ impl PointerTap {
         self.ground = ground;
     }
 
-    /// Takes in a movement to a pixel, stamped on arrival.
-    pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, [x, y]: [f64; 2]) {
-        let Some(ground) = self.ground else { return };
+    /// Takes in a movement to a pixel of a window, stamped on arrival. Only the window that shows
+    /// what is felt counts.
+    pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, window: Pointed, [x, y]: [f64; 2]) {
+        let Some(ground) = self.ground.filter(|ground| ground.window == window) else {
+            return;
+        };
         #[expect(
             clippy::cast_possible_truncation,
             reason = "the screen is drawn in single precision"

@@ -5,6 +5,7 @@
 //! While a button is held the server tells the window alone, so that its own events remain needed
 //! then; on Wayland a program has no second ear.
 
+use std::sync::Arc;
 use std::thread;
 use std::time::Instant;
 
@@ -19,17 +20,43 @@ const ALL_MASTER_DEVICES: u16 = 1;
 /// Places come in fixed point: so many units a pixel.
 const UNITS_PER_PIXEL: f64 = 65_536.0;
 
-/// Gives `take` every movement over the window: when it was heard, and the pixel. Returns whether
-/// there is somebody listening; the thread ends with the window's server or with the process.
+/// Somebody who listens.
+pub(super) struct Listener {
+    connection: Arc<RustConnection>,
+}
+
+/// Gives `take` every movement over the window, and over those that are listened to later: when it
+/// was heard, whether over the first window, and the pixel. `None`: nobody can listen here. The
+/// thread ends with the window's server or with the process.
 pub(super) fn listen(
     window: &impl HasWindowHandle,
-    take: impl FnMut(Instant, [f64; 2]) + Send + 'static,
-) -> bool {
-    let Some(connection) = window_id(window).and_then(connect) else {
-        return false;
+    mut take: impl FnMut(Instant, bool, [f64; 2]) + Send + 'static,
+) -> Option<Listener> {
+    let first = window_id(window)?;
+    let connection = Arc::new(connect()?);
+    select(&connection, first)?;
+    let listener = Listener {
+        connection: Arc::clone(&connection),
     };
-    let listener = thread::Builder::new().name("pointer".to_owned());
-    listener.spawn(move || pass_on(&connection, take)).is_ok()
+    let thread = thread::Builder::new().name("pointer".to_owned());
+    let is_first = move |window| window == first;
+    let heard = move || {
+        pass_on(&connection, |stamp, window, pixel| {
+            take(stamp, is_first(window), pixel);
+        });
+    };
+    thread.spawn(heard).ok()?;
+    Some(listener)
+}
+
+impl Listener {
+    /// Listens to this window too, until it is gone. Whether it is heard.
+    pub(super) fn also(&self, window: u64) -> bool {
+        let selected = u32::try_from(window)
+            .ok()
+            .and_then(|window| select(&self.connection, window));
+        selected.is_some()
+    }
 }
 
 /// The window's number on an X server; `None` elsewhere.
@@ -41,14 +68,19 @@ fn window_id(window: &impl HasWindowHandle) -> Option<u32> {
     }
 }
 
-/// A connection that hears of movements over the window. Whatever fails, there is none.
-fn connect(window: u32) -> Option<RustConnection> {
+/// A connection that can hear of movements. Whatever fails, there is none.
+fn connect() -> Option<RustConnection> {
     let (connection, _screen) = x11rb::connect(None).ok()?;
     connection
         .xinput_xi_query_version(2, 2)
         .ok()?
         .reply()
         .ok()?;
+    Some(connection)
+}
+
+/// Asks to hear of movements over a window.
+fn select(connection: &RustConnection, window: u32) -> Option<()> {
     let movements = EventMask {
         deviceid: ALL_MASTER_DEVICES,
         mask: vec![XIEventMask::MOTION],
@@ -56,15 +88,14 @@ fn connect(window: u32) -> Option<RustConnection> {
     let selected = connection
         .xinput_xi_select_events(window, &[movements])
         .ok()?;
-    selected.check().ok()?;
-    Some(connection)
+    selected.check().ok()
 }
 
-fn pass_on(connection: &RustConnection, mut take: impl FnMut(Instant, [f64; 2])) {
+fn pass_on(connection: &RustConnection, mut take: impl FnMut(Instant, u32, [f64; 2])) {
     while let Ok(event) = connection.wait_for_event() {
         if let Event::XinputMotion(motion) = event {
             let pixel = [motion.event_x, motion.event_y].map(|at| f64::from(at) / UNITS_PER_PIXEL);
-            take(Instant::now(), pixel);
+            take(Instant::now(), motion.event, pixel);
         }
     }
 }

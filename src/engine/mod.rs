@@ -59,7 +59,7 @@ pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::{Due, PATIENCE, Pacer};
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
-pub use recording::{RecordedTick, Recording};
+pub use recording::{RecordedSample, RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, EngineCounters, LinkView, Playback, PointerView,

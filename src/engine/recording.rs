@@ -7,15 +7,19 @@
 
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use super::ApplyTicks;
+use super::{ApplyTicks, PointerSample};
 use crate::bridge::SentFrame;
+use crate::geometry::Point;
 use crate::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
 
 /// Ticks in a block: ten seconds.
 const BLOCK_TICKS: usize = 400;
+/// Reports in a block: those of a tablet that sends one and a half thousand a second.
+const BLOCK_SAMPLES: usize = 15_000;
 /// Blocks on the way: 30 s may pass between two collections.
 const N_BLOCKS: usize = 4;
 /// The longest recording, ticks: four hours.
@@ -32,8 +36,18 @@ pub struct RecordedTick {
     pub sent: Option<SentFrame>,
 }
 
+/// One report of the pointer or tablet during a recording, as it came.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RecordedSample {
+    /// When it happened, s after the recording's first tick; before that tick, negative.
+    pub t_s: f64,
+    /// Where in the workspace, mm.
+    pub position: Point,
+}
+
 #[derive(Debug)]
 struct Block {
+    samples: Vec<RecordedSample>,
     ticks: Vec<RecordedTick>,
     amplitudes_um: Vec<[f32; 2]>,
 }
@@ -41,6 +55,7 @@ struct Block {
 impl Block {
     fn new(n_contactors: usize) -> Self {
         Self {
+            samples: Vec::with_capacity(BLOCK_SAMPLES),
             ticks: Vec::with_capacity(BLOCK_TICKS),
             amplitudes_um: Vec::with_capacity(BLOCK_TICKS * n_contactors),
         }
@@ -55,6 +70,8 @@ pub(super) struct Recorder {
     full: Producer<Block>,
     n_ticks: u64,
     last_angle_deg: Option<f64>,
+    /// When its first tick was.
+    began: Option<Instant>,
 }
 
 /// A recording, as far as its blocks were collected.
@@ -64,6 +81,7 @@ pub struct Recording {
     full: Consumer<Block>,
     n_contactors: usize,
     ticks: Vec<RecordedTick>,
+    samples: Vec<RecordedSample>,
     amplitudes_um: Vec<[f32; 2]>,
     has_ended: bool,
 }
@@ -86,6 +104,7 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
         full: full_in,
         n_ticks: 0,
         last_angle_deg: None,
+        began: None,
     };
     let recording = Recording {
         id,
@@ -93,6 +112,7 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
         full,
         n_contactors,
         ticks: Vec::new(),
+        samples: Vec::new(),
         amplitudes_um: Vec::new(),
         has_ended: false,
     };
@@ -100,6 +120,29 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
 }
 
 impl Recorder {
+    /// Adds a report that came for the tick at `now`. One that a block has no room for is left out.
+    pub(super) fn hear(&mut self, sample: PointerSample, now: Instant) {
+        let began = *self.began.get_or_insert(now);
+        let Some(block) = &mut self.current else {
+            return;
+        };
+        if block.samples.len() < BLOCK_SAMPLES {
+            let after_s = sample.stamp.saturating_duration_since(began).as_secs_f64();
+            let before_s = began.saturating_duration_since(sample.stamp).as_secs_f64();
+            block.samples.push(RecordedSample {
+                t_s: after_s - before_s,
+                position: sample.position,
+            });
+        }
+    }
+
+    /// The tick at `now` is the next that may be recorded.
+    pub(super) fn begin_tick(&mut self, now: Instant) {
+        if self.n_ticks == 0 {
+            self.began = Some(now);
+        }
+    }
+
     /// The pose as the recording will replay it: it turns from its own last row, and not at first.
     pub(super) fn as_replayed(&self, pose: Pose) -> Pose {
         let before_deg = self.last_angle_deg.unwrap_or(pose.angle_deg);
@@ -158,6 +201,12 @@ impl Recording {
         &self.ticks
     }
 
+    /// The reports of the pointer or tablet collected so far, in the order in which they came;
+    /// none of a source that states poses.
+    pub fn samples(&self) -> &[RecordedSample] {
+        &self.samples
+    }
+
     /// Amplitudes [A40, A320] of every contactor at one of the collected ticks, displays in order,
     /// after gains and before output limits, µm.
     pub fn amplitudes_um(&self, index: usize) -> &[[f32; 2]] {
@@ -211,6 +260,7 @@ impl Recording {
     pub(super) fn collect(&mut self) {
         while let Ok(mut block) = self.full.pop() {
             self.ticks.append(&mut block.ticks);
+            self.samples.append(&mut block.samples);
             self.amplitudes_um.append(&mut block.amplitudes_um);
             // A full ring only means that the engine has enough.
             drop(self.spares.push(block));

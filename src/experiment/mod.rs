@@ -19,6 +19,7 @@ mod course;
 pub mod design;
 mod error;
 pub mod layout;
+mod noise;
 pub mod observer;
 mod participants;
 mod procedure;
@@ -31,7 +32,8 @@ mod trial;
 
 pub use course::{Course, Step};
 pub use error::ExperimentError;
-pub use participants::{Participant, Participants, Particulars};
+pub use noise::{Colour, LONGEST_FADE_S, MOST_NOISE_MINUTES, MaskingNoise, NOISE_RATE_HZ};
+pub use participants::{HANDS, Participant, Participants, Particulars, SEXES};
 pub use procedure::Procedure;
 pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
 pub use simulate::{SIMULATED, Simulation, simulated_subject};

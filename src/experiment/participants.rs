@@ -24,10 +24,15 @@ const COLUMNS: [&str; 7] = [
 ];
 /// Particulars: the columns between pseudonym and moment.
 const N_PARTICULARS: usize = 5;
-const SEXES: [&str; 3] = ["female", "male", "other"];
-const HANDS: [&str; 3] = ["right", "left", "both"];
+/// What a table calls the sexes.
+pub const SEXES: [&str; 3] = ["female", "male", "other"];
+/// What a table calls the hands that somebody explores with.
+pub const HANDS: [&str; 3] = ["right", "left", "both"];
 /// The oldest age that is taken for one, years.
 const OLDEST_YEARS: u32 = 120;
+
+/// What to do where two things are told of one pseudonym.
+const MEND: &str = "choose another pseudonym, or leave out what differs";
 
 /// What is known of somebody who takes part; empty where it was not told.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -79,6 +84,11 @@ impl Participant {
     /// The pseudonym.
     pub fn pseudonym(&self) -> &str {
         &self.pseudonym
+    }
+
+    /// Age in years, sex, handedness, experience and room as they were told; empty where not.
+    pub fn particulars(&self) -> &[String] {
+        &self.particulars
     }
 
     /// What is wrong, and how to mend it.
@@ -241,6 +251,14 @@ impl Participants {
         Ok(nth)
     }
 
+    /// What is told of a pseudonym in another way than it was told before, in one line.
+    pub fn contradiction(&self, participant: &Participant) -> Option<String> {
+        let nth = self.nth(&participant.pseudonym)?;
+        let difference = participant.difference(&self.rows[nth])?;
+        let who = &participant.pseudonym;
+        Some(format!("{who} took part already: {difference}; {MEND}"))
+    }
+
     fn known(
         &self,
         participant: &Participant,
@@ -253,8 +271,7 @@ impl Participants {
             return Ok(Some(nth));
         };
         let what = format!("{} took part already: {difference}", participant.pseudonym);
-        let mend = "choose another pseudonym, or leave out what differs";
-        Err(FileError::whole(path, what, mend).into())
+        Err(FileError::whole(path, what, MEND).into())
     }
 }
 

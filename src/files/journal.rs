@@ -252,8 +252,8 @@ mod tests {
 
     #[test]
     fn whether_a_table_is_written_is_seen_without_touching_it() {
-        let folder = Folder::new("seen");
-        let path = folder.log();
+        let folder = ScratchFolder::made("seen");
+        let path = folder.join("log.csv");
         assert!(!Journal::is_written(&path), "there is none");
         let mut journal = Journal::create(&path, &COLUMNS).unwrap();
         assert!(Journal::is_written(&path));

@@ -299,6 +299,25 @@ fn the_designs_of_the_program_are_listed_and_shown_as_files() {
     assert!(told.contains("rating"), "{told}");
 }
 
+#[test]
+fn a_masking_noise_is_a_sound_file_of_the_length_that_was_asked_for() {
+    let lab = Lab::new();
+    let noise = ["experiment", "noise", "--out", "noise.wav", "--minutes"];
+    lab.print(&[&noise[..], &["1", "--seed", "4", "--colour", "white"]].concat());
+    let bytes = fs::read(lab.path("noise.wav")).unwrap();
+    assert_eq!(bytes.len(), 44 + 2 * 48_000 * 60);
+    assert!(bytes.starts_with(b"RIFF") && &bytes[8..12] == b"WAVE");
+    let told = lab.refuse(&[&noise[..], &["1", "--fade-s", "-2"]].concat());
+    assert!(told.contains("fade"), "{told}");
+    let told = lab.refuse(&[&noise[..], &["0"]].concat());
+    assert!(told.contains("minutes"), "{told}");
+    assert_eq!(
+        fs::read(lab.path("noise.wav")).unwrap(),
+        bytes,
+        "nothing was written"
+    );
+}
+
 /// A session that may write no file longer than a few thousand bytes, as on a disk that is full.
 #[cfg(target_os = "linux")]
 fn on_a_small_disk(lab: &Lab) -> Desk {
@@ -389,6 +408,7 @@ fn how_a_trial_was_explored_is_replayed_by_render() {
         apparatus: Apparatus::default(),
         note: "",
         path: Some(&explored),
+        samples: &[],
     };
     let Step::Trial(trial) = session.step() else {
         panic!("a trial waits");

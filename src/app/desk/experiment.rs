@@ -1,17 +1,30 @@
 //! The two views of a session; and what nobody may look at while one is held.
 
-use eframe::egui::Ui;
+use eframe::egui::{
+    CentralPanel, Context, Frame, Key, Ui, ViewportBuilder, ViewportClass, ViewportId,
+};
 
 use super::Desk;
 use crate::app::arrangement::Pane;
-use crate::app::experiment::Link;
-use crate::app::panes::{self, ExperimenterHands};
+use crate::app::command::Command;
+use crate::app::experiment::{ExperimentCommand, Link, ParticipantView, WindowAct};
+use crate::app::frame::{Felt, frame_as_armed};
+use crate::app::panes::{self, ExperimenterHands, Wishes};
+use crate::app::pointer::Pointed;
 use crate::app::window::Workbench;
+
+/// The participant's window as it is opened, points.
+const PARTICIPANTS_WINDOW: [f32; 2] = [1000.0, 860.0];
+/// No smaller, points: what is answered with has room.
+const LEAST_WINDOW: [f32; 2] = [700.0, 600.0];
 
 impl Desk<'_> {
     pub(super) fn show_participant(&mut self, ui: &mut Ui) {
         let now_s = ui.input(|input| input.time);
         let bench = &*self.bench;
+        if bench.transient.experiment.window.is_open {
+            return panes::show_participant_is_apart(ui, self.wishes);
+        }
         let view = bench
             .transient
             .experiment
@@ -32,16 +45,63 @@ impl Desk<'_> {
             self.bench.engine.profile().limit_um,
         );
         let experiment = &mut transient.experiment;
+        let (window, noise) = (experiment.window, experiment.noise());
         let view = experiment.experimenter(link, now_s);
         let mut hands = ExperimenterHands {
             note: experiment.held.as_mut().map(|held| &mut held.note),
             form: &mut experiment.form,
         };
-        panes::show_experimenter(ui, &view, &mut hands, self.wishes);
+        panes::show_experimenter(ui, (&view, noise.as_ref(), window), &mut hands, self.wishes);
     }
 }
 
 impl Workbench {
+    /// Shows the participant's view in a window of its own, while that is open; where the pointer
+    /// feels there, if there is such a place.
+    pub(crate) fn show_participants_window(
+        &self,
+        ctx: &Context,
+        wishes: &mut Wishes,
+    ) -> Option<Felt> {
+        let window = self.transient.experiment.window;
+        if !window.is_open {
+            return None;
+        }
+        let live = &self.transient.live;
+        let now_s = ctx.input(|input| input.time);
+        let view = self.transient.experiment.participant(live, now_s);
+        let builder = ViewportBuilder::default()
+            .with_title("Selvedge – participant")
+            .with_app_id("selvedge")
+            .with_inner_size(PARTICIPANTS_WINDOW)
+            .with_min_inner_size(LEAST_WINDOW)
+            .with_fullscreen(window.fills_screen);
+        let id = ViewportId::from_hash_of("participant");
+        ctx.show_viewport_immediate(id, builder, |ui, class| {
+            if class == ViewportClass::EmbeddedWindow {
+                let shown = panes::show_participant(ui, &view, wishes)?;
+                return Some((shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
+            }
+            take_window_keys(ui.ctx(), window.fills_screen, wishes);
+            if live.is_armed() {
+                frame_as_armed(ui.ctx());
+            }
+            let panel = CentralPanel::default().frame(Frame::new());
+            let shown = panel.show(ui, |ui| match &view {
+                ParticipantView::Nobody { is_coming } => {
+                    panes::show_before_session(ui, *is_coming);
+                    None
+                }
+                view => panes::show_participant(ui, view, wishes),
+            });
+            Some((
+                shown.inner?,
+                Pointed::Participant,
+                ui.ctx().pixels_per_point(),
+            ))
+        })
+    }
+
     /// Whether a pane would tell what a session must not.
     pub(super) fn is_veiled(&self, pane: Pane) -> bool {
         // The analysis has a cover of its own.
@@ -50,5 +110,26 @@ impl Workbench {
             Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
         );
         self.transient.experiment.is_held() && !is_open
+    }
+}
+
+/// What the participant's window does besides showing its view: it closes, fills its screen by F11,
+/// and Esc switches everything off as everywhere.
+fn take_window_keys(ctx: &Context, fills_screen: bool, wishes: &mut Wishes) {
+    let (is_closed, is_toggled, is_off) = ctx.input(|input| {
+        (
+            input.viewport().close_requested(),
+            input.key_pressed(Key::F11),
+            input.key_pressed(Key::Escape),
+        )
+    });
+    let mut act = |act| wishes.push(ExperimentCommand::Window(act).into());
+    if is_closed {
+        act(WindowAct::Close);
+    } else if is_toggled {
+        act(WindowAct::FillScreen(!fills_screen));
+    }
+    if is_off {
+        wishes.push(Command::AllOff);
     }
 }

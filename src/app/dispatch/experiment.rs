@@ -1,25 +1,17 @@
 //! Sessions of experiments: what is wanted of them, and what the engine does for them.
 
-use std::path::PathBuf;
 use std::time::SystemTime;
 
 use eframe::egui;
 
 use crate::app::arrangement::{self, Pane};
 use crate::app::command::ShowCommand;
-use crate::app::experiment::{
-    Began, Begun, Chosen, ExperimentCommand, Held, Mark, Materials, Now, Pause, list, numbered,
-};
+use crate::app::experiment::{Began, Begun, Chosen, ExperimentCommand, Held, Mark, Now, Pause};
 use crate::app::perspective::Perspective;
-use crate::app::rendering::Rendering;
-use crate::app::task::{Task, taken};
+use crate::app::task::taken;
 use crate::app::view::Source;
 use crate::app::window::{FRAME, Workbench};
 use crate::engine::{self, InputSource, Recording};
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::session::{Session, Sidecar};
-use crate::progress::Progress;
-use crate::scene::Display;
 
 /// How often a time that is shown in seconds is drawn anew.
 const SECOND: std::time::Duration = std::time::Duration::from_secs(1);
@@ -33,7 +25,7 @@ impl Workbench {
             ExperimentCommand::Open(path) => {
                 self.transient.experiment.form.choose(Chosen::File(path));
             }
-            ExperimentCommand::List => self.list_sessions(ctx),
+            ExperimentCommand::List => self.list_sessions(ctx, true),
             ExperimentCommand::Begin => self.begin_session(ctx),
             ExperimentCommand::Resume(log) => self.resume_session(ctx, log),
             ExperimentCommand::Pass => self.pass_step(ctx),
@@ -49,95 +41,9 @@ impl Workbench {
             }
             ExperimentCommand::Pause(is_wanted) => self.pause_session(ctx, is_wanted),
             ExperimentCommand::End => self.end_session(ctx),
+            ExperimentCommand::Noise => self.write_noise(ctx),
+            ExperimentCommand::Window(act) => self.transient.experiment.window.act(act),
         }
-    }
-
-    fn list_sessions(&mut self, ctx: &egui::Context) {
-        let form = &mut self.transient.experiment.form;
-        let folder = form.folder();
-        let work = move |_: &mut Progress<'_>| list(&folder);
-        form.listing = Some(Task::start(
-            ("selvedge-sessions", ctx),
-            self.is_stepped,
-            work,
-        ));
-    }
-
-    fn begin_session(&mut self, ctx: &egui::Context) {
-        let form = &self.transient.experiment.form;
-        let (Some((design, subject, folder)), path) = (form.told(), form.chosen.path().to_owned())
-        else {
-            return;
-        };
-        let device = self.device_name();
-        let open = move |design: Design, subject: Subject| {
-            let subject = numbered(&folder, &design, subject)?;
-            let session = Session::create(&folder, design, subject, &device);
-            session.map_err(|error| error.to_string())
-        };
-        let read = move || Ok((design, subject, path));
-        self.start_session(ctx, read, open);
-    }
-
-    fn resume_session(&mut self, ctx: &egui::Context, log: PathBuf) {
-        let device = self.device_name();
-        let from = log.clone();
-        let read = move || {
-            let sidecar = Sidecar::read(&from).map_err(|error| error.to_string())?;
-            let design = sidecar.design(&from).map_err(|error| error.to_string())?;
-            Ok((design, sidecar.subject(), from))
-        };
-        let open = move |_: Design, _: Subject| {
-            Session::resume(&log, &device).map_err(|error| error.to_string())
-        };
-        self.start_session(ctx, read, open);
-    }
-
-    /// Gathers what a session presents, then opens its log; on a thread.
-    fn start_session(
-        &mut self,
-        ctx: &egui::Context,
-        read: impl FnOnce() -> Result<(Design, Subject, PathBuf), String> + Send + 'static,
-        open: impl FnOnce(Design, Subject) -> Result<Session, String> + Send + 'static,
-    ) {
-        let is_busy = self.preparing.is_busy() || self.transient.opening.is_some();
-        let experiment = &mut self.transient.experiment;
-        if experiment.is_held() || experiment.beginning.is_some() {
-            return;
-        }
-        if is_busy {
-            let words = "The scene is still being prepared: begin once it is there";
-            experiment.form.failure = Some(words.to_owned());
-            return;
-        }
-        experiment.form.failure = None;
-        let how = (self.session_display(), self.settings.kept.rendering);
-        let work = move |progress: &mut Progress<'_>| {
-            progress
-                .step(0.1, "textiles")
-                .map_err(|stop| stop.to_string())?;
-            let (design, subject, path) = read()?;
-            let materials = gather(&design, &path, how)?;
-            progress.step(0.9, "log").map_err(|stop| stop.to_string())?;
-            let session = open(design, subject)?;
-            Ok(Begun { session, materials })
-        };
-        let task = Task::start(("selvedge-session", ctx), self.is_stepped, work);
-        self.transient.experiment.beginning = Some(task);
-        ctx.request_repaint();
-    }
-
-    fn session_display(&self) -> Display {
-        let displays = &self.document.scene().displays;
-        displays.first().cloned().unwrap_or_default()
-    }
-
-    fn device_name(&self) -> String {
-        self.transient
-            .target
-            .as_deref()
-            .unwrap_or("none")
-            .to_owned()
     }
 
     fn began(&self, ctx: &egui::Context) -> Began {
@@ -164,7 +70,8 @@ impl Workbench {
         self.send(engine::Command::SetContactorMask(Vec::new()));
         let perspective = Perspective::Experiment;
         self.dispatch_show(ctx, &ShowCommand::Perspective(perspective));
-        if !arrangement::is_shown(&self.tree, Pane::Participant) {
+        let is_apart = self.transient.experiment.window.is_open;
+        if !is_apart && !arrangement::is_shown(&self.tree, Pane::Participant) {
             self.dispatch_show(ctx, &ShowCommand::Pane(Pane::Participant));
         }
         self.present(ctx);
@@ -292,7 +199,7 @@ impl Workbench {
         self.transient.history.clear();
         self.transient.trail = crate::app::workspace::Trail::default();
         self.feel_document(ctx);
-        self.list_sessions(ctx);
+        self.list_sessions(ctx, false);
     }
 
     /// Takes a recording that has ended, if a session or what is left of one wants it.
@@ -320,10 +227,12 @@ impl Workbench {
     pub(crate) fn poll_experiment(&mut self, ctx: &egui::Context) {
         let form = &mut self.transient.experiment.form;
         match taken(&mut form.listing) {
-            Some((Ok(found), _)) => form.found = found,
+            Some((Ok(listed), _)) => form.take_listed(listed),
             Some((Err(line), _)) => form.failure = Some(line),
             None => {}
         }
+        self.follow_folder(ctx);
+        self.poll_noise();
         match taken(&mut self.transient.experiment.beginning) {
             Some((Ok(begun), _)) => self.hold(ctx, begun),
             Some((Err(line), _)) => self.transient.experiment.form.failure = Some(line),
@@ -368,12 +277,4 @@ impl Workbench {
             _ => ctx.request_repaint_after(SECOND),
         }
     }
-}
-
-fn gather(
-    design: &Design,
-    path: &std::path::Path,
-    how: (Display, Rendering),
-) -> Result<Materials, String> {
-    Materials::gather(design, path, how).map_err(|error| error.to_string())
 }

@@ -15,6 +15,7 @@ mod keep;
 mod lab;
 mod picture;
 mod play;
+mod sessions;
 mod show;
 
 pub(crate) use play::resting_stroke;

@@ -5,6 +5,17 @@ use std::path::PathBuf;
 use super::draft::Mark;
 use crate::app::command::Command;
 
+/// What becomes of the participant's window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum WindowAct {
+    /// It is opened; the participant's view leaves the workbench.
+    Open,
+    /// It is closed; the view stands in the workbench again.
+    Close,
+    /// It fills its screen, or no longer does.
+    FillScreen(bool),
+}
+
 /// Something to do with experiments. Never undone.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ExperimentCommand {
@@ -34,6 +45,10 @@ pub(crate) enum ExperimentCommand {
     Pause(bool),
     /// End the session; what is answered is on disk.
     End,
+    /// Write a masking noise into the folder of sessions.
+    Noise,
+    /// Do something with the participant's window.
+    Window(WindowAct),
 }
 
 impl From<ExperimentCommand> for Command {

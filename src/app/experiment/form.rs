@@ -1,11 +1,15 @@
 //! The form that a session begins with, and the sessions of its folder.
 
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
+use super::noise::NOISE_FILE;
+use super::who::Who;
 use crate::app::task::Task;
-use crate::experiment::Course;
 use crate::experiment::design::{Design, Subject, is_name};
 use crate::experiment::session::{Found, find, log_path};
+use crate::experiment::{Course, Participant, Participants};
 
 /// Which design is taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,6 +27,23 @@ impl Chosen {
             Self::Shipped(name) => Path::new(name),
             Self::File(path) => path,
         }
+    }
+
+    /// The same as a word that is kept for the next run, where it can be written as one.
+    pub(crate) fn word(&self) -> Option<String> {
+        match self {
+            Self::Shipped(name) => Some((*name).to_owned()),
+            Self::File(path) => std::path::absolute(path).ok()?.to_str().map(str::to_owned),
+        }
+    }
+
+    /// What such a word stands for: a design of the program, or a file that is still there.
+    fn from_word(word: &str) -> Option<Self> {
+        let shipped = Design::shipped_names().find(|name| *name == word);
+        let file = || Some(PathBuf::from(word)).filter(|path| path.is_absolute() && path.is_file());
+        shipped
+            .map(Self::Shipped)
+            .or_else(|| file().map(Self::File))
     }
 
     fn read(&self) -> Result<Design, String> {
@@ -44,8 +65,8 @@ pub(crate) struct Form {
     pub(crate) chosen: Chosen,
     /// The same as it was read.
     pub(crate) design: Result<Box<Design>, String>,
-    /// Pseudonym of the participant.
-    pub(crate) pseudonym: String,
+    /// Who takes part.
+    pub(crate) who: Who,
     /// Which session of this participant, from 1.
     pub(crate) session: String,
     /// Where sessions lie.
@@ -54,8 +75,25 @@ pub(crate) struct Form {
     pub(crate) failure: Option<String>,
     /// The sessions of the folder, as far as they were listed.
     pub(crate) found: Vec<Row>,
+    /// Who took part there, as far as that was listed.
+    pub(crate) participants: Participants,
+    /// Whether a masking noise lies there.
+    pub(crate) has_noise: bool,
     /// They are being listed.
-    pub(crate) listing: Option<Task<Vec<Row>>>,
+    pub(crate) listing: Option<Task<Listed>>,
+    /// The folder that was listed last.
+    listed: Option<String>,
+}
+
+/// What a folder holds.
+#[derive(Debug, Default)]
+pub(crate) struct Listed {
+    /// Its sessions.
+    pub(crate) found: Vec<Row>,
+    /// Its table of participants.
+    pub(crate) participants: Participants,
+    /// Whether a masking noise was written there.
+    pub(crate) has_noise: bool,
 }
 
 /// A session that was begun.
@@ -78,12 +116,15 @@ impl Default for Form {
         Self {
             design: chosen.read().map(Box::new),
             chosen,
-            pseudonym: String::new(),
+            who: Who::default(),
             session: "1".to_owned(),
             folder: String::new(),
             failure: None,
             found: Vec::new(),
+            participants: Participants::default(),
+            has_noise: false,
             listing: None,
+            listed: None,
         }
     }
 }
@@ -101,9 +142,18 @@ impl Form {
         if let Err(line) = &self.design {
             return Some(line.clone());
         }
-        if !is_name(self.pseudonym.trim()) {
+        if !is_name(self.who.pseudonym.trim()) {
             let mend = "Give a pseudonym of letters, digits, - and _, and no real name";
             return Some(mend.to_owned());
+        }
+        match self.who.told() {
+            Err(line) => return Some(line),
+            Ok(told) => {
+                let contradiction = self.participants.contradiction(&told);
+                if contradiction.is_some() {
+                    return contradiction;
+                }
+            }
         }
         if self.session_number().is_none() {
             return Some("Number the sessions of a participant from 1".to_owned());
@@ -114,18 +164,52 @@ impl Form {
         None
     }
 
-    /// What begins: the design, who takes part but for the number in the study, and where.
-    pub(crate) fn told(&self) -> Option<(Design, Subject, PathBuf)> {
+    /// What begins, if nothing is missing.
+    pub(crate) fn told(&self) -> Option<Told> {
         if self.refusal().is_some() {
             return None;
         }
-        let design = self.design.as_deref().ok()?.clone();
-        let subject = Subject {
-            pseudonym: self.pseudonym.trim().to_owned(),
-            nth: 0,
+        Some(Told {
+            design: self.design.as_deref().ok()?.clone(),
+            participant: self.who.told().ok()?,
             session: self.session_number()?,
-        };
-        Some((design, subject, self.folder()))
+            folder: self.folder(),
+        })
+    }
+
+    /// Takes up the folder and the design of the last run; a design that is none any more is left.
+    pub(crate) fn take_up(&mut self, folder: Option<&str>, design: Option<&str>) {
+        folder.unwrap_or_default().clone_into(&mut self.folder);
+        if let Some(chosen) = design.and_then(Chosen::from_word) {
+            self.choose(chosen);
+        }
+    }
+
+    /// The folder as it is kept for the next run.
+    pub(crate) fn kept_folder(&self) -> Option<String> {
+        let folder = self.folder.trim();
+        (!folder.is_empty()).then(|| folder.to_owned())
+    }
+
+    /// Whether the folder that was typed is another than the one that was listed.
+    pub(crate) fn is_to_be_listed(&self) -> bool {
+        let folder = self.folder.trim();
+        !folder.is_empty() && self.listing.is_none() && self.listed.as_deref() != Some(folder)
+    }
+
+    /// The folder is being listed.
+    pub(crate) fn lists(&mut self, task: Task<Listed>) {
+        self.listed = Some(self.folder.trim().to_owned());
+        self.listing = Some(task);
+    }
+
+    /// Takes what a folder holds.
+    pub(crate) fn take_listed(&mut self, listed: Listed) {
+        self.found = listed.found;
+        self.participants = listed.participants;
+        self.has_noise = listed.has_noise;
+        self.who.leave_table();
+        self.who.follow(&self.participants);
     }
 
     /// Where sessions lie.
@@ -139,20 +223,63 @@ impl Form {
     }
 }
 
-/// The sessions of a folder.
-pub(crate) fn list(folder: &Path) -> Result<Vec<Row>, String> {
+/// A session that is to begin, and with whom.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Told {
+    /// By which design.
+    pub(crate) design: Design,
+    /// Who takes part.
+    pub(crate) participant: Participant,
+    /// Which session of the participant, from 1.
+    pub(crate) session: u32,
+    /// Where sessions lie.
+    pub(crate) folder: PathBuf,
+}
+
+impl Told {
+    /// Enrols the participant in the study's table, as the command line does, and numbers the
+    /// session.
+    ///
+    /// # Errors
+    /// The session was begun before, other particulars were told of this pseudonym, or the folder
+    /// cannot be read or written.
+    pub(crate) fn enrolled(&self) -> Result<Subject, String> {
+        let Self { design, folder, .. } = self;
+        let mut subject = Subject {
+            pseudonym: self.participant.pseudonym().to_owned(),
+            nth: 0,
+            session: self.session,
+        };
+        if log_path(folder, design, &subject).exists() {
+            let mend = "resume it below, or number another session";
+            let (who, nth) = (&subject.pseudonym, subject.session);
+            return Err(format!("session {nth} of {who} was begun before; {mend}"));
+        }
+        fs::create_dir_all(folder).map_err(|error| {
+            let folder = folder.display();
+            format!("cannot make the folder {folder}: {error}; choose another")
+        })?;
+        let enrolled = Participants::enrol(folder, &self.participant, SystemTime::now());
+        subject.nth = enrolled.map_err(|error| error.to_string())?;
+        Ok(subject)
+    }
+}
+
+/// What a folder holds; one that is not there yet holds nothing, unless it was asked for.
+pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
     if !folder.exists() {
+        if !is_asked {
+            return Ok(Listed::default());
+        }
         let folder = folder.display();
         return Err(format!("there is no folder {folder}; check the path"));
     }
-    Ok(found_in(folder)?.into_iter().map(row).collect())
-}
-
-fn found_in(folder: &Path) -> Result<Vec<Found>, String> {
-    if !folder.exists() {
-        return Ok(Vec::new());
-    }
-    find(folder).map_err(|error| error.to_string())
+    let told = |error: crate::experiment::ExperimentError| error.to_string();
+    Ok(Listed {
+        found: find(folder).map_err(told)?.into_iter().map(row).collect(),
+        participants: Participants::read(folder).map_err(told)?,
+        has_noise: folder.join(NOISE_FILE).is_file(),
+    })
 }
 
 fn row(found: Found) -> Row {
@@ -175,50 +302,54 @@ pub(crate) fn title_of(design: &Design) -> String {
     }
 }
 
-/// Which subject of the study this is, from 0: as before, or after all others of the folder.
-pub(crate) fn numbered(
-    folder: &Path,
-    design: &Design,
-    mut subject: Subject,
-) -> Result<Subject, String> {
-    if log_path(folder, design, &subject).exists() {
-        let mend = "resume it below, or number another session";
-        let (who, nth) = (&subject.pseudonym, subject.session);
-        return Err(format!("session {nth} of {who} was begun before; {mend}"));
-    }
-    let of_study = |found: &Found| {
-        found.design.study == design.study && found.design.experiment == design.experiment
-    };
-    let found: Vec<Subject> = (found_in(folder)?.into_iter())
-        .filter(of_study)
-        .map(|found| found.subject)
-        .collect();
-    let known = found
-        .iter()
-        .find(|other| other.pseudonym == subject.pseudonym);
-    let after_all = || found.iter().map(|other| other.nth + 1).max().unwrap_or(0);
-    subject.nth = known.map_or_else(after_all, |known| known.nth);
-    Ok(subject)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
+    fn folder_and_design_of_the_last_run_are_taken_up_unless_the_design_is_gone() {
+        let mut form = Form::default();
+        form.choose(Chosen::Shipped("rating"));
+        form.folder = " /lab/study ".to_owned();
+        let (folder, design) = (form.kept_folder(), form.chosen.word());
+        let mut next = Form::default();
+        next.take_up(folder.as_deref(), design.as_deref());
+        assert_eq!(
+            (next.folder.as_str(), &next.chosen),
+            ("/lab/study", &form.chosen)
+        );
+        let mut other = Form::default();
+        other.take_up(None, Some("/nowhere/design.toml"));
+        assert_eq!(
+            (other.folder.as_str(), &other.chosen),
+            ("", &Form::default().chosen)
+        );
+        assert!(other.design.is_ok());
+    }
+
+    #[test]
     fn a_form_says_what_is_missing_until_a_session_can_begin() {
         let mut form = Form::default();
         assert!(form.refusal().unwrap().contains("pseudonym"));
-        form.pseudonym = "Ada Lovelace".to_owned();
+        form.who.pseudonym = "Ada Lovelace".to_owned();
         assert!(form.refusal().unwrap().contains("no real name"));
-        form.pseudonym = " p07 ".to_owned();
+        form.who.pseudonym = " p07 ".to_owned();
         assert!(form.refusal().unwrap().contains("folder"));
         form.folder = "/tmp/sessions".to_owned();
         form.session = "0".to_owned();
         assert!(form.refusal().unwrap().contains("from 1"));
         form.session = "2".to_owned();
-        let (_, subject, _) = form.told().unwrap();
-        assert_eq!((subject.pseudonym.as_str(), subject.session), ("p07", 2));
+        let told = form.told().unwrap();
+        assert_eq!((told.participant.pseudonym(), told.session), ("p07", 2));
+        form.who.age = "thirty".to_owned();
+        assert!(form.refusal().unwrap().contains("whole years"));
+        form.who.age = "300".to_owned();
+        assert!(form.refusal().unwrap().contains("1 to 120"));
+        form.who.age = " 30 ".to_owned();
+        form.who.room = "Ada's room".to_owned();
+        assert!(form.refusal().unwrap().contains("one word"));
+        form.who.room.clear();
+        assert_eq!(form.refusal(), None);
         form.choose(Chosen::File("/nowhere/design.toml".into()));
         assert!(form.told().is_none() && form.refusal().unwrap().contains("nowhere"));
     }

@@ -10,7 +10,7 @@ use super::draft::{Draft, Mark};
 use super::materials::Materials;
 use super::now::{Began, Now, Pause};
 use crate::app::task::{Task, taken};
-use crate::engine::{Recording, VibrationStep};
+use crate::engine::{RecordedSample, Recording, VibrationStep};
 use crate::experiment::design::{Design, Method, Source, Subject};
 use crate::experiment::layout::{self, Layout};
 use crate::experiment::session::{Circumstances, Session};
@@ -29,6 +29,7 @@ struct Pending {
     tuning: Tuning,
     note: String,
     path: Option<ExplorationPath>,
+    samples: Vec<RecordedSample>,
 }
 
 /// What comes back from the disk.
@@ -286,6 +287,7 @@ impl Held {
             tuning: self.tuning(),
             note: self.note.trim().to_owned(),
             path: None,
+            samples: Vec::new(),
         });
         true
     }
@@ -320,6 +322,7 @@ impl Held {
         if let Some(recording) = self.recording.take() {
             // Where nobody moved there is no path.
             pending.path = recording.to_path().ok();
+            recording.samples().clone_into(&mut pending.samples);
         }
         let pending = pending.clone();
         let apparatus = Apparatus {
@@ -333,6 +336,7 @@ impl Held {
                 apparatus,
                 note: &pending.note,
                 path: pending.path.as_ref(),
+                samples: &pending.samples,
             };
             let outcome = match &pending.outcome {
                 Outcome::Answered(answer) => session.answer(answer, &circumstances).map(|_| ()),

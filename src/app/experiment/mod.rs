@@ -18,23 +18,63 @@ mod form;
 mod guide;
 mod held;
 mod materials;
+mod noise;
 mod now;
 mod view;
+mod who;
 
-pub(crate) use command::ExperimentCommand;
+pub(crate) use command::{ExperimentCommand, WindowAct};
 pub(crate) use draft::{Draft, Mark, Sure};
-pub(crate) use form::{Chosen, Form, Row, list, numbered, title_of};
+pub(crate) use form::{Chosen, Form, Row, list, title_of};
 pub(crate) use guide::{HALF_MM, RADIUS_MM};
 pub(crate) use held::Held;
 pub(crate) use materials::Materials;
+pub(crate) use noise::{NoiseView, write_noise};
 pub(crate) use now::{Began, Now, Pause};
 pub(crate) use view::{
     Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView,
 };
+pub(crate) use who::Who;
 
 use super::command::{Command, FileCommand, Purpose, ShowCommand};
 use super::task::Task;
 use crate::experiment::session::Session;
+
+/// The window that shows a participant's view and nothing else.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ParticipantsWindow {
+    /// Whether it is open: the workbench shows no participant's view then.
+    pub(crate) is_open: bool,
+    /// Whether it is to fill its screen.
+    pub(crate) fills_screen: bool,
+    /// Since when neither window has had the keyboard, s.
+    left_since_s: Option<f64>,
+}
+
+/// The keyboard may be on its way from one window to the other for so long, s.
+const PASSING_S: f64 = 0.25;
+
+impl ParticipantsWindow {
+    /// What becomes of it.
+    pub(crate) fn act(&mut self, act: WindowAct) {
+        match act {
+            WindowAct::Open => self.is_open = true,
+            WindowAct::Close => *self = Self::default(),
+            WindowAct::FillScreen(fills) => self.fills_screen = fills && self.is_open,
+        }
+    }
+
+    /// How long the windows must still be without the keyboard until another program is sure to
+    /// have it, s; `None` while one of them has it.
+    pub(crate) fn left_alone_s(&mut self, now_s: f64, has_keyboard: bool) -> Option<f64> {
+        if has_keyboard {
+            self.left_since_s = None;
+            return None;
+        }
+        let since_s = *self.left_since_s.get_or_insert(now_s);
+        Some((since_s + PASSING_S - now_s).max(0.0))
+    }
+}
 
 /// Experiments, as the window knows them: neither saved nor undoable.
 #[derive(Debug, Default)]
@@ -45,6 +85,10 @@ pub(crate) struct Experiment {
     pub(crate) beginning: Option<Task<Begun>>,
     /// The session that is held.
     pub(crate) held: Option<Box<Held>>,
+    /// A masking noise on its way to its file.
+    pub(crate) noise: Option<Task<()>>,
+    /// A window of the participant's own.
+    pub(crate) window: ParticipantsWindow,
     /// Whether the next recording that ends is of a trial that nobody answered.
     pub(crate) lets_recording_go: bool,
 }
@@ -67,6 +111,17 @@ impl Experiment {
     /// Width and height of what lies before the participant, mm.
     pub(crate) fn size_mm(&self) -> Option<[f64; 2]> {
         self.held.as_ref().map(|held| held.layout.size_mm)
+    }
+
+    /// How it stands with a masking noise, where the design asks for one.
+    pub(crate) fn noise(&self) -> Option<NoiseView> {
+        let form = &self.form;
+        let is_asked = match &self.held {
+            Some(held) => held.design.course.masking_noise,
+            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
+        };
+        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
+        is_asked.then(view)
     }
 
     /// Whether a command leaves what is felt to the session.

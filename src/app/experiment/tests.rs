@@ -1,6 +1,8 @@
 //! Sessions in the window: what is answered is on disk, what is seen tells nothing, and the
 //! user's scene comes back.
 
+mod apart;
+mod before;
 mod drawn;
 
 use std::fs;
@@ -14,7 +16,7 @@ use crate::app::headless::Headless;
 use crate::app::view::Live;
 use crate::experiment::Task;
 use crate::experiment::design::Design;
-use crate::experiment::session::{find, path_file};
+use crate::experiment::session::{find, path_file, samples_file};
 use crate::files::ScratchFolder as Folder;
 use crate::scene::ExplorationPath;
 
@@ -25,7 +27,7 @@ fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
     let form = &mut window.bench.transient.experiment.form;
     form.choose(small(folder, design));
     form.folder = folder.0.display().to_string();
-    form.pseudonym = pseudonym.to_owned();
+    form.who.pseudonym = pseudonym.to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     let experiment = &window.bench.transient.experiment;
@@ -116,6 +118,13 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
         moved.fold(0.0, f64::max) > 20.0,
         "it replays how the finger moved"
     );
+    let reports = fs::read_to_string(samples_file(&log, &trial, 1)).unwrap();
+    let rows: Vec<&str> = reports.lines().collect();
+    assert!(
+        rows[0] == "t_s,x_mm,y_mm" && rows.len() >= 60,
+        "{}",
+        rows.len()
+    );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
     assert!(!window.bench.transient.experiment.is_held());
@@ -148,7 +157,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     let before = window.bench.document.scene().clone();
     let form = &mut window.bench.transient.experiment.form;
     form.folder = folder.0.display().to_string();
-    form.pseudonym = "p01".to_owned();
+    form.who.pseudonym = "p01".to_owned();
     form.choose(small(&folder, "ranking-virtual-target"));
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
@@ -365,7 +374,7 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     window.pass(3);
     let failure = window.bench.transient.experiment.form.failure.clone();
     assert!(failure.unwrap().contains("resume it below"));
-    window.bench.transient.experiment.form.pseudonym = "p02".to_owned();
+    window.bench.transient.experiment.form.who.pseudonym = "p02".to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     assert_eq!(held(&window).subject.nth, 1, "the second of the study");

@@ -9,7 +9,7 @@ use super::held::Held;
 use super::now::{Now, Pause};
 use super::{Experiment, guide};
 use crate::app::view::{BridgePhase, BridgeView, ClothPicture, Live};
-use crate::experiment::design::{Design, Source};
+use crate::experiment::design::{Design, Method, Source};
 use crate::experiment::layout::{Layout, on_the_table};
 use crate::experiment::{Task, Trial};
 use crate::geometry::Point;
@@ -78,7 +78,7 @@ pub(crate) struct TrialView<'a> {
     /// What lies there.
     pub(crate) ground: Ground,
     /// What is asked.
-    pub(crate) question: &'static str,
+    pub(crate) question: String,
     /// What was answered so far.
     pub(crate) draft: &'a Draft,
     /// Whether an answer is taken now.
@@ -87,6 +87,14 @@ pub(crate) struct TrialView<'a> {
     pub(crate) intervals: Option<(usize, Option<usize>)>,
     /// Whether the vibration may be played again.
     pub(crate) may_play: bool,
+}
+
+impl TrialView<'_> {
+    /// Whether choosing is all: the answer is handed in with it.
+    pub(crate) fn ends_at_once(&self) -> bool {
+        let is_choice = matches!(self.draft, Draft::Choose { sure, .. } if sure.n_grades == 0);
+        is_choice && self.intervals.is_some()
+    }
 }
 
 /// What the experimenter sees.
@@ -145,8 +153,6 @@ pub(crate) struct HeldView {
     pub(crate) table: Vec<(Option<usize>, String)>,
     /// The device.
     pub(crate) link: Link,
-    /// Whether a noise must cover what the device can be heard by.
-    pub(crate) wants_noise: bool,
     /// Whether a pause is wanted or on.
     pub(crate) pause: Pause,
     /// Whether a row is on its way to the disk.
@@ -241,7 +247,7 @@ impl Held {
             }
             Now::Trial(trial) => ParticipantView::Trial(TrialView {
                 ground: self.ground(Some(trial), finger),
-                question: trial.task.question(),
+                question: question(&self.design, trial),
                 draft: &self.draft,
                 is_open: self.is_open(),
                 intervals: self.intervals(),
@@ -252,11 +258,17 @@ impl Held {
 
     fn ground(&self, trial: Option<&Trial>, finger: Option<Point>) -> Ground {
         let target = trial.and_then(|trial| target_of(&self.design, trial));
+        // What is played is felt wherever the finger is, and nothing lies there.
+        let is_played = !self.vibrations().is_empty();
         Ground {
             size_mm: self.layout.size_mm,
-            slots: slots(&self.layout, trial),
+            slots: if is_played {
+                Vec::new()
+            } else {
+                slots(&self.layout, trial)
+            },
             picture: target.and_then(|id| self.materials.shelf.picture(id)),
-            finger,
+            finger: finger.filter(|_| !is_played),
             feels: self.is_felt(),
         }
     }
@@ -298,11 +310,27 @@ impl Held {
             answered: self.draft.told(),
             table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
             link,
-            wants_noise: self.design.course.masking_noise,
             pause: self.pause,
             is_writing: self.is_writing(),
             failure: self.failure.clone(),
         }
+    }
+}
+
+/// Instructions that are no longer than this stand above a trial, letters.
+const SHORT: usize = 140;
+
+/// What is asked, as far as the design says it more plainly than the task.
+fn question(design: &Design, trial: &Trial) -> String {
+    let instructions = design.course.instructions.trim();
+    let is_short = !instructions.is_empty() && instructions.chars().count() <= SHORT;
+    match (&trial.task, &design.method) {
+        // What it is adjusted to is the design's alone to say.
+        (Task::Adjust { .. }, _) if is_short => instructions.to_owned(),
+        (Task::Interval { .. }, Method::Levels(levels)) if levels.reference_db.is_some() => {
+            "choose the interval with the stronger vibration".to_owned()
+        }
+        _ => trial.task.question().to_owned(),
     }
 }
 

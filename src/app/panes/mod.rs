@@ -66,7 +66,10 @@ pub(crate) use lab::{LabHands, LabPictures, LabView, show as show_lab};
 pub(crate) use library::show as show_library;
 pub(crate) use menu::{Appearance, choice as menu_choice};
 pub(crate) use notices::{Notices, show as show_notices};
-pub(crate) use participant::show as show_participant;
+pub(crate) use participant::{
+    show as show_participant, show_apart as show_participant_is_apart,
+    show_before as show_before_session,
+};
 pub(crate) use picture::{PictureTextures, show as show_picture};
 pub(crate) use question::show as show_question;
 pub(crate) use response::{

@@ -59,6 +59,10 @@ pub(crate) struct Kept {
     pub(crate) tablet_areas: BTreeMap<String, Area>,
     /// Size of the window, points.
     pub(crate) window_size: Option<[f32; 2]>,
+    /// The folder in which sessions of experiments lie, as it was typed.
+    pub(crate) sessions_folder: Option<String>,
+    /// The design that was chosen last: the name of one of the program, or the path of a file.
+    pub(crate) design: Option<String>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
     pub(crate) recent_scenes: Vec<PathBuf>,
 }
@@ -82,6 +86,8 @@ impl Default for Kept {
             array: None,
             tablet_areas: BTreeMap::new(),
             window_size: None,
+            sessions_folder: None,
+            design: None,
             recent_scenes: Vec::new(),
         }
     }

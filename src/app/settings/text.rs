@@ -53,6 +53,10 @@ struct Keys {
     array: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
     window_size: Value<[f32; 2]>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    sessions_folder: Value<String>,
+    #[serde(skip_serializing_if = "Value::is_missing")]
+    experiment_design: Value<String>,
     recent_scenes: Value<Vec<PathBuf>>,
     perspective: Value<String>,
     #[serde(skip_serializing_if = "Value::is_missing")]
@@ -126,11 +130,6 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
             odd.push(key);
         }
     }
-    let overlays = taken("overlays", keys.overlays, odd);
-    let overlays = overlays.map_or(Some(first.overlays), |words| Overlays::from_words(&words));
-    if overlays.is_none() {
-        odd.push("overlays");
-    }
     let zoom_percent = taken("zoom_percent", keys.zoom_percent, odd);
     let top_um = taken("amplitude_top_um", keys.amplitude_top_um, odd);
     let is_locked = taken("amplitude_locked", keys.amplitude_locked, odd);
@@ -142,7 +141,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         colour_map: map.ok().flatten().unwrap_or(first.colour_map),
         zoom: zoom_percent.map_or(first.zoom, |percent| percent / 100.0),
         dots: dots.ok().flatten().unwrap_or(first.dots),
-        overlays: overlays.unwrap_or(first.overlays),
+        overlays: overlays(keys.overlays, odd).unwrap_or(first.overlays),
         has_numbers: taken("numbers", keys.numbers, odd).unwrap_or(first.has_numbers),
         greys_below: taken("grey_below_threshold", keys.grey_below_threshold, odd)
             .unwrap_or(first.greys_below),
@@ -163,9 +162,21 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
         array: taken("array", keys.array, odd),
         tablet_areas: areas(keys.tablet_areas_mm, odd),
         window_size: taken("window_size", keys.window_size, odd),
+        sessions_folder: taken("sessions_folder", keys.sessions_folder, odd),
+        design: taken("experiment_design", keys.experiment_design, odd),
         ..first
     }
     .with_recent_scenes(recent.unwrap_or_default())
+}
+
+/// The overlays, unless one of the words stands for none.
+fn overlays(value: Value<Vec<String>>, odd: &mut Vec<&'static str>) -> Option<Overlays> {
+    let words = taken("overlays", value, odd)?;
+    let overlays = Overlays::from_words(&words);
+    if overlays.is_none() {
+        odd.push("overlays");
+    }
+    overlays
 }
 
 /// The areas of tablets; one that is none leaves only its tablet as at first.
@@ -242,6 +253,8 @@ pub(super) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
         error_budget_db: Value::Known(kept.rendering.budget_db),
         array: kept.array.clone().into(),
         window_size: kept.window_size.into(),
+        sessions_folder: kept.sessions_folder.clone().into(),
+        experiment_design: kept.design.clone().into(),
         recent_scenes: Value::Known(recent.filter(is_text).cloned().collect()),
         perspective: word(&kept.perspective, &perspectives()).into(),
         arrangement: kept.arrangements[0].clone().into(),
@@ -301,6 +314,8 @@ mod tests {
                 .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
                 .into(),
             window_size: Some([1600.0, 1000.5]),
+            sessions_folder: Some("/lab/study 1".to_owned()),
+            design: Some("odd-one-out".to_owned()),
             ..Kept::default()
         };
         let scenes = ["/a/ä b.scene.toml", "/c.toml"].map(PathBuf::from);

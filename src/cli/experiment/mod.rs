@@ -3,6 +3,7 @@
 mod analyse;
 mod designs;
 mod desk;
+mod noise;
 mod replicate;
 mod run;
 mod simulate;
@@ -23,6 +24,8 @@ pub(super) enum ExperimentCommand {
     Analyse(analyse::AnalyseArgs),
     /// The designs that are part of the program
     Designs(designs::DesignsArgs),
+    /// A noise that covers what an array can be heard by, as a sound file
+    Noise(noise::NoiseArgs),
     /// Sessions of simulated observers, written as those of people are
     Simulate(simulate::SimulateArgs),
     /// The papers' experiments by simulated observers: printed beside obtained
@@ -35,6 +38,7 @@ pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
         ExperimentCommand::Run(args) => run::run(args),
         ExperimentCommand::Analyse(args) => analyse::run(args),
         ExperimentCommand::Designs(args) => designs::run(args),
+        ExperimentCommand::Noise(args) => noise::run(args),
         ExperimentCommand::Simulate(args) => simulate::run(args),
         ExperimentCommand::Replicate(args) => replicate::run(args),
     }

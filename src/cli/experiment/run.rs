@@ -15,7 +15,7 @@ use super::super::{CliError, terminal};
 use super::desk::{Bench, Desk, Ended, Moment};
 use crate::experiment::by_hand::needs_array;
 use crate::experiment::design::{Design, Source, Subject};
-use crate::experiment::session::{Found, Session, log_path};
+use crate::experiment::session::{Found, Origin, Session, log_path};
 use crate::experiment::{Apparatus, Course, Participant, Participants, Particulars};
 use crate::files;
 use crate::quantity::moment_of;
@@ -216,7 +216,7 @@ fn opened(
         &folder,
         design,
         subject(next, nth),
-        device,
+        Origin::file(device, &args.design),
     )?)
 }
 

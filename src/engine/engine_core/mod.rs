@@ -267,19 +267,26 @@ impl EngineCore {
     }
 
     fn read(&mut self, now: Instant) -> Reading {
-        let track = &mut self.track;
+        let (track, recorder) = (&mut self.track, &mut self.recorder);
         track.begin_tick();
+        if let Some(recorder) = recorder {
+            recorder.begin_tick(now);
+        }
         let mut restarted = false;
+        let mut take = |sample| {
+            restarted |= track.take(sample, now);
+            if let Some(recorder) = recorder {
+                recorder.hear(sample, now);
+            }
+        };
         let Some(playable) = &mut self.playable else {
-            let reading = self
-                .live
-                .poll(now, &mut |sample| restarted |= track.take(sample, now));
+            let reading = self.live.poll(now, &mut take);
             track.look(now, restarted);
             return reading;
         };
         // What the mouse did meanwhile is nobody's business.
         self.live.poll(now, &mut |_| {});
-        let reading = playable.poll(now, &mut |sample| restarted |= track.take(sample, now));
+        let reading = playable.poll(now, &mut take);
         track.look(now, restarted);
         if reading == Reading::Lifted {
             track.lift();

@@ -96,6 +96,7 @@ fn a_session_that_was_killed_is_finished_with_the_rows_of_one_that_was_not() {
                 apparatus: record.apparatus.clone(),
                 note: &record.note,
                 path: None,
+                samples: &[],
             };
             match &record.outcome {
                 Outcome::Aborted => session.abort(&about).unwrap(),

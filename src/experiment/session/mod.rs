@@ -4,12 +4,15 @@
 //! ```text
 //! STUDY_EXPERIMENT_SUBJECT_1.csv      one row a trial, append-only
 //! STUDY_EXPERIMENT_SUBJECT_1.json     design, columns, every opening
-//! STUDY_EXPERIMENT_SUBJECT_1-paths/   how each trial was explored: path files to be replayed
+//! STUDY_EXPERIMENT_SUBJECT_1-paths/   how each trial was explored: path files to be replayed, and
+//!                                     what pointer or tablet reported, at its own rate
 //! ```
 //!
 //! The path of a trial is written before its row: a row that is there has all that belongs to it.
 
 mod found;
+mod origin;
+mod samples;
 mod sidecar;
 mod whole;
 
@@ -18,6 +21,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 pub use found::{Found, find};
+pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
 pub use whole::{unwritten, write_whole};
 
@@ -26,6 +30,7 @@ use super::course::{Course, Step};
 use super::design::{Design, Subject, is_name};
 use super::record::{Apparatus, Outcome, Record, Timing, column_names, read_records};
 use super::trial::{Answer, Trial};
+use crate::engine::RecordedSample;
 use crate::files::{FileError, Journal, Reopened};
 use crate::quantity::rfc3339;
 use crate::scene::ExplorationPath;
@@ -52,19 +57,23 @@ pub struct Circumstances<'a> {
     pub note: &'a str,
     /// How it was explored, if that was recorded.
     pub path: Option<&'a ExplorationPath>,
+    /// What pointer or tablet reported meanwhile, at its own rate.
+    pub samples: &'a [RecordedSample],
 }
 
 impl Session {
-    /// Begins a session in a folder, which is made where it is missing.
+    /// Begins a session in a folder, which is made where it is missing. A library that the design
+    /// names is found again from where the design came from.
     ///
     /// # Errors
     /// The pseudonym is no name, this session was begun before, or it cannot be written.
-    pub fn create(
+    pub fn create<'a>(
         folder: &Path,
         design: Design,
         subject: Subject,
-        device: &str,
+        origin: impl Into<Origin<'a>>,
     ) -> Result<Self, ExperimentError> {
+        let origin = origin.into();
         check_pseudonym(&subject.pseudonym)?;
         fs::create_dir_all(folder).map_err(|source| FileError::Write {
             path: folder.to_owned(),
@@ -81,7 +90,8 @@ impl Session {
             journal => journal?,
         };
         let mut sidecar = Sidecar::of(&design, &subject, course.progress().1);
-        sidecar.open(Opening::at(SystemTime::now(), device, 0));
+        sidecar.come_from(&origin, &design, &path);
+        sidecar.open(Opening::at(SystemTime::now(), origin.device, 0));
         sidecar.write(&path)?;
         Ok(Self {
             design,
@@ -219,6 +229,10 @@ impl Session {
         if let Some(path) = circumstances.path {
             self.write_path(path, &record)?;
         }
+        if !circumstances.samples.is_empty() {
+            let file = samples_file(self.log(), &record.trial, record.attempt);
+            samples::write(circumstances.samples, &file)?;
+        }
         let cells = record.cells(&self.design, &self.subject);
         let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
         self.journal.append(&cells)?;
@@ -253,6 +267,13 @@ pub fn path_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
     };
     let name = format!("{practice}-{:03}{again}.csv", trial.number + 1);
     log.with_file_name(format!("{stem}-paths")).join(name)
+}
+
+/// The file of what pointer or tablet reported in a trial.
+pub fn samples_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
+    let path = path_file(log, trial, attempt);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-samples.csv"))
 }
 
 /// The log of a subject's session in a folder.

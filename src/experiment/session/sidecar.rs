@@ -1,16 +1,21 @@
 //! The file beside a log: the design as it was, what the columns hold, when it was opened.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 
+use super::origin::{DesignFolder, Origin};
 use super::told_utc;
 use crate::experiment::ExperimentError;
 use crate::experiment::design::{Design, Subject};
 use crate::experiment::record::{SCHEMA_VERSION, columns};
 use crate::files::{self, FileError};
+use crate::textile::is_of_the_program;
+
+/// What the file of a design is called where its own name is not known.
+const NAME: &str = "design.toml";
 
 /// What stands beside a log.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,6 +33,9 @@ pub struct Sidecar {
     design_sha256: String,
     /// The design's file as it was, by which the log is resumed and analysed.
     design: String,
+    /// Where the design names a library of the user's own.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    design_folder: Option<DesignFolder>,
     columns: BTreeMap<String, String>,
     openings: Vec<Opening>,
 }
@@ -77,6 +85,7 @@ impl Sidecar {
             n_trials_at_most,
             design_sha256: design.hash.clone(),
             design: design.text.clone(),
+            design_folder: None,
             columns: columns(design).into_iter().collect(),
             openings: Vec::new(),
         }
@@ -117,6 +126,37 @@ impl Sidecar {
         Err(FileError::whole(&path, "its design was changed", mend).into())
     }
 
+    /// A path that the design may be taken to have: its folder is the one that a library is
+    /// relative to.
+    ///
+    /// # Errors
+    /// The design cannot be read, or the library that it names is gone.
+    pub fn design_file(&self, log: &Path) -> Result<PathBuf, ExperimentError> {
+        let named = own_library(&self.design(log)?);
+        let folder = self.design_folder.as_ref();
+        let mut places = folder.map_or_else(Vec::new, |folder| folder.places(log));
+        places.push(log.parent().unwrap_or_else(|| Path::new("")).to_owned());
+        let Some(named) = named else {
+            return Ok(places[0].join(NAME));
+        };
+        if let Some(place) = places.iter().find(|place| place.join(&named).exists()) {
+            return Ok(place.join(NAME));
+        }
+        let mut sought: Vec<String> = Vec::new();
+        for place in &places {
+            let path = place.join(&named).display().to_string();
+            if !sought.contains(&path) {
+                sought.push(path);
+            }
+        }
+        let what = format!(
+            "the library of its design is gone: sought {}",
+            sought.join(", ")
+        );
+        let mend = "put it back there, then resume";
+        Err(FileError::whole(log, what, mend).into())
+    }
+
     /// Who took part.
     pub fn subject(&self) -> Subject {
         Subject {
@@ -131,6 +171,12 @@ impl Sidecar {
         &self.openings
     }
 
+    /// Keeps where a library of the user's own is found again.
+    pub(super) fn come_from(&mut self, origin: &Origin<'_>, design: &Design, log: &Path) {
+        let file = origin.design_file.filter(|_| own_library(design).is_some());
+        self.design_folder = file.and_then(|file| DesignFolder::of(file, log));
+    }
+
     pub(super) fn open(&mut self, opening: Opening) {
         self.openings.push(opening);
     }
@@ -140,4 +186,10 @@ impl Sidecar {
         let text = files::to_json_string(self, &path)?;
         files::write_atomic(&path, text.as_bytes())
     }
+}
+
+/// The library that a design names, unless it is part of the program.
+fn own_library(design: &Design) -> Option<PathBuf> {
+    let library = design.library.as_ref();
+    library.filter(|named| !is_of_the_program(named)).cloned()
 }

@@ -74,6 +74,7 @@ pub(super) fn circumstances(nth: u64) -> Circumstances<'static> {
         },
         note: "a note, with a comma\nand two lines",
         path: None,
+        samples: &[],
     }
 }
 

@@ -93,6 +93,7 @@ fn rows_are_those_of_a_session_that_is_held_trial_by_trial() {
             apparatus: record.apparatus.clone(),
             note: "",
             path: None,
+            samples: &[],
         };
         let is_correct = session
             .answer(record.answer().unwrap(), &circumstances)

@@ -9,6 +9,7 @@ use crate::app::workspace::ViewTransform;
 
 /// A window whose frames are drawn, and what they are drawn with.
 struct Drawn {
+    size: [usize; 2],
     window: Headless,
     rasteriser: crate::app::Rasteriser,
 }
@@ -18,24 +19,44 @@ const SIZE: [usize; 2] = [1400, 900];
 impl Drawn {
     /// A trial of a design, for this participant.
     fn trial(folder: &Folder, design: &'static str, pseudonym: &str, theme: Theme) -> Self {
-        let window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let chosen = small(folder, design);
+        let mut drawn = Self::begun(folder, chosen, pseudonym, (theme, SIZE));
+        drawn.go_to_trial();
+        drawn
+    }
+
+    /// A session of a design that was just begun.
+    fn begun(
+        folder: &Folder,
+        chosen: Chosen,
+        pseudonym: &str,
+        (theme, size): (Theme, [usize; 2]),
+    ) -> Self {
+        let window = Headless::new(None, vec2(size[0] as f32, size[1] as f32), 1.0).unwrap();
         window.ctx.set_theme(theme);
         let mut drawn = Self {
+            size,
             window,
             rasteriser: crate::app::Rasteriser::default(),
         };
         drawn.pass(2);
         let form = &mut drawn.window.bench.transient.experiment.form;
-        form.choose(small(folder, design));
+        form.choose(chosen);
         form.folder = folder.0.display().to_string();
-        form.pseudonym = pseudonym.to_owned();
+        form.who.pseudonym = pseudonym.to_owned();
         drawn.window.dispatch(ExperimentCommand::Begin);
         drawn.pass(3);
-        for _ in 0..6 {
-            drawn.window.dispatch(ExperimentCommand::Pass);
-            drawn.pass(2);
-        }
+        let failure = &drawn.window.bench.transient.experiment.form.failure;
+        assert_eq!(*failure, None);
         drawn
+    }
+
+    /// Goes on until a trial waits.
+    fn go_to_trial(&mut self) {
+        for _ in 0..6 {
+            self.window.dispatch(ExperimentCommand::Pass);
+            self.pass(2);
+        }
     }
 
     fn pass(&mut self, n_frames: u32) {
@@ -50,20 +71,24 @@ impl Drawn {
         self.rasteriser.apply(&mut output.textures_delta);
         let shapes = output.shapes;
         let primitives = self.window.ctx.tessellate(shapes, output.pixels_per_point);
-        let picture = self.rasteriser.draw(&primitives, SIZE, 1.0, Color32::BLACK);
+        self.rasteriser
+            .draw(&primitives, self.size, 1.0, Color32::BLACK)
+    }
+
+    /// A picture with many colours: letters, cloth and controls stand out from the ground. It is
+    /// kept where a folder for pictures was named.
+    fn keep_picture(&mut self, name: &str) {
+        let picture = self.picture();
+        let mut colours: Vec<&[u8]> = picture.rgba.chunks(4).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        assert!(colours.len() > 50, "{name}: {} colours", colours.len());
         if let Ok(out) = std::env::var("SELVEDGE_PICTURES") {
-            let task = held(&self.window)
-                .trial()
-                .map(|trial| format!("{:?}", trial.task));
-            let word = task
-                .as_deref()
-                .and_then(|task| task.split(' ').next())
-                .unwrap_or("x");
-            let path = Path::new(&out).join(format!("{word}-{:?}.png", self.window.ctx.theme()));
-            let bytes = crate::files::encode_png_rgba(&picture.rgba, SIZE[0], SIZE[1], &path);
+            let path = Path::new(&out).join(format!("{name}.png"));
+            let [width, height] = self.size;
+            let bytes = crate::files::encode_png_rgba(&picture.rgba, width, height, &path);
             fs::write(path, bytes.unwrap()).unwrap();
         }
-        picture
     }
 }
 
@@ -127,27 +152,137 @@ fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone
     );
 }
 
+/// A design in a file of its own.
+fn written(folder: &Folder, text: &str) -> Chosen {
+    fs::create_dir_all(&folder.0).unwrap();
+    let path = folder.0.join("design.toml");
+    fs::write(&path, text).unwrap();
+    Chosen::File(path)
+}
+
+/// Judgements of four fabrics.
+fn judgements(protocol: &str) -> String {
+    let stimulus = |(id, material, condition): (&str, &str, &str)| {
+        format!(
+            "[[stimulus]]\nid = \"{id}\"\ntextile = \"{id}\"\nmaterial = \"{material}\"\n\
+             condition = \"{condition}\"\n"
+        )
+    };
+    let stimuli: String = [
+        ("silk-crepe", "silk", "measured"),
+        ("polyamide-taffeta", "silk", "generated"),
+        ("wool-twill", "wool", "measured"),
+        ("wool-rib", "wool", "generated"),
+    ]
+    .map(stimulus)
+    .concat();
+    format!(
+        "study = \"s\"\nexperiment = \"judgement\"\nmedium = \"array\"\nseed = 1\n{stimuli}\
+         [judgement]\nreal = \"measured\"\nprotocol = \"{protocol}\"\nrepeats = 1\n\
+         confidence_grades = 3\n"
+    )
+}
+
+/// Three fabrics, and a movement to practise.
+const TRIADS: &str = "study = \"s\"\nexperiment = \"triads\"\nmedium = \"array\"\nseed = 1\n\
+    textiles = [\"silk-crepe\", \"wool-twill\", \"jute-plain\"]\n\
+    [odd_one_out]\nweights = [1.0, 0.5, 0.1]\n\
+    [course]\ninstructions = \"Find the odd one.\"\n\
+    [[course.familiarisation]]\nmovement = \"circular\"\nfor_s = 30.0\nspeed_mm_per_s = 100.0\n";
+
+/// What a participant has said when a picture is taken.
+fn said(design: &str) -> Vec<Mark> {
+    match design {
+        "rating" => vec![Mark::Rate(1, 30.0), Mark::Rate(0, 80.0)],
+        "magnitude" => vec![Mark::Type("12.5".to_owned())],
+        "adjustment-two-gains" => vec![Mark::Turn(0, 3)],
+        "real-or-generated" => vec![Mark::Real(true), Mark::Confidence(2)],
+        _ => vec![Mark::Place(1), Mark::Place(3)],
+    }
+}
+
+const KINDS: [&str; 8] = [
+    "ranking-virtual-target",
+    "ranking-real-target",
+    "odd-one-out",
+    "adjustment-two-gains",
+    "gain-matching",
+    "rating",
+    "magnitude",
+    "jnd-40",
+];
+
 #[test]
-fn every_kind_of_trial_is_drawn_in_both_themes() {
-    let kinds = [
-        ("odd-one-out", Theme::Light),
-        ("ranking-real-target", Theme::Light),
-        ("adjustment-two-gains", Theme::Dark),
-        ("rating", Theme::Dark),
-        ("magnitude", Theme::Light),
-    ];
-    for (design, theme) in kinds {
+fn every_kind_of_trial_is_drawn_in_both_themes_in_wide_and_narrow_windows() {
+    let looks = [(Theme::Dark, SIZE), (Theme::Light, [980, 700])];
+    for (design, (theme, size)) in KINDS.into_iter().zip(looks.into_iter().cycle()) {
         let folder = Folder::new(&format!("kind-{design}"));
-        let mut drawn = Drawn::trial(&folder, design, "p01", theme);
+        let chosen = small(&folder, design);
+        let mut drawn = Drawn::begun(&folder, chosen, "p01", (theme, size));
+        drawn.go_to_trial();
         explore(&mut drawn.window, 8);
-        mark(&mut drawn.window, Mark::Place(2));
-        mark(&mut drawn.window, Mark::Rate(1, 30.0));
-        let picture = drawn.picture();
-        // Letters, cloth and controls stand out from the ground.
-        let mut colours: Vec<&[u8]> = picture.rgba.chunks(4).collect();
-        colours.sort_unstable();
-        colours.dedup();
-        assert!(colours.len() > 50, "{design}: {} colours", colours.len());
+        for one in said(design) {
+            mark(&mut drawn.window, one);
+        }
+        drawn.keep_picture(&format!("{design}-{theme:?}-{}", size[0]));
         assert!(held(&drawn.window).trial().is_some(), "{design}");
     }
+}
+
+#[test]
+fn judgements_are_drawn_of_one_fabric_and_of_pairs() {
+    for (name, size) in [("single", [980, 700]), ("pair", SIZE)] {
+        let folder = Folder::new(&format!("judgement-{name}"));
+        let chosen = written(&folder, &judgements(name));
+        let mut drawn = Drawn::begun(&folder, chosen, "p01", (Theme::Dark, size));
+        drawn.go_to_trial();
+        for one in said("real-or-generated") {
+            mark(&mut drawn.window, one);
+        }
+        mark(&mut drawn.window, Mark::Place(0));
+        drawn.keep_picture(&format!("judgement-{name}"));
+        assert!(held(&drawn.window).trial().is_some());
+    }
+}
+
+#[test]
+fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
+    let folder = Folder::new("steps");
+    let chosen = written(&folder, TRIADS);
+    let mut drawn = Drawn::begun(&folder, chosen, "p01", (Theme::Dark, SIZE));
+    let name = |step: &str| format!("step-{step}");
+    drawn.keep_picture(&name("1-instructions"));
+    drawn.window.dispatch(ExperimentCommand::Pass);
+    drawn.pass(2);
+    drawn.keep_picture(&name("2-familiarisation"));
+    drawn.window.dispatch(ExperimentCommand::Pause(true));
+    drawn.pass(2);
+    drawn.keep_picture(&name("3-pause"));
+    drawn.window.dispatch(ExperimentCommand::Pause(false));
+    drawn.pass(2);
+    let mut has_rested = false;
+    while !matches!(held(&drawn.window).now, Now::Finished) {
+        if held(&drawn.window).trial().is_none() {
+            if matches!(held(&drawn.window).now, Now::Break { .. }) && !has_rested {
+                has_rested = true;
+                drawn.keep_picture(&name("4-break"));
+            }
+            drawn.window.dispatch(ExperimentCommand::Pass);
+        } else {
+            mark(&mut drawn.window, Mark::Place(1));
+            mark(
+                &mut drawn.window,
+                Mark::Grade(crate::experiment::Grade::Hard),
+            );
+            drawn.window.dispatch(ExperimentCommand::Answer);
+        }
+        drawn.pass(3);
+    }
+    drawn.keep_picture(&name("5-end"));
+    drawn.window.dispatch(ExperimentCommand::End);
+    drawn.pass(3);
+    let form = &mut drawn.window.bench.transient.experiment.form;
+    form.choose(Chosen::Shipped("ranking-real-target"));
+    drawn.keep_picture(&name("6-form"));
+    assert_eq!(drawn.window.bench.transient.experiment.form.found.len(), 1);
 }

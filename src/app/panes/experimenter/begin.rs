@@ -3,13 +3,18 @@
 use eframe::egui::{ProgressBar, RichText, Ui, vec2};
 
 use crate::app::command::{FileCommand, Purpose};
-use crate::app::experiment::{Chosen, ExperimentCommand, Form, Row, title_of};
+use crate::app::experiment::{Chosen, ExperimentCommand, Form, Row, Who, title_of};
 use crate::app::panes::Wishes;
 use crate::app::panes::import::fields::{Need, Tone, choose, note, row_of, text};
 use crate::app::theme::{ROW, STEP};
 use crate::app::widgets::{button, choice, section};
 use crate::experiment::design::Design;
+use crate::experiment::{HANDS, SEXES};
 
+/// What stands where nothing was told.
+const NOT_TOLD: &str = "not told";
+/// As wide as there is room for.
+const WIDE: f32 = f32::INFINITY;
 /// Width of a row's name, points.
 const NAME: f32 = 84.0;
 
@@ -21,21 +26,9 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mu
     if let Ok(design) = &form.design {
         note(ui, &about(design), Tone::Quiet);
     }
-    let any = f32::INFINITY;
-    row_of(ui, NAME, ("participant", ""), |ui, label| {
-        text(ui, label, &mut form.pseudonym, ("p01", any, Need::Optional));
-    });
-    row_of(ui, NAME, ("session", ""), |ui, label| {
-        text(ui, label, &mut form.session, ("1", 64.0, Need::Optional));
-    });
-    row_of(ui, NAME, ("folder", ""), |ui, label| {
-        text(
-            ui,
-            label,
-            &mut form.folder,
-            ("/path/to/study", any, Need::Optional),
-        );
-    });
+    field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
+    field(ui, "session", &mut form.session, ("1", 64.0));
+    show_who(ui, &mut form.who);
     let refusal = form.refusal();
     ui.add_space(STEP);
     if let Some(share) = share {
@@ -54,6 +47,51 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mu
         note(ui, &line, Tone::Quiet);
     }
     show_found(ui, form, share.is_some(), wishes);
+}
+
+/// A field with its name.
+fn field(ui: &mut Ui, name: &str, typed: &mut String, (hint, width): (&str, f32)) {
+    row_of(ui, NAME, (name, ""), |ui, label| {
+        text(ui, label, typed, (hint, width, Need::Optional));
+    });
+}
+
+/// Who takes part: a pseudonym, and what else is told.
+fn show_who(ui: &mut Ui, who: &mut Who) {
+    section(ui, "Participant");
+    field(ui, "pseudonym", &mut who.pseudonym, ("p01", WIDE));
+    if who.is_known() {
+        let words = "Took part before: what was told is filled in";
+        note(ui, words, Tone::Quiet);
+    }
+    field(ui, "age, years", &mut who.age, ("not told", 84.0));
+    one_of(ui, "sex", &mut who.sex, &SEXES);
+    one_of(ui, "handedness", &mut who.handedness, &HANDS);
+    field(
+        ui,
+        "experience",
+        &mut who.experience,
+        ("naive, practised", WIDE),
+    );
+    field(ui, "room", &mut who.room, ("one word", WIDE));
+}
+
+/// One of some words, or none.
+fn one_of(ui: &mut Ui, name: &str, chosen: &mut String, words: &[&str]) {
+    row_of(ui, NAME, (name, ""), |ui, _| {
+        let now = if chosen.is_empty() {
+            NOT_TOLD
+        } else {
+            chosen.as_str()
+        };
+        let now = now.to_owned();
+        choose(ui, name, (&now, 132.0, Need::Optional), |ui| {
+            ui.selectable_value(chosen, String::new(), NOT_TOLD);
+            for word in words {
+                ui.selectable_value(chosen, (*word).to_owned(), *word);
+            }
+        });
+    });
 }
 
 fn show_designs(ui: &mut Ui, form: &Form, wishes: &mut Wishes) {
@@ -107,7 +145,7 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
     let refusal = no_folder.then_some("Say in which folder first");
     if button(
         ui,
-        "List them",
+        "List again",
         "Look which sessions the folder holds",
         refusal,
     ) {
@@ -117,7 +155,7 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
         show_row(ui, found, is_busy, wishes);
     }
     if form.found.is_empty() {
-        let words = "None is listed. One that was interrupted is resumed from here.";
+        let words = "There is none yet. One that was interrupted is resumed from here.";
         note(ui, words, Tone::Quiet);
     }
 }

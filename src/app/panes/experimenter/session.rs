@@ -31,11 +31,6 @@ pub(super) fn show(ui: &mut Ui, view: &HeldView, typed: Option<&mut String>, wis
         });
     }
     show_link(ui, &view.link, wishes);
-    if view.wants_noise {
-        let words = "The design asks for a masking noise. This program plays none: let it come \
-                     from elsewhere, by headphones or earmuffs.";
-        note(ui, words, Tone::Quiet);
-    }
     show_end(ui, view, wishes);
 }
 

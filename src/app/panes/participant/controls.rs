@@ -1,32 +1,40 @@
 //! What an answer is given with: large buttons, lines without numbers, a field for one number.
 
 use eframe::egui::{
-    self, Align, Button, Key, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo,
-    pos2, vec2,
+    self, Align, Key, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::ground::count;
-use super::ranks;
+use super::{big, ranks};
 use crate::app::experiment::{Draft, ExperimentCommand, Mark, Sure, TrialView};
 use crate::app::panes::Wishes;
 use crate::app::theme::{self, Palette, STEP};
 use crate::experiment::design::{Scale, TunedParameter};
 use crate::experiment::{Grade, N_TRIAD};
 
-/// Height of a row of large controls, points.
-const BIG: f32 = 56.0;
 /// Width of the line of a scale, points.
 const SCALE: f32 = 420.0;
 /// Height of a scale, points.
 const SCALE_ROW: f32 = 44.0;
 
-/// The room that an answer needs, points.
-pub(super) fn height(draft: &Draft) -> f32 {
+/// Width of the button that hands a ranking in, and the gap before it, points.
+const DONE: f32 = 168.0;
+
+/// Whether that button has room beside the ranks.
+fn is_wide(room: f32) -> bool {
+    room >= ranks::width() + DONE
+}
+
+/// The height that an answer needs where there is `room` across, points.
+pub(super) fn height(draft: &Draft, room: f32) -> f32 {
     match draft {
-        Draft::Ratings { scales, .. } => SCALE_ROW * count(scales.len()) + BIG + 4.0 * STEP,
-        Draft::Adjust { parameters, .. } => SCALE_ROW * count(parameters.len()) + BIG + 4.0 * STEP,
+        Draft::Ranks(_) if !is_wide(room) => super::ANSWER + big::ROW,
+        Draft::Ratings { scales, .. } => SCALE_ROW * count(scales.len()) + big::ROW + 4.0 * STEP,
+        Draft::Adjust { parameters, .. } => {
+            SCALE_ROW * count(parameters.len()) + big::ROW + 4.0 * STEP
+        }
         Draft::Judge { sure, .. } | Draft::Choose { sure, .. } if sure.n_grades > 0 => {
-            3.0 * (BIG + 2.0 * STEP)
+            3.0 * (big::ROW + 2.0 * STEP)
         }
         _ => super::ANSWER,
     }
@@ -37,12 +45,19 @@ pub(super) fn show(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
     match trial.draft {
         Draft::Nothing => {}
         Draft::Ranks(order) => {
-            let button = 168.0;
-            row(ui, ranks::width() + button, |ui| {
+            let is_wide = is_wide(ui.available_width());
+            row(ui, ranks::width() + DONE, |ui| {
                 ranks::show(ui, order, wishes);
-                ui.add_space(2.0 * STEP);
-                show_done(ui, trial, wishes);
+                if is_wide {
+                    ui.add_space(2.0 * STEP);
+                    show_done(ui, trial, wishes);
+                }
             });
+            if !is_wide {
+                // What the first and the last rank mean stands between.
+                ui.add_space(5.0 * STEP);
+                row(ui, DONE, |ui| show_done(ui, trial, wishes));
+            }
         }
         Draft::Odd { position, grade } => {
             show_numbers(ui, N_TRIAD, *position, wishes);
@@ -78,6 +93,7 @@ pub(super) fn show(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
             row(ui, 160.0, |ui| show_done(ui, trial, wishes));
         }
         Draft::Ratings { values, scales } => {
+            focus_first(ui, trial, scales);
             for (at, (value, scale)) in values.iter().zip(scales).enumerate() {
                 show_scale(ui, at, (*value, scale), wishes);
             }
@@ -86,37 +102,52 @@ pub(super) fn show(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
     }
 }
 
-/// A row of this width in the middle.
+/// Gives the keys to the first scale while nothing else has them.
+fn focus_first(ui: &Ui, trial: &TrialView<'_>, scales: &[Scale]) {
+    let is_free = ui.memory(|memory| memory.focused().is_none());
+    let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
+    if let Some(first) = scales
+        .first()
+        .filter(|_| is_free && trial.is_open && !is_entered)
+    {
+        let id = ui.scope_id().with(name_of(first));
+        ui.memory_mut(|memory| memory.request_focus(id));
+    }
+}
+
+/// A scale as it is read out.
+fn name_of(scale: &Scale) -> String {
+    format!("From {} to {}", scale.low, scale.high)
+}
+
+/// A row in the middle: as wide as it was when it was drawn last, `width` before that.
 fn row(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
     let room = ui.available_width();
-    ui.allocate_ui_with_layout(
-        vec2(room, BIG),
-        Layout::left_to_right(Align::Center),
-        |ui| {
-            ui.add_space((0.5 * (room - width)).max(0.0));
-            content(ui);
-        },
-    );
+    let id = ui.next_auto_id().with("row");
+    let before = ui.data(|data| data.get_temp(id)).unwrap_or(width);
+    let line = Layout::left_to_right(Align::Center);
+    let drawn = ui.allocate_ui_with_layout(vec2(room, big::ROW), line, |ui| {
+        ui.add_space((0.5 * (room - before)).max(0.0));
+        let left = ui.cursor().left();
+        content(ui);
+        ui.min_rect().right() - left
+    });
+    let now = drawn.inner;
+    if (now - before).abs() > 0.5 {
+        ui.data_mut(|data| data.insert_temp(id, now));
+        ui.ctx().request_discard("a row is wider than it was");
+    }
     ui.add_space(STEP);
 }
 
-/// A large button that is chosen or not.
+/// A large button that says something, chosen or not.
 fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, wishes: &mut Wishes) {
-    let palette = Palette::in_ui(ui);
-    let (fill, ink) = if is_on {
-        (palette.selection, palette.panel)
+    let least = if words.chars().count() > 1 {
+        112.0
     } else {
-        (palette.raised, palette.text)
+        72.0
     };
-    let text = RichText::new(words).font(theme::large()).color(ink);
-    let least = if words.len() > 1 { 112.0 } else { 72.0 };
-    let button = Button::new(text)
-        .fill(fill)
-        .min_size(vec2(least, BIG - 8.0));
-    let response = ui.add(button);
-    let is_enabled = ui.is_enabled();
-    response.widget_info(|| WidgetInfo::selected(egui::Role::Button, is_enabled, is_on, words));
-    if response.clicked() {
+    if big::button(ui, (words, words), least, is_on).clicked() {
         wishes.push(ExperimentCommand::Mark(mark).into());
     }
 }
@@ -134,56 +165,44 @@ fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, wishes: &mut Wishe
 fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, wishes: &mut Wishes) {
     if sure.n_grades > 0 {
         let width = f32::from(sure.n_grades) * 80.0 + 220.0;
+        let n = f32::from(sure.n_grades);
+        let side = ((ui.available_width() - 240.0) / n - 2.0 * STEP).clamp(44.0, 64.0);
         row(ui, width, |ui| {
-            let words = RichText::new("guessed").font(theme::body());
-            ui.label(words.color(Palette::in_ui(ui).dim));
+            show_end(ui, "guessed");
             for grade in 1..=sure.n_grades {
                 let is_on = sure.grade == Some(grade);
-                let words = grade.to_string();
-                choose_sure(ui, &words, is_on, grade, wishes);
+                let (words, label) = (grade.to_string(), format!("Sure {grade}"));
+                if big::button(ui, (&words, &label), side, is_on).clicked() {
+                    wishes.push(ExperimentCommand::Mark(Mark::Confidence(grade)).into());
+                }
             }
-            let words = RichText::new("certain").font(theme::body());
-            ui.label(words.color(Palette::in_ui(ui).dim));
+            show_end(ui, "certain");
         });
     }
-    row(ui, 160.0, |ui| show_done(ui, trial, wishes));
+    if !trial.ends_at_once() {
+        row(ui, 160.0, |ui| show_done(ui, trial, wishes));
+    }
 }
 
-fn choose_sure(ui: &mut Ui, words: &str, is_on: bool, grade: u8, wishes: &mut Wishes) {
-    let palette = Palette::in_ui(ui);
-    let (fill, ink) = if is_on {
-        (palette.selection, palette.panel)
-    } else {
-        (palette.raised, palette.text)
-    };
-    let text = RichText::new(words).font(theme::large()).color(ink);
-    let button = Button::new(text)
-        .fill(fill)
-        .min_size(vec2(64.0, BIG - 12.0));
-    let response = ui.add(button);
-    let is_enabled = ui.is_enabled();
-    response.widget_info(|| {
-        let label = format!("Sure {words}");
-        WidgetInfo::selected(egui::Role::Button, is_enabled, is_on, label)
-    });
-    if response.clicked() {
-        wishes.push(ExperimentCommand::Mark(Mark::Confidence(grade)).into());
-    }
+/// What one end of a row of grades means.
+fn show_end(ui: &mut Ui, words: &str) {
+    let text = RichText::new(words).font(theme::large());
+    ui.label(text.color(Palette::in_ui(ui).dim));
 }
 
 /// The button that hands the answer in; grey, with what is missing as its tip.
 fn show_done(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
-    if trial.may_play {
-        let again = Button::new(RichText::new("Again").font(theme::large()));
-        if ui.add(again.min_size(vec2(112.0, BIG - 8.0))).clicked() {
-            wishes.push(ExperimentCommand::Play.into());
-        }
+    if trial.may_play && big::button(ui, ("Again", "Again"), 112.0, false).clicked() {
+        wishes.push(ExperimentCommand::Play.into());
     }
     let missing = trial.draft.answer().err();
     let words = if trial.is_open { "Done" } else { "…" };
-    let button = Button::new(RichText::new(words).font(theme::large()));
-    let response = ui.add_enabled(missing.is_none(), button.min_size(vec2(136.0, BIG - 8.0)));
-    let response = response.on_disabled_hover_text(missing.unwrap_or_default());
+    let done = ui.add_enabled_ui(missing.is_none(), |ui| {
+        big::button(ui, (words, words), 136.0, false)
+    });
+    let response = done
+        .inner
+        .on_disabled_hover_text(missing.unwrap_or_default());
     if response.clicked() {
         wishes.push(ExperimentCommand::Answer.into());
     }
@@ -196,6 +215,7 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, wishes: &mut Wish
         let field = TextEdit::singleline(&mut typed)
             .font(theme::large())
             .char_limit(12)
+            .margin(egui::Margin::symmetric(12, 10))
             .desired_width(140.0);
         let response = ui.add(field).labelled_by(label.id);
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -225,58 +245,107 @@ fn show_parameter(
         (_, 0) => "Control 1",
         _ => "Control 2",
     };
-    let share = (value - parameter.from) / (parameter.to - parameter.from);
-    if let Some(share) = line(ui, name, ("less", "more"), Some(share)) {
-        let to = parameter.from + share * (parameter.to - parameter.from);
+    let range = parameter.to - parameter.from;
+    let rail = Rail {
+        name,
+        ends: ("less", "more"),
+        share: Some((value - parameter.from) / range),
+        step: (parameter.step / range).abs(),
+        is_in_steps: false,
+    };
+    if let Some(share) = line(ui, &rail) {
+        let to = parameter.from + share * range;
         wishes.push(ExperimentCommand::Mark(Mark::Set(at, to)).into());
     }
 }
 
 fn show_scale(ui: &mut Ui, at: usize, (value, scale): (Option<f64>, &Scale), wishes: &mut Wishes) {
     let [low, high] = scale.bounds();
-    let share = value.map(|value| (value - low) / (high - low));
-    let name = format!("From {} to {}", scale.low, scale.high);
-    if let Some(share) = line(ui, &name, (&scale.low, &scale.high), share) {
+    let is_in_steps = scale.points > 0;
+    let rail = Rail {
+        name: &name_of(scale),
+        ends: (&scale.low, &scale.high),
+        share: value.map(|value| (value - low) / (high - low)),
+        step: if is_in_steps {
+            1.0 / (high - low)
+        } else {
+            0.05
+        },
+        is_in_steps,
+    };
+    if let Some(share) = line(ui, &rail) {
         let to = low + share * (high - low);
-        let to = if scale.points > 0 { to.round() } else { to };
+        let to = if is_in_steps { to.round() } else { to };
         wishes.push(ExperimentCommand::Mark(Mark::Rate(at, to)).into());
     }
 }
 
+/// A line without numbers.
+struct Rail<'a> {
+    /// As it is read out.
+    name: &'a str,
+    /// Words at its ends.
+    ends: (&'a str, &'a str),
+    /// Where somebody put it, 0…1.
+    share: Option<f64>,
+    /// How far a key moves it, as a share.
+    step: f64,
+    /// Whether only whole steps can be chosen; they are marked.
+    is_in_steps: bool,
+}
+
 /// A line to point at, with words at its ends: the share that was pointed at, 0…1.
-fn line(ui: &mut Ui, name: &str, (low, high): (&str, &str), share: Option<f64>) -> Option<f64> {
-    let width = SCALE.min(ui.available_width() - 240.0).max(80.0);
+fn line(ui: &mut Ui, rail: &Rail<'_>) -> Option<f64> {
+    let width = SCALE.min(ui.available_width() - 280.0).max(80.0);
     let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), SCALE_ROW), Sense::hover());
-    let rail = Rect::from_center_size(whole.center(), vec2(width, SCALE_ROW - 8.0));
-    let response = ui.interact(rail, ui.scope_id().with(name), Sense::click_and_drag());
-    declare(ui, &response, name, share);
+    let rect = Rect::from_center_size(whole.center(), vec2(width, SCALE_ROW - 8.0));
+    let id = ui.scope_id().with(rail.name);
+    let response = ui.interact(rect.expand2(vec2(12.0, 0.0)), id, Sense::click_and_drag());
+    declare(ui, &response, rail.name, rail.share);
+    paint_rail(ui, rect, rail, &response);
+    let steps = crate::app::widgets::key_steps(ui, &response);
+    let stepped = (steps != 0).then(|| {
+        let share = rail.share.unwrap_or(0.5) + rail.step * f64::from(steps);
+        share.clamp(0.0, 1.0)
+    });
+    if response.has_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
+        // Enter belongs to the answer as a whole.
+        response.surrender_focus();
+    }
+    let at = response
+        .interact_pointer_pos()
+        .filter(|_| response.clicked() || response.dragged());
+    let pointed = at.map(|at| f64::from((at.x - rect.left()) / rect.width()).clamp(0.0, 1.0));
+    pointed.or(stepped)
+}
+
+fn paint_rail(ui: &Ui, rect: Rect, rail: &Rail<'_>, response: &Response) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter();
-    let y = rail.center().y;
-    painter.hline(rail.x_range(), y, egui::Stroke::new(3.0, palette.line));
-    if let Some(share) = share {
-        let x = rail.left() + narrow(share.clamp(0.0, 1.0)) * rail.width();
-        painter.circle_filled(pos2(x, y), 12.0, palette.selection);
+    let y = rect.center().y;
+    let is_lit = response.hovered() || response.has_focus();
+    let ink = if is_lit { palette.text } else { palette.line };
+    painter.hline(rect.x_range(), y, egui::Stroke::new(3.0, ink));
+    let at = |share: f64| rect.left() + narrow(share.clamp(0.0, 1.0)) * rect.width();
+    if rail.is_in_steps {
+        let mut share = 0.0;
+        while share < 1.0 + 0.5 * rail.step {
+            let marks = (y - 7.0)..=(y + 7.0);
+            painter.vline(at(share), marks, egui::Stroke::new(2.0, ink));
+            share += rail.step;
+        }
     }
+    if let Some(share) = rail.share {
+        painter.circle_filled(pos2(at(share), y), 12.0, palette.selection);
+    }
+    big::ring(ui, rect.expand2(vec2(12.0, 0.0)), response);
     let ends = [
-        (rail.left() - 16.0, egui::Align2::RIGHT_CENTER, low),
-        (rail.right() + 16.0, egui::Align2::LEFT_CENTER, high),
+        (rect.left() - 24.0, egui::Align2::RIGHT_CENTER, rail.ends.0),
+        (rect.right() + 24.0, egui::Align2::LEFT_CENTER, rail.ends.1),
     ];
     for (x, align, words) in ends {
         painter.text(pos2(x, y), align, words, theme::large(), palette.text);
     }
-    let stepped = step_of(ui, &response, share);
-    let at = response
-        .interact_pointer_pos()
-        .filter(|_| response.clicked() || response.dragged());
-    let pointed = at.map(|at| f64::from((at.x - rail.left()) / rail.width()).clamp(0.0, 1.0));
-    pointed.or(stepped)
-}
-
-/// The share after the keys of a line that has the focus, twentieths of it.
-fn step_of(ui: &Ui, response: &Response, share: Option<f64>) -> Option<f64> {
-    let steps = crate::app::widgets::key_steps(ui, response);
-    (steps != 0).then(|| (share.unwrap_or(0.5) + 0.05 * f64::from(steps)).clamp(0.0, 1.0))
 }
 
 fn declare(ui: &Ui, response: &Response, name: &str, share: Option<f64>) {

@@ -86,10 +86,16 @@ pub(super) fn paint_guide(
     let [width_mm, height_mm] = ground.size_mm;
     let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
     let painter = ui.painter();
-    let line = Stroke::new(2.0, palette.tag);
-    if is_circle {
-        painter.circle_stroke(view.screen(middle), view.length(RADIUS_MM), line);
-    } else {
+    // A rim on both sides: the line is seen on bright and on dark cloth.
+    let lines = [
+        Stroke::new(5.0, palette.rim),
+        Stroke::new(2.0, palette.faint),
+    ];
+    for line in lines {
+        if is_circle {
+            painter.circle_stroke(view.screen(middle), view.length(RADIUS_MM), line);
+            continue;
+        }
         let ends = [-HALF_MM, HALF_MM]
             .map(|off_mm| view.screen(Point::new(middle.x_mm + off_mm, middle.y_mm)));
         painter.line_segment(ends, line);
@@ -114,7 +120,7 @@ pub(super) fn paint_intervals(ui: &Ui, rect: Rect, (n, played): (usize, Option<u
         } else {
             (palette.raised, palette.text)
         };
-        painter.circle_filled(at, radius, fill);
+        painter.circle(at, radius, fill, Stroke::new(1.0, palette.line));
         if n > 1 {
             let number = (interval + 1).to_string();
             painter.text(at, Align2::CENTER_CENTER, number, theme::huge(), ink);

@@ -20,12 +20,26 @@ const DIGITS: [Key; 8] = [
 /// Keys of grades, from easy to hard.
 const GRADES: [Key; 3] = [Key::E, Key::N, Key::H];
 
-/// Takes the keys that were pressed, unless words are being typed.
+/// Keys that belong to whatever has the focus.
+const ARROWS: [Key; 4] = [
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::ArrowLeft,
+    Key::ArrowRight,
+];
+
+/// Takes the keys that were pressed, unless words are being typed. Enter, Space and arrows belong
+/// to a button or line that has the focus.
 pub(super) fn take(ui: &Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
-    if ui.ctx().egui_wants_keyboard_input() {
+    if ui.ctx().text_edit_focused() {
         return;
     }
-    let is_pressed = |key| ui.input(|input| input.key_pressed(key));
+    let is_free = ui.memory(|memory| memory.focused().is_none());
+    let is_own = |key: Key| {
+        let is_taken = ARROWS.contains(&key) || matches!(key, Key::Enter | Key::Space);
+        is_free || !is_taken
+    };
+    let is_pressed = |key| is_own(key) && ui.input(|input| input.key_pressed(key));
     for mark in marks(trial.draft, is_pressed) {
         wishes.push(ExperimentCommand::Mark(mark).into());
     }
@@ -35,6 +49,38 @@ pub(super) fn take(ui: &Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
     if is_pressed(Key::Space) && trial.may_play {
         wishes.push(ExperimentCommand::Play.into());
     }
+}
+
+/// Which keys answer, for whoever has no pointer.
+pub(super) fn hint(trial: &TrialView<'_>) -> String {
+    let sure = |n_grades: u8| match n_grades {
+        0 => String::new(),
+        n => format!(", then 1 to {n} for how sure you are"),
+    };
+    let keys = match trial.draft {
+        Draft::Nothing => return String::new(),
+        Draft::Ranks(_) => "1 to 4 in order, Backspace takes back".to_owned(),
+        Draft::Odd { .. } => "1 to 3, then E, N or H".to_owned(),
+        Draft::Choose { n, sure: said, .. } => format!("1 to {n}{}", sure(said.n_grades)),
+        Draft::Judge { sure: said, .. } => format!("R or G{}", sure(said.n_grades)),
+        Draft::Adjust { parameters, .. } => match parameters.len() {
+            0 | 1 => "up and down".to_owned(),
+            _ => "up and down, left and right".to_owned(),
+        },
+        Draft::Magnitude(_) => "digits".to_owned(),
+        Draft::Ratings { .. } => "left and right, Tab for the next scale".to_owned(),
+    };
+    let end = if trial.ends_at_once() {
+        ""
+    } else {
+        ", Enter for Done"
+    };
+    let again = if trial.may_play {
+        ", Space for Again"
+    } else {
+        ""
+    };
+    format!("Keys: {keys}{again}{end}")
 }
 
 /// What the keys say in this trial.
@@ -108,5 +154,33 @@ mod tests {
             marks(&ranked, |key| key == Key::Backspace),
             [Mark::TakeBack]
         );
+    }
+
+    #[test]
+    fn the_keys_that_answer_are_named() {
+        let draft = Draft::Judge {
+            is_real: None,
+            sure: Sure {
+                n_grades: 3,
+                grade: None,
+            },
+        };
+        let ground = crate::app::experiment::Ground {
+            size_mm: [100.0; 2],
+            slots: Vec::new(),
+            picture: None,
+            finger: None,
+            feels: true,
+        };
+        let trial = TrialView {
+            ground,
+            question: String::new(),
+            draft: &draft,
+            is_open: true,
+            intervals: None,
+            may_play: false,
+        };
+        let words = "Keys: R or G, then 1 to 3 for how sure you are, Enter for Done";
+        assert_eq!(hint(&trial), words);
     }
 }

@@ -1,6 +1,7 @@
 //! What a participant sees: large, calm, to be read from a metre away. Everything that is asked can
 //! be answered by keys alone.
 
+mod big;
 mod controls;
 mod ground;
 mod keys;
@@ -10,19 +11,22 @@ mod ranks;
 mod tests;
 
 use eframe::egui::{
-    Align2, Button, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2,
 };
 use eframe::egui::{Role, WidgetText};
 
 use super::Wishes;
-use crate::app::experiment::{ExperimentCommand, ParticipantView, TrialView};
+use crate::app::experiment::{ExperimentCommand, ParticipantView, TrialView, WindowAct};
 use crate::app::theme::{self, Palette, STEP};
+use crate::app::widgets::button;
 use crate::app::workspace::Shown;
 
 /// Height of the line that says what is asked, points.
 const QUESTION: f32 = 56.0;
 /// Height of what is answered with, points.
 const ANSWER: f32 = 132.0;
+/// Height of the line that names the keys, points.
+const HINT: f32 = 24.0;
 /// No line of words is longer, points.
 const LINE: f32 = 720.0;
 
@@ -68,8 +72,44 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
     }
 }
 
+/// Stands in a window of the participant's own while no session is held.
+pub(crate) fn show_before(ui: &mut Ui, is_coming: bool) {
+    let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));
+    let words = if is_coming {
+        "The session is being prepared."
+    } else {
+        "The experimenter will begin the session."
+    };
+    show_words(&mut ui, "Welcome", words);
+}
+
+/// Stands where the view was before it went to a window of its own.
+pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    ui.painter().rect_filled(ui.max_rect(), 0, palette.floor);
+    let height = ui.available_height();
+    ui.vertical_centered(|ui| {
+        ui.add_space((0.4 * height).max(STEP));
+        let words = "The participant's view is in a window of its own: drag it to another screen, \
+                     F11 fills that screen. Answers are typed there.";
+        ui.set_max_width(LINE.min(ui.available_width() - 8.0 * STEP));
+        ui.add(eframe::egui::Label::new(RichText::new(words).color(palette.dim)).wrap());
+        ui.add_space(2.0 * STEP);
+        let tip = "Close that window and show the view here";
+        if button(ui, "Show it here again", tip, None) {
+            wishes.push(ExperimentCommand::Window(WindowAct::Close).into());
+        }
+    });
+}
+
 fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown {
-    let [rect, foot] = split(ui, &sentence(trial.question), controls::height(trial.draft));
+    let [rect, foot] = split(
+        ui,
+        &sentence(&trial.question),
+        controls::height(trial.draft, ui.max_rect().width()) + HINT,
+    );
     let shown = ground::show(ui, rect, &trial.ground);
     if let Some(intervals) = trial.intervals {
         ground::paint_intervals(ui, rect, intervals);
@@ -79,6 +119,11 @@ fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown 
         ui.disable();
     }
     controls::show(&mut ui, trial, wishes);
+    let palette = Palette::in_ui(&ui);
+    let (at, font) = (foot.center_bottom(), theme::body());
+    let hint = keys::hint(trial);
+    ui.painter()
+        .text(at, Align2::CENTER_BOTTOM, hint, font, palette.dim);
     if trial.is_open {
         keys::take(&ui, trial, wishes);
     }
@@ -144,10 +189,11 @@ fn show_pass(ui: &mut Ui, left_s: Option<f64>, wishes: &mut Wishes) {
         clock(left_s)
     };
     ui.vertical_centered(|ui| {
-        let text = RichText::new(words).font(theme::large());
-        let button = Button::new(text).min_size(vec2(180.0, 52.0));
-        let is_clicked = ui.add_enabled(may_pass, button).clicked();
-        let is_free = !ui.ctx().egui_wants_keyboard_input();
+        let button = ui.add_enabled_ui(may_pass, |ui| {
+            big::button(ui, (&words, &words), 180.0, false)
+        });
+        let is_clicked = button.inner.clicked();
+        let is_free = !ui.ctx().text_edit_focused();
         let is_key = is_free && ui.input(|input| input.key_pressed(Key::Enter));
         if may_pass && (is_clicked || is_key) {
             wishes.push(ExperimentCommand::Pass.into());

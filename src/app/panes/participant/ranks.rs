@@ -4,6 +4,7 @@ use eframe::egui::{
     self, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
+use super::big::{self, Face};
 use super::ground::count;
 use crate::app::experiment::{ExperimentCommand, Mark};
 use crate::app::panes::Wishes;
@@ -20,12 +21,13 @@ pub(super) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], wishes: &mut 
         let is_free = !order.contains(&Some(position));
         let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
         if !is_free {
-            paint_place(ui, rect, None, false);
+            paint_gap(ui, rect);
             continue;
         }
         name(ui, &response, &format!("Fabric {}", position + 1));
         drag(ui, &response, position);
         paint_place(ui, rect, Some(position), response.hovered());
+        big::ring(ui, rect, &response);
         if response.clicked() {
             wishes.push(ExperimentCommand::Mark(Mark::Place(position)).into());
         }
@@ -48,6 +50,7 @@ fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, wishes: &mut Wishe
     }
     let is_over = response.dnd_hover_payload::<usize>().is_some();
     paint_place(ui, rect, ranked, is_over || response.hovered());
+    big::ring(ui, rect, &response);
     let palette = Palette::in_ui(ui);
     let words = match rank {
         0 => "most alike",
@@ -92,26 +95,27 @@ fn drag(ui: &Ui, response: &Response, position: usize) {
 
 fn paint_place(ui: &Ui, rect: Rect, held: Option<usize>, is_lit: bool) {
     let palette = Palette::in_ui(ui);
-    let painter = ui.painter();
     let Some(position) = held else {
-        let ink = if is_lit {
-            palette.selection
-        } else {
-            palette.line
-        };
-        painter.rect_stroke(rect, 8, Stroke::new(1.0, ink), StrokeKind::Inside);
-        return;
+        return big::paint(ui, rect, Face::place(palette, is_lit));
     };
-    let fill = if is_lit {
-        palette.hovered
-    } else {
-        palette.raised
-    };
-    painter.rect_filled(rect, 8, fill);
+    big::paint(ui, rect, Face::loose(palette, is_lit));
     let number = (position + 1).to_string();
-    let ink = palette.text;
     let at = rect.center();
-    painter.text(at, Align2::CENTER_CENTER, number, theme::huge(), ink);
+    let painter = ui.painter();
+    painter.text(
+        at,
+        Align2::CENTER_CENTER,
+        number,
+        theme::huge(),
+        palette.text,
+    );
+}
+
+/// Where a number was before it was ranked: hardly there.
+fn paint_gap(ui: &Ui, rect: Rect) {
+    let stroke = Stroke::new(1.0, Palette::in_ui(ui).hairline);
+    ui.painter()
+        .rect_stroke(rect, 8, stroke, StrokeKind::Inside);
 }
 
 fn paint_arrow(ui: &Ui, rect: Rect) {

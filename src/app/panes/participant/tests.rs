@@ -16,7 +16,7 @@ fn trial(draft: &Draft) -> TrialView<'_> {
             finger: None,
             feels: true,
         },
-        question: "rank all four, 1 for the one most like the target",
+        question: "rank all four, 1 for the one most like the target".to_owned(),
         draft,
         is_open: true,
         intervals: None,
@@ -26,19 +26,21 @@ fn trial(draft: &Draft) -> TrialView<'_> {
 
 /// A window with nothing in it but a participant's view, and what is wished for in it.
 fn window(view: ParticipantView<'_>) -> Harness<'_, Wishes> {
+    window_of(view, vec2(900.0, 700.0))
+}
+
+fn window_of(view: ParticipantView<'_>, size: eframe::egui::Vec2) -> Harness<'_, Wishes> {
     let mut is_styled = false;
-    Harness::builder()
-        .with_size(vec2(900.0, 700.0))
-        .build_ui_state(
-            move |ui, wishes| {
-                if !is_styled {
-                    theme::install(ui.ctx());
-                    is_styled = true;
-                }
-                show(ui, &view, wishes);
-            },
-            Wishes::new(),
-        )
+    Harness::builder().with_size(size).build_ui_state(
+        move |ui, wishes| {
+            if !is_styled {
+                theme::install(ui.ctx());
+                is_styled = true;
+            }
+            show(ui, &view, wishes);
+        },
+        Wishes::new(),
+    )
 }
 
 fn marks(harness: &Harness<'_, Wishes>) -> Vec<ExperimentCommand> {
@@ -151,4 +153,136 @@ fn a_number_is_typed_and_a_line_answers_keys() {
         panic!("{marked:?}")
     };
     assert!((value - 50.0).abs() < 2.0, "{value}");
+}
+
+fn scale(key: &str, points: u8) -> crate::experiment::design::Scale {
+    crate::experiment::design::Scale {
+        key: key.to_owned(),
+        low: format!("little {key}"),
+        high: format!("much {key}"),
+        points,
+    }
+}
+
+#[test]
+fn scales_are_answered_by_keys_alone_and_whole_steps_stay_whole() {
+    let draft = Draft::Ratings {
+        values: vec![Some(50.0), Some(4.0)],
+        scales: vec![scale("grip", 0), scale("warmth", 7)],
+    };
+    let mut harness = window(ParticipantView::Trial(trial(&draft)));
+    harness.run();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let marked = marks(&harness);
+    let [ExperimentCommand::Mark(Mark::Rate(0, value))] = marked[..] else {
+        panic!("the first scale has the keys: {marked:?}")
+    };
+    assert!((value - 55.0).abs() < 1e-9, "{value}");
+    harness.state_mut().clear();
+    harness.key_press(Key::Tab);
+    harness.run();
+    harness.key_press(Key::ArrowLeft);
+    harness.run();
+    assert_eq!(
+        marks(&harness),
+        [ExperimentCommand::Mark(Mark::Rate(1, 3.0))]
+    );
+    harness.state_mut().clear();
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(marks(&harness), [ExperimentCommand::Answer]);
+}
+
+#[test]
+fn keys_go_to_the_answer_though_a_button_was_reached_by_tab() {
+    let draft = Draft::Odd {
+        position: Some(1),
+        grade: None,
+    };
+    let mut harness = window(ParticipantView::Trial(trial(&draft)));
+    harness.run();
+    harness.key_press(Key::Tab);
+    harness.run();
+    harness.key_press(Key::Num3);
+    harness.run();
+    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Place(2))]);
+    harness.state_mut().clear();
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(
+        marks(&harness),
+        [ExperimentCommand::Mark(Mark::Place(0))],
+        "Enter presses the button that has the keys"
+    );
+}
+
+#[test]
+fn where_choosing_is_all_there_is_nothing_to_hand_in() {
+    let draft = Draft::Choose {
+        n: 2,
+        position: None,
+        sure: crate::app::experiment::Sure::default(),
+    };
+    let view = TrialView {
+        intervals: Some((2, None)),
+        ..trial(&draft)
+    };
+    let mut harness = window(ParticipantView::Trial(view));
+    harness.run();
+    assert!(harness.query_by_label("Done").is_none());
+    harness.get_by_label("2").click();
+    harness.run();
+    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Place(1))]);
+}
+
+#[test]
+fn everything_that_is_pressed_lies_within_the_smallest_window_and_apart() {
+    let grades = |n_grades| crate::app::experiment::Sure {
+        n_grades,
+        grade: None,
+    };
+    let drafts = [
+        Draft::Ranks([Some(2), None, None, None]),
+        Draft::Odd {
+            position: None,
+            grade: None,
+        },
+        Draft::Choose {
+            n: 8,
+            position: None,
+            sure: grades(0),
+        },
+        Draft::Judge {
+            is_real: None,
+            sure: grades(7),
+        },
+        Draft::Magnitude(String::new()),
+        Draft::Ratings {
+            values: vec![None; 4],
+            scales: ["grip", "warmth", "strength", "hardness"]
+                .map(|key| scale(key, 0))
+                .to_vec(),
+        },
+    ];
+    for draft in drafts {
+        let mut harness = window_of(ParticipantView::Trial(trial(&draft)), vec2(700.0, 600.0));
+        harness.run();
+        let whole = harness.ctx.content_rect();
+        let roles = [Role::Button, Role::Slider, Role::TextInput];
+        let mut rects = Vec::new();
+        for role in roles {
+            rects.extend(harness.query_all_by_role(role).map(|node| node.rect()));
+        }
+        assert!(rects.len() > 1, "{draft:?}");
+        for (n, rect) in rects.iter().enumerate() {
+            assert!(whole.contains_rect(*rect), "{draft:?} {rect}");
+            for other in &rects[..n] {
+                assert!(
+                    !other.shrink(1.0).intersects(*rect),
+                    "{draft:?} {rect} {other}"
+                );
+            }
+        }
+    }
 }

@@ -295,6 +295,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             apparatus: self.apparatus.clone(),
             note: &note,
             path: None,
+            samples: &[],
         };
         match answer {
             Some(answer) => self.session.answer(answer, &circumstances).map(drop),

@@ -1,0 +1,59 @@
+//! What pointer or tablet reported during a trial: time and place of every report, at its own rate,
+//! beside the path at 40 Hz that is replayed.
+
+use std::path::Path;
+
+use crate::engine::RecordedSample;
+use crate::files::{FileError, push_number, write_atomic};
+
+/// Columns: s after the path's first row, and the place, mm.
+const HEADER: &str = "t_s,x_mm,y_mm\n";
+
+/// Writes the reports into a file whose folder may be missing.
+pub(super) fn write(samples: &[RecordedSample], file: &Path) -> Result<(), FileError> {
+    if let Some(folder) = file.parent() {
+        std::fs::create_dir_all(folder).map_err(|source| FileError::Write {
+            path: folder.to_owned(),
+            source,
+        })?;
+    }
+    let mut text = HEADER.to_owned();
+    for sample in samples {
+        let RecordedSample { t_s, position } = sample;
+        // A microsecond is finer than any clock that stamps reports.
+        push_number(&mut text, (t_s * 1e6).round() / 1e6);
+        text.push(',');
+        push_number(&mut text, position.x_mm);
+        text.push(',');
+        push_number(&mut text, position.y_mm);
+        text.push('\n');
+    }
+    write_atomic(file, text.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::session::tests::Folder;
+    use crate::files::{Table, read_text};
+    use crate::geometry::Point;
+
+    #[test]
+    fn every_report_stands_in_the_file_with_its_time_and_place() {
+        let folder = Folder::new("samples");
+        let file = folder.0.join("paths/trial-001-samples.csv");
+        let sample = |n: u32| RecordedSample {
+            t_s: -0.01 + 0.0075 * f64::from(n),
+            position: Point::new(0.1 * f64::from(n), 12.5),
+        };
+        let samples: Vec<RecordedSample> = (0..200).map(sample).collect();
+        write(&samples, &file).unwrap();
+        let text = read_text(&file).unwrap();
+        assert!(
+            text.starts_with("t_s,x_mm,y_mm\n-0.01,0,12.5\n-0.0025,0.1,12.5\n"),
+            "{text}"
+        );
+        let table = Table::read(&text, &file, &["t_s", "x_mm", "y_mm"], &[]).unwrap();
+        assert_eq!(table.n_rows(), 200);
+    }
+}
