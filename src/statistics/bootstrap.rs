@@ -84,6 +84,46 @@ pub fn bootstrap(
     })
 }
 
+/// Standard errors of several numbers of subjects at once: their standard deviations over draws of
+/// subjects with replacement. The statistic gets the numbers of subjects 0…n−1, repeats included.
+///
+/// # Errors
+/// Fewer than 2 subjects or 20 draws, or more than half of the draws without the numbers; the
+/// reason of the last one without is told.
+pub fn bootstrap_errors(
+    n_subjects: usize,
+    statistic: impl Fn(&[usize]) -> Computed<Vec<f64>>,
+    (n_draws, seed): (usize, u64),
+) -> Computed<Vec<f64>> {
+    if n_subjects < 2 || n_draws < 20 {
+        let reason = format!("{n_subjects} subjects drawn {n_draws} times give no error");
+        return Err(Undefined::because(reason));
+    }
+    let mut random = Random::new(seed).branch("errors over subjects");
+    let mut drawn = vec![0; n_subjects];
+    let mut draws: Vec<Vec<f64>> = Vec::with_capacity(n_draws);
+    let mut why = String::new();
+    for _ in 0..n_draws {
+        drawn.fill_with(|| random.index(n_subjects));
+        match statistic(&drawn) {
+            Ok(values) => draws.push(values),
+            Err(error) => why = error.reason,
+        }
+    }
+    if 2 * draws.len() < n_draws {
+        let n_undefined = n_draws - draws.len();
+        let reason = format!("undefined in {n_undefined} of {n_draws} draws of subjects: {why}");
+        return Err(Undefined::because(reason));
+    }
+    let error = |at: usize| {
+        let values: Vec<f64> = draws.iter().map(|draw| draw[at]).collect();
+        let (_, deviations) = centred(&values);
+        (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt()
+    };
+    let n_values = draws.iter().map(Vec::len).min().unwrap_or(0);
+    Ok((0..n_values).map(error).collect())
+}
+
 fn between(values: &mut [f64], [low, high]: [f64; 2], level: f64) -> Interval {
     Interval {
         low: quantile(values, low),
@@ -163,6 +203,28 @@ mod tests {
             found,
             bootstrap(200, mean_of(&values), HOW)?,
             "the seed decides"
+        );
+        Ok(())
+    }
+
+    #[test]
+    fn errors_of_several_numbers_are_those_of_each() -> Computed<()> {
+        let mut random = Random::new(8);
+        let values: Vec<f64> = (0..60).map(|_| random.normal()).collect();
+        let both = |drawn: &[usize]| {
+            let mean = mean_of(&values)(drawn)?;
+            Ok(vec![mean, 10.0 * mean])
+        };
+        let found = bootstrap_errors(60, both, (2000, 4))?;
+        let se = Summary::of(&values)?.se;
+        assert!((found[0] / se - 1.0).abs() < 0.06, "{found:?} and {se}");
+        assert!((found[1] / found[0] - 10.0).abs() < 1e-9, "{found:?}");
+        assert!(bootstrap_errors(1, both, (200, 4)).is_err(), "one alone");
+        let never = |_: &[usize]| Err(Undefined::because("apart"));
+        let told = bootstrap_errors(5, never, (50, 4)).unwrap_err().reason;
+        assert!(
+            told.contains("50 of 50") && told.contains("apart"),
+            "{told}"
         );
         Ok(())
     }

@@ -28,8 +28,8 @@ pub(in crate::cli) struct AnalyseArgs {
     #[arg(long, value_name = "N", default_value_t = 4999,
         value_parser = clap::value_parser!(u32).range(99..=1_000_000))]
     permutations: u32,
-    /// Sets of random ranks to compare the stress of maps with; 100 may take minutes
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    /// Sets of random ranks to compare the stress of maps with; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 40)]
     random_data: u16,
 }
 

@@ -82,6 +82,9 @@ impl Mapping<'_> {
             Some(turn) => ellipses.iter().map(|e| turned_ellipse(e, turn)).collect(),
             None => ellipses.to_vec(),
         };
+        if let Some(speeds) = self.own_speeds(best.as_ref()) {
+            section.tables.push(speeds);
+        }
         let directions = self.directions(points);
         let drawing = MapDrawing {
             names: &self.names,

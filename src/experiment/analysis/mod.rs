@@ -21,10 +21,13 @@ mod kept;
 mod levels;
 mod magnitude;
 mod map;
+mod map_chance;
+mod map_speeds;
 mod map_turn;
 mod model;
 mod odd_one_out;
 mod odd_one_out_distances;
+mod own_speeds;
 mod properties;
 mod ranking;
 mod ranking_confusions;
@@ -35,6 +38,7 @@ mod write;
 
 use std::path::Path;
 
+pub use map_chance::RandomData;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 
 use super::ExperimentError;
@@ -62,6 +66,8 @@ pub struct Options {
     pub n_starts_on_a_line: usize,
     /// Sets of random ranks to compare the stress of maps with; 0 for none.
     pub n_random_data: usize,
+    /// What was found of them before.
+    pub random_data: RandomData,
     /// Where textiles that are built from recipes are kept.
     pub cache: Option<BuildCache>,
 }
@@ -75,7 +81,8 @@ impl Default for Options {
             n_maps: 100,
             n_starts: 50,
             n_starts_on_a_line: 1000,
-            n_random_data: 0,
+            n_random_data: 40,
+            random_data: RandomData::default(),
             cache: None,
         }
     }
@@ -129,7 +136,7 @@ pub fn analyse(
             sections.push(empty);
             continue;
         }
-        sections.extend(sections_of(experiment, options, progress).map_err(cancelled)?);
+        sections.extend(sections_of(experiment, options, progress)?);
     }
     sections.extend(groups::compared(&experiments));
     let titles: Vec<&str> = experiments
@@ -160,10 +167,6 @@ fn sections_of(
         Method::Magnitude { .. } => Ok(magnitude::sections(experiment)),
         Method::Rating(rating) => rating::sections(experiment, rating, options, progress),
     }
-}
-
-fn cancelled(_: crate::progress::Cancelled) -> ExperimentError {
-    ExperimentError::value("the analysis was stopped", "begin it again")
 }
 
 #[cfg(test)]
