@@ -96,7 +96,9 @@ pub fn bootstrap_errors(
     (n_draws, seed): (usize, u64),
 ) -> Computed<Vec<f64>> {
     if n_subjects < 2 || n_draws < 20 {
-        let reason = format!("{n_subjects} subjects drawn {n_draws} times give no error");
+        let reason = format!(
+            "an error over subjects needs two of them and 20 draws, not {n_subjects} and {n_draws}"
+        );
         return Err(Undefined::because(reason));
     }
     let mut random = Random::new(seed).branch("errors over subjects");

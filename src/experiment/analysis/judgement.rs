@@ -4,7 +4,7 @@
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
-use super::{Options, judgement_cells, judgement_confidence};
+use super::{Options, judgement_cells, judgement_confidence, judgement_pairs};
 use crate::experiment::design::{Judging, JudgingProtocol};
 use crate::experiment::{Answer, Record, Task};
 use crate::statistics::detection::{Answers, Correction, forced_choice, yes_no};
@@ -70,6 +70,9 @@ pub(super) fn sections(
         all.push(judgement_confidence::section(experiment, judging));
     }
     all.push(judgement_cells::section(experiment));
+    if judging.protocol == JudgingProtocol::Pair {
+        all.push(judgement_pairs::section(experiment, options));
+    }
     all
 }
 

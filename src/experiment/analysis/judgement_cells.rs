@@ -89,7 +89,7 @@ fn cells(materials: &[String], conditions: &[String], of: &Of<'_>) -> (Rows, Vec
 }
 
 /// Levels of a factor in the order of the design.
-fn levels(experiment: &Experiment<'_>, level: fn(&Stimulus) -> &String) -> Vec<String> {
+pub(super) fn levels(experiment: &Experiment<'_>, level: fn(&Stimulus) -> &String) -> Vec<String> {
     let mut levels: Vec<String> = Vec::new();
     for stimulus in &experiment.design.stimuli {
         if !levels.contains(level(stimulus)) {

@@ -1,7 +1,5 @@
 //! How consistent one subject's paired comparisons are (Kendall & Babington Smith 1940).
 
-use std::cmp::Ordering;
-
 use super::preferences::Preferences;
 use crate::statistics::{Computed, Undefined, chi_squared_upper};
 
@@ -83,23 +81,17 @@ impl Majority {
     /// Of any comparisons.
     pub fn of(answers: &Preferences) -> Self {
         let k = answers.n_items();
-        let lead = |i, j| answers.wins(i, j).cmp(&answers.wins(j, i));
-        let mut decided = Preferences::new(k);
+        let mut decided = vec![vec![0; k]; k];
         let (mut n_pairs, mut n_undecided) = (0, 0);
         for (i, j) in (0..k).flat_map(|i| (i + 1..k).map(move |j| (i, j))) {
-            let n = answers.wins(i, j) + answers.wins(j, i) + answers.ties(i, j);
-            n_pairs += usize::from(n > 0);
-            let preferred = match lead(i, j) {
-                Ordering::Greater => decided.prefer(i, j),
-                Ordering::Less => decided.prefer(j, i),
-                Ordering::Equal => {
-                    n_undecided += usize::from(n > 0);
-                    continue;
-                }
-            };
-            debug_assert!(preferred.is_ok(), "items of the same comparisons");
+            let [forth, back] = [answers.wins(i, j), answers.wins(j, i)];
+            let is_compared = forth + back + answers.ties(i, j) > 0;
+            n_pairs += usize::from(is_compared);
+            n_undecided += usize::from(is_compared && forth == back);
+            decided[i][j] = u64::from(forth > back);
+            decided[j][i] = u64::from(back > forth);
         }
-        let over = |i, j| decided.wins(i, j) > 0;
+        let over = |i: usize, j: usize| decided[i][j] > 0;
         let either = |i, j| over(i, j) || over(j, i);
         let (mut n_triads, mut n_circular) = (0, 0);
         for a in 0..k {
@@ -116,7 +108,7 @@ impl Majority {
             n_undecided,
             n_triads,
             n_circular,
-            consistency: consistency(&decided),
+            consistency: Preferences::of_wins(&decided).and_then(|all| consistency(&all)),
         }
     }
 }
