@@ -48,11 +48,14 @@ pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 
 use super::ExperimentError;
 use super::design::Method;
-use super::session::{self, Found};
+use super::session::{self, Found, Unread};
 use crate::progress::Progress;
 use crate::statistics::Resampling;
 use crate::textile::BuildCache;
 use kept::Experiment;
+
+/// The key of the section that lists logs that cannot be read.
+pub const UNREAD: &str = "unread";
 
 /// Choices that the logs leave open.
 #[derive(Debug, Clone)]
@@ -103,23 +106,46 @@ impl Options {
     }
 }
 
-/// Analyses every session in a folder.
+/// Analyses every session in a folder. A log that cannot be read, since a later version wrote it or
+/// it was damaged, is listed with its reason, and the others are analysed.
 ///
 /// # Errors
-/// The folder or a log cannot be read, there are no sessions, or it was cancelled.
+/// The folder or all of its logs cannot be read, there are no sessions, or it was cancelled.
 pub fn analyse_folder(
     folder: &Path,
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
-    let found = session::find(folder)?;
+    let (found, unread) = session::find_readable(folder)?;
     if found.is_empty() {
-        return Err(ExperimentError::value(
-            format!("{} holds no session", folder.display()),
-            "name a folder with logs and the .json file beside each of them",
-        ));
+        let none = || {
+            ExperimentError::value(
+                format!("{} holds no session", folder.display()),
+                "name a folder with logs and the .json file beside each of them",
+            )
+        };
+        let first = unread.into_iter().next();
+        return Err(first.map_or_else(none, |first| first.error));
     }
-    analyse(&found, options, progress)
+    let mut analysis = analyse(&found, options, progress)?;
+    if !unread.is_empty() {
+        analysis.sections.insert(0, left_out(&unread));
+    }
+    Ok(analysis)
+}
+
+/// The logs that cannot be read.
+fn left_out(unread: &[Unread]) -> Section {
+    let mut section = Section::new(UNREAD, "Logs that cannot be read");
+    section.note("**These logs are left out of everything below.** The others are analysed.");
+    let columns = [("log", "log"), ("why", "why, and how to mend it")];
+    let mut table = Table::new("logs", "Logs left out", &columns);
+    for one in unread {
+        let name = one.log.file_name().unwrap_or_default().to_string_lossy();
+        table.push([name.into_owned().into(), one.error.to_string().into()]);
+    }
+    section.tables.push(table);
+    section
 }
 
 /// Analyses sessions, experiment by experiment.
