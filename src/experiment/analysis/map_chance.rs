@@ -27,6 +27,12 @@ struct Asked {
 }
 
 impl RandomData {
+    /// How many sizes are known.
+    #[cfg(test)]
+    pub(super) fn n_kept(&self) -> usize {
+        self.0.lock().map_or(0, |all| all.len())
+    }
+
     /// Losses of so many sets of random ranks, for each map.
     ///
     /// # Errors

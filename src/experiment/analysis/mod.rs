@@ -18,6 +18,7 @@ mod judgement;
 mod judgement_cells;
 mod judgement_confidence;
 mod judgement_pairs;
+mod judgement_power;
 mod kept;
 mod levels;
 mod magnitude;
