@@ -126,6 +126,37 @@ pub fn bootstrap_errors(
     Ok((0..n_values).map(error).collect())
 }
 
+/// Standard errors of several numbers of subjects at once by leaving each subject out in turn
+/// (Tukey 1958): √((n − 1)/n Σ(value without one − their mean)²). Costs one fit a subject.
+///
+/// # Errors
+/// Fewer than 2 subjects, or numbers that cannot be computed without one of them.
+pub fn jackknife_errors(
+    n_subjects: usize,
+    statistic: impl Fn(&[usize]) -> Computed<Vec<f64>>,
+) -> Computed<Vec<f64>> {
+    if n_subjects < 2 {
+        let reason = format!("an error over subjects needs two of them, not {n_subjects}");
+        return Err(Undefined::because(reason));
+    }
+    let without = |left_out: usize| {
+        let rest: Vec<usize> = (0..n_subjects).filter(|at| *at != left_out).collect();
+        statistic(&rest).map_err(|why| {
+            let number = left_out + 1;
+            Undefined::because(format!("without subject {number}: {}", why.reason))
+        })
+    };
+    let all: Vec<Vec<f64>> = (0..n_subjects).map(without).collect::<Computed<_>>()?;
+    let n = n_subjects as f64;
+    let error = |at: usize| {
+        let values: Vec<f64> = all.iter().map(|values| values[at]).collect();
+        let (_, deviations) = centred(&values);
+        (sum_of_squares(&deviations) * (n - 1.0) / n).sqrt()
+    };
+    let n_values = all.iter().map(Vec::len).min().unwrap_or(0);
+    Ok((0..n_values).map(error).collect())
+}
+
 fn between(values: &mut [f64], [low, high]: [f64; 2], level: f64) -> Interval {
     Interval {
         low: quantile(values, low),
@@ -228,6 +259,19 @@ mod tests {
             told.contains("50 of 50") && told.contains("apart"),
             "{told}"
         );
+        Ok(())
+    }
+
+    #[test]
+    fn leaving_each_out_gives_the_error_of_a_mean_exactly() -> Computed<()> {
+        let values = [1.0, 4.0, 2.0, 9.0, 3.5];
+        let found = jackknife_errors(5, |drawn| Ok(vec![mean_of(&values)(drawn)?, 0.0]))?;
+        let se = Summary::of(&values)?.se;
+        assert!((found[0] / se - 1.0).abs() < 1e-12, "{found:?} and {se}");
+        assert_eq!(found[1], 0.0);
+        assert!(jackknife_errors(1, |_| Ok(vec![1.0])).is_err(), "one alone");
+        let why = jackknife_errors(3, |_| Err(Undefined::because("apart"))).unwrap_err();
+        assert_eq!(why.reason, "without subject 1: apart");
         Ok(())
     }
 

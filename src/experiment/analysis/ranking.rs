@@ -98,7 +98,7 @@ pub(super) fn sections(
         }
     };
     sections.push(ranking_confusions::section(experiment, &ranks, &names, how));
-    sections.push(ranking_scale::section(experiment, &all, options, progress)?);
+    sections.push(ranking_scale::section(experiment, &all, progress)?);
     sections.push(ranking_pairs::section(experiment, &all, options));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |r: &Rankings<'_>| {

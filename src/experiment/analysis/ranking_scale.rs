@@ -2,16 +2,15 @@
 //! (Plackett & Luce, and Bradley & Terry of the same rankings in pairs), and how rankings by chance
 //! would look.
 
-use super::Options;
 use super::kept::Experiment;
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, tests};
-use super::pairs::{draws, over_subjects};
+use super::pairs::over_subjects;
 use super::ranking::Rankings;
 use crate::numerics::{in_pieces, n_threads};
 use crate::progress::{Cancelled, Progress};
 use crate::statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};
-use crate::statistics::{Computed, Outcome, Undefined, bootstrap_errors};
+use crate::statistics::{Computed, Outcome, Undefined, jackknife_errors};
 
 /// Strength of the prior that keeps worths finite where a target was always ranked first.
 const STRENGTH: f64 = 0.5;
@@ -40,7 +39,6 @@ struct Model {
 pub(super) fn section(
     experiment: &Experiment<'_>,
     all: &[Rankings<'_>],
-    options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Section, Cancelled> {
     let title = format!("{}: likeness by Plackett and Luce", experiment.design.title);
@@ -49,8 +47,7 @@ pub(super) fn section(
         "Log-worth of each alternative for each target, counted from the target: 0 is taken \
          for the target as often as itself. Gamma prior of strength {STRENGTH}, as if every \
          textile had been chosen so many times more, keeps worths finite. Errors by curvature take \
-         rankings for independent; errors over subjects are by {} draws of subjects.",
-        draws(options).0
+         rankings for independent; errors over subjects are by leaving out each in turn."
     ));
     section.note(
         "Beside it Bradley and Terry's logits of the same rankings taken apart into pairs, with the \
@@ -58,7 +55,7 @@ pub(super) fn section(
          small, the one over subjects is not.",
     );
     let names = experiment.ids();
-    let targets = targets(names.len(), all, options, progress)?;
+    let targets = targets(names.len(), all, progress)?;
     let mut table = Table::new("likeness", "Likeness to each target", &LIKENESS);
     let mut against: Vec<(String, Computed<Outcome>)> = Vec::new();
     for (target, (name, found)) in names.iter().zip(targets).enumerate() {
@@ -103,7 +100,6 @@ impl Model {
     fn of(
         subjects: &Subjects,
         target: usize,
-        options: &Options,
         fit: impl Fn(&[&[usize]]) -> Computed<Scale>,
     ) -> Self {
         let of_drawn = |drawn: &[usize]| {
@@ -118,7 +114,7 @@ impl Model {
         };
         Self {
             scale: of_drawn(&everyone),
-            errors: bootstrap_errors(subjects.len(), from_target, draws(options)),
+            errors: jackknife_errors(subjects.len(), from_target),
         }
     }
 
@@ -145,7 +141,6 @@ impl Model {
 fn targets(
     n_items: usize,
     all: &[Rankings<'_>],
-    options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Target>, Cancelled> {
     let mut found: Vec<Option<Target>> = (0..n_items).map(|_| None).collect();
@@ -159,14 +154,14 @@ fn targets(
             n_threads(),
             || (),
             |(), number, piece| {
-                piece[0] = Some(of_target(n_items, first + number, all, options));
+                piece[0] = Some(of_target(n_items, first + number, all));
             },
         );
     }
     Ok(found.into_iter().flatten().collect())
 }
 
-fn of_target(n_items: usize, target: usize, all: &[Rankings<'_>], options: &Options) -> Target {
+fn of_target(n_items: usize, target: usize, all: &[Rankings<'_>]) -> Target {
     let rankings = |one: &Rankings<'_>| {
         let own = one.trials.iter().filter(|trial| trial.target == target);
         own.map(crate::statistics::ranking::RankTrial::best_first)
@@ -177,10 +172,10 @@ fn of_target(n_items: usize, target: usize, all: &[Rankings<'_>], options: &Opti
     let prior = Prior::Gamma(STRENGTH);
     Target {
         n_rankings: together.len(),
-        plackett_luce: Model::of(&subjects, target, options, |rankings| {
+        plackett_luce: Model::of(&subjects, target, |rankings| {
             Ok(plackett_luce(n_items, rankings, prior)?.scale)
         }),
-        bradley_terry: Model::of(&subjects, target, options, |rankings| {
+        bradley_terry: Model::of(&subjects, target, |rankings| {
             if rankings.is_empty() {
                 return Err(Undefined::because("no rankings"));
             }

@@ -77,7 +77,7 @@ fn by_number(task: &Task) -> Answer {
 }
 
 #[test]
-fn an_order_without_exception_has_no_finite_scale_no_circle_and_full_agreement() {
+fn an_order_without_exception_has_no_finite_scale_no_circle_and_much_agreement() {
     let mut design = Design::shipped("ranking-virtual-target").unwrap();
     // Textiles are not what is asked here.
     design.library = Some("nowhere".into());
@@ -115,10 +115,8 @@ fn an_order_without_exception_has_no_finite_scale_no_circle_and_full_agreement()
         assert_eq!(value(circles, row, "zeta"), 1.0);
     }
     let agreement = table(&analysis, "ranking-virtual-target-map", "agreement");
-    assert!(
-        (value(agreement, 0, "effect_value") - 1.0).abs() < 0.35,
-        "{agreement:?}"
-    );
+    let w = value(agreement, 0, "effect_value");
+    assert!((0.6..=1.0).contains(&w), "one order, other companions: {w}");
 }
 
 #[test]
