@@ -88,7 +88,7 @@ impl Mapping<'_> {
         if let Some(plane) = maps.iter().find(|map| map.dims == 2) {
             section.figures.push(shepard(plane));
             let ellipses = self.ellipses(plane, (&mds, options), &mut section, progress)?;
-            self.turned(plane, &ellipses, options, &mut section);
+            self.turned((plane, &ellipses), options, &mut section, progress)?;
         }
         for map in &maps {
             let told = map.warnings.iter();

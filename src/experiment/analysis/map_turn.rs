@@ -6,6 +6,7 @@ use super::map::{Mapping, told, undefined};
 use super::model::{Cell, Section, Table, ends};
 use super::properties::Measure;
 use crate::numerics::Random;
+use crate::progress::{Cancelled, Progress};
 use crate::statistics::mds::Map;
 use crate::statistics::properties::{BestTurn, Ellipse, PropertyVector};
 use crate::statistics::{Computed, f_upper, fisher_z};
@@ -38,13 +39,16 @@ const TURNS: [(&str, &str); 14] = [
 
 impl Mapping<'_> {
     /// The plane map as it is and turned to A40 and A320.
+    ///
+    /// # Errors
+    /// It was cancelled.
     pub(super) fn turned(
         &self,
-        plane: &Map,
-        ellipses: &[Ellipse],
+        (plane, ellipses): (&Map, &[Ellipse]),
         options: &Options,
         section: &mut Section,
-    ) {
+        progress: &mut Progress<'_>,
+    ) -> Result<(), Cancelled> {
         self.measures.tell(section);
         let measures = self.measures;
         let fits: Vec<(&Measure, Computed<PropertyVector>)> = measures
@@ -63,6 +67,7 @@ impl Mapping<'_> {
             let Some((first, second)) = pair else {
                 continue;
             };
+            progress.step(0.9, "turns by chance")?;
             let turn = self.turn(plane, [first, second], options, &mut turns);
             best = best.or_else(|| turn.ok());
         }
@@ -105,6 +110,7 @@ impl Mapping<'_> {
             &format!("{}, in the plane", self.title),
             vec![note],
         ));
+        Ok(())
     }
 
     /// Where the levels of both bands rise in a map.
