@@ -161,7 +161,7 @@ impl Mapping<'_> {
         let title = format!("{}: stress by dimensions", self.title);
         section
             .figures
-            .push(scatter("stress", &title, [dims, stress], series));
+            .push(scatter("elbow", &title, [dims, stress], series));
         Ok(())
     }
 

@@ -87,6 +87,12 @@ pub(super) fn section(
          Procrustes (moved, turned, mirrored, scaled). m² is what is left over, 0 for maps alike \
          and 1 for nothing in common; PROTEST's p is how often items dealt anew fit as well.",
     );
+    if found.is_balanced() {
+        section.note(
+            "Every pair was asked as often, so Craven's distances are in the order of weights \
+             1 / 1 / 1: a map by order alone is the same.",
+        );
+    }
     let mds = mapping.mds(options);
     let names = &mapping.names;
     let own = Variant::weighted(found);
