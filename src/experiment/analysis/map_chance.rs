@@ -60,17 +60,15 @@ impl RandomData {
                 seed: mds.seed,
             };
             let known = self.0.lock().ok().and_then(|all| all.get(&asked).cloned());
-            let null = match known {
-                Some(null) => null,
-                None => {
-                    let sets = (map.dims, n_sets);
-                    let null = Null::of(&mds, data, NullKind::RandomRanks, sets, progress)?;
-                    if let Ok(mut all) = self.0.lock() {
-                        all.insert(asked, null.clone());
-                    }
-                    null
-                }
-            };
+            if let Some(null) = known {
+                all.push(null);
+                continue;
+            }
+            let sets = (map.dims, n_sets);
+            let null = Null::of(&mds, data, NullKind::RandomRanks, sets, progress)?;
+            if let Ok(mut all) = self.0.lock() {
+                all.insert(asked, null.clone());
+            }
             all.push(null);
         }
         Ok(all)

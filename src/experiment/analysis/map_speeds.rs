@@ -39,63 +39,57 @@ impl Mapping<'_> {
         let all = |told: &str, measures: [Option<&Measure>; 2]| {
             let mut row = vec![Cell::from(told)];
             row.extend((0..6).map(|_| Cell::none("of every subject below")));
-            row.extend(self.correlations(turn, measures, reference));
+            row.extend(correlations(turn, measures, reference));
             row
         };
         table.push(all("all, at 100 mm/s", reference));
         table.push(all("all, mean of own", named("_own_speed")));
         for own in &self.measures.own {
             let mut row = vec![Cell::from(own.subject.as_str())];
-            row.extend(self.of_subject(own, turn, reference));
+            row.extend(of_subject(own, turn, reference));
             table.push(row);
         }
         Some(table)
     }
+}
 
-    fn of_subject(
-        &self,
-        own: &Own,
-        turn: Option<&BestTurn>,
-        reference: [Option<&Measure>; 2],
-    ) -> Vec<Cell> {
-        let Some((speeds, measures)) = &own.moved else {
-            let mut row = vec![Cell::from(0_usize), own.n_trials.into()];
-            row.extend((2..10).map(|_| Cell::none("no recorded path that moves")));
-            return row;
-        };
-        let mut row = vec![
-            speeds.n_paths.into(),
-            own.n_trials.into(),
-            speeds.moving_s.into(),
-        ];
-        row.extend(speeds.tenths_mm_per_s.map(Cell::from));
-        let own = BANDS.map(|name| measures.iter().find(|measure| measure.name == name));
-        row.extend(self.correlations(turn, own, reference));
-        row
-    }
+fn of_subject(own: &Own, turn: Option<&BestTurn>, reference: [Option<&Measure>; 2]) -> Vec<Cell> {
+    let Some((speeds, measures)) = &own.moved else {
+        let mut row = vec![Cell::from(0_usize), own.n_trials.into()];
+        row.extend((2..10).map(|_| Cell::none("no recorded path that moves")));
+        return row;
+    };
+    let mut row = vec![
+        speeds.n_paths.into(),
+        own.n_trials.into(),
+        speeds.moving_s.into(),
+    ];
+    row.extend(speeds.tenths_mm_per_s.map(Cell::from));
+    let own = BANDS.map(|name| measures.iter().find(|measure| measure.name == name));
+    row.extend(correlations(turn, own, reference));
+    row
+}
 
-    /// Of the axes with two measures, and of these with the same at the speed of reference.
-    fn correlations(
-        &self,
-        turn: Option<&BestTurn>,
-        measures: [Option<&Measure>; 2],
-        reference: [Option<&Measure>; 2],
-    ) -> Vec<Cell> {
-        let silent = "a textile is silent at these speeds";
-        let axis = |at: usize| -> Cell {
-            match (turn, measures[at]) {
-                (None, _) => Cell::none("the map has no turn"),
-                (_, None) => Cell::none(silent),
-                (Some(turn), Some(measure)) => {
-                    let along: Vec<f64> = turn.points.iter().map(|p| p[at]).collect();
-                    Cell::of(&pearson_r(&along, &measure.values))
-                }
+/// Of the axes with two measures, and of these with the same at the speed of reference.
+fn correlations(
+    turn: Option<&BestTurn>,
+    measures: [Option<&Measure>; 2],
+    reference: [Option<&Measure>; 2],
+) -> Vec<Cell> {
+    let silent = "a textile is silent at these speeds";
+    let axis = |at: usize| -> Cell {
+        match (turn, measures[at]) {
+            (None, _) => Cell::none("the map has no turn"),
+            (_, None) => Cell::none(silent),
+            (Some(turn), Some(measure)) => {
+                let along: Vec<f64> = turn.points.iter().map(|p| p[at]).collect();
+                Cell::of(&pearson_r(&along, &measure.values))
             }
-        };
-        let with = |at: usize| match measures[at].zip(reference[at]) {
-            Some((own, other)) => Cell::of(&pearson_r(&own.values, &other.values)),
-            None => Cell::none(silent),
-        };
-        vec![axis(0), axis(1), with(0), with(1)]
-    }
+        }
+    };
+    let with = |at: usize| match measures[at].zip(reference[at]) {
+        Some((own, other)) => Cell::of(&pearson_r(&own.values, &other.values)),
+        None => Cell::none(silent),
+    };
+    vec![axis(0), axis(1), with(0), with(1)]
 }

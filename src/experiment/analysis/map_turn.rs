@@ -51,15 +51,7 @@ impl Mapping<'_> {
     ) -> Result<(), Cancelled> {
         self.measures.tell(section);
         let measures = self.measures;
-        let fits: Vec<(&Measure, Computed<PropertyVector>)> = measures
-            .all
-            .iter()
-            .map(|m| (m, PropertyVector::of(&plane.points, &m.values)))
-            .collect();
-        if !measures.all.is_empty() {
-            section.tables.push(measures.table(&self.names));
-            section.tables.push(vectors(&fits, self.names.len()));
-        }
+        self.fitted(plane, section);
         let mut turns = Table::new("turns", "The plane map turned to two measures", &TURNS);
         let mut best = None;
         for (first, second) in PAIRS {
@@ -111,6 +103,21 @@ impl Mapping<'_> {
             vec![note],
         ));
         Ok(())
+    }
+
+    /// What was measured, and every measure fitted into a map.
+    fn fitted(&self, plane: &Map, section: &mut Section) {
+        let measures = self.measures;
+        if measures.all.is_empty() {
+            return;
+        }
+        let fits: Vec<(&Measure, Computed<PropertyVector>)> = measures
+            .all
+            .iter()
+            .map(|m| (m, PropertyVector::of(&plane.points, &m.values)))
+            .collect();
+        section.tables.push(measures.table(&self.names));
+        section.tables.push(vectors(&fits, self.names.len()));
     }
 
     /// Where the levels of both bands rise in a map.

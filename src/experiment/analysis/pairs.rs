@@ -186,14 +186,11 @@ impl Pairs<'_> {
                 found.n_circular.into(),
                 share,
             ];
-            match &found.consistency {
-                Ok(whole) => row.extend([whole.zeta, whole.p_of_chance].map(Cell::from)),
-                Err(_) => {
-                    row.extend((0..2).map(|_| {
-                        Cell::none("asks for every pair, decided, of three items or more")
-                    }))
-                }
-            }
+            let why = "asks for every pair, decided, of three items or more";
+            row.extend(match &found.consistency {
+                Ok(whole) => [whole.zeta, whole.p_of_chance].map(Cell::from),
+                Err(_) => [(); 2].map(|()| Cell::none(why)),
+            });
             table.push(row);
         }
         table

@@ -82,7 +82,9 @@ fn a_log_of_a_later_version_is_listed_and_the_others_are_analysed() {
 fn a_folder_of_nothing_but_later_logs_is_refused_in_one_line() {
     let folder = Scratch::new("all-newer");
     let logs = on_disk(&folder, &[2, 2]);
-    logs.iter().for_each(|log| made_newer(log));
+    for log in &logs {
+        made_newer(log);
+    }
     let told = of_folder(&folder).unwrap_err().to_string();
     assert!(
         told.contains("version 99") && !told.contains('\n'),

@@ -94,8 +94,8 @@ fn measures_at_own_speeds_are_means_over_the_time_of_movement_and_then_over_subj
     let a40 = |levels: &Levels| levels.mean_um[0];
     let first = |i: usize| 0.25 * a40(&slow[i]) + 0.75 * a40(&fast[i]);
     let measures = table(&analysis, "odd-one-out-map", "measures");
-    for i in 0..7 {
-        let expected = 0.5 * (level_db(first(i)) + level_db(a40(&slow[i])));
+    for (i, slow) in slow.iter().enumerate() {
+        let expected = 0.5 * (level_db(first(i)) + level_db(a40(slow)));
         let found = value(measures, i, "a40_db_own_speed");
         assert!(
             (found - expected).abs() < 1e-6,
