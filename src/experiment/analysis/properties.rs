@@ -1,5 +1,6 @@
 //! What was measured of the textiles of a design: levels at the speed of reference and at the
-//! speeds that subjects moved at, anisotropy, spatial variation, and the figures of their manifests.
+//! speeds that subjects moved at, anisotropy, spatial variation, and the figures of their
+//! manifests.
 
 use std::collections::BTreeMap;
 use std::path::Path;

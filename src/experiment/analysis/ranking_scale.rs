@@ -50,8 +50,8 @@ pub(super) fn section(
          rankings for independent; errors over subjects are by leaving out each in turn."
     ));
     section.note(
-        "Beside it Bradley and Terry's logits of the same rankings taken apart into pairs, with the \
-         same prior. **Pairs of one ranking are not independent**: their error by curvature is too \
+        "Beside it Bradley and Terry's logits of the same rankings taken apart into pairs, with \
+         the same prior. **Pairs of one ranking are not independent**: their error by curvature is too \
          small, the one over subjects is not.",
     );
     let names = experiment.ids();

@@ -53,8 +53,8 @@ impl Mds {
 
 impl Null {
     /// Losses of `n_sets` sets of data with the objects, pairs and weights of `data`, made small
-    /// as `mds` says with its starts. Too few starts leave losses too high, and the data look better
-    /// than they are; [`Mds::for_chance`] has enough.
+    /// as `mds` says with its starts. Too few starts leave losses too high, and the data look
+    /// better than they are; [`Mds::for_chance`] has enough.
     ///
     /// # Errors
     /// It was cancelled.
