@@ -51,8 +51,8 @@ pub(super) fn section(
     ));
     section.note(
         "Beside it Bradley and Terry's logits of the same rankings taken apart into pairs, with \
-         the same prior. **Pairs of one ranking are not independent**: their error by curvature is too \
-         small, the one over subjects is not.",
+         the same prior. **Pairs of one ranking are not independent**: their error by curvature is \
+         too small, the one over subjects is not.",
     );
     let names = experiment.ids();
     let targets = targets(names.len(), all, progress)?;
