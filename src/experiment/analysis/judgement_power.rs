@@ -22,8 +22,8 @@ pub(super) fn section(experiment: &Experiment<'_>, percents: &[f64]) -> Section 
     section.note(format!(
         "No difference found is not equivalence: two one-sided tests ask whether the share of \
          right answers lies within 50 ± {BOUNDS_PERCENT} %, and whether conditions differ by less \
-         than {BOUNDS_PERCENT} points in how often they were called real. The interval of level 90 % \
-         lies inside the bounds exactly when p < 0.05."
+         than {BOUNDS_PERCENT} points in how often they were called real. The interval of level \
+         90 % lies inside the bounds exactly when p < 0.05."
     ));
     section.tables.push(equivalence(experiment, percents));
     let n_trials = trials(experiment);
