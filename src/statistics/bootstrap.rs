@@ -84,6 +84,79 @@ pub fn bootstrap(
     })
 }
 
+/// Standard errors of several numbers of subjects at once: their standard deviations over draws of
+/// subjects with replacement. The statistic gets the numbers of subjects 0…n−1, repeats included.
+///
+/// # Errors
+/// Fewer than 2 subjects or 20 draws, or more than half of the draws without the numbers; the
+/// reason of the last one without is told.
+pub fn bootstrap_errors(
+    n_subjects: usize,
+    statistic: impl Fn(&[usize]) -> Computed<Vec<f64>>,
+    (n_draws, seed): (usize, u64),
+) -> Computed<Vec<f64>> {
+    if n_subjects < 2 || n_draws < 20 {
+        let reason = format!(
+            "an error over subjects needs two of them and 20 draws, not {n_subjects} and {n_draws}"
+        );
+        return Err(Undefined::because(reason));
+    }
+    let mut random = Random::new(seed).branch("errors over subjects");
+    let mut drawn = vec![0; n_subjects];
+    let mut draws: Vec<Vec<f64>> = Vec::with_capacity(n_draws);
+    let mut why = String::new();
+    for _ in 0..n_draws {
+        drawn.fill_with(|| random.index(n_subjects));
+        match statistic(&drawn) {
+            Ok(values) => draws.push(values),
+            Err(error) => why = error.reason,
+        }
+    }
+    if 2 * draws.len() < n_draws {
+        let n_undefined = n_draws - draws.len();
+        let reason = format!("undefined in {n_undefined} of {n_draws} draws of subjects: {why}");
+        return Err(Undefined::because(reason));
+    }
+    let error = |at: usize| {
+        let values: Vec<f64> = draws.iter().map(|draw| draw[at]).collect();
+        let (_, deviations) = centred(&values);
+        (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt()
+    };
+    let n_values = draws.iter().map(Vec::len).min().unwrap_or(0);
+    Ok((0..n_values).map(error).collect())
+}
+
+/// Standard errors of several numbers of subjects at once by leaving each subject out in turn
+/// (Tukey 1958): √((n − 1)/n Σ(value without one − their mean)²). Costs one fit a subject.
+///
+/// # Errors
+/// Fewer than 2 subjects, or numbers that cannot be computed without one of them.
+pub fn jackknife_errors(
+    n_subjects: usize,
+    statistic: impl Fn(&[usize]) -> Computed<Vec<f64>>,
+) -> Computed<Vec<f64>> {
+    if n_subjects < 2 {
+        let reason = format!("an error over subjects needs two of them, not {n_subjects}");
+        return Err(Undefined::because(reason));
+    }
+    let without = |left_out: usize| {
+        let rest: Vec<usize> = (0..n_subjects).filter(|at| *at != left_out).collect();
+        statistic(&rest).map_err(|why| {
+            let number = left_out + 1;
+            Undefined::because(format!("without subject {number}: {}", why.reason))
+        })
+    };
+    let all: Vec<Vec<f64>> = (0..n_subjects).map(without).collect::<Computed<_>>()?;
+    let n = n_subjects as f64;
+    let error = |at: usize| {
+        let values: Vec<f64> = all.iter().map(|values| values[at]).collect();
+        let (_, deviations) = centred(&values);
+        (sum_of_squares(&deviations) * (n - 1.0) / n).sqrt()
+    };
+    let n_values = all.iter().map(Vec::len).min().unwrap_or(0);
+    Ok((0..n_values).map(error).collect())
+}
+
 fn between(values: &mut [f64], [low, high]: [f64; 2], level: f64) -> Interval {
     Interval {
         low: quantile(values, low),
@@ -164,6 +237,41 @@ mod tests {
             bootstrap(200, mean_of(&values), HOW)?,
             "the seed decides"
         );
+        Ok(())
+    }
+
+    #[test]
+    fn errors_of_several_numbers_are_those_of_each() -> Computed<()> {
+        let mut random = Random::new(8);
+        let values: Vec<f64> = (0..60).map(|_| random.normal()).collect();
+        let both = |drawn: &[usize]| {
+            let mean = mean_of(&values)(drawn)?;
+            Ok(vec![mean, 10.0 * mean])
+        };
+        let found = bootstrap_errors(60, both, (2000, 4))?;
+        let se = Summary::of(&values)?.se;
+        assert!((found[0] / se - 1.0).abs() < 0.06, "{found:?} and {se}");
+        assert!((found[1] / found[0] - 10.0).abs() < 1e-9, "{found:?}");
+        assert!(bootstrap_errors(1, both, (200, 4)).is_err(), "one alone");
+        let never = |_: &[usize]| Err(Undefined::because("apart"));
+        let told = bootstrap_errors(5, never, (50, 4)).unwrap_err().reason;
+        assert!(
+            told.contains("50 of 50") && told.contains("apart"),
+            "{told}"
+        );
+        Ok(())
+    }
+
+    #[test]
+    fn leaving_each_out_gives_the_error_of_a_mean_exactly() -> Computed<()> {
+        let values = [1.0, 4.0, 2.0, 9.0, 3.5];
+        let found = jackknife_errors(5, |drawn| Ok(vec![mean_of(&values)(drawn)?, 0.0]))?;
+        let se = Summary::of(&values)?.se;
+        assert!((found[0] / se - 1.0).abs() < 1e-12, "{found:?} and {se}");
+        assert_eq!(found[1], 0.0);
+        assert!(jackknife_errors(1, |_| Ok(vec![1.0])).is_err(), "one alone");
+        let why = jackknife_errors(3, |_| Err(Undefined::because("apart"))).unwrap_err();
+        assert_eq!(why.reason, "without subject 1: apart");
         Ok(())
     }
 

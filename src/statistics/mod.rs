@@ -24,7 +24,7 @@ pub mod variance;
 mod wilcoxon;
 
 pub use binomial::exact_binomial;
-pub use bootstrap::{Bootstrap, Resampling, bootstrap};
+pub use bootstrap::{Bootstrap, Resampling, bootstrap, bootstrap_errors, jackknife_errors};
 pub use correlation::{pearson, pearson_r, spearman};
 pub use distribution::{
     binomial_at_least, binomial_at_most, binomial_mass, chi_squared_upper, f_upper, normal_density,

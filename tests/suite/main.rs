@@ -15,6 +15,7 @@ mod bridge_faults;
 mod bridge_samples;
 mod commands;
 mod experiment;
+mod experiment_analyse;
 mod firmware;
 mod import;
 mod import_kes;

@@ -275,7 +275,7 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     let form = &mut window.bench.transient.experiment.form;
     form.choose(Chosen::Shipped("threshold-40"));
     form.folder = folder.0.display().to_string();
-    form.pseudonym = "p07".to_owned();
+    form.who.pseudonym = "p07".to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     assert!(window.bench.transient.experiment.is_held());

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::super::terminal::Meter;
+use super::super::terminal::{self, Meter};
 use super::super::{CliError, output, signals};
 use crate::app;
-use crate::experiment::analysis::{Analysis, Options, analyse_folder};
+use crate::experiment::ExperimentError;
+use crate::experiment::analysis::{Analysis, Cell, Options, UNREAD, analyse_folder};
 use crate::progress::{CancelFlag, Progress};
 
 /// Logs, and how they are analysed.
@@ -28,8 +29,8 @@ pub(in crate::cli) struct AnalyseArgs {
     #[arg(long, value_name = "N", default_value_t = 4999,
         value_parser = clap::value_parser!(u32).range(99..=1_000_000))]
     permutations: u32,
-    /// Sets of random ranks to compare the stress of maps with; 100 may take minutes
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    /// Sets of random ranks to compare the stress of maps with; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 40)]
     random_data: u16,
 }
 
@@ -50,10 +51,30 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
         &args.logs,
         &options,
         &mut Progress::new(&mut report, cancel),
-    )?;
+    )
+    .map_err(|error| match error {
+        ExperimentError::Cancelled(stopped) => CliError::from(stopped),
+        other => other.into(),
+    })?;
     drop(meter);
+    for (log, why) in left_out(&analysis) {
+        terminal::notice(&format!("{log} is left out: {why}"));
+    }
     analysis.write(&args.out)?;
     output::print(&summary(&analysis, args))
+}
+
+/// Logs that could not be read, and why.
+fn left_out(analysis: &Analysis) -> impl Iterator<Item = (&str, &str)> {
+    let section = analysis.sections.iter().find(|s| s.key == UNREAD);
+    let rows = section
+        .into_iter()
+        .flat_map(|s| &s.tables)
+        .flat_map(|t| &t.rows);
+    rows.filter_map(|row| match row.as_slice() {
+        [Cell::Text(log), Cell::Text(why)] => Some((log.as_str(), why.as_str())),
+        _ => None,
+    })
 }
 
 fn summary(analysis: &Analysis, args: &AnalyseArgs) -> String {

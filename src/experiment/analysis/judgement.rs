@@ -4,14 +4,11 @@
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
-use super::{Options, judgement_cells, judgement_confidence};
+use super::{Options, judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::experiment::design::{Judging, JudgingProtocol};
 use crate::experiment::{Answer, Record, Task};
 use crate::statistics::detection::{Answers, Correction, forced_choice, yes_no};
-use crate::statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip, tost};
-
-/// Bounds within which a difference of percentages counts as none, points.
-const BOUNDS_PERCENT: f64 = 10.0;
+use crate::statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
 
 #[expect(
     clippy::struct_field_names,
@@ -69,7 +66,11 @@ pub(super) fn sections(
     if judging.confidence_grades > 1 && judging.protocol == JudgingProtocol::Single {
         all.push(judgement_confidence::section(experiment, judging));
     }
+    all.push(judgement_power::section(experiment, &percents(experiment)));
     all.push(judgement_cells::section(experiment));
+    if judging.protocol == JudgingProtocol::Pair {
+        all.push(judgement_pairs::section(experiment, options));
+    }
     all
 }
 
@@ -79,6 +80,13 @@ fn right_of(subject: &Subject<'_>) -> (u64, u64) {
         verdicts.iter().filter(|r| **r).count() as u64,
         verdicts.len() as u64,
     )
+}
+
+/// Every subject's right answers, %.
+fn percents(experiment: &Experiment<'_>) -> Vec<f64> {
+    let all = experiment.subjects.iter().map(right_of);
+    all.map(|(right, n)| 100.0 * right as f64 / n as f64)
+        .collect()
 }
 
 fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options) -> Section {
@@ -100,12 +108,7 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
         }
     };
     section.tables.push(table);
-    let percents: Vec<f64> = experiment
-        .subjects
-        .iter()
-        .map(right_of)
-        .map(|(right, n)| 100.0 * right as f64 / n as f64)
-        .collect();
+    let percents = percents(experiment);
     let means = [
         ("right, %".to_owned(), percents.clone()),
         ("d′".to_owned(), d_primes.clone()),
@@ -136,11 +139,6 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
     section
         .tables
         .push(tests("tests", "Against guessing", &all));
-    section.tables.push(equivalence(&percents));
-    section.note(format!(
-        "No difference found is not equivalence: two one-sided tests ask whether the share \
-         of right answers lies within 50 ± {BOUNDS_PERCENT} %."
-    ));
     section
 }
 
@@ -243,49 +241,4 @@ fn pair_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
         table.push(row);
     }
     (table, d_primes)
-}
-
-fn equivalence(percents: &[f64]) -> Table {
-    let columns = [
-        ("n", "n"),
-        ("mean_percent", "mean, %"),
-        ("low_percent", "bounds from"),
-        ("high_percent", "to"),
-        ("t_low", "t against the lower"),
-        ("t_high", "against the upper"),
-        ("df", "df"),
-        ("p", "p"),
-        ("ci_low_percent", "90 % CI from"),
-        ("ci_high_percent", "to"),
-        ("power", "power if it were 50 %"),
-    ];
-    let mut table = Table::new(
-        "equivalence",
-        "Equivalence to guessing (two one-sided tests)",
-        &columns,
-    );
-    let bounds = [50.0 - BOUNDS_PERCENT, 50.0 + BOUNDS_PERCENT];
-    table.push(
-        match Summary::of(percents).and_then(|s| tost(&s, bounds, 0.05)) {
-            Ok(found) => vec![
-                found.n.into(),
-                found.mean.into(),
-                bounds[0].into(),
-                bounds[1].into(),
-                found.t[0].into(),
-                found.t[1].into(),
-                found.df.into(),
-                found.p.into(),
-                found.interval.low.into(),
-                found.interval.high.into(),
-                Cell::of(&found.power),
-            ],
-            Err(why) => {
-                let mut row = vec![Cell::from(percents.len())];
-                row.extend(undefined(&why, 10));
-                row
-            }
-        },
-    );
-    table
 }

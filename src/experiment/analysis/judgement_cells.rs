@@ -89,7 +89,7 @@ fn cells(materials: &[String], conditions: &[String], of: &Of<'_>) -> (Rows, Vec
 }
 
 /// Levels of a factor in the order of the design.
-fn levels(experiment: &Experiment<'_>, level: fn(&Stimulus) -> &String) -> Vec<String> {
+pub(super) fn levels(experiment: &Experiment<'_>, level: fn(&Stimulus) -> &String) -> Vec<String> {
     let mut levels: Vec<String> = Vec::new();
     for stimulus in &experiment.design.stimuli {
         if !levels.contains(level(stimulus)) {
@@ -132,21 +132,45 @@ fn cell_answers(experiment: &Experiment<'_>) -> Vec<CellAnswer> {
     all
 }
 
+/// What is compared of two conditions, and the percentages of both.
+type TwoConditions = (String, [Vec<f64>; 2]);
+
+fn pairs_of(conditions: &[String], of: impl Fn(&str) -> Vec<f64>) -> Vec<TwoConditions> {
+    let mut all = Vec::new();
+    for (i, first) in conditions.iter().enumerate() {
+        for second in &conditions[i + 1..] {
+            let what = format!("{first} less {second}, %");
+            all.push((what, [of(first), of(second)]));
+        }
+    }
+    all
+}
+
 fn differences(
     conditions: &[String],
     of: impl Fn(&str) -> Vec<f64>,
 ) -> Vec<(String, Computed<Outcome>)> {
-    let mut all = Vec::new();
-    for (i, first) in conditions.iter().enumerate() {
-        for second in &conditions[i + 1..] {
-            let (a, b) = (of(first), of(second));
-            let outcome = if a.len() == b.len() {
-                paired_t(&a, &b)
-            } else {
-                Err(Undefined::because("a subject lacks one of the conditions"))
-            };
-            all.push((format!("{first} less {second}, %"), outcome));
-        }
-    }
-    all
+    let tested = |(what, [a, b]): TwoConditions| {
+        let outcome = if a.len() == b.len() {
+            paired_t(&a, &b)
+        } else {
+            Err(Undefined::because("a subject lacks one of the conditions"))
+        };
+        (what, outcome)
+    };
+    pairs_of(conditions, of).into_iter().map(tested).collect()
+}
+
+/// How much more often one condition was called real than another, points, subject by subject; none
+/// where a subject lacks one of them.
+pub(super) fn differences_of_conditions(experiment: &Experiment<'_>) -> Vec<(String, Vec<f64>)> {
+    let answers = cell_answers(experiment);
+    let of = |condition: &str| by_subject(experiment, &answers, [None, Some(condition)]);
+    let less = |(what, [a, b]): TwoConditions| {
+        let is_whole = a.len() == b.len();
+        let differences = a.iter().zip(&b).map(|(a, b)| a - b);
+        (what, differences.filter(|_| is_whole).collect())
+    };
+    let conditions = levels(experiment, |s| &s.condition);
+    pairs_of(&conditions, of).into_iter().map(less).collect()
 }

@@ -3,12 +3,12 @@
 
 use super::Options;
 use super::draw::{axis, scatter};
-use super::model::{Cell, Section, Table, matrix};
+use super::model::{Cell, Section, Table, matrix, tests};
 use super::properties::Measures;
 use crate::figure::{Series, Style};
 use crate::progress::{Cancelled, Progress};
 use crate::statistics::Undefined;
-use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, NullKind, Ties};
+use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
 use crate::statistics::properties::{Ellipse, bootstrap_ellipses};
 
 /// The share of resampled subjects that an ellipse holds.
@@ -29,7 +29,7 @@ pub(super) struct Mapping<'a> {
 }
 
 impl Mapping<'_> {
-    fn mds(&self, options: &Options) -> Mds {
+    pub(super) fn mds(&self, options: &Options) -> Mds {
         Mds {
             ties: self.ties,
             loss: self.loss,
@@ -61,6 +61,11 @@ impl Mapping<'_> {
             &self.names,
             cells.collect(),
         ));
+        section.tables.push(tests(
+            "agreement",
+            "Agreement of subjects on the order of pairs (Kendall's W)",
+            &[("dissimilarities of pairs".to_owned(), self.agreement())],
+        ));
         let data = match Dissimilarities::new(self.names.clone(), &self.values) {
             Ok(data) => data,
             Err(why) => {
@@ -83,7 +88,7 @@ impl Mapping<'_> {
         if let Some(plane) = maps.iter().find(|map| map.dims == 2) {
             section.figures.push(shepard(plane));
             let ellipses = self.ellipses(plane, (&mds, options), &mut section, progress)?;
-            self.turned(plane, &ellipses, options, &mut section);
+            self.turned((plane, &ellipses), options, &mut section, progress)?;
         }
         for map in &maps {
             let told = map.warnings.iter();
@@ -101,15 +106,15 @@ impl Mapping<'_> {
         section: &mut Section,
         progress: &mut Progress<'_>,
     ) -> Result<(), Cancelled> {
-        let mut chance: Vec<Null> = Vec::new();
-        for map in maps.iter().filter(|_| options.n_random_data > 0) {
-            let sets = (map.dims, options.n_random_data);
-            chance.push(Null::of(mds, data, NullKind::RandomRanks, sets, progress)?);
-        }
+        let n_sets = options.n_random_data;
+        let random_data = &options.random_data;
+        let chance = random_data.of(maps, (mds, data), n_sets, progress)?;
         let losses: Vec<(usize, f64)> = maps.iter().map(|m| (m.dims, m.loss(self.loss))).collect();
         let five: Vec<f64> = chance.iter().map(Null::five_percent).collect();
         let elbow = Elbow::of(&losses, chance.first().map(Null::mean), &five);
-        section.tables.push(stress_table(maps, &elbow, &five));
+        section
+            .tables
+            .push(stress_table(maps, (&elbow, self.loss), &chance));
         section.note(match elbow.by_bend {
             Some(k) => {
                 format!("The elbow, the largest second difference of the stress, is at {k}.")
@@ -117,7 +122,9 @@ impl Mapping<'_> {
             None => "No elbow: too few dimensions to bend.".to_owned(),
         });
         match elbow.below_chance {
-            Some(k) => section.note(format!("Below the 5 % point of random ranks from {k} on.")),
+            Some(k) => section.note(format!(
+                "Below the 5 % point of {n_sets} sets of random ranks from {k} on."
+            )),
             None if chance.is_empty() => section
                 .note("A bend at one dimension shows only against random ranks (not asked for)."),
             None => section.note("**No map lies below the 5 % point of random ranks.**"),
@@ -154,7 +161,7 @@ impl Mapping<'_> {
         let title = format!("{}: stress by dimensions", self.title);
         section
             .figures
-            .push(scatter("stress", &title, [dims, stress], series));
+            .push(scatter("elbow", &title, [dims, stress], series));
         Ok(())
     }
 
@@ -209,7 +216,7 @@ pub(super) fn undefined(why: &Undefined, n: usize) -> Vec<Cell> {
         .collect()
 }
 
-fn stress_table(maps: &[Map], elbow: &Elbow, five: &[f64]) -> Table {
+fn stress_table(maps: &[Map], (elbow, loss): (&Elbow, Loss), chance: &[Null]) -> Table {
     let columns = [
         ("dims", "dimensions"),
         ("sstress", "S-stress"),
@@ -219,7 +226,9 @@ fn stress_table(maps: &[Map], elbow: &Elbow, five: &[f64]) -> Table {
         ("reached_best", "reached the best"),
         ("first_difference", "fall to here"),
         ("second_difference", "second difference"),
-        ("random_5_percent", "5 % of random ranks"),
+        ("random_mean", "mean of random ranks"),
+        ("random_5_percent", "5 % of them"),
+        ("random_p", "p against them"),
     ];
     let mut table = Table::new("stress", "Maps in one to five dimensions", &columns);
     for (i, map) in maps.iter().enumerate() {
@@ -230,7 +239,10 @@ fn stress_table(maps: &[Map], elbow: &Elbow, five: &[f64]) -> Table {
                 Cell::from,
             )
         };
-        let chance = five.get(i);
+        let chance = chance.get(i);
+        let by_chance = |of: &dyn Fn(&Null) -> f64| {
+            chance.map_or_else(|| Cell::none("not asked for"), |null| of(null).into())
+        };
         table.push([
             map.dims.into(),
             map.sstress.into(),
@@ -240,7 +252,9 @@ fn stress_table(maps: &[Map], elbow: &Elbow, five: &[f64]) -> Table {
             map.n_reached.into(),
             difference(&elbow.first_differences),
             difference(&elbow.second_differences),
-            chance.map_or_else(|| Cell::none("not asked for"), |v| (*v).into()),
+            by_chance(&Null::mean),
+            by_chance(&Null::five_percent),
+            by_chance(&|null| null.p_value(map.loss(loss))),
         ]);
     }
     table

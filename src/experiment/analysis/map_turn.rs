@@ -6,6 +6,7 @@ use super::map::{Mapping, told, undefined};
 use super::model::{Cell, Section, Table, ends};
 use super::properties::Measure;
 use crate::numerics::Random;
+use crate::progress::{Cancelled, Progress};
 use crate::statistics::mds::Map;
 use crate::statistics::properties::{BestTurn, Ellipse, PropertyVector};
 use crate::statistics::{Computed, f_upper, fisher_z};
@@ -38,24 +39,19 @@ const TURNS: [(&str, &str); 14] = [
 
 impl Mapping<'_> {
     /// The plane map as it is and turned to A40 and A320.
+    ///
+    /// # Errors
+    /// It was cancelled.
     pub(super) fn turned(
         &self,
-        plane: &Map,
-        ellipses: &[Ellipse],
+        (plane, ellipses): (&Map, &[Ellipse]),
         options: &Options,
         section: &mut Section,
-    ) {
+        progress: &mut Progress<'_>,
+    ) -> Result<(), Cancelled> {
         self.measures.tell(section);
         let measures = self.measures;
-        let fits: Vec<(&Measure, Computed<PropertyVector>)> = measures
-            .all
-            .iter()
-            .map(|m| (m, PropertyVector::of(&plane.points, &m.values)))
-            .collect();
-        if !measures.all.is_empty() {
-            section.tables.push(measures.table(&self.names));
-            section.tables.push(vectors(&fits, self.names.len()));
-        }
+        self.fitted(plane, section);
         let mut turns = Table::new("turns", "The plane map turned to two measures", &TURNS);
         let mut best = None;
         for (first, second) in PAIRS {
@@ -63,6 +59,7 @@ impl Mapping<'_> {
             let Some((first, second)) = pair else {
                 continue;
             };
+            progress.step(0.9, "turns by chance")?;
             let turn = self.turn(plane, [first, second], options, &mut turns);
             best = best.or_else(|| turn.ok());
         }
@@ -82,6 +79,9 @@ impl Mapping<'_> {
             Some(turn) => ellipses.iter().map(|e| turned_ellipse(e, turn)).collect(),
             None => ellipses.to_vec(),
         };
+        if let Some(speeds) = self.own_speeds(best.as_ref()) {
+            section.tables.push(speeds);
+        }
         let directions = self.directions(points);
         let drawing = MapDrawing {
             names: &self.names,
@@ -102,6 +102,22 @@ impl Mapping<'_> {
             &format!("{}, in the plane", self.title),
             vec![note],
         ));
+        Ok(())
+    }
+
+    /// What was measured, and every measure fitted into a map.
+    fn fitted(&self, plane: &Map, section: &mut Section) {
+        let measures = self.measures;
+        if measures.all.is_empty() {
+            return;
+        }
+        let fits: Vec<(&Measure, Computed<PropertyVector>)> = measures
+            .all
+            .iter()
+            .map(|m| (m, PropertyVector::of(&plane.points, &m.values)))
+            .collect();
+        section.tables.push(measures.table(&self.names));
+        section.tables.push(vectors(&fits, self.names.len()));
     }
 
     /// Where the levels of both bands rise in a map.

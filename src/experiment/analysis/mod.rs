@@ -17,17 +17,26 @@ mod groups;
 mod judgement;
 mod judgement_cells;
 mod judgement_confidence;
+mod judgement_pairs;
+mod judgement_power;
 mod kept;
 mod levels;
 mod magnitude;
 mod map;
+mod map_chance;
+mod map_speeds;
 mod map_turn;
 mod model;
 mod odd_one_out;
+mod odd_one_out_craven;
 mod odd_one_out_distances;
+mod odd_one_out_variants;
+mod own_speeds;
+mod pairs;
 mod properties;
 mod ranking;
 mod ranking_confusions;
+mod ranking_pairs;
 mod ranking_scale;
 mod rating;
 mod variance;
@@ -37,17 +46,21 @@ use std::path::Path;
 
 pub(super) use draw::scatter;
 pub(super) use judgement::said as judged;
+pub use map_chance::RandomData;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(super) use odd_one_out::{triad as triad_answer, weights as grade_weights};
 pub(super) use ranking::ranking as rank_trial;
 
 use super::ExperimentError;
 use super::design::Method;
-use super::session::{self, Found};
+use super::session::{self, Found, Unread};
 use crate::progress::Progress;
 use crate::statistics::Resampling;
 use crate::textile::BuildCache;
 use kept::Experiment;
+
+/// The key of the section that lists logs that cannot be read.
+pub const UNREAD: &str = "unread";
 
 /// Choices that the logs leave open.
 #[derive(Debug, Clone)]
@@ -66,6 +79,8 @@ pub struct Options {
     pub n_starts_on_a_line: usize,
     /// Sets of random ranks to compare the stress of maps with; 0 for none.
     pub n_random_data: usize,
+    /// What was found of them before.
+    pub random_data: RandomData,
     /// Where textiles that are built from recipes are kept.
     pub cache: Option<BuildCache>,
 }
@@ -79,7 +94,8 @@ impl Default for Options {
             n_maps: 100,
             n_starts: 50,
             n_starts_on_a_line: 1000,
-            n_random_data: 0,
+            n_random_data: 40,
+            random_data: RandomData::default(),
             cache: None,
         }
     }
@@ -95,23 +111,46 @@ impl Options {
     }
 }
 
-/// Analyses every session in a folder.
+/// Analyses every session in a folder. A log that cannot be read, since a later version wrote it or
+/// it was damaged, is listed with its reason, and the others are analysed.
 ///
 /// # Errors
-/// The folder or a log cannot be read, there are no sessions, or it was cancelled.
+/// The folder or all of its logs cannot be read, there are no sessions, or it was cancelled.
 pub fn analyse_folder(
     folder: &Path,
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
-    let found = session::find(folder)?;
+    let (found, unread) = session::find_readable(folder)?;
     if found.is_empty() {
-        return Err(ExperimentError::value(
-            format!("{} holds no session", folder.display()),
-            "name a folder with logs and the .json file beside each of them",
-        ));
+        let none = || {
+            ExperimentError::value(
+                format!("{} holds no session", folder.display()),
+                "name a folder with logs and the .json file beside each of them",
+            )
+        };
+        let first = unread.into_iter().next();
+        return Err(first.map_or_else(none, |first| first.error));
     }
-    analyse(&found, options, progress)
+    let mut analysis = analyse(&found, options, progress)?;
+    if !unread.is_empty() {
+        analysis.sections.insert(0, left_out(&unread));
+    }
+    Ok(analysis)
+}
+
+/// The logs that cannot be read.
+fn left_out(unread: &[Unread]) -> Section {
+    let mut section = Section::new(UNREAD, "Logs that cannot be read");
+    section.note("**These logs are left out of everything below.** The others are analysed.");
+    let columns = [("log", "log"), ("why", "why, and how to mend it")];
+    let mut table = Table::new("logs", "Logs left out", &columns);
+    for one in unread {
+        let name = one.log.file_name().unwrap_or_default().to_string_lossy();
+        table.push([name.into_owned().into(), one.error.to_string().into()]);
+    }
+    section.tables.push(table);
+    section
 }
 
 /// Analyses sessions, experiment by experiment.
@@ -133,7 +172,7 @@ pub fn analyse(
             sections.push(empty);
             continue;
         }
-        sections.extend(sections_of(experiment, options, progress).map_err(cancelled)?);
+        sections.extend(sections_of(experiment, options, progress)?);
     }
     sections.extend(groups::compared(&experiments));
     let titles: Vec<&str> = experiments
@@ -164,10 +203,6 @@ fn sections_of(
         Method::Magnitude { .. } => Ok(magnitude::sections(experiment)),
         Method::Rating(rating) => rating::sections(experiment, rating, options, progress),
     }
-}
-
-fn cancelled(_: crate::progress::Cancelled) -> ExperimentError {
-    ExperimentError::value("the analysis was stopped", "begin it again")
 }
 
 #[cfg(test)]

@@ -5,8 +5,9 @@ use super::draw::{Bar, bars};
 use super::kept::{Experiment, Subject};
 use super::map::Mapping;
 use super::model::{Cell, Drawn, Section, Table, ends, resampled, summaries, tests};
+use super::odd_one_out_craven::Craven;
 use super::properties::Measures;
-use super::{Options, odd_one_out_distances};
+use super::{Options, odd_one_out_craven, odd_one_out_distances, odd_one_out_variants};
 use crate::experiment::{self as exp, Answer, Record, Task};
 use crate::progress::{Cancelled, Progress};
 use crate::statistics::detection::{Correction, triangle};
@@ -70,8 +71,10 @@ pub(super) fn sections(
             return Ok(sections);
         }
     };
-    sections.push(odd_one_out_distances::section(
-        experiment, &found, &all, &names,
+    let craven = Craven::of(&found);
+    sections.push(odd_one_out_distances::section(experiment, &found, &names));
+    sections.push(odd_one_out_craven::section(
+        experiment, &found, &craven, &names,
     ));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |subject: &Subject<'_>| {
@@ -102,6 +105,12 @@ pub(super) fn sections(
         map.note("Pairs were not asked equally often: mapped is the mean weight, not the sum.");
     }
     sections.push(map);
+    sections.push(odd_one_out_variants::section(
+        (experiment, &mapping),
+        (&found, &all, &craven),
+        options,
+        progress,
+    )?);
     Ok(sections)
 }
 
@@ -152,8 +161,7 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     let mut section = Section::new(experiment.key("accuracy"), title);
     section.note(
         "Chance is ⅓. d′ is that of the triangle test without bias; below chance it is 0. \
-         Intervals of shares are Wilson's, p is exact (binomial). Comparisons of distances \
-         in the manner of Craven are left out.",
+         Intervals of shares are Wilson's, p is exact (binomial).",
     );
     let mut table = Table::new("subjects", "Right answers by subject and session", &SHARES);
     let mut shown = Vec::new();

@@ -1,22 +1,12 @@
 //! Distances of fabrics from how easily they were told apart.
 
 use super::kept::Experiment;
-use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, matrix};
-use super::odd_one_out::{interval, weights};
-use crate::statistics::ranking::{GradeWeights, OddOneOut, TriadAnswer};
-use crate::statistics::{Ranks, pearson_r};
+use super::odd_one_out::interval;
+use crate::statistics::ranking::{GradeWeights, OddOneOut};
 
-/// Weights that distances are tried with besides the design's.
-const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
-
-/// Sums of weights, errors by fabric, and the same with other weights.
-pub(super) fn section(
-    experiment: &Experiment<'_>,
-    found: &OddOneOut,
-    all: &[TriadAnswer],
-    names: &[String],
-) -> Section {
+/// Sums of weights, and errors by fabric.
+pub(super) fn section(experiment: &Experiment<'_>, found: &OddOneOut, names: &[String]) -> Section {
     let title = format!("{}: distances", experiment.design.title);
     let mut section = Section::new(experiment.key("distances"), title);
     let GradeWeights { easy, normal, hard } = found.weights;
@@ -35,38 +25,6 @@ pub(super) fn section(
         cells.collect(),
     ));
     section.tables.push(errors(found, names));
-    let columns = [
-        ("weights", "weights"),
-        ("ceiling", "pairs at the ceiling"),
-        ("floor", "at the floor"),
-        ("n", "pairs"),
-        ("spearman", "rank correlation with the design's"),
-    ];
-    let mut table = Table::new("weights", "The same with other weights", &columns);
-    for other in OTHER_WEIGHTS {
-        let told = other.map(|w| w.to_string()).join(" / ");
-        let row = match OddOneOut::of(names.len(), all, weights(other)) {
-            Ok(with) => {
-                let of = |o: &OddOneOut| o.pairs.iter().map(|p| p.distance).collect::<Vec<f64>>();
-                let rank = |o: &OddOneOut| Ranks::of(&of(o)).ranks;
-                let r = pearson_r(&rank(found), &rank(&with));
-                vec![
-                    told.into(),
-                    with.n_ceiling.into(),
-                    with.n_floor.into(),
-                    with.pairs.len().into(),
-                    Cell::of(&r),
-                ]
-            }
-            Err(why) => {
-                let mut row = vec![Cell::from(told)];
-                row.extend(undefined(&why, 4));
-                row
-            }
-        };
-        table.push(row);
-    }
-    section.tables.push(table);
     section
 }
 

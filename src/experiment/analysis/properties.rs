@@ -1,20 +1,20 @@
 //! What was measured of the textiles of a design: levels at the speed of reference and at the
-//! speeds
-//! that subjects moved at, anisotropy, spatial variation, and the figures of their manifests.
+//! speeds that subjects moved at, anisotropy, spatial variation, and the figures of their
+//! manifests.
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::Options;
 use super::kept::Experiment;
 use super::model::{Cell, Section, Table};
+use super::own_speeds::{self, MOVING_MM_PER_S, OwnSpeeds};
 use crate::experiment::design::Source;
-use crate::experiment::session::path_file;
 use crate::progress::{Cancelled, Progress};
 use crate::quantity::level_db;
-use crate::scene::ExplorationPath;
 use crate::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
-use crate::textile::{Library, TextileError};
+use crate::textile::{Library, Textile, TextileError};
 
 /// A measure of every stimulus, in the order of the design.
 #[derive(Debug, Clone)]
@@ -26,10 +26,27 @@ pub(super) struct Measure {
     pub(super) values: Vec<f64>,
 }
 
+/// A subject, and what was measured at their speeds.
+#[derive(Debug, Clone)]
+pub(super) struct Own {
+    pub(super) subject: String,
+    pub(super) n_trials: usize,
+    /// `None` without a recorded path that moves.
+    pub(super) moved: Option<(OwnSpeeds, Vec<Measure>)>,
+}
+
+impl Own {
+    fn measures(&self) -> Option<&Vec<Measure>> {
+        self.moved.as_ref().map(|(_, measures)| measures)
+    }
+}
+
 /// The measures of the stimuli of an experiment, or why there are none.
 #[derive(Debug, Default)]
 pub(super) struct Measures {
     pub(super) all: Vec<Measure>,
+    /// Subject by subject; empty where no path was recorded at all.
+    pub(super) own: Vec<Own>,
     pub(super) notes: Vec<String>,
 }
 
@@ -70,75 +87,68 @@ impl Measures {
             }
         };
         progress.step(0.5, "levels of textiles")?;
-        let at = |speed: f64| -> Vec<Levels> {
-            let of = |t: &std::sync::Arc<crate::textile::Textile>| {
-                Levels::at(speed, t.surface(), &Filters::default())
-            };
-            textiles.iter().map(of).collect()
-        };
-        measures.add_levels(&at(LEVEL_SPEED_MM_PER_S), "", "");
-        if let Some(speed) = own_speed(experiment) {
-            let heading = format!(" at {speed:.0} mm/s, the subjects' own");
-            measures.add_levels(&at(speed), "_own_speed", &heading);
-        } else {
-            measures.notes.push(
-                "No recorded paths beside the logs: measures at subjects' own speeds are left out."
-                    .to_owned(),
-            );
-        }
+        let at_reference: Vec<Levels> = textiles
+            .iter()
+            .map(|t| Levels::of(t.surface(), &Filters::default()))
+            .collect();
+        measures.add(of_levels(&at_reference), "", "");
+        measures.add_own_speeds(experiment, &textiles, progress)?;
         let tables: Vec<&BTreeMap<String, f64>> =
             textiles.iter().map(|t| &t.manifest().measured).collect();
         measures.add_manifests(&tables);
         Ok(measures)
     }
 
-    fn add_levels(&mut self, levels: &[Levels], suffix: &str, heading: &str) {
-        let um: [Vec<f64>; 2] = [0, 1].map(|b| levels.iter().map(|l| l.mean_um[b]).collect());
-        let db = um
-            .each_ref()
-            .map(|um| um.iter().map(|a| level_db(*a)).collect::<Vec<f64>>());
-        let of = |f: &dyn Fn(&Levels) -> f64| levels.iter().map(f).collect::<Vec<f64>>();
-        let standard = db.each_ref().map(|db| standardised(db));
-        let mut add = |name: &str, told: &str, values: Vec<f64>| {
-            if values.iter().all(|v| v.is_finite()) {
+    /// Measures that are defined for every textile; others are told.
+    fn add(&mut self, measures: Vec<Measure>, suffix: &str, heading: &str) {
+        for measure in measures {
+            let told = format!("{}{heading}", measure.heading);
+            if measure.values.iter().all(|v| v.is_finite()) {
                 self.all.push(Measure {
-                    name: format!("{name}{suffix}"),
-                    heading: format!("{told}{heading}"),
-                    values,
+                    name: format!("{}{suffix}", measure.name),
+                    heading: told,
+                    values: measure.values,
                 });
             } else {
-                let note = format!("{told}{heading}: a textile is silent, so it is left out.");
+                let note = format!("{told}: a textile is silent, so it is left out.");
                 self.notes.push(note);
             }
-        };
-        let [db40, db320] = db;
-        add("a40_db", "A40, dB re 1 µm", db40);
-        add("a320_db", "A320, dB re 1 µm", db320);
-        let level = |l: &Levels| l.level_db().unwrap_or(f64::NAN);
-        add("level_db", "level of both bands, dB re 1 µm", of(&level));
-        let [um40, um320] = um;
-        add("a40_um", "A40, µm", um40);
-        add("a320_um", "A320, µm", um320);
-        let [z40, z320] = standard;
-        let both = |sign: f64| z40.iter().zip(&z320).map(|(a, b)| a + sign * b).collect();
-        add("sum", "sum of standardised levels", both(1.0));
-        add(
-            "difference",
-            "difference of standardised levels (40 − 320 Hz)",
-            both(-1.0),
+        }
+    }
+
+    /// Measures at the speeds of each subject, and their means over subjects.
+    fn add_own_speeds(
+        &mut self,
+        experiment: &Experiment<'_>,
+        textiles: &[Arc<Textile>],
+        progress: &mut Progress<'_>,
+    ) -> Result<(), Cancelled> {
+        let speeds = own_speeds::speeds(experiment, progress)?;
+        if speeds.iter().all(Option::is_none) {
+            self.notes.push(
+                "No recorded paths beside the logs: measures at subjects' own speeds are left out."
+                    .to_owned(),
+            );
+            return Ok(());
+        }
+        let levels = own_speeds::levels(&speeds, textiles, progress)?;
+        let subjects = experiment.subjects.iter().zip(speeds).zip(levels);
+        self.own = subjects
+            .map(|((subject, speeds), levels)| Own {
+                subject: subject.name.to_owned(),
+                n_trials: subject.trials().count(),
+                moved: speeds.zip(levels.map(|levels| of_levels(&levels))),
+            })
+            .collect();
+        let moved: Vec<&Vec<Measure>> = self.own.iter().filter_map(Own::measures).collect();
+        let means = over_subjects(&moved);
+        let n = moved.len();
+        self.add(
+            means,
+            "_own_speed",
+            &format!(" at own speeds, mean of {n} subjects"),
         );
-        add("cv40", "spatial variation of A40", of(&|l| l.cv[0]));
-        add("cv320", "spatial variation of A320", of(&|l| l.cv[1]));
-        add(
-            "anisotropy40_db",
-            "anisotropy of A40, dB",
-            of(&|l| l.anisotropy_db[0]),
-        );
-        add(
-            "anisotropy320_db",
-            "anisotropy of A320, dB",
-            of(&|l| l.anisotropy_db[1]),
-        );
+        Ok(())
     }
 
     /// Figures that every manifest has.
@@ -183,6 +193,13 @@ impl Measures {
                  tuning."
             ));
         }
+        if !self.own.is_empty() {
+            section.note(format!(
+                "At own speeds: what each subject felt on the mean over all recorded time in which \
+                 the display moved faster than {MOVING_MM_PER_S} mm/s, along one axis and over \
+                 four directions as above; for the group, the mean over subjects."
+            ));
+        }
     }
 }
 
@@ -213,32 +230,65 @@ fn library(experiment: &Experiment<'_>, options: &Options) -> Result<Library, Te
     Library::named(&path, options.cache.as_ref())
 }
 
-/// The mean speed of movement over all recorded trials, mm/s: pauses left out, subjects alike.
-fn own_speed(experiment: &Experiment<'_>) -> Option<f64> {
-    let speed_of = |subject: &super::kept::Subject<'_>| {
-        let paths = subject.sessions.iter().flat_map(|session| {
-            let log = &session.found.log;
-            let read = |r: &crate::experiment::Record| {
-                ExplorationPath::read(&path_file(log, &r.trial, r.attempt)).ok()
-            };
-            session.trials.iter().filter_map(move |record| read(record))
-        });
-        let (mut way_mm, mut time_s) = (0.0, 0.0);
-        for path in paths {
-            for pair in path.rows().windows(2) {
-                let [from, to] = [pair[0].position, pair[1].position];
-                let step_mm = (to.x_mm - from.x_mm).hypot(to.y_mm - from.y_mm);
-                let step_s = pair[1].t_s - pair[0].t_s;
-                if step_mm > step_s {
-                    way_mm += step_mm;
-                    time_s += step_s;
-                }
-            }
-        }
-        (time_s > 0.0).then(|| way_mm / time_s)
+/// What follows from levels.
+fn of_levels(levels: &[Levels]) -> Vec<Measure> {
+    let of = |f: &dyn Fn(&Levels) -> f64| levels.iter().map(f).collect::<Vec<f64>>();
+    let um = [0, 1].map(|b| of(&|l| l.mean_um[b]));
+    let db = um
+        .each_ref()
+        .map(|um| um.iter().map(|a| level_db(*a)).collect::<Vec<f64>>());
+    let [z40, z320] = db.each_ref().map(|db| standardised(db));
+    let both = |sign: f64| z40.iter().zip(&z320).map(|(a, b)| a + sign * b).collect();
+    let sum = "sum of standardised levels";
+    let difference = "difference of standardised levels (40 − 320 Hz)";
+    let [db40, db320] = db;
+    let [um40, um320] = um;
+    let all: [(&str, &str, Vec<f64>); 11] = [
+        ("a40_db", "A40, dB re 1 µm", db40),
+        ("a320_db", "A320, dB re 1 µm", db320),
+        (
+            "level_db",
+            "level of both bands, dB re 1 µm",
+            of(&|l| l.level_db().unwrap_or(f64::NAN)),
+        ),
+        ("a40_um", "A40, µm", um40),
+        ("a320_um", "A320, µm", um320),
+        ("sum", sum, both(1.0)),
+        ("difference", difference, both(-1.0)),
+        ("cv40", "spatial variation of A40", of(&|l| l.cv[0])),
+        ("cv320", "spatial variation of A320", of(&|l| l.cv[1])),
+        (
+            "anisotropy40_db",
+            "anisotropy of A40, dB",
+            of(&|l| l.anisotropy_db[0]),
+        ),
+        (
+            "anisotropy320_db",
+            "anisotropy of A320, dB",
+            of(&|l| l.anisotropy_db[1]),
+        ),
+    ];
+    let measure = |(name, heading, values): (&str, &str, Vec<f64>)| Measure {
+        name: name.to_owned(),
+        heading: heading.to_owned(),
+        values,
     };
-    let speeds: Vec<f64> = experiment.subjects.iter().filter_map(speed_of).collect();
-    crate::statistics::mean(&speeds).ok()
+    all.map(measure).into()
+}
+
+/// The mean of each measure over subjects, who have the same ones.
+fn over_subjects(all: &[&Vec<Measure>]) -> Vec<Measure> {
+    let Some((first, others)) = all.split_first() else {
+        return Vec::new();
+    };
+    let mut means: Vec<Measure> = (*first).clone();
+    for (at, mean) in means.iter_mut().enumerate() {
+        for (item, value) in mean.values.iter_mut().enumerate() {
+            let sum: f64 = others.iter().map(|own| own[at].values[item]).sum();
+            *value = (*value + sum) / all.len() as f64;
+        }
+    }
+    means
 }
 
 /// Centred, with a standard deviation of 1; all 0 without spread.

@@ -7,7 +7,7 @@ use super::kept::{Experiment, Subject};
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use super::properties::Measures;
-use super::{ranking_confusions, ranking_scale};
+use super::{ranking_confusions, ranking_pairs, ranking_scale};
 use crate::experiment::design::{Ranking, Standard};
 use crate::experiment::{Answer, Task};
 use crate::progress::{Cancelled, Progress};
@@ -99,7 +99,8 @@ pub(super) fn sections(
         }
     };
     sections.push(ranking_confusions::section(experiment, &ranks, &names, how));
-    sections.push(ranking_scale::section(experiment, &all));
+    sections.push(ranking_scale::section(experiment, &all, progress)?);
+    sections.push(ranking_pairs::section(experiment, &all, options));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |r: &Rankings<'_>| {
         let ranks = MeanRanks::of(names.len(), &r.trials).ok()?;

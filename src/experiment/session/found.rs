@@ -24,11 +24,40 @@ pub struct Found {
     pub has_torn_row: bool,
 }
 
+/// A log that cannot be read.
+#[derive(Debug)]
+pub struct Unread {
+    /// The log.
+    pub log: PathBuf,
+    /// What is wrong, where, and how to mend it.
+    pub error: ExperimentError,
+}
+
 /// Every session in a folder, by name. Tables without a sidecar are no sessions.
 ///
 /// # Errors
 /// The folder or a log cannot be read.
 pub fn find(folder: &Path) -> Result<Vec<Found>, ExperimentError> {
+    logs(folder)?.iter().map(|log| Found::read(log)).collect()
+}
+
+/// Likewise, with the logs that cannot be read apart: what a later version wrote, or what was
+/// damaged, does not keep the others from being read.
+///
+/// # Errors
+/// The folder cannot be read.
+pub fn find_readable(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
+    let (mut found, mut unread) = (Vec::new(), Vec::new());
+    for log in logs(folder)? {
+        match Found::read(&log) {
+            Ok(session) => found.push(session),
+            Err(error) => unread.push(Unread { log, error }),
+        }
+    }
+    Ok((found, unread))
+}
+
+fn logs(folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
     let entries = fs::read_dir(folder).map_err(|source| FileError::Read {
         path: folder.to_owned(),
         source,
@@ -40,7 +69,7 @@ pub fn find(folder: &Path) -> Result<Vec<Found>, ExperimentError> {
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
     let mut logs: Vec<PathBuf> = paths.filter(is_log).collect();
     logs.sort();
-    logs.into_iter().map(|log| Found::read(&log)).collect()
+    Ok(logs)
 }
 
 impl Found {

@@ -20,7 +20,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-pub use found::{Found, find};
+pub use found::{Found, Unread, find, find_readable};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
 pub use whole::{unwritten, write_whole};

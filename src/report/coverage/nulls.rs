@@ -27,6 +27,14 @@ const fn null(
     }
 }
 
+/// The interaction of two factors within subjects, in twice as many studies.
+const fn interaction(setting: &'static str, study: fn(&mut Random) -> Computed<bool>) -> Trial {
+    Trial {
+        n_studies: [1000, 10_000],
+        ..null("repeated measures, 2 × 4", setting, study)
+    }
+}
+
 pub(super) const ALL: &[Trial] = &[
     null("t, one sample", "8 subjects", |random| {
         rejects(one_sample_t(
@@ -85,6 +93,21 @@ pub(super) const ALL: &[Trial] = &[
         "repeated measures, 2 × 4",
         "8 subjects, not spherical; factor of 4, Greenhouse–Geisser",
         |random| two_way(random, true, greenhouse_geisser),
+    ),
+    interaction("8 subjects, spherical; interaction, p as it is", |random| {
+        interacting(random, false, |effect| effect.p.clone())
+    }),
+    interaction(
+        "8 subjects, spherical; interaction, Huynh–Feldt",
+        |random| interacting(random, false, huynh_feldt),
+    ),
+    unpromised(interaction(
+        "8 subjects, not spherical; interaction, p as it is",
+        |random| interacting(random, true, |effect| effect.p.clone()),
+    )),
+    interaction(
+        "8 subjects, not spherical; interaction, Greenhouse–Geisser",
+        |random| interacting(random, true, greenhouse_geisser),
     ),
     null(
         "repeated measures, one way",
@@ -162,8 +185,22 @@ fn corrected(
 
 /// The second factor, of four levels, of a table of two by four.
 fn two_way(random: &mut Random, is_uneven: bool, p: fn(&Effect) -> Computed) -> Computed<bool> {
+    of_two_way(random, is_uneven, 1, p)
+}
+
+/// The interaction of both.
+fn interacting(random: &mut Random, is_uneven: bool, p: fn(&Effect) -> Computed) -> Computed<bool> {
+    of_two_way(random, is_uneven, 2, p)
+}
+
+fn of_two_way(
+    random: &mut Random,
+    is_uneven: bool,
+    effect: usize,
+    p: fn(&Effect) -> Computed,
+) -> Computed<bool> {
     let table = table(random, &[("signal", 2), ("material", 4)], is_uneven)?;
-    Ok(p(&repeated_two_way(&table)?.effects[1])? < ALPHA)
+    Ok(p(&repeated_two_way(&table)?.effects[effect])? < ALPHA)
 }
 
 /// Subjects who differ, cells that do not but, if uneven, in how much they vary.

@@ -88,6 +88,7 @@ fn of_case(bench: &mut Bench<'_>, data: &Dissimilarities, k: usize, ties: Ties) 
             n_starts_on_a_line: way.n_starts,
             seed,
             n_threads: 1,
+            ..Mds::default()
         };
         let longest = Way {
             name: "",

@@ -54,6 +54,8 @@ pub struct Mds {
     pub n_starts: usize,
     /// Starts on a line.
     pub n_starts_on_a_line: usize,
+    /// The best orders on a line that are improved by exchange besides; most of the work there.
+    pub n_exchanged: usize,
     /// What chance begins with.
     pub seed: u64,
     /// Threads that share the work; the maps do not depend on it.
@@ -68,6 +70,7 @@ impl Default for Mds {
             descent: Descent::default(),
             n_starts: DEFAULT_STARTS,
             n_starts_on_a_line: LEAST_STARTS_ON_A_LINE,
+            n_exchanged: 6,
             seed: 1,
             n_threads: crate::numerics::n_threads(),
         }
@@ -111,6 +114,7 @@ impl Mds {
             loss: self.loss,
             descent: self.descent,
             n_starts,
+            n_exchanged: self.n_exchanged,
             seed: self.seed,
             n_threads: self.n_threads,
         }

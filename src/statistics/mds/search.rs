@@ -26,6 +26,7 @@ pub(super) struct Plan {
     pub(super) loss: Loss,
     pub(super) descent: Descent,
     pub(super) n_starts: usize,
+    pub(super) n_exchanged: usize,
     pub(super) seed: u64,
     pub(super) n_threads: usize,
 }
@@ -60,8 +61,6 @@ const POLISHED: Until = Until {
 };
 /// The best starts that are polished to the end.
 const N_POLISHED: usize = 4;
-/// The best orders on a line that are improved by exchange.
-const N_EXCHANGED: usize = 6;
 
 struct Run {
     x: Vec<f64>,
@@ -132,7 +131,7 @@ pub(super) fn search(
     runs.sort_by(|a, b| a.f.total_cmp(&b.f));
     let followed: Vec<f64> = runs.iter().map(|run| run.f.max(0.0).sqrt()).collect();
     runs.truncate(if plan.k == 1 {
-        10 * N_EXCHANGED
+        (10 * plan.n_exchanged).max(N_POLISHED)
     } else {
         N_POLISHED
     });
@@ -154,13 +153,13 @@ pub(super) fn search(
 fn finished(problem: &Problem, plan: &Plan, mut runs: Vec<Run>) -> Vec<Run> {
     if plan.k == 1 {
         runs.dedup_by(|a, b| (a.f - b.f).abs() <= 1e-7 * b.f);
-        runs.truncate(N_EXCHANGED);
+        runs.truncate(plan.n_exchanged.max(1));
     }
     let prepare = || Fit::new(problem, plan.k);
     in_pieces(&mut runs, 1, plan.n_threads, prepare, |fit, _, run| {
         fit.reset();
         let run = &mut run[0];
-        if plan.k == 1 {
+        if plan.k == 1 && plan.n_exchanged > 0 {
             run.f = exchange(fit, plan, &mut run.x, run.f);
         }
         run.f = descend(fit, plan.loss, &mut run.x, POLISHED);

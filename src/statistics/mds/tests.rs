@@ -322,6 +322,30 @@ fn chance_gives_what_is_known_and_structure_lies_below_it() {
 }
 
 #[test]
+fn few_starts_do_for_data_without_structure() {
+    for (loss, dims) in [(Loss::Stress1, 1), (Loss::SStress, 1), (Loss::Stress1, 2)] {
+        let many = Mds {
+            loss,
+            n_starts_on_a_line: 300,
+            ..Mds::default()
+        };
+        let data = spread(7, 2, 0.1, 9);
+        let null = |mds: &Mds| {
+            let sets = (dims, 20);
+            unheard(|p| Null::of(mds, &data, NullKind::RandomRanks, sets, p)).unwrap()
+        };
+        let (few, many) = (null(&many.for_chance()), null(&many));
+        let higher = few.mean() - many.mean();
+        assert!(
+            (-1e-6..0.003).contains(&higher),
+            "{loss:?} {dims}: {higher}"
+        );
+        let at_5 = few.five_percent() - many.five_percent();
+        assert!((-1e-6..0.001).contains(&at_5), "{loss:?} {dims}: {at_5}");
+    }
+}
+
+#[test]
 fn a_raised_flag_stops_the_search() {
     let flag = crate::progress::CancelFlag::new();
     flag.cancel();

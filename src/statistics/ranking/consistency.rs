@@ -61,6 +61,58 @@ pub fn consistency(answers: &Preferences) -> Computed<Consistency> {
     })
 }
 
+/// Triads of items among comparisons that may be many of a pair, or none: each pair goes to the one
+/// that was preferred more often, and to nobody where both were as often.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Majority {
+    /// Pairs that were compared.
+    pub n_pairs: usize,
+    /// Pairs among them that go to nobody.
+    pub n_undecided: usize,
+    /// Triads whose three pairs are decided.
+    pub n_triads: u64,
+    /// Circular ones among them; a quarter by chance.
+    pub n_circular: u64,
+    /// Of the majorities, where they decide every pair.
+    pub consistency: Computed<Consistency>,
+}
+
+impl Majority {
+    /// Of any comparisons.
+    pub fn of(answers: &Preferences) -> Self {
+        let k = answers.n_items();
+        let mut decided = vec![vec![0; k]; k];
+        let (mut n_pairs, mut n_undecided) = (0, 0);
+        for (i, j) in (0..k).flat_map(|i| (i + 1..k).map(move |j| (i, j))) {
+            let [forth, back] = [answers.wins(i, j), answers.wins(j, i)];
+            let is_compared = forth + back + answers.ties(i, j) > 0;
+            n_pairs += usize::from(is_compared);
+            n_undecided += usize::from(is_compared && forth == back);
+            decided[i][j] = u64::from(forth > back);
+            decided[j][i] = u64::from(back > forth);
+        }
+        let over = |i: usize, j: usize| decided[i][j] > 0;
+        let either = |i, j| over(i, j) || over(j, i);
+        let (mut n_triads, mut n_circular) = (0, 0);
+        for a in 0..k {
+            for b in (a + 1..k).filter(|&b| either(a, b)) {
+                for c in (b + 1..k).filter(|&c| either(a, c) && either(b, c)) {
+                    n_triads += 1;
+                    let around = [over(a, b), over(b, c), over(c, a)];
+                    n_circular += u64::from(around == [true; 3] || around == [false; 3]);
+                }
+            }
+        }
+        Self {
+            n_pairs,
+            n_undecided,
+            n_triads,
+            n_circular,
+            consistency: Preferences::of_wins(&decided).and_then(|all| consistency(&all)),
+        }
+    }
+}
+
 /// Triads less those in which one item is over both others.
 fn circular(scores: &[u64]) -> u64 {
     let k = scores.len() as u64;
@@ -157,6 +209,30 @@ mod tests {
             let found = answers(k, |_, _| random.uniform() < 0.5);
             assert_eq!(consistency(&found)?.n_circular, counted(&found), "{k}");
         }
+        Ok(())
+    }
+
+    #[test]
+    fn majorities_are_counted_where_they_decide() -> Computed<()> {
+        let mut random = Random::new(6);
+        let once = answers(9, |_, _| random.uniform() < 0.5);
+        let thrice = Preferences::together([&once, &once, &answers(9, |_, _| true)])?;
+        let (found, own) = (Majority::of(&thrice), consistency(&once)?);
+        assert_eq!((found.n_pairs, found.n_undecided), (36, 0));
+        assert_eq!(
+            (found.n_triads, found.n_circular),
+            (own.n_triads, own.n_circular)
+        );
+        assert_eq!(found.consistency, Ok(own));
+        // One against one leaves a pair to nobody, and seven triads with it.
+        let mut split = once.clone();
+        split.prefer(0, 1)?;
+        split.prefer(1, 0)?;
+        let (upper, lower) = if once.wins(0, 1) > 0 { (1, 0) } else { (0, 1) };
+        split.prefer(upper, lower)?;
+        let found = Majority::of(&split);
+        assert_eq!((found.n_undecided, found.n_triads), (1, 84 - 7));
+        assert!(found.consistency.is_err(), "a pair is missing");
         Ok(())
     }
 

@@ -32,7 +32,7 @@ mod thurstone;
 pub use bradley_terry::{BradleyTerry, bradley_terry};
 pub use choices::Prior;
 pub use connection::Connection;
-pub use consistency::{Consistency, consistency};
+pub use consistency::{Consistency, Majority, consistency};
 pub use davidson::{Davidson, davidson};
 pub use deviance::Deviance;
 pub use mean_ranks::{Asymmetry, Correct, MeanRanks, RankTrial};

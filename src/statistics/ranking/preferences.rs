@@ -118,6 +118,31 @@ impl Preferences {
         Ok(())
     }
 
+    /// All comparisons of several together, of as many items each.
+    ///
+    /// # Errors
+    /// None, or other numbers of items.
+    pub fn together<'a>(all: impl IntoIterator<Item = &'a Self>) -> Computed<Self> {
+        let mut all = all.into_iter();
+        let first = all.next();
+        let mut sum = first
+            .cloned()
+            .ok_or_else(|| Undefined::because("no comparisons"))?;
+        for one in all {
+            if one.n_items != sum.n_items {
+                let reason = format!("{} items beside {}", one.n_items, sum.n_items);
+                return Err(Undefined::because(reason));
+            }
+            let pairs = [(&mut sum.wins, &one.wins), (&mut sum.ties, &one.ties)];
+            for (counts, more) in pairs {
+                for (count, more) in counts.iter_mut().zip(more) {
+                    *count += more;
+                }
+            }
+        }
+        Ok(sum)
+    }
+
     /// Number of items.
     pub fn n_items(&self) -> usize {
         self.n_items
@@ -309,6 +334,18 @@ mod tests {
         assert_eq!(table.clone(), counted.clone().without_ties());
         assert_eq!(table.with_ties(&[vec![0, 1], vec![1, 0]])?, counted);
         assert_eq!((counted.n_comparisons(), counted.n_ties()), (2, 1));
+        Ok(())
+    }
+
+    #[test]
+    fn comparisons_of_several_add_up() -> Computed<()> {
+        let mut one = Preferences::new(3);
+        one.prefer(0, 1)?;
+        one.tie(1, 2)?;
+        let both = Preferences::together([&one, &one])?;
+        assert_eq!((both.wins(0, 1), both.ties(2, 1)), (2, 2));
+        assert!(Preferences::together([&one, &Preferences::new(2)]).is_err());
+        assert!(Preferences::together([]).is_err(), "nothing");
         Ok(())
     }
 

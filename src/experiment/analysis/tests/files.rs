@@ -26,7 +26,22 @@ fn is_picture(file: &str) -> bool {
 
 fn check_files(found: &[Found], name: &str) {
     let folder = Scratch::new(name);
-    analysed(found).write(&folder.0).unwrap();
+    let analysis = analysed(found);
+    for section in &analysis.sections {
+        let tables = section.tables.iter().map(|table| table.key.as_str());
+        let figures = section.figures.iter().map(|figure| figure.key.as_str());
+        let mut keys: Vec<&str> = tables.chain(figures).collect();
+        keys.sort_unstable();
+        let n_keys = keys.len();
+        keys.dedup();
+        assert_eq!(
+            keys.len(),
+            n_keys,
+            "one file for two: {} {keys:?}",
+            section.key
+        );
+    }
+    analysis.write(&folder.0).unwrap();
     let files = files_of(&folder.0);
     assert!(files.contains_key("index.md"), "{name}");
     for (file, bytes) in files.iter().filter(|(file, _)| !is_picture(file)) {

@@ -1,9 +1,12 @@
 //! Analyses of answers whose numbers are known beforehand.
 
+mod bad;
 mod choices;
 mod files;
+mod pairs;
 mod ranking;
 mod settings;
+mod speeds;
 
 use std::path::PathBuf;
 
@@ -22,6 +25,7 @@ fn few() -> Options {
         n_maps: 3,
         n_starts: 2,
         n_starts_on_a_line: 4,
+        n_random_data: 0,
         ..Options::default()
     }
 }

@@ -1,0 +1,192 @@
+//! What a judgement that finds nothing does say: equivalence, and what would have been found.
+
+use super::draw::{axis, scatter};
+use super::judgement_cells::differences_of_conditions;
+use super::kept::{Experiment, Subject};
+use super::map::undefined;
+use super::model::{Cell, Drawn, Section, Table};
+use crate::figure::{Series, Style};
+use crate::statistics::{Computed, Summary, power_of_t, tost};
+
+/// Bounds within which a difference of percentages counts as none, points.
+const BOUNDS_PERCENT: f64 = 10.0;
+const ALPHA: f64 = 0.05;
+/// The power that a study is usually asked for.
+const POWER: f64 = 0.8;
+
+/// Equivalence of what was answered to guessing and of conditions to each other, and the power of
+/// the t test of right answers.
+pub(super) fn section(experiment: &Experiment<'_>, percents: &[f64]) -> Section {
+    let title = format!("{}: equivalence and power", experiment.design.title);
+    let mut section = Section::new(experiment.key("power"), title);
+    section.note(format!(
+        "No difference found is not equivalence: two one-sided tests ask whether the share of \
+         right answers lies within 50 ± {BOUNDS_PERCENT} %, and whether conditions differ by less \
+         than {BOUNDS_PERCENT} points in how often they were called real. The interval of level \
+         90 % lies inside the bounds exactly when p < 0.05."
+    ));
+    section.tables.push(equivalence(experiment, percents));
+    let n_trials = trials(experiment);
+    let curve = Curve::of(percents, &n_trials);
+    section.note(curve.told(percents.len()));
+    section.tables.push(curve.table());
+    section.figures.extend(curve.drawn(experiment));
+    section
+}
+
+fn equivalence(experiment: &Experiment<'_>, percents: &[f64]) -> Table {
+    let columns = [
+        ("what", "of what"),
+        ("n", "n"),
+        ("mean_percent", "mean, %"),
+        ("low_percent", "bounds from"),
+        ("high_percent", "to"),
+        ("t_low", "t against the lower"),
+        ("t_high", "against the upper"),
+        ("df", "df"),
+        ("p", "p"),
+        ("ci_low_percent", "90 % CI from"),
+        ("ci_high_percent", "to"),
+        ("power", "power if it lay midway"),
+    ];
+    let title = "Equivalence (two one-sided tests)";
+    let mut table = Table::new("equivalence", title, &columns);
+    let mut enter = |what: &str, values: &[f64], middle: f64| {
+        let bounds = [middle - BOUNDS_PERCENT, middle + BOUNDS_PERCENT];
+        let mut row = vec![Cell::from(what), values.len().into()];
+        match Summary::of(values).and_then(|s| tost(&s, bounds, ALPHA)) {
+            Ok(found) => {
+                row.extend([found.mean, bounds[0], bounds[1]].map(Cell::from));
+                row.extend([found.t[0], found.t[1], found.df, found.p].map(Cell::from));
+                row.extend([found.interval.low, found.interval.high].map(Cell::from));
+                row.push(Cell::of(&found.power));
+            }
+            Err(why) => row.extend(undefined(&why, 10)),
+        }
+        table.push(row);
+    };
+    enter("right, %", percents, 50.0);
+    for (what, differences) in differences_of_conditions(experiment) {
+        enter(&what, &differences, 0.0);
+    }
+    table
+}
+
+/// Judgements of every subject.
+fn trials(experiment: &Experiment<'_>) -> Vec<f64> {
+    let of = |subject: &Subject<'_>| {
+        let judged = subject.trials().filter(|r| r.is_correct.is_some());
+        judged.count() as f64
+    };
+    experiment.subjects.iter().map(of).collect()
+}
+
+/// The power of the two-sided t test of right answers against 50 %, by the true share.
+struct Curve {
+    /// 50 … 100 %.
+    shares: Vec<f64>,
+    /// With the spread of subjects as it is.
+    as_seen: Vec<Computed>,
+    /// If subjects were alike, and only the chance of each trial spread them.
+    alike: Vec<Computed>,
+    n_trials: Computed,
+}
+
+impl Curve {
+    fn of(percents: &[f64], n_trials: &[f64]) -> Self {
+        let shares: Vec<f64> = (50..=100).map(f64::from).collect();
+        let (n, df) = (percents.len() as f64, percents.len() as f64 - 1.0);
+        let sd = Summary::of(percents).map(|summary| summary.sd);
+        let mean_trials = crate::statistics::mean(n_trials);
+        let power = |share: f64, sd: f64| {
+            let errors = (share - 50.0) / (sd / n.sqrt());
+            power_of_t(errors.clamp(0.0, 40.0), df, ALPHA)
+        };
+        let as_seen = |share: &f64| match &sd {
+            Ok(sd) if *sd > 0.0 => power(*share, *sd),
+            Ok(_) => Err(crate::statistics::Undefined::because(
+                "subjects do not vary",
+            )),
+            Err(why) => Err(why.clone()),
+        };
+        let alike = |share: &f64| {
+            let n_trials = mean_trials.clone()?;
+            // At 100 % nothing spreads: half a trial is kept.
+            let p = (share / 100.0).min(1.0 - 0.5 / n_trials);
+            power(*share, 100.0 * (p * (1.0 - p) / n_trials).sqrt())
+        };
+        Self {
+            as_seen: shares.iter().map(as_seen).collect(),
+            alike: shares.iter().map(alike).collect(),
+            n_trials: mean_trials,
+            shares,
+        }
+    }
+
+    /// The smallest true share that is found often enough.
+    fn found_from(&self, powers: &[Computed]) -> Option<f64> {
+        let is_enough = |power: &Computed| power.as_ref().is_ok_and(|power| *power >= POWER);
+        powers.iter().position(is_enough).map(|at| self.shares[at])
+    }
+
+    fn told(&self, n_subjects: usize) -> String {
+        let share = |powers: &[Computed]| match self.found_from(powers) {
+            Some(share) => format!("{share} %"),
+            None => "no share".to_owned(),
+        };
+        let n_trials = match &self.n_trials {
+            Ok(n) => crate::quantity::fixed(*n, 0),
+            Err(_) => "no".to_owned(),
+        };
+        format!(
+            "With {n_subjects} subjects of {n_trials} trials the t test against 50 % finds {} or \
+             more right with a probability of 80 %, subjects spread as they are; {} if only the \
+             chance of each trial spread them.",
+            share(&self.as_seen),
+            share(&self.alike)
+        )
+    }
+
+    fn table(&self) -> Table {
+        let columns = [
+            ("true_percent", "true share right, %"),
+            ("power_as_seen", "power, spread as seen"),
+            ("power_alike", "power, subjects alike"),
+        ];
+        let title = "Power of the two-sided t test against 50 % at 0.05";
+        let mut table = Table::new("power", title, &columns);
+        for ((share, seen), alike) in self.shares.iter().zip(&self.as_seen).zip(&self.alike) {
+            table.push([(*share).into(), Cell::of(seen), Cell::of(alike)]);
+        }
+        table
+    }
+
+    fn drawn(&self, experiment: &Experiment<'_>) -> Option<Drawn> {
+        let line = |name: &str, powers: &[Computed], style: Style| {
+            let all = self.shares.iter().zip(powers);
+            let points = all.filter_map(|(share, power)| Some([*share, *power.as_ref().ok()?]));
+            Series {
+                name: name.to_owned(),
+                points: points.collect(),
+                style,
+                ..Series::default()
+            }
+        };
+        let series = vec![
+            line("subjects spread as seen", &self.as_seen, Style::Line),
+            line("subjects alike", &self.alike, Style::Dashed),
+        ];
+        let series: Vec<Series> = series
+            .into_iter()
+            .filter(|s| !s.points.is_empty())
+            .collect();
+        if series.is_empty() {
+            return None;
+        }
+        let mut axes = [axis("true share right, %"), axis("power at 0.05")];
+        axes[0].range = Some([50.0, 100.0]);
+        axes[1].range = Some([0.0, 1.0]);
+        let title = format!("{}: power against guessing", experiment.design.title);
+        Some(scatter("power-curve", &title, axes, series))
+    }
+}

@@ -1,0 +1,215 @@
+//! How much a map hangs on what answers count: the design's weights against others and against
+//! Craven's distances.
+
+use super::Options;
+use super::kept::Experiment;
+use super::map::{Mapping, undefined};
+use super::model::{Cell, Section, Table};
+use super::odd_one_out::weights;
+use super::odd_one_out_craven::Craven;
+use crate::numerics::Random;
+use crate::progress::{Cancelled, Progress};
+use crate::statistics::mds::{Dissimilarities, Map, Mds};
+use crate::statistics::procrustes::{Procrustes, protest};
+use crate::statistics::ranking::{GradeWeights, OddOneOut, TriadAnswer};
+use crate::statistics::{Computed, Ranks, pearson_r};
+
+/// Weights of easy, normal and hard that maps are tried with besides the design's.
+const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
+
+/// One way to take distances.
+struct Variant {
+    told: String,
+    n_ceiling: usize,
+    n_floor: usize,
+    values: Vec<Option<f64>>,
+}
+
+impl Variant {
+    fn weighted(found: &OddOneOut) -> Self {
+        let GradeWeights { easy, normal, hard } = found.weights;
+        Self {
+            told: format!("weights {easy} / {normal} / {hard}"),
+            n_ceiling: found.n_ceiling,
+            n_floor: found.n_floor,
+            values: if found.is_balanced() {
+                found.distances()
+            } else {
+                found.mean_weights()
+            },
+        }
+    }
+
+    /// Its maps on a line and in the plane, the same way as the design's.
+    fn maps(
+        &self,
+        names: &[String],
+        mds: &Mds,
+        progress: &mut Progress<'_>,
+    ) -> Result<Computed<Vec<Map>>, Cancelled> {
+        let data = match Dissimilarities::new(names.to_vec(), &self.values) {
+            Ok(data) => data,
+            Err(why) => return Ok(Err(why)),
+        };
+        mds.maps(&data, 1..=2, progress).map(Ok)
+    }
+}
+
+const VARIANTS: [(&str, &str); 12] = [
+    ("distances", "distances by"),
+    ("ceiling", "pairs at the ceiling"),
+    ("floor", "at the floor"),
+    ("pairs", "pairs"),
+    ("spearman", "rank correlation with the design's"),
+    ("stress1_line", "stress-1 on a line"),
+    ("m2_line", "m² against the design's line"),
+    ("p_line", "PROTEST p"),
+    ("stress1_plane", "stress-1 in the plane"),
+    ("m2_plane", "m² against the design's plane"),
+    ("p_plane", "PROTEST p"),
+    ("remark", "remark"),
+];
+
+/// Distances by other weights and by Craven beside the design's, and their maps laid over its map.
+///
+/// # Errors
+/// It was cancelled.
+pub(super) fn section(
+    (experiment, mapping): (&Experiment<'_>, &Mapping<'_>),
+    (found, all, craven): (&OddOneOut, &[TriadAnswer], &Craven),
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Section, Cancelled> {
+    let title = format!("{}: maps by other distances", experiment.design.title);
+    let mut section = Section::new(experiment.key("variants"), title);
+    section.note(
+        "What easy, normal and hard count is arbitrary; so each map is laid over the design's by \
+         Procrustes (moved, turned, mirrored, scaled). m² is what is left over, 0 for maps alike \
+         and 1 for nothing in common; PROTEST's p is how often items dealt anew fit as well.",
+    );
+    if found.is_balanced() {
+        section.note(
+            "Every pair was asked as often, so Craven's distances are in the order of weights \
+             1 / 1 / 1: a map by order alone is the same.",
+        );
+    }
+    let mds = mapping.mds(options);
+    let names = &mapping.names;
+    let own = Variant::weighted(found);
+    let own_maps = own.maps(names, &mds, progress)?;
+    let mut table = Table::new("variants", "Maps by other distances", &VARIANTS);
+    let mut places = Table::new("coordinates", "Plane maps, laid over the design's", &PLACES);
+    table.push(own.row(&own, (&own_maps, None), options));
+    enter(&mut places, &own.told, names, &plane(&own_maps));
+    for variant in variants(names.len(), all, craven) {
+        let maps = variant.maps(names, &mds, progress)?;
+        table.push(variant.row(&own, (&maps, Some(&own_maps)), options));
+        let laid = plane(&maps).and_then(|map| {
+            let over = plane(&own_maps)?;
+            Ok(Procrustes::of(&map, &over)?.moved)
+        });
+        enter(&mut places, &variant.told, names, &laid);
+    }
+    section.tables.push(table);
+    if !places.rows.is_empty() {
+        section.tables.push(places);
+    }
+    Ok(section)
+}
+
+fn variants(n_items: usize, all: &[TriadAnswer], craven: &Craven) -> Vec<Variant> {
+    let weighted = |other: [f64; 3]| OddOneOut::of(n_items, all, weights(other)).ok();
+    let others = OTHER_WEIGHTS.into_iter().filter_map(weighted);
+    let mut variants: Vec<Variant> = others.map(|found| Variant::weighted(&found)).collect();
+    variants.push(Variant {
+        told: "Craven's d′".to_owned(),
+        n_ceiling: craven.n_ceiling,
+        n_floor: craven.n_floor,
+        values: craven.distances.clone(),
+    });
+    variants
+}
+
+type Maps = Computed<Vec<Map>>;
+
+fn plane(maps: &Maps) -> Computed<Vec<Vec<f64>>> {
+    of_dims(maps, 2).map(|map| map.points.clone())
+}
+
+fn of_dims(maps: &Maps, dims: usize) -> Computed<&Map> {
+    let maps = maps.as_ref().map_err(Clone::clone)?;
+    let found = maps.iter().find(|map| map.dims == dims);
+    found.ok_or_else(|| crate::statistics::Undefined::because("no map in so many dimensions"))
+}
+
+impl Variant {
+    /// `own_maps` are the design's; `None` for the design itself.
+    fn row(
+        &self,
+        own: &Self,
+        (maps, own_maps): (&Maps, Option<&Maps>),
+        options: &Options,
+    ) -> Vec<Cell> {
+        let both = own.values.iter().zip(&self.values);
+        let both: Vec<[f64; 2]> = both.filter_map(|(a, b)| Some([(*a)?, (*b)?])).collect();
+        let rank = |at: usize| Ranks::of(&both.iter().map(|d| d[at]).collect::<Vec<f64>>()).ranks;
+        let n_pairs = self.values.iter().flatten().count() / 2;
+        let mut row = vec![
+            Cell::from(self.told.as_str()),
+            self.n_ceiling.into(),
+            self.n_floor.into(),
+            n_pairs.into(),
+        ];
+        row.push(match own_maps {
+            None => Cell::none("the design's own"),
+            Some(_) => Cell::of(&pearson_r(&rank(0), &rank(1))),
+        });
+        for dims in [1, 2] {
+            row.push(Cell::of(&of_dims(maps, dims).map(|map| map.stress1)));
+            row.extend(match own_maps {
+                None => [(); 2].map(|()| Cell::none("the design's own")).into(),
+                Some(own_maps) => laid(of_dims(maps, dims), of_dims(own_maps, dims), options),
+            });
+        }
+        row.push(match maps {
+            Ok(_) => "".into(),
+            Err(why) => format!("no map: {}", why.reason).into(),
+        });
+        row
+    }
+}
+
+/// m² of a map against the design's, and its p.
+fn laid(map: Computed<&Map>, own: Computed<&Map>, options: &Options) -> Vec<Cell> {
+    let (map, own) = match (map, own) {
+        (Ok(map), Ok(own)) => (map, own),
+        (Err(why), _) | (_, Err(why)) => return undefined(&why, 2),
+    };
+    let mut random = Random::new(options.seed).branch("maps by chance");
+    let found = Procrustes::of(&map.points, &own.points);
+    let p = protest(
+        &map.points,
+        &own.points,
+        options.n_permutations,
+        &mut random,
+    );
+    vec![Cell::of(&found.map(|found| found.m2)), Cell::of(&p)]
+}
+
+const PLACES: [(&str, &str); 4] = [
+    ("distances", "distances by"),
+    ("item", "fabric"),
+    ("x1", "x₁"),
+    ("x2", "x₂"),
+];
+
+fn enter(table: &mut Table, told: &str, names: &[String], points: &Computed<Vec<Vec<f64>>>) {
+    let Ok(points) = points else {
+        return;
+    };
+    for (name, point) in names.iter().zip(points) {
+        let mut row = vec![Cell::from(told), name.as_str().into()];
+        row.extend(point.iter().map(|x| Cell::from(*x)));
+        table.push(row);
+    }
+}

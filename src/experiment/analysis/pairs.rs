@@ -1,0 +1,266 @@
+//! Scales from comparisons of two, subject by subject: Bradley and Terry's, Thurstone's, and how
+//! consistent the comparisons are.
+
+use super::Options;
+use super::map::undefined;
+use super::model::{Cell, Section, Table, ends, tests};
+use crate::statistics::ranking::{
+    BradleyTerry, Estimate, Majority, Preferences, Prior, Scale, Thurstone, bradley_terry,
+    mosteller, thurstone,
+};
+use crate::statistics::{Computed, Outcome, Undefined, bootstrap_errors};
+
+/// Draws of subjects that errors over subjects follow from, at most.
+const MOST_DRAWS: usize = 200;
+
+/// Comparisons of two among some items.
+pub(super) struct Pairs<'a> {
+    names: &'a [String],
+    /// Of each subject, by name.
+    subjects: Vec<(&'a str, Preferences)>,
+}
+
+/// Draws of subjects for errors over subjects.
+pub(super) fn draws(options: &Options) -> (usize, u64) {
+    (options.n_resamples.clamp(20, MOST_DRAWS), options.seed)
+}
+
+/// What every section with such scales says of them.
+pub(super) const TOLD: &str = "Bradley and Terry's values are logits: the natural logarithm of \
+    the odds that one is preferred to the other is their difference. The unit of Thurstone's (Case \
+    V) is the standard deviation of the difference of two sensations; times √2 it is that of one, \
+    the unit of d′. Row means of z (Mosteller) are in the same unit. Scales have no zero of their \
+    own: values sum to 0.";
+
+const SCALES: [(&str, &str); 14] = [
+    ("item", "item"),
+    ("preferred", "preferred"),
+    ("compared", "of comparisons"),
+    ("bradley_terry", "Bradley & Terry, logits"),
+    ("bradley_terry_se", "SE, comparisons independent"),
+    ("bradley_terry_se_subjects", "SE over subjects"),
+    ("bradley_terry_ci_low", "95 % CI over subjects from"),
+    ("bradley_terry_ci_high", "to"),
+    ("thurstone", "Thurstone, sd of a difference"),
+    ("thurstone_se", "SE, comparisons independent"),
+    ("thurstone_se_subjects", "SE over subjects"),
+    ("thurstone_ci_low", "95 % CI over subjects from"),
+    ("thurstone_ci_high", "to"),
+    ("row_mean_z", "row mean of z"),
+];
+
+impl<'a> Pairs<'a> {
+    /// Of each subject.
+    ///
+    /// # Errors
+    /// The first subject's comparisons that are none.
+    pub(super) fn of(
+        names: &'a [String],
+        subjects: impl Iterator<Item = (&'a str, Computed<Preferences>)>,
+    ) -> Computed<Self> {
+        let subjects = subjects.map(|(name, own)| Ok((name, own?)));
+        Ok(Self {
+            names,
+            subjects: subjects.collect::<Computed<_>>()?,
+        })
+    }
+}
+
+impl Pairs<'_> {
+    /// Everything of them: scales, tests, consistency, with keys that begin so.
+    pub(super) fn tell(&self, key: &str, of: &str, options: &Options, section: &mut Section) {
+        let together = Preferences::together(self.subjects.iter().map(|(_, own)| own));
+        let all = match together {
+            Ok(all) if all.n_comparisons() > 0 => all,
+            _ => return section.note(format!("No scale of {of}: nothing was compared.")),
+        };
+        let (bt, th) = (self.bradley_terry(&all), self.thurstone(&all));
+        if let Err(why) = &bt {
+            section.note(format!("**No scale of {of}**: {}.", why.reason));
+        }
+        section
+            .tables
+            .push(self.scales(key, of, (&all, &bt, &th), options));
+        let found = tested(of, &bt, &th, &all);
+        let title = format!("Pairs of {of}: differences and fit");
+        section
+            .tables
+            .push(tests(&format!("{key}-tests"), &title, &found));
+        section.tables.push(self.consistency(key, of, &all));
+    }
+
+    /// What comparisons do not hang together is told by names.
+    fn check(&self, all: &Preferences) -> Computed<()> {
+        all.connection().check(|item| self.names[item].clone())
+    }
+
+    fn bradley_terry(&self, all: &Preferences) -> Computed<BradleyTerry> {
+        self.check(all)?;
+        bradley_terry(all, Prior::None)
+    }
+
+    fn thurstone(&self, all: &Preferences) -> Computed<Thurstone> {
+        self.check(all)?;
+        thurstone(all)
+    }
+
+    /// Errors of the values that a model has, over draws of subjects.
+    fn errors(
+        &self,
+        model: impl Fn(&Preferences) -> Computed<Vec<f64>>,
+        options: &Options,
+    ) -> Computed<Vec<f64>> {
+        let of_drawn = |drawn: &[usize]| {
+            let all = Preferences::together(drawn.iter().map(|at| &self.subjects[*at].1))?;
+            model(&all)
+        };
+        bootstrap_errors(self.subjects.len(), of_drawn, draws(options))
+    }
+
+    fn scales(
+        &self,
+        key: &str,
+        of: &str,
+        (all, bt, th): (&Preferences, &Computed<BradleyTerry>, &Computed<Thurstone>),
+        options: &Options,
+    ) -> Table {
+        let bt_errors = bt.clone().and_then(|_| {
+            let values = |all: &Preferences| Ok(self.bradley_terry(all)?.scale.values);
+            self.errors(values, options)
+        });
+        let th_errors = th.clone().and_then(|_| {
+            let values = |all: &Preferences| Ok(self.thurstone(all)?.scale.values);
+            self.errors(values, options)
+        });
+        let z = mosteller(all);
+        let title = format!("Pairs of {of}: scales of how often each was preferred");
+        let mut table = Table::new(&format!("{key}-scales"), &title, &SCALES);
+        for (item, name) in self.names.iter().enumerate() {
+            let count =
+                |wins: &dyn Fn(usize) -> u64| -> u64 { (0..self.names.len()).map(wins).sum() };
+            let won = count(&|other| all.wins(item, other));
+            let lost = count(&|other| all.wins(other, item));
+            let mut row = vec![Cell::from(name.as_str()), won.into(), (won + lost).into()];
+            row.extend(of_scale(bt.as_ref().map(|m| &m.scale), &bt_errors, item));
+            row.extend(of_scale(th.as_ref().map(|m| &m.scale), &th_errors, item));
+            row.push(match &z {
+                Ok(found) => found.values[item].into(),
+                Err(why) => Cell::none(&why.reason),
+            });
+            table.push(row);
+        }
+        table
+    }
+
+    fn consistency(&self, key: &str, of: &str, all: &Preferences) -> Table {
+        let columns = [
+            ("subject", "subject"),
+            ("pairs", "pairs compared"),
+            ("undecided", "as often either way"),
+            ("triads", "triads of decided pairs"),
+            ("circular", "circular"),
+            ("circular_percent", "%, 25 by chance"),
+            ("zeta", "Kendall's ζ"),
+            ("p", "p of as few by chance"),
+        ];
+        let title = format!("Pairs of {of}: circular triads, each pair by majority");
+        let mut table = Table::new(&format!("{key}-consistency"), &title, &columns);
+        let all = std::iter::once(("all together", all));
+        for (name, own) in self
+            .subjects
+            .iter()
+            .map(|(name, own)| (*name, own))
+            .chain(all)
+        {
+            let found = Majority::of(own);
+            let share = if found.n_triads > 0 {
+                (100.0 * found.n_circular as f64 / found.n_triads as f64).into()
+            } else {
+                Cell::none("no triad is decided")
+            };
+            let mut row = vec![
+                Cell::from(name),
+                found.n_pairs.into(),
+                found.n_undecided.into(),
+                found.n_triads.into(),
+                found.n_circular.into(),
+                share,
+            ];
+            let why = "asks for every pair, decided, of three items or more";
+            row.extend(match &found.consistency {
+                Ok(whole) => [whole.zeta, whole.p_of_chance].map(Cell::from),
+                Err(_) => [(); 2].map(|()| Cell::none(why)),
+            });
+            table.push(row);
+        }
+        table
+    }
+}
+
+/// A value, its error by curvature, its error over subjects, and the interval of that.
+fn of_scale(
+    scale: Result<&Scale, &Undefined>,
+    errors: &Computed<Vec<f64>>,
+    item: usize,
+) -> Vec<Cell> {
+    let scale = match scale {
+        Ok(scale) => scale,
+        Err(why) => return undefined(why, 5),
+    };
+    let own = scale.centred()[item];
+    let mut cells = vec![own.value.into(), own.se.into()];
+    cells.extend(over_subjects(own.value, errors, item));
+    cells
+}
+
+/// The error of a value over subjects and the interval by it.
+pub(super) fn over_subjects(value: f64, errors: &Computed<Vec<f64>>, at: usize) -> Vec<Cell> {
+    match errors {
+        Ok(errors) => {
+            let se = errors[at];
+            let mut cells = vec![Cell::from(se)];
+            cells.extend(ends(&Estimate { value, se }.interval(0.95)));
+            cells
+        }
+        Err(why) => undefined(why, 3),
+    }
+}
+
+fn tested(
+    of: &str,
+    bt: &Computed<BradleyTerry>,
+    th: &Computed<Thurstone>,
+    all: &Preferences,
+) -> Vec<(String, Computed<Outcome>)> {
+    let bt = bt
+        .as_ref()
+        .map(|model| model.deviance)
+        .map_err(Clone::clone);
+    let th = th
+        .as_ref()
+        .map(|model| model.deviance)
+        .map_err(Clone::clone);
+    let independent = |outcome: Computed<Outcome>| {
+        outcome.map(|mut outcome| {
+            outcome
+                .notes
+                .push("takes comparisons for independent".to_owned());
+            outcome
+        })
+    };
+    let all = [
+        (
+            "Bradley & Terry, do they differ",
+            bt.clone().and_then(|d| d.against_equal()),
+        ),
+        ("Bradley & Terry, fit", bt.and_then(|d| d.goodness_of_fit())),
+        ("Thurstone, fit", th.and_then(|d| d.goodness_of_fit())),
+        (
+            "row means of z, fit",
+            mosteller(all).and_then(|found| found.fit),
+        ),
+    ];
+    all.into_iter()
+        .map(|(what, outcome)| (format!("{of}: {what}"), independent(outcome)))
+        .collect()
+}
