@@ -40,6 +40,7 @@ fn on_disk(lab: &Lab, nth: usize, n_trials: usize, is_right: fn(usize) -> bool) 
             apparatus: Apparatus::default(),
             note: "",
             path: None,
+            samples: &[],
         };
         session.answer(&answer, &circumstances).unwrap();
     }
@@ -166,4 +167,16 @@ fn an_interrupted_analysis_writes_nothing_and_has_failed() {
         "{outcome:?}"
     );
     assert!(!lab.path("found").exists(), "nothing half done");
+}
+
+#[test]
+fn tables_are_never_written_among_the_logs() {
+    let lab = Lab::new();
+    on_disk(&lab, 0, 10, |number| number % 3 > 0);
+    let told = lab.refuse(&["experiment", "analyse", "logs", "--out", "logs"]);
+    assert!(
+        told.contains("another folder, such as logs/analysis"),
+        "{told}"
+    );
+    assert!(!lab.path("logs/index.md").exists());
 }

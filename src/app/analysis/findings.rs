@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::Asked;
 use crate::app::experiment::title_of;
-use crate::experiment::analysis::{Analysis, analyse};
-use crate::experiment::session::{Found, find};
+use crate::experiment::analysis::{Analysis, analyse_with_unread, sessions};
+use crate::experiment::session::Found;
 use crate::progress::Progress;
 
 /// What was found, and of what.
@@ -50,7 +50,7 @@ impl Findings {
 /// window holds.
 ///
 /// # Errors
-/// One line: there is no such folder, it holds no session, a log cannot be read, or it was stopped.
+/// One line: there is no such folder, it holds no session that can be read, or it was stopped.
 pub(crate) fn find_out(
     asked: Asked,
     held: Option<&Path>,
@@ -61,14 +61,7 @@ pub(crate) fn find_out(
         let folder = folder.display();
         return Err(format!("there is no folder {folder}; check the path"));
     }
-    let mut found = find(folder).map_err(|error| error.to_string())?;
-    if found.is_empty() {
-        return Err(format!(
-            "{} holds no session; choose the folder with the logs and the .json file beside each \
-             of them",
-            folder.display()
-        ));
-    }
+    let (mut found, unread) = sessions(folder).map_err(|error| error.to_string())?;
     let left_out = if asked.choice.with_held {
         Vec::new()
     } else {
@@ -81,8 +74,8 @@ pub(crate) fn find_out(
             left_out.join(", ")
         ));
     }
-    let analysis =
-        analyse(&found, &asked.options(), progress).map_err(|error| error.to_string())?;
+    let analysis = analyse_with_unread(&found, &unread, &asked.options(), progress)
+        .map_err(|error| error.to_string())?;
     Ok(Findings {
         analysis,
         n_sessions: found.len(),

@@ -8,7 +8,7 @@ use super::noise::NOISE_FILE;
 use super::who::Who;
 use crate::app::task::Task;
 use crate::experiment::design::{Design, Subject, is_name};
-use crate::experiment::session::{Found, find, log_path};
+use crate::experiment::session::{Found, find_readable, log_path};
 use crate::experiment::{Course, Participant, Participants};
 
 /// Which design is taken.
@@ -75,6 +75,8 @@ pub(crate) struct Form {
     pub(crate) failure: Option<String>,
     /// The sessions of the folder, as far as they were listed.
     pub(crate) found: Vec<Row>,
+    /// Its logs that cannot be read, a line each.
+    pub(crate) unread: Vec<String>,
     /// Who took part there, as far as that was listed.
     pub(crate) participants: Participants,
     /// Whether a masking noise lies there.
@@ -90,6 +92,8 @@ pub(crate) struct Form {
 pub(crate) struct Listed {
     /// Its sessions.
     pub(crate) found: Vec<Row>,
+    /// Its logs that cannot be read, a line each.
+    pub(crate) unread: Vec<String>,
     /// Its table of participants.
     pub(crate) participants: Participants,
     /// Whether a masking noise was written there.
@@ -121,6 +125,7 @@ impl Default for Form {
             folder: String::new(),
             failure: None,
             found: Vec::new(),
+            unread: Vec::new(),
             participants: Participants::default(),
             has_noise: false,
             listing: None,
@@ -206,6 +211,7 @@ impl Form {
     /// Takes what a folder holds.
     pub(crate) fn take_listed(&mut self, listed: Listed) {
         self.found = listed.found;
+        self.unread = listed.unread;
         self.participants = listed.participants;
         self.has_noise = listed.has_noise;
         self.who.leave_table();
@@ -275,8 +281,10 @@ pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
         return Err(format!("there is no folder {folder}; check the path"));
     }
     let told = |error: crate::experiment::ExperimentError| error.to_string();
+    let (found, unread) = find_readable(folder).map_err(told)?;
     Ok(Listed {
-        found: find(folder).map_err(told)?.into_iter().map(row).collect(),
+        found: found.into_iter().map(row).collect(),
+        unread: unread.into_iter().map(|one| told(one.error)).collect(),
         participants: Participants::read(folder).map_err(told)?,
         has_noise: folder.join(NOISE_FILE).is_file(),
     })

@@ -1,6 +1,6 @@
 //! `selvedge experiment analyse`: tables, tests and figures from the logs in a folder.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -36,6 +36,14 @@ pub(in crate::cli) struct AnalyseArgs {
 
 /// Analyses the logs, and writes what was found.
 pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
+    let same = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    if same(&args.out) == same(&args.logs) {
+        return Err(CliError::Input(format!(
+            "tables beside the logs in {} would be taken for logs; give another folder, such as {}",
+            args.logs.display(),
+            args.logs.join("analysis").display()
+        )));
+    }
     let options = Options {
         seed: args.seed,
         n_permutations: usize::try_from(args.permutations).unwrap_or(usize::MAX),

@@ -121,20 +121,42 @@ pub fn analyse_folder(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
+    let (found, unread) = sessions(folder)?;
+    analyse_with_unread(&found, &unread, options, progress)
+}
+
+/// The sessions of a folder, and its logs that cannot be read.
+///
+/// # Errors
+/// The folder or all of its logs cannot be read, or there are no sessions.
+pub fn sessions(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
     let (found, unread) = session::find_readable(folder)?;
-    if found.is_empty() {
-        let none = || {
-            ExperimentError::value(
-                format!("{} holds no session", folder.display()),
-                "name a folder with logs and the .json file beside each of them",
-            )
-        };
-        let first = unread.into_iter().next();
-        return Err(first.map_or_else(none, |first| first.error));
+    if !found.is_empty() {
+        return Ok((found, unread));
     }
-    let mut analysis = analyse(&found, options, progress)?;
+    let none = || {
+        ExperimentError::value(
+            format!("{} holds no session", folder.display()),
+            "name a folder with logs and the .json file beside each of them",
+        )
+    };
+    let first = unread.into_iter().next();
+    Err(first.map_or_else(none, |first| first.error))
+}
+
+/// Likewise, of sessions that were found beside logs that cannot be read.
+///
+/// # Errors
+/// It was cancelled.
+pub fn analyse_with_unread(
+    found: &[Found],
+    unread: &[Unread],
+    options: &Options,
+    progress: &mut Progress<'_>,
+) -> Result<Analysis, ExperimentError> {
+    let mut analysis = analyse(found, options, progress)?;
     if !unread.is_empty() {
-        analysis.sections.insert(0, left_out(&unread));
+        analysis.sections.insert(0, left_out(unread));
     }
     Ok(analysis)
 }

@@ -123,5 +123,5 @@ fn a_folder_without_sessions_says_what_to_do_in_one_line() {
     let scene = Folder::new("no-sessions");
     let mut harness = in_front(&scene, &lab.path(""));
     click(&mut harness, "Analyse");
-    harness.get_by_label_contains("holds no session; choose the folder with the logs");
+    harness.get_by_label_contains("holds no session; name a folder with logs");
 }

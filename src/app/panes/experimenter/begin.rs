@@ -154,7 +154,10 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
     for found in &form.found {
         show_row(ui, found, is_busy, wishes);
     }
-    if form.found.is_empty() {
+    for line in &form.unread {
+        note(ui, line, Tone::Wrong);
+    }
+    if form.found.is_empty() && form.unread.is_empty() {
         let words = "There is none yet. One that was interrupted is resumed from here.";
         note(ui, words, Tone::Quiet);
     }

@@ -29,6 +29,7 @@ fn on_disk(folder: &Scratch, n_trials: &[usize]) -> Vec<PathBuf> {
                 apparatus: Apparatus::default(),
                 note: "",
                 path: None,
+                samples: &[],
             };
             session.answer(&answer, &told).unwrap();
         }
