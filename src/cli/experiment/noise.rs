@@ -26,7 +26,12 @@ pub(in crate::cli) struct NoiseArgs {
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// Fade in and out for so long, for a file that is played once
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     fade_s: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Real or generated (Cai et al. 2021, phase 2): what is called real, and its analysis of variance.
 
-use super::studies::{Spread, Studies, Subjects, percent_right, planned};
-use super::{Comparison, Kind, Laid, Options, Replication, by_levels, guessing, printed};
+use super::studies::{Studies, Subjects, percent_right};
+use super::{Kind, Laid, Options, Replication, by_levels, guessing, printed};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, judged};
 use crate::experiment::design::Design;
@@ -48,12 +48,7 @@ pub(super) fn section(
     let title = "How often the analysis of variance finds the signal";
     let mut table = Table::new("power", title, &columns);
     for (nth, kind) in [guessing(), by_levels()].into_iter().enumerate() {
-        let studies = Studies {
-            laid,
-            observer: kind.observer,
-            size: (planned(&laid.design), 1),
-            seed: options.seed,
-        };
+        let studies = Studies::of(laid, kind.observer, 1, options);
         let n = options.n_studies;
         let part = [0.5 * nth as f64, 0.5 * (nth + 1) as f64];
         let found = progress.within(part, |part| {
@@ -138,15 +133,6 @@ fn compare(found: &[Found], kind: &Kind, all: &mut Replication) {
         rows.push((quantity, Some(value), f()));
     }
     for (quantity, printed, values) in rows {
-        if let Ok(obtained) = Spread::of(&values) {
-            all.comparisons.push(Comparison {
-                paper: PAPER,
-                quantity,
-                printed,
-                observer: kind.told,
-                assumed: kind.assumed,
-                obtained,
-            });
-        }
+        all.add((PAPER, kind), (&quantity, printed), &values);
     }
 }

@@ -1,8 +1,8 @@
 //! The map of experiment 2 of Philpott & Summers 2012, turned to the levels of both bands.
 
 use super::ranking::VIRTUAL;
-use super::studies::{Spread, Studies, Subjects, planned};
-use super::{Comparison, Kind, Laid, Options, Replication, by_levels, practised, printed};
+use super::studies::{Studies, Subjects};
+use super::{Kind, Laid, Options, Replication, by_levels, practised, printed};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, rank_trial};
 use crate::experiment::observer::Jnd;
@@ -46,7 +46,7 @@ pub(super) fn section(
          at 100 mm/s.",
     );
     for (nth, kind) in [by_levels(), practised()].into_iter().enumerate() {
-        let studies = studies(laid, &kind, options);
+        let studies = Studies::of(laid, kind.observer, 1, options);
         let n = options.n_maps;
         let mds = mds(Loss::SStress, Ties::Secondary, N_STARTS);
         let part = [0.45 * nth as f64, 0.45 * (nth + 1) as f64];
@@ -65,9 +65,8 @@ pub(super) fn section(
         let found: Vec<Mapped> = found.into_iter().flatten().collect();
         compare(&found, &kind, all);
     }
-    let kind = by_levels();
     progress.step(0.9, "one study by every loss and rule for ties")?;
-    let studies = studies(laid, &kind, options);
+    let studies = Studies::of(laid, by_levels().observer, 1, options);
     let one = unheard(|progress| studies.each((1, ""), progress, rank_trials))?;
     let trials: Vec<RankTrial> = one.into_iter().flatten().collect();
     section.tables.push(by_loss(&trials, laid));
@@ -77,15 +76,6 @@ pub(super) fn section(
          they felt it less well, or went by something else too.",
     );
     Ok(section)
-}
-
-fn studies<'a>(laid: &'a Laid, kind: &Kind, options: &Options) -> Studies<'a> {
-    Studies {
-        laid,
-        observer: kind.observer,
-        size: (planned(&laid.design), 1),
-        seed: options.seed,
-    }
 }
 
 fn rank_trials(subjects: &Subjects) -> Vec<RankTrial> {
@@ -142,16 +132,7 @@ fn compare(found: &[Mapped], kind: &Kind, all: &mut Replication) {
     ];
     for (quantity, printed, of) in rows {
         let values: Vec<f64> = found.iter().map(of).collect();
-        if let Ok(obtained) = Spread::of(&values) {
-            all.comparisons.push(Comparison {
-                paper: VIRTUAL,
-                quantity: quantity.to_owned(),
-                printed,
-                observer: kind.told,
-                assumed: kind.assumed,
-                obtained,
-            });
-        }
+        all.add((VIRTUAL, kind), (quantity, printed), &values);
     }
 }
 

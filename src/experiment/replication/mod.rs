@@ -1,4 +1,4 @@
-//! The papers' experiments once more, by simulated observers: what is printed beside what comes out.
+//! The papers' experiments once more, by simulated observers: printed beside what comes out.
 //!
 //! ```text
 //! shipped designs ─▶ many studies of simulated observers ─▶ Comparison (printed, obtained)
@@ -98,6 +98,28 @@ pub struct Replication {
     pub sweeps: Vec<(String, Plot)>,
     /// All of it, to be read.
     pub analysis: Analysis,
+}
+
+impl Replication {
+    /// Adds what studies of a kind of observer came to, one number a study; nothing where fewer
+    /// than two studies have it.
+    fn add(
+        &mut self,
+        (paper, kind): (&'static str, &Kind),
+        (quantity, printed): (&str, Option<f64>),
+        values: &[f64],
+    ) {
+        if let Ok(obtained) = Spread::of(values) {
+            self.comparisons.push(Comparison {
+                paper,
+                quantity: quantity.to_owned(),
+                printed,
+                observer: kind.told,
+                assumed: kind.assumed,
+                obtained,
+            });
+        }
+    }
 }
 
 /// A kind of observer.

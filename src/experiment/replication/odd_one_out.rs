@@ -1,7 +1,7 @@
 //! The odd one of three (Allerkamp et al.): seven similar fabrics in three sessions.
 
-use super::studies::{Spread, Studies, Subjects, percent_right, planned};
-use super::{Comparison, Kind, Laid, Options, Replication, by_levels, guessing};
+use super::studies::{Studies, Subjects, percent_right, planned};
+use super::{Kind, Laid, Options, Replication, by_levels, guessing};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, grade_weights, triad_answer};
 use crate::experiment::design::{Design, Method};
@@ -74,12 +74,7 @@ pub(super) fn section(
     );
     let chance = progress.within([0.0, 0.4], |part| chance(laid, part))?;
     for (nth, kind) in [by_levels(), guessing()].into_iter().enumerate() {
-        let studies = Studies {
-            laid,
-            observer: kind.observer,
-            size: (planned(&laid.design), N_SESSIONS),
-            seed: options.seed,
-        };
+        let studies = Studies::of(laid, kind.observer, N_SESSIONS, options);
         let part = [0.4 + 0.3 * nth as f64, 0.7 + 0.3 * nth as f64];
         let found = progress.within(part, |part| {
             studies.each((options.n_maps, "triads"), part, |s| found(s, laid))
@@ -163,16 +158,7 @@ fn elbow(found: &Found, chance: &[Null]) -> Computed<Elbow> {
 fn compare(found: &[Found], elbows: &[Elbow], kind: &Kind, all: &mut Replication) {
     let mut add = |quantity: &str, printed: Option<f64>, values: Vec<f64>| {
         let finite: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
-        if let Ok(obtained) = Spread::of(&finite) {
-            all.comparisons.push(Comparison {
-                paper: PAPER,
-                quantity: quantity.to_owned(),
-                printed,
-                observer: kind.told,
-                assumed: kind.assumed,
-                obtained,
-            });
-        }
+        all.add((PAPER, kind), (quantity, printed), &finite);
     };
     let of = |of: &dyn Fn(&Found) -> f64| found.iter().map(of).collect::<Vec<f64>>();
     add("right answers, %", None, of(&|f| f.percent));

@@ -1,8 +1,8 @@
 //! Ranking against a target (Philpott & Summers 2012): identification with a virtual and with a
 //! real target, and how it changes with what is assumed.
 
-use super::studies::{Spread, Studies, Subjects, percent_right, planned};
-use super::{Comparison, Kind, Laid, Options, Replication, by_levels, guessing, practised};
+use super::studies::{Spread, Studies, Subjects, percent_right};
+use super::{Kind, Laid, Options, Replication, by_levels, guessing, practised};
 use super::{printed, printed_line};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, scatter};
@@ -56,12 +56,7 @@ impl Rankings<'_> {
         (n, doing): (usize, &str),
         progress: &mut Progress<'_>,
     ) -> Result<Vec<Found>, ExperimentError> {
-        let studies = Studies {
-            laid,
-            observer,
-            size: (planned(&laid.design), 1),
-            seed: self.options.seed,
-        };
+        let studies = Studies::of(laid, observer, 1, self.options);
         studies.each((n, doing), progress, found)
     }
 
@@ -148,28 +143,14 @@ impl Rankings<'_> {
             let found = progress.within(part, |part| {
                 self.studies(laid, kind.observer, (n, paper), part)
             })?;
-            let mut add = |quantity: &str, printed: Option<f64>, values: Vec<f64>| {
-                if let Ok(obtained) = Spread::of(&values) {
-                    all.comparisons.push(Comparison {
-                        paper,
-                        quantity: quantity.to_owned(),
-                        printed,
-                        observer: kind.told,
-                        assumed: kind.assumed,
-                        obtained,
-                    });
-                }
-            };
-            let means = found.iter().map(|study| study.0).collect();
             let is_printed = kind.observer.strategy != Strategy::None;
-            add(
-                printed.quantity,
-                is_printed.then_some(printed.percent),
-                means,
-            );
-            if let Some(se) = printed.se {
-                let errors = found.iter().map(|study| study.1).collect();
-                add("its standard error over subjects, %", Some(se), errors);
+            let shown = is_printed.then_some(printed.percent);
+            let means: Vec<f64> = found.iter().map(|study| study.0).collect();
+            all.add((paper, &kind), (printed.quantity, shown), &means);
+            if printed.se.is_some() {
+                let errors: Vec<f64> = found.iter().map(|study| study.1).collect();
+                let quantity = "its standard error over subjects, %";
+                all.add((paper, &kind), (quantity, printed.se), &errors);
             }
         }
         Ok(())

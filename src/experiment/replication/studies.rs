@@ -47,17 +47,32 @@ impl Spread {
 /// Observers in a design, study after study.
 #[derive(Clone, Copy)]
 pub(super) struct Studies<'a> {
-    pub(super) laid: &'a Laid,
-    pub(super) observer: Observer,
+    laid: &'a Laid,
+    observer: Observer,
     /// Subjects and sessions of each.
-    pub(super) size: (usize, u32),
-    pub(super) seed: u64,
+    size: (usize, u32),
+    seed: u64,
 }
 
 /// A study's rows that count, subject by subject, sessions joined.
 pub(super) type Subjects = Vec<Vec<Record>>;
 
-impl Studies<'_> {
+impl<'a> Studies<'a> {
+    /// As many subjects as the design plans, eight where it does not, each in so many sessions.
+    pub(super) fn of(
+        laid: &'a Laid,
+        observer: Observer,
+        n_sessions: u32,
+        options: &Options,
+    ) -> Self {
+        Self {
+            laid,
+            observer,
+            size: (planned(&laid.design), n_sessions),
+            seed: options.seed,
+        }
+    }
+
     /// What `found` makes of the rows of each of `n` studies.
     ///
     /// # Errors
@@ -116,7 +131,7 @@ impl Studies<'_> {
     }
 }
 
-/// How many take part, and how often: as the design plans, eight where it does not.
+/// How many take part: as the design plans, eight where it does not.
 pub(super) fn planned(design: &Design) -> usize {
     match design.rules.subjects {
         0 => 8,

@@ -82,14 +82,7 @@ fn drag(ui: &Ui, response: &Response, position: usize) {
         let palette = Palette::in_ui(ui);
         let rect = Rect::from_center_size(at, vec2(SIDE, SIDE));
         painter.rect_filled(rect, 8, palette.hovered);
-        let number = (position + 1).to_string();
-        painter.text(
-            at,
-            Align2::CENTER_CENTER,
-            number,
-            theme::huge(),
-            palette.text,
-        );
+        paint_number(&painter, at, position, palette);
     }
 }
 
@@ -99,9 +92,11 @@ fn paint_place(ui: &Ui, rect: Rect, held: Option<usize>, is_lit: bool) {
         return big::paint(ui, rect, Face::place(palette, is_lit));
     };
     big::paint(ui, rect, Face::loose(palette, is_lit));
+    paint_number(ui.painter(), rect.center(), position, palette);
+}
+
+fn paint_number(painter: &egui::Painter, at: egui::Pos2, position: usize, palette: &Palette) {
     let number = (position + 1).to_string();
-    let at = rect.center();
-    let painter = ui.painter();
     painter.text(
         at,
         Align2::CENTER_CENTER,
