@@ -5,7 +5,7 @@ use super::{Kind, Laid, Options, Replication, by_levels, guessing};
 use crate::experiment::ExperimentError;
 use crate::experiment::analysis::{Cell, Section, Table, grade_weights, triad_answer};
 use crate::experiment::design::{Design, Method};
-use crate::progress::{Cancelled, Progress, unheard};
+use crate::progress::{Progress, unheard};
 use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
 use crate::statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
 use crate::statistics::{Computed, Undefined};
@@ -130,20 +130,27 @@ fn mds() -> Mds {
 }
 
 /// Stress of random ranks of as many fabrics, dimension by dimension.
-fn chance(laid: &Laid, progress: &mut Progress<'_>) -> Result<Vec<Null>, Cancelled> {
+///
+/// # Errors
+/// There are too few fabrics to be mapped, or it was cancelled.
+pub(super) fn chance(
+    laid: &Laid,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Null>, ExperimentError> {
     let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
     let n = names.len();
-    let apart = |at: usize| (at / n != at % n).then_some(1.0);
-    let Ok(data) = Dissimilarities::new(names, &(0..n * n).map(apart).collect::<Vec<_>>()) else {
-        return Ok(Vec::new());
-    };
+    // Any dissimilarities of all pairs: random ranks take their places.
+    let apart = |at: usize| Some((at / n).abs_diff(at % n) as f64).filter(|d| *d > 0.0);
+    let any: Vec<Option<f64>> = (0..n * n).map(apart).collect();
+    let data = Dissimilarities::new(names, &any)
+        .map_err(|why| ExperimentError::value(why.reason, "take a design of more fabrics"))?;
     let of = |dims: usize| {
         let part = [dims - 1, dims].map(|at| at as f64 / MOST_DIMENSIONS as f64);
         let sets = (dims, N_RANDOM_DATA);
         let ranks = NullKind::RandomRanks;
         progress.within(part, |part| Null::of(&mds(), &data, ranks, sets, part))
     };
-    (1..=MOST_DIMENSIONS).map(of).collect()
+    Ok((1..=MOST_DIMENSIONS).map(of).collect::<Result<_, _>>()?)
 }
 
 fn elbow(found: &Found, chance: &[Null]) -> Computed<Elbow> {

@@ -112,3 +112,17 @@ fn a_replication_can_be_stopped() {
         "{stopped:?}"
     );
 }
+
+#[test]
+fn what_chance_gives_is_known_for_every_number_of_dimensions() {
+    let triads = papers().triads;
+    let chance = unheard(|progress| odd_one_out::chance(&triads, progress)).unwrap();
+    let means: Vec<f64> = chance
+        .iter()
+        .map(crate::statistics::mds::Null::mean)
+        .collect();
+    assert_eq!(means.len(), 4);
+    assert!(means.windows(2).all(|pair| pair[0] > pair[1]), "{means:?}");
+    // Seven objects of random ranks in the plane: about 0.11.
+    assert!((0.07..0.15).contains(&means[1]), "{means:?}");
+}
