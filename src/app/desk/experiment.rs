@@ -1,5 +1,7 @@
 //! The two views of a session; and what nobody may look at while one is held.
 
+use std::mem;
+
 use eframe::egui::{
     CentralPanel, Context, Frame, Key, Ui, ViewportBuilder, ViewportClass, ViewportId,
 };
@@ -45,13 +47,25 @@ impl Desk<'_> {
             self.bench.engine.profile().limit_um,
         );
         let experiment = &mut transient.experiment;
-        let (window, noise) = (experiment.window, experiment.noise());
+        let screen = (experiment.window, experiment.is_blank);
+        let noise = experiment.noise();
         let view = experiment.experimenter(link, now_s);
+        // Taken out while it is typed in, since the trial is looked at meanwhile.
+        let mut note = experiment
+            .held
+            .as_mut()
+            .map(|held| mem::take(&mut held.note));
+        let held = experiment.held.as_ref().filter(|_| experiment.is_blank);
+        let typed = held.and_then(|held| held.typed(now_s));
         let mut hands = ExperimenterHands {
-            note: experiment.held.as_mut().map(|held| &mut held.note),
+            note: note.as_mut(),
             form: &mut experiment.form,
+            typed: typed.as_ref(),
         };
-        panes::show_experimenter(ui, (&view, noise.as_ref(), window), &mut hands, self.wishes);
+        panes::show_experimenter(ui, (&view, noise.as_ref(), screen), &mut hands, self.wishes);
+        if let Some((held, note)) = experiment.held.as_mut().zip(note) {
+            held.note = note;
+        }
     }
 }
 

@@ -42,6 +42,7 @@ impl Workbench {
             ExperimentCommand::Pause(is_wanted) => self.pause_session(ctx, is_wanted),
             ExperimentCommand::End => self.end_session(ctx),
             ExperimentCommand::Noise => self.write_noise(ctx),
+            ExperimentCommand::Blank(is_blank) => self.transient.experiment.is_blank = is_blank,
             ExperimentCommand::Window(act) => self.transient.experiment.window.act(act),
         }
     }

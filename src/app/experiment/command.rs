@@ -47,6 +47,8 @@ pub(crate) enum ExperimentCommand {
     End,
     /// Write a masking noise into the folder of sessions.
     Noise,
+    /// Show the participant nothing while a trial waits: the experimenter types what is answered.
+    Blank(bool),
     /// Do something with the participant's window.
     Window(WindowAct),
 }

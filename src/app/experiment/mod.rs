@@ -89,6 +89,8 @@ pub(crate) struct Experiment {
     pub(crate) noise: Option<Task<()>>,
     /// A window of the participant's own.
     pub(crate) window: ParticipantsWindow,
+    /// Whether the participant sees nothing while a trial waits.
+    pub(crate) is_blank: bool,
     /// Whether the next recording that ends is of a trial that nobody answered.
     pub(crate) lets_recording_go: bool,
 }

@@ -44,6 +44,8 @@ pub(crate) enum ParticipantView<'a> {
     },
     /// A trial.
     Trial(TrialView<'a>),
+    /// A trial of which nothing is seen.
+    Blank(Ground),
 }
 
 /// What lies before the participant.
@@ -200,7 +202,12 @@ impl Experiment {
             None => ParticipantView::Nobody {
                 is_coming: self.beginning.is_some(),
             },
-            Some(held) => held.participant(live.centre, now_s),
+            Some(held) => match held.participant(live.centre, now_s) {
+                ParticipantView::Trial(trial) if self.is_blank => {
+                    ParticipantView::Blank(trial.ground)
+                }
+                view => view,
+            },
         }
     }
 
@@ -216,6 +223,14 @@ impl Experiment {
 }
 
 impl Held {
+    /// The trial whose answer the experimenter types, while the participant sees nothing.
+    pub(crate) fn typed(&self, now_s: f64) -> Option<TrialView<'_>> {
+        match self.participant(None, now_s) {
+            ParticipantView::Trial(trial) => Some(trial),
+            _ => None,
+        }
+    }
+
     fn participant(&self, finger: Option<Point>, now_s: f64) -> ParticipantView<'_> {
         let words = |title, words: &str, left_s| ParticipantView::Words {
             title,

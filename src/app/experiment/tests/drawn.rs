@@ -286,3 +286,46 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
     drawn.keep_picture(&name("6-form"));
     assert_eq!(drawn.window.bench.transient.experiment.form.found.len(), 1);
 }
+
+#[test]
+fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_types() {
+    let folder = Folder::new("drawn-blank");
+    let mut drawn = Drawn::trial(&folder, "odd-one-out", "p01", Theme::Dark);
+    assert!(drawn.window.bench.transient.ground.is_some());
+    drawn.window.dispatch(ExperimentCommand::Blank(true));
+    drawn.pass(2);
+    let ground = drawn.window.bench.transient.ground;
+    assert!(ground.is_some(), "what lies there is still felt");
+    let picture = drawn.picture();
+    let colour = |x: usize, y: usize| picture.rgba[4 * (y * SIZE[0] + x)..][..4].to_vec();
+    let floor = colour(20, 100);
+    let is_blank = (20..1000).step_by(3).all(|x| {
+        let mut column = (80..780).step_by(3);
+        column.all(|y| colour(x, y) == floor)
+    });
+    assert!(is_blank, "something is seen");
+    drawn.keep_picture("blank");
+
+    let grade = Mark::Grade(crate::experiment::Grade::Easy);
+    for command in [
+        ExperimentCommand::Mark(Mark::Place(1)),
+        ExperimentCommand::Mark(grade),
+    ] {
+        drawn.window.dispatch(command);
+    }
+    drawn.window.dispatch(ExperimentCommand::Answer);
+    drawn.pass(4);
+    let held = drawn.window.bench.transient.experiment.held.as_ref();
+    assert_eq!(held.unwrap().progress.0, 1, "typed by the experimenter");
+    drawn.window.dispatch(ExperimentCommand::Blank(false));
+    drawn.pass(2);
+    let mut seen = drawn
+        .picture()
+        .rgba
+        .chunks(4)
+        .map(<[u8]>::to_vec)
+        .collect::<Vec<_>>();
+    seen.sort_unstable();
+    seen.dedup();
+    assert!(seen.len() > 50);
+}

@@ -9,7 +9,7 @@ use eframe::egui::{ProgressBar, RichText, Ui};
 use super::Wishes;
 use super::import::fields::{Tone, note};
 use crate::app::experiment::{
-    ExperimentCommand, ExperimenterView, Form, NoiseView, ParticipantsWindow, WindowAct,
+    ExperimentCommand, ExperimenterView, Form, NoiseView, ParticipantsWindow, TrialView, WindowAct,
 };
 use crate::app::theme::{self, Palette, STEP};
 use crate::app::widgets::{button, section};
@@ -20,17 +20,27 @@ pub(crate) struct ExperimenterHands<'a> {
     pub(crate) form: &'a mut Form,
     /// The note on the trial under way.
     pub(crate) note: Option<&'a mut String>,
+    /// The trial whose answer is typed here, while the participant sees nothing.
+    pub(crate) typed: Option<&'a TrialView<'a>>,
 }
+
+/// Whether the participant's view is in a window of its own, and whether it is blank in trials.
+pub(crate) type Screen = (ParticipantsWindow, bool);
 
 /// Shows the pane.
 pub(crate) fn show(
     ui: &mut Ui,
-    (view, noise, window): (&ExperimenterView, Option<&NoiseView>, ParticipantsWindow),
+    (view, noise, (window, is_blank)): (&ExperimenterView, Option<&NoiseView>, Screen),
     hands: &mut ExperimenterHands<'_>,
     wishes: &mut Wishes,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
     show_window(ui, window, wishes);
+    show_blank(ui, is_blank, wishes);
+    if let Some(trial) = hands.typed {
+        section(ui, "Answer, typed for the participant");
+        super::participant::show_typed(ui, trial, wishes);
+    }
     match view {
         ExperimenterView::Nobody { share } => begin::show(ui, hands.form, *share, wishes),
         ExperimenterView::Held(held) => {
@@ -68,6 +78,24 @@ fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, wishes: &mut Wis
                 wishes.push(ExperimentCommand::Noise.into());
             }
         }
+    }
+}
+
+/// Whether the participant sees anything in trials.
+fn show_blank(ui: &mut Ui, is_blank: bool, wishes: &mut Wishes) {
+    let (words, tip) = if is_blank {
+        (
+            "Show the screen",
+            "The participant sees trials again and answers there",
+        )
+    } else {
+        (
+            "Blank screen",
+            "The participant sees nothing in trials and says what is answered; you type it here",
+        )
+    };
+    if button(ui, words, tip, None) {
+        wishes.push(ExperimentCommand::Blank(!is_blank).into());
     }
 }
 

@@ -16,13 +16,9 @@ const TAG: f32 = 44.0;
 
 /// Shows the ground in `rect`, and where the finger is.
 pub(super) fn show(ui: &Ui, rect: Rect, ground: &Ground) -> Shown {
-    let response = ui.interact(rect, ui.scope_id().with("ground"), Sense::hover());
-    response.widget_info(|| {
-        let n = ground.slots.iter().filter(|slot| !slot.is_target).count();
-        let words = format!("Ground with {n} fabrics");
-        WidgetInfo::labeled(egui::Role::Canvas, true, words)
-    });
-    let view = ViewTransform::fitted(rect, ground.size_mm);
+    let n = ground.slots.iter().filter(|slot| !slot.is_target).count();
+    let shown = show_unseen(ui, rect, (ground, &format!("Ground with {n} fabrics")));
+    let view = shown.view;
     let painter = ui.painter_at(rect);
     for slot in &ground.slots {
         let place = (slot.origin_mm, Place::SIZE_MM);
@@ -36,11 +32,18 @@ pub(super) fn show(ui: &Ui, rect: Rect, ground: &Ground) -> Shown {
     if let Some(finger) = ground.finger {
         paint_finger(&painter, view.screen(finger));
     }
+    shown
+}
+
+/// The same with nothing to be seen: what lies there is felt all the same.
+pub(super) fn show_unseen(ui: &Ui, rect: Rect, (ground, name): (&Ground, &str)) -> Shown {
+    let response = ui.interact(rect, ui.scope_id().with("ground"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
     if ground.feels && response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::None);
     }
     Shown {
-        view,
+        view: ViewTransform::fitted(rect, ground.size_mm),
         ground: rect,
         feels: ground.feels,
     }

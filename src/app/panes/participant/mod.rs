@@ -11,7 +11,7 @@ mod ranks;
 mod tests;
 
 use eframe::egui::{
-    Align2, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2,
+    Align2, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use eframe::egui::{Role, WidgetText};
 
@@ -69,6 +69,28 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
             Some(shown)
         }
         ParticipantView::Trial(trial) => Some(show_trial(ui, trial, wishes)),
+        ParticipantView::Blank(ground) => {
+            let rect = ui.max_rect();
+            Some(ground::show_unseen(ui, rect, (ground, "Blank screen")))
+        }
+    }
+}
+
+/// What a trial is answered with, for an experimenter who types while the participant sees nothing.
+pub(in crate::app::panes) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
+    let width = ui.available_width();
+    ui.add(eframe::egui::Label::new(sentence(&trial.question)).wrap());
+    let height = controls::height(trial.draft, width);
+    ui.scope(|ui| {
+        if !trial.is_open {
+            ui.disable();
+        }
+        ui.allocate_ui(vec2(width, height), |ui| controls::show(ui, trial, wishes));
+    });
+    let hint = RichText::new(keys::hint(trial)).color(Palette::in_ui(ui).dim);
+    ui.add(eframe::egui::Label::new(hint).wrap());
+    if trial.is_open {
+        keys::take(ui, trial, wishes);
     }
 }
 

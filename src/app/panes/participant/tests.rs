@@ -286,3 +286,26 @@ fn everything_that_is_pressed_lies_within_the_smallest_window_and_apart() {
         }
     }
 }
+
+#[test]
+fn while_the_screen_is_blank_answers_are_typed_in_the_experimenters_pane_alone() {
+    let draft = Draft::Ranks([Some(0), None, None, None]);
+    let mut blank = window(ParticipantView::Blank(trial(&draft).ground));
+    blank.run();
+    blank.get_by_label("Blank screen");
+    assert!(blank.query_by_label("Fabric 3").is_none());
+    blank.key_press(Key::Num4);
+    blank.run();
+    assert_eq!(marks(&blank), []);
+
+    let mut typed = Harness::builder()
+        .with_size(vec2(300.0, 500.0))
+        .build_ui_state(
+            |ui, wishes| show_typed(ui, &trial(&draft), wishes),
+            Wishes::new(),
+        );
+    typed.run();
+    typed.key_press(Key::Num4);
+    typed.run();
+    assert_eq!(marks(&typed), [ExperimentCommand::Mark(Mark::Place(3))]);
+}
