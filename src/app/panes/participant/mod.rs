@@ -11,7 +11,8 @@ mod ranks;
 mod tests;
 
 use eframe::egui::{
-    Align2, Key, Rect, RichText, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Key, Rect, RichText, ScrollArea, Sense, TextWrapMode, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
 };
 use eframe::egui::{Role, WidgetText};
 
@@ -27,6 +28,8 @@ const QUESTION: f32 = 56.0;
 const ANSWER: f32 = 132.0;
 /// Height of the line that names the keys, points.
 const HINT: f32 = 24.0;
+/// Controls that an experimenter types in are this wide at least, points.
+const TYPED: f32 = 460.0;
 /// No line of words is longer, points.
 const LINE: f32 = 720.0;
 
@@ -78,15 +81,19 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
 
 /// What a trial is answered with, for an experimenter who types while the participant sees nothing.
 pub(in crate::app::panes) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
-    let width = ui.available_width();
+    let width = ui.available_width().max(TYPED);
     ui.add(eframe::egui::Label::new(sentence(&trial.question)).wrap());
     let height = controls::height(trial.draft, width);
-    ui.scope(|ui| {
-        if !trial.is_open {
-            ui.disable();
-        }
-        ui.allocate_ui(vec2(width, height), |ui| controls::show(ui, trial, wishes));
-    });
+    // As wide as the controls need, however narrow the pane: it is scrolled, not widened.
+    ScrollArea::horizontal()
+        .id_salt("typed")
+        .max_height(height)
+        .show(ui, |ui| {
+            if !trial.is_open {
+                ui.disable();
+            }
+            ui.allocate_ui(vec2(width, height), |ui| controls::show(ui, trial, wishes));
+        });
     let hint = RichText::new(keys::hint(trial)).color(Palette::in_ui(ui).dim);
     ui.add(eframe::egui::Label::new(hint).wrap());
     if trial.is_open {
