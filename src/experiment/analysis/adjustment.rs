@@ -2,7 +2,7 @@
 //! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
 
 use super::Options;
-use super::draw::{Bar, axis, bars, scatter};
+use super::draw::{Bar, bars, scatter};
 use super::kept::Experiment;
 use super::map::undefined;
 use super::model::{Cell, Section, Table, tests};
@@ -10,7 +10,7 @@ use super::properties::Measures;
 use super::variance::effects;
 use crate::experiment::design::{Adjusting, Standard, Tunable, TunedParameter};
 use crate::experiment::{Answer, Task};
-use crate::figure::{Series, Style};
+use crate::figure::{Axis, Series, Style};
 use crate::numerics::LineFit;
 use crate::progress::{Cancelled, Progress};
 use crate::quantity::factor_of_gain;
@@ -335,8 +335,8 @@ fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> super::model::
     }
     let title = format!("{}: matched gain over level", experiment.design.title);
     let axes = [
-        axis("level of the textile, dB re 1 µm"),
-        axis("matched gain, dB"),
+        Axis::linear("level of the textile, dB re 1 µm"),
+        Axis::linear("matched gain, dB"),
     ];
     scatter("gain", &title, axes, series)
 }

@@ -236,11 +236,3 @@ pub(in crate::experiment) fn scatter(
         points,
     }
 }
-
-/// An axis with a label.
-pub(super) fn axis(label: &str) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        ..Axis::default()
-    }
-}

@@ -1,12 +1,12 @@
 //! Confidence in judgements: the receiver operating characteristic.
 
-use super::draw::{axis, scatter};
+use super::draw::scatter;
 use super::judgement::{Said, said};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Drawn, Section, Table, ends, tests};
 use crate::experiment::design::Judging;
-use crate::figure::{Series, Style};
+use crate::figure::{Axis, Series, Style};
 use crate::statistics::detection::{Roc, roc};
 use crate::statistics::{Computed, Summary, one_sample_t};
 
@@ -100,7 +100,7 @@ fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
         },
     ];
     let axes = ["false alarms", "hits"].map(|label| {
-        let mut axis = axis(label);
+        let mut axis = Axis::linear(label);
         axis.range = Some([0.0, 1.0]);
         axis
     });

@@ -1,11 +1,11 @@
 //! What a judgement that finds nothing does say: equivalence, and what would have been found.
 
-use super::draw::{axis, scatter};
+use super::draw::scatter;
 use super::judgement_cells::differences_of_conditions;
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Drawn, Section, Table};
-use crate::figure::{Series, Style};
+use crate::figure::{Axis, Series, Style};
 use crate::statistics::{Computed, Summary, power_of_t, tost};
 
 /// Bounds within which a difference of percentages counts as none, points.
@@ -183,7 +183,10 @@ impl Curve {
         if series.is_empty() {
             return None;
         }
-        let mut axes = [axis("true share right, %"), axis("power at 0.05")];
+        let mut axes = [
+            Axis::linear("true share right, %"),
+            Axis::linear("power at 0.05"),
+        ];
         axes[0].range = Some([50.0, 100.0]);
         axes[1].range = Some([0.0, 1.0]);
         let title = format!("{}: power against guessing", experiment.design.title);

@@ -2,13 +2,13 @@
 //! trials, track by track and subject by subject.
 
 use super::Options;
-use super::draw::{Bar, axis, bars, scatter};
+use super::draw::{Bar, bars, scatter};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use crate::experiment::design::{Levels, StaircaseTrack, Track};
 use crate::experiment::{Record, Task};
-use crate::figure::{Series, Style};
+use crate::figure::{Axis, Series, Style};
 use crate::statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
 use crate::statistics::psychometric::{Fit, Model, blocks};
 use crate::statistics::{Computed, Outcome, Summary, Undefined, one_sample_t};
@@ -183,7 +183,7 @@ fn curves(
             ..Series::default()
         });
     }
-    let mut y = axis("share right");
+    let mut y = Axis::linear("share right");
     y.range = Some([0.0, 1.0]);
     let title = format!("{}: psychometric functions", experiment.design.title);
     let label = if levels.reference_db.is_some() {
@@ -191,7 +191,7 @@ fn curves(
     } else {
         "level, dB re 1 µm"
     };
-    Some(scatter("curves", &title, [axis(label), y], series))
+    Some(scatter("curves", &title, [Axis::linear(label), y], series))
 }
 
 /// A series run again on the answers of its log.
@@ -264,7 +264,10 @@ fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrac
     ));
     if !series.is_empty() {
         let title = format!("{}: levels from trial to trial", experiment.design.title);
-        let axes = [axis("trial of the series"), axis("level, dB re 1 µm")];
+        let axes = [
+            Axis::linear("trial of the series"),
+            Axis::linear("level, dB re 1 µm"),
+        ];
         section
             .figures
             .push(scatter("tracks", &title, axes, series));

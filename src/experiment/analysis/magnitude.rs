@@ -1,12 +1,12 @@
 //! Magnitude estimation: exponents of Stevens' law by condition and subject.
 
-use super::draw::{Bar, axis, bars, scatter};
+use super::draw::{Bar, bars, scatter};
 use super::kept::Experiment;
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, summaries, tests};
 use crate::experiment::design::Source;
 use crate::experiment::{Answer, Task};
-use crate::figure::{Scale, Series, Style};
+use crate::figure::{Axis, Scale, Series, Style};
 use crate::quantity::factor_of_gain;
 use crate::statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
 use crate::statistics::{Summary, paired_t};
@@ -175,7 +175,7 @@ fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Se
         return;
     }
     let axes = ["amplitude, µm", "geometric mean of numbers"].map(|label| {
-        let mut axis = axis(label);
+        let mut axis = Axis::linear(label);
         axis.scale = Scale::Log;
         axis
     });

@@ -2,10 +2,10 @@
 //! subjects.
 
 use super::Options;
-use super::draw::{axis, scatter};
+use super::draw::scatter;
 use super::model::{Cell, Section, Table, matrix, tests};
 use super::properties::Measures;
-use crate::figure::{Series, Style};
+use crate::figure::{Axis, Series, Style};
 use crate::progress::{Cancelled, Progress};
 use crate::statistics::Undefined;
 use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
@@ -151,13 +151,9 @@ impl Mapping<'_> {
                 ..Series::default()
             });
         }
-        let mut dims = axis("dimensions");
-        dims.scale = crate::figure::Scale::Whole;
-        let mut stress = axis("stress");
-        stress.range = Some([
-            0.0,
-            losses.iter().fold(0.1, |m: f64, (_, l)| m.max(*l)) * 1.3,
-        ]);
+        let most = losses.iter().fold(0.1, |m: f64, (_, l)| m.max(*l));
+        let dims = Axis::whole("dimensions");
+        let stress = Axis::linear("stress").within([0.0, 1.3 * most]);
         let title = format!("{}: stress by dimensions", self.title);
         section
             .figures
@@ -303,6 +299,6 @@ fn shepard(map: &Map) -> super::model::Drawn {
         series("distance", Style::Dots, &|i| map.shepard[i].distance),
         series("disparity", Style::Line, &|i| map.shepard[i].disparity),
     ];
-    let axes = [axis("dissimilarity"), axis("distance")];
+    let axes = [Axis::linear("dissimilarity"), Axis::linear("distance")];
     scatter("shepard", "Shepard's diagram, two dimensions", axes, all)
 }
