@@ -1,7 +1,7 @@
-//! The program: everything it does is in the library.
+//! The program: everything it does is in the crates of this folder.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    selvedge::cli::main()
+    selvedge_cli::main()
 }

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::{CliError, terminal};
-use crate::app;
-use crate::bridge::{ArrayProfile, BridgeError, Caps, DeviceUid, ProfileFolder};
-use crate::quantity;
-use crate::scene::LoadedScene;
+
+use selvedge_device::{ArrayProfile, BridgeError, Caps, DeviceUid, ProfileFolder};
+use selvedge_foundation::quantity;
+use selvedge_render::scene::LoadedScene;
 
 /// Contactors closer than this to where they ought to be are there, mm.
 const ELSEWHERE_MM: f64 = 0.01;
@@ -24,7 +24,7 @@ pub(super) fn profile(word: &str) -> Result<Box<ArrayProfile>, String> {
     let found = if is_file {
         ArrayProfile::read(Path::new(word))
     } else {
-        let folder = app::own_arrays().unwrap_or_default();
+        let folder = selvedge_workbench::own_arrays().unwrap_or_default();
         ProfileFolder::new(&folder).find(word)
     };
     found

@@ -9,8 +9,8 @@ use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::identify::{self, IdentifyArgs};
 use super::{CliError, array, output, play, terminal};
-use crate::bridge::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
-use crate::engine::{AudioEntry, AudioError, audio_outputs};
+use selvedge_device::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
+use selvedge_engine::{AudioEntry, AudioError, audio_outputs};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
@@ -109,8 +109,9 @@ fn list() -> Result<(), CliError> {
         );
     }
     let widest = ports.iter().map(|port| port.path.len()).max().unwrap_or(0);
-    let line =
-        |port: &crate::bridge::PortEntry| format!("{:widest$}  {}\n", port.path, port.description);
+    let line = |port: &selvedge_device::PortEntry| {
+        format!("{:widest$}  {}\n", port.path, port.description)
+    };
     let mut text: String = ports.iter().map(line).collect();
     match audio_outputs() {
         Ok(cards) => text.extend(cards.iter().map(card_line)),
@@ -133,7 +134,7 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
     let stop = super::signals::stop_flag()?;
     let log = args.log.as_deref();
     let n_columns = usize::from(model.cols);
-    let mut emulator = crate::bridge::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
+    let mut emulator = selvedge_device::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
     // A reader that only wanted this line may be gone; the device runs on.
     let tell = |link: &Path, path: &str| {
         drop(output::print(&format!("{} -> {path}\n", link.display())));

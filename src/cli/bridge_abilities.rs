@@ -2,8 +2,8 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::bridge::framing::LARGEST_BODY;
-use crate::bridge::{ArrayProfile, Caps, DeviceModel};
+use selvedge_device::framing::LARGEST_BODY;
+use selvedge_device::{ArrayProfile, Caps, DeviceModel};
 
 /// The smallest `max_body` that a device may have.
 const SMALLEST_BODY: i64 = 256;

@@ -4,7 +4,7 @@
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
-use crate::bridge::{FaultKind, FaultOption, FaultWords, Faults};
+use selvedge_device::{FaultKind, FaultOption, FaultWords, Faults};
 
 /// What is to go wrong. Nothing, unless it is asked for.
 #[derive(Debug)]
@@ -88,7 +88,7 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use crate::bridge::{LaneFaults, Latency, Lie, OneOffKind};
+    use selvedge_device::{LaneFaults, Latency, Lie, OneOffKind};
 
     #[derive(Parser)]
     struct Line {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use super::{CliError, output};
-use crate::files::write_atomic;
+use selvedge_foundation::files::write_atomic;
 
 /// Path within the kit, and text.
 type KitFile = (&'static str, &'static str);
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn the_kit_holds_every_file_of_its_folder() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/bridge");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/bridge");
         let mut found = Vec::new();
         files_below(&folder, &mut found);
         // What building the kit in place leaves there.

@@ -11,10 +11,10 @@ use std::time::Duration;
 use clap::Args;
 
 use super::{CliError, terminal};
-use crate::bridge::{
+use selvedge_device::{
     Bimorph, ContactorModel, ContactorReading, DeviceState, PlantReading, PlantWatch, Skin,
 };
-use crate::quantity;
+use selvedge_foundation::quantity;
 
 /// Between two pictures.
 const REFRESH: Duration = Duration::from_millis(250);

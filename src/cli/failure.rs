@@ -5,17 +5,17 @@
 
 use std::io;
 
-use crate::app::AppError;
-use crate::bridge::{BridgeError, SinkError};
-use crate::engine::{AudioError, EngineError};
-use crate::experiment::ExperimentError;
-use crate::files::FileError;
-use crate::progress::Cancelled;
-use crate::render::RenderError;
-use crate::report::ReportError;
-use crate::scene::SceneError;
-use crate::textile::TextileError;
-use crate::textile::picture::PictureError;
+use selvedge_device::{BridgeError, SinkError};
+use selvedge_engine::{AudioError, EngineError};
+use selvedge_experiment::ExperimentError;
+use selvedge_foundation::files::FileError;
+use selvedge_foundation::progress::Cancelled;
+use selvedge_render::RenderError;
+use selvedge_render::scene::SceneError;
+use selvedge_studies::ReportError;
+use selvedge_textile::TextileError;
+use selvedge_textile::picture::PictureError;
+use selvedge_workbench::AppError;
 
 /// Why a command failed: one line.
 #[derive(Debug, thiserror::Error)]

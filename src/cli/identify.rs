@@ -15,9 +15,9 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::{CliError, array, output, play, signals, terminal};
-use crate::bridge::wiring::{Answer, WiringFound, WiringWalk};
-use crate::bridge::{ArrayProfile, Bridge, BridgeEvent, BridgeState, DeviceUid, StopHow, Target};
-use crate::files;
+use selvedge_device::wiring::{Answer, WiringFound, WiringWalk};
+use selvedge_device::{ArrayProfile, Bridge, BridgeEvent, BridgeState, DeviceUid, StopHow, Target};
+use selvedge_foundation::files;
 
 /// How long one channel is driven, ms.
 const PULSE_MS: u16 = 600;

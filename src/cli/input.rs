@@ -3,8 +3,8 @@
 use clap::Subcommand;
 
 use super::{CliError, output, terminal};
-use crate::engine::{AxisRange, EngineError, InputDevice, list_input_devices};
-use crate::quantity::fixed;
+use selvedge_engine::{AxisRange, EngineError, InputDevice, list_input_devices};
+use selvedge_foundation::quantity::fixed;
 
 /// What to do with devices that tell places.
 #[derive(Debug, Subcommand)]

@@ -8,11 +8,11 @@ use clap::{Args, ValueEnum};
 use super::mds_json::{Chance, Document};
 use super::terminal::Meter;
 use super::{CliError, output, signals};
-use crate::files::{self, NamedMatrix};
-use crate::numerics;
-use crate::progress::{CancelFlag, Progress};
-use crate::quantity::fixed;
-use crate::statistics::mds::{
+use selvedge_foundation::files::{self, NamedMatrix};
+use selvedge_foundation::numerics;
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::quantity::fixed;
+use selvedge_statistics::mds::{
     DEFAULT_STARTS, Dissimilarities, Elbow, LEAST_STARTS_ON_A_LINE, Loss, MOST_DIMENSIONS, Map,
     Mds, Null, NullKind, Ties,
 };

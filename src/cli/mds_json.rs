@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::statistics::mds::{Dissimilarities, Elbow, Map, Mds, Null};
+use selvedge_statistics::mds::{Dissimilarities, Elbow, Map, Mds, Null};
 
 /// What data without structure gave; empty where nobody asked.
 #[derive(Debug, Default)]
@@ -126,7 +126,7 @@ impl<'a> Document<'a> {
             }
         };
         Self {
-            program: concat!("selvedge ", env!("CARGO_PKG_VERSION")),
+            program: selvedge_foundation::PROGRAM,
             names: data.names(),
             n_pairs: data.pairs().len(),
             n_missing: data.n_missing(),
@@ -159,7 +159,7 @@ fn chance_out(null: &Null, loss: f64) -> ChanceOut {
 
 impl<'a> Dimension<'a> {
     fn of(map: &'a Map, names: &'a [String]) -> Self {
-        let pair = |point: &crate::statistics::mds::ShepardPoint| PairOut {
+        let pair = |point: &selvedge_statistics::mds::ShepardPoint| PairOut {
             a: &names[point.objects[0]],
             b: &names[point.objects[1]],
             dissimilarity: point.delta,

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::render::array::{Accuracy, Method};
+use selvedge_render::array::{Accuracy, Method};
 
 /// The method, and the error that it may make.
 #[derive(Debug, Args)]

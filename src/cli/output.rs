@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::CliError;
-use crate::files::{FileError, Staged, TableWriter};
+use selvedge_foundation::files::{FileError, Staged, TableWriter};
 
 /// What standard output is called in errors.
 const STDOUT: &str = "standard output";

@@ -8,11 +8,11 @@ use clap::Args;
 use super::picture_relief::{Origin, ReliefArgs, tell_none};
 use super::terminal::{self, Meter};
 use super::{CliError, output, signals};
-use crate::files;
-use crate::progress::{CancelFlag, Progress};
-use crate::quantity::fixed;
-use crate::textile::n_threads;
-use crate::textile::picture::{
+use selvedge_foundation::files;
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::quantity::fixed;
+use selvedge_textile::n_threads;
+use selvedge_textile::picture::{
     self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Picture, Place,
 };
 

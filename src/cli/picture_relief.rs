@@ -7,16 +7,16 @@ use clap::{Args, ValueEnum};
 use super::picture::{numbers, positive};
 use super::textile_words::Made;
 use super::{CliError, terminal};
-use crate::files::sha256_hex;
-use crate::progress::{Cancelled, Progress};
-use crate::quantity::{fixed, with_unit};
-use crate::surface::Representation;
-use crate::textile::picture::felt::textile_of;
-use crate::textile::picture::shading::{
+use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_foundation::quantity::{fixed, with_unit};
+use selvedge_textile::picture::felt::textile_of;
+use selvedge_textile::picture::shading::{
     HeightScale, Light, Method, PictureTextile, ShadingError, ShadingOptions, relief_um_of,
 };
-use crate::textile::picture::{Relief, Tile};
-use crate::textile::{self, BuiltFile, Words};
+use selvedge_textile::picture::{Relief, Tile};
+use selvedge_textile::surface::Representation;
+use selvedge_textile::{BuiltFile, Words};
 
 /// How heights are found on the cell, and what becomes of them.
 #[derive(Debug, Args)]
@@ -217,7 +217,7 @@ impl ReliefArgs {
         let mut told =
             format!("{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");
         if let (Some(folder), Some(files)) = (&self.textile, &felt.files) {
-            textile::write(files, folder)?;
+            selvedge_textile::write(files, folder)?;
             let line = format!("{}: the textile\n", folder.display());
             told.push_str(&line);
         }

@@ -17,13 +17,13 @@ use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::play_source::{Moving, SourceArgs};
 use super::{CliError, array, output, play_audio, signals, terminal};
-use crate::app;
-use crate::bridge::{
+
+use selvedge_device::{
     ArrayProfile, Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog,
     StopHandle, StopHow, Target, fault_bit,
 };
-use crate::engine::{DeviceWaveform, Notice, PreparedScene};
-use crate::scene::LoadedScene;
+use selvedge_engine::{DeviceWaveform, Notice, PreparedScene};
+use selvedge_render::scene::LoadedScene;
 
 /// How long to wait for the device before something is said of it: it is polled this often.
 const NAP: Duration = Duration::from_millis(20);
@@ -66,7 +66,7 @@ pub(super) struct PlayArgs {
 
 /// Plays, and says how punctual it was.
 pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
-    let loaded = LoadedScene::read(&args.scene, app::build_cache().as_ref())?;
+    let loaded = LoadedScene::read(&args.scene, selvedge_workbench::build_cache().as_ref())?;
     if let Some(port) = &args.port {
         check_port(port)?;
     }

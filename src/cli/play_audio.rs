@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 
 use super::play_source::Moving;
 use super::{CliError, output};
-use crate::bridge::ArrayProfile;
-use crate::engine::{AudioOutput, EngineError, Notice};
-use crate::quantity::fixed;
+use selvedge_device::ArrayProfile;
+use selvedge_engine::{AudioOutput, EngineError, Notice};
+use selvedge_foundation::quantity::fixed;
 
 const NAP: Duration = Duration::from_millis(20);
 /// A card that takes nothing for so long has stopped.

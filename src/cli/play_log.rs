@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::CliError;
 use super::output::TableOut;
-use crate::bridge::{ArrayProfile, Coder, SentFrame};
-use crate::scene::Pose;
+use selvedge_device::{ArrayProfile, Coder, SentFrame};
+use selvedge_render::scene::Pose;
 
 /// One row a frame.
 pub(super) struct PlayLog {

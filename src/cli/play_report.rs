@@ -3,9 +3,9 @@
 use std::fmt;
 use std::time::Duration;
 
-use crate::bridge::{BridgeCounters, SampleStream, Spread, Timings};
-use crate::engine::{InputLosses, InputRate};
-use crate::quantity::{fixed, time_span};
+use selvedge_device::{BridgeCounters, SampleStream, Spread, Timings};
+use selvedge_engine::{InputLosses, InputRate};
+use selvedge_foundation::quantity::{fixed, time_span};
 
 /// Figures of one run.
 #[derive(Debug)]

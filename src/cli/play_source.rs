@@ -8,11 +8,11 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::{CliError, terminal};
-use crate::engine::{
+use selvedge_engine::{
     Area, EngineCore, EngineError, InputSource, PreparedScene, ProgramLink, Tap, loopback,
     open_input_device,
 };
-use crate::scene::ExplorationPath;
+use selvedge_render::scene::ExplorationPath;
 
 const PATH_HELP: &str = "Exploration: a path file, or - for lines of x_mm,y_mm or \
                          t_s,x_mm,y_mm[,angle_deg] on standard input";

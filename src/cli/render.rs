@@ -13,13 +13,13 @@ use super::method::MethodArgs;
 use super::render_out::{AmplitudeTable, Clips, WavKind};
 use super::terminal::Meter;
 use super::{CliError, output, signals};
-use crate::app;
-use crate::engine::ClipKind;
-use crate::files::to_json_string;
-use crate::progress::Cancelled;
-use crate::render::array::Method;
-use crate::render::{RenderScene, Replay, RunStats, replay};
-use crate::scene::{ExplorationPath, LoadedScene};
+
+use selvedge_engine::ClipKind;
+use selvedge_foundation::files::to_json_string;
+use selvedge_foundation::progress::Cancelled;
+use selvedge_render::array::Method;
+use selvedge_render::scene::{ExplorationPath, LoadedScene};
+use selvedge_render::{RenderScene, Replay, RunStats, replay};
 
 const PATH_HELP: &str =
     "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s";
@@ -88,7 +88,7 @@ struct StatsFile<'a> {
 
 /// Replays, and writes what was asked for.
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let loaded = LoadedScene::read(&args.scene, app::build_cache().as_ref())?;
+    let loaded = LoadedScene::read(&args.scene, selvedge_workbench::build_cache().as_ref())?;
     let path = ExplorationPath::read(&args.path)?;
     let scene = RenderScene::of(&loaded);
     let stop = signals::stop_flag()?;
@@ -111,7 +111,11 @@ fn run_method(
     scene: &RenderScene,
     (method, args): (Method, &RenderArgs),
     path: &ExplorationPath,
-    sink: &mut dyn FnMut(u64, &crate::scene::Pose, &[crate::render::array::DisplayFrame]) -> Step,
+    sink: &mut dyn FnMut(
+        u64,
+        &selvedge_render::scene::Pose,
+        &[selvedge_render::array::DisplayFrame],
+    ) -> Step,
 ) -> Result<RunStats, CliError> {
     let what = Replay {
         scene,
@@ -161,7 +165,7 @@ fn write_stats(
         }
     }
     let file = StatsFile {
-        program: env!("CARGO_PKG_NAME"),
+        program: "selvedge",
         version: env!("CARGO_PKG_VERSION"),
         scene: &args.scene,
         path: &args.path,
@@ -199,7 +203,7 @@ impl<'a> Sinks<'a> {
         &mut self,
         tick: u64,
         t_s: f64,
-        frames: &[crate::render::array::DisplayFrame],
+        frames: &[selvedge_render::array::DisplayFrame],
         stop: &AtomicBool,
     ) -> Result<(), CliError> {
         check(stop)?;

@@ -10,11 +10,11 @@ use clap::ValueEnum;
 use super::output::TableOut;
 use super::terminal::Meter;
 use super::{CliError, terminal};
-use crate::bridge::ArrayProfile;
-use crate::engine::{ClipKind, ClipWriter, side_by_side};
-use crate::progress::{CancelFlag, Progress};
-use crate::render::array::DisplayFrame;
-use crate::scene::LoadedScene;
+use selvedge_device::ArrayProfile;
+use selvedge_engine::{ClipKind, ClipWriter, side_by_side};
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_render::array::DisplayFrame;
+use selvedge_render::scene::LoadedScene;
 
 const HEADER: [&str; 9] = [
     "tick",

@@ -7,10 +7,10 @@ use clap::Args;
 
 use super::terminal::{Meter, notice};
 use super::{CliError, output, signals};
-use crate::app;
-use crate::progress::CancelFlag;
-use crate::quantity;
-use crate::report::{self, Effort, Options, Report, Standing, Study};
+
+use selvedge_foundation::progress::CancelFlag;
+use selvedge_foundation::quantity;
+use selvedge_studies::{Effort, Options, Report, Standing, Study};
 
 /// What to report on, and where.
 #[derive(Debug, Args)]
@@ -37,9 +37,9 @@ pub(super) struct ReportArgs {
 
 /// Lists the studies, or runs them and writes what they found.
 pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
-    let mut studies = report::studies();
-    studies.extend(app::studies());
-    let studies = report::choose(studies, &args.only)?;
+    let mut studies = selvedge_studies::studies();
+    studies.extend(selvedge_workbench::studies());
+    let studies = selvedge_studies::choose(studies, &args.only)?;
     match &args.out {
         Some(out) if !args.list => make(args, &studies, out),
         _ => list(&studies),
@@ -82,7 +82,7 @@ fn make(args: &ReportArgs, studies: &[Box<dyn Study>], out: &Path) -> Result<(),
     let cancel = CancelFlag::shared(signals::stop_flag()?);
     let mut meter = Meter::new("reporting");
     let mut show = |standing: &Standing<'_>| meter.show(standing.share, &words(standing));
-    let made = report::run(studies, &options, &cancel, &mut show)?;
+    let made = selvedge_studies::run(studies, &options, &cancel, &mut show)?;
     drop(meter);
     conclude(&made)
 }
@@ -114,7 +114,7 @@ fn conclude(made: &Report) -> Result<(), CliError> {
         ));
     }
     if made.is_cancelled {
-        return Err(report::ReportError::Cancelled.into());
+        return Err(selvedge_studies::ReportError::Cancelled.into());
     }
     let failures: Vec<String> = made
         .failures()

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::{CliError, output};
-use crate::app;
-use crate::files::encode_png_rgba;
+
+use selvedge_foundation::files::encode_png_rgba;
 
 /// What to picture.
 #[derive(Debug, Args)]
@@ -40,14 +40,14 @@ enum ThemeName {
 
 /// Draws and writes the picture.
 pub(super) fn run(args: &ScreenshotArgs) -> Result<(), CliError> {
-    let picture = app::screenshot(&app::Screenshot {
+    let picture = selvedge_workbench::screenshot(&selvedge_workbench::Screenshot {
         scene: args.scene.clone(),
         width: args.width,
         height: args.height,
         pixels_per_point: args.scale,
         theme: match args.theme {
-            ThemeName::Dark => app::Theme::Dark,
-            ThemeName::Light => app::Theme::Light,
+            ThemeName::Dark => selvedge_workbench::Theme::Dark,
+            ThemeName::Light => selvedge_workbench::Theme::Light,
         },
     })?;
     let png = encode_png_rgba(&picture.rgba, picture.width, picture.height, &args.out)?;

@@ -12,11 +12,11 @@ use super::textile_levels::levels;
 use super::textile_make::{self, BuildArgs, MakeCommand};
 use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
-use crate::app;
-use crate::quantity::fixed;
-use crate::surface::{BIN_SPACING_PER_MM, Direction, Representation, Surface};
-use crate::tactile::{Filters, Levels};
-use crate::textile::{Library, most_typical};
+
+use selvedge_foundation::quantity::fixed;
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, Representation, Surface};
+use selvedge_textile::tactile::{Filters, Levels};
+use selvedge_textile::{Library, most_typical};
 
 /// What to do with textiles.
 #[derive(Debug, Subcommand)]
@@ -93,7 +93,7 @@ pub(super) struct FromLibrary {
 impl FromLibrary {
     pub(super) fn open(&self) -> Result<Library, CliError> {
         Ok(match &self.library {
-            Some(name) => Library::named(name, app::build_cache().as_ref())?,
+            Some(name) => Library::named(name, selvedge_workbench::build_cache().as_ref())?,
             None => Library::shipped()?,
         })
     }

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::terminal::Meter;
 use super::{CliError, output, signals};
-use crate::progress::{CancelFlag, Progress};
-use crate::textile::{self, Library};
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_textile::Library;
 
 /// Where the catalogue goes.
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ pub(super) fn run(library: &Library, args: &CatalogueArgs) -> Result<(), CliErro
     let mut meter = Meter::new("drawing");
     let mut report = |share: f64, doing: &str| meter.show(share, doing);
     let mut progress = Progress::new(&mut report, cancel);
-    let n_textiles = textile::write_catalogue(library, &args.out, &mut progress)?;
+    let n_textiles = selvedge_textile::write_catalogue(library, &args.out, &mut progress)?;
     let index = args.out.join("index.md");
     output::print(&format!("{}: {n_textiles} textiles\n", index.display()))
 }

@@ -7,11 +7,11 @@ use clap::Args;
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use crate::surface::Representation;
-use crate::textile::metrology::{
+use selvedge_textile::metrology::{
     self, Asked, HeightImport, HeightPlace, ImportOptions, LengthUnit,
 };
-use crate::textile::{self, TextileError, Words};
+use selvedge_textile::surface::Representation;
+use selvedge_textile::{TextileError, Words};
 
 /// What a file may leave open.
 #[derive(Debug, Args)]
@@ -108,7 +108,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 
 /// Makes the textiles.
 pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
-    let bytes = textile::read_measurement(&args.file)?;
+    let bytes = selvedge_textile::read_measurement(&args.file)?;
     let options = ImportOptions {
         asked: args.asked.asked(),
         is_periodic: args.periodic,
@@ -145,7 +145,7 @@ pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
         }
         let files = import.files(place, &words, &bytes)?;
         let folder = nth_folder(&args.out, nth, n);
-        textile::write(&files, &folder)?;
+        selvedge_textile::write(&files, &folder)?;
         output::print(&format!("{}: {}\n", folder.display(), words.name))?;
     }
     Ok(())
@@ -155,7 +155,7 @@ pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
 fn nth_folder(out: &Path, nth: usize, n: usize) -> PathBuf {
     let name = out.file_name().unwrap_or_default().to_string_lossy();
     if n > 1 {
-        out.with_file_name(textile::nth_id(&name, nth, n))
+        out.with_file_name(selvedge_textile::nth_id(&name, nth, n))
     } else {
         out.to_owned()
     }
@@ -163,7 +163,7 @@ fn nth_folder(out: &Path, nth: usize, n: usize) -> PathBuf {
 
 /// Writes the file.
 pub(super) fn convert(args: &ConvertArgs) -> Result<(), CliError> {
-    let bytes = textile::read_measurement(&args.file)?;
+    let bytes = selvedge_textile::read_measurement(&args.file)?;
     let mut measured = metrology::open(&bytes, &args.file, &args.asked.asked())?;
     for warning in &measured.warnings {
         terminal::notice(&format!("{}: {warning}", args.file.display()));

@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use crate::quantity::fixed;
-use crate::textile::{
-    self, ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesFile, KesImport, KesOptions, KesPlace,
+use selvedge_foundation::quantity::fixed;
+use selvedge_textile::{
+    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesFile, KesImport, KesOptions, KesPlace,
     KesReading, PlaceUnit, ReturnOrder, measured_figures,
 };
 
@@ -188,12 +188,12 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     let bytes: Vec<Vec<u8>> = args
         .files
         .iter()
-        .map(|path| textile::read_measurement(path))
+        .map(|path| selvedge_textile::read_measurement(path))
         .collect::<Result<_, _>>()?;
     let friction_bytes = args
         .friction
         .as_deref()
-        .map(textile::read_measurement)
+        .map(selvedge_textile::read_measurement)
         .transpose()?;
     let given: Vec<KesFile<'_>> = args
         .files
@@ -213,8 +213,8 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     }
     let words = args.words.words(&args.name, args.construction)?;
     let built = import.files(&words)?;
-    textile::write(&built, &args.out)?;
-    textile::write_figure(&import.figure(&args.name), &args.out, "import")?;
+    selvedge_textile::write(&built, &args.out)?;
+    selvedge_textile::write_figure(&import.figure(&args.name), &args.out, "import")?;
     output::print(&report(&import, &args.out)?)
 }
 
@@ -258,7 +258,7 @@ fn report(import: &KesImport, out: &Path) -> Result<String, CliError> {
 
 /// Measured figures, one line each.
 pub(super) fn figures(measured: &std::collections::BTreeMap<String, f64>) -> String {
-    let line = |figure: textile::MeasuredFigure| {
+    let line = |figure: selvedge_textile::MeasuredFigure| {
         let value = format!("{} {}", figure.value, figure.unit).replace('-', "−");
         let (name, what) = (figure.name, figure.what);
         format!("{name:14}{value:16}{what}").trim_end().to_owned() + "\n"
@@ -269,7 +269,7 @@ pub(super) fn figures(measured: &std::collections::BTreeMap<String, f64>) -> Str
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::textile::StrokeSide;
+    use selvedge_textile::StrokeSide;
 
     #[test]
     fn sections_are_said_for_one_axis_or_both() {

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use super::output::TableOut;
 use super::terminal::Meter;
 use super::{CliError, output, signals};
-use crate::progress::{CancelFlag, Progress};
-use crate::quantity::{factor_of_gain, fixed, level_db};
-use crate::tactile::{Band, Filters, Levels, Tuning};
-use crate::textile::{Library, Textile};
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db};
+use selvedge_textile::tactile::{Band, Filters, Levels, Tuning};
+use selvedge_textile::{Library, Textile};
 
 /// A textile and its levels.
 type Measured = (Arc<Textile>, Levels);

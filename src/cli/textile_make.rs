@@ -11,10 +11,10 @@ use super::terminal::Meter;
 use super::textile::FromLibrary;
 use super::textile_models::{self, BrownianArgs, FourierArgs, RestorationArgs};
 use super::{CliError, output, signals};
-use crate::files::{self, FileError};
-use crate::progress::{CancelFlag, Progress};
-use crate::quantity::fixed;
-use crate::textile::{self, Library, Manifest};
+use selvedge_foundation::files::{self, FileError};
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::quantity::fixed;
+use selvedge_textile::{Library, Manifest};
 
 /// What to make.
 #[derive(Debug, Subcommand)]
@@ -85,7 +85,7 @@ pub(super) fn make(kind: &str, recipe: &Path, out: &Path) -> Result<(), CliError
         let mend = format!("use \"selvedge textile make {found}\"");
         return Err(FileError::content(recipe, line, what, mend).into());
     }
-    let made = textile::make(&text, recipe, out)?;
+    let made = selvedge_textile::make(&text, recipe, out)?;
     output::print(&format!("{}: {}\n", out.display(), made.name))
 }
 
@@ -104,11 +104,11 @@ fn build_into(library: &Library, to: &Path, n_threads: Option<u8>) -> Result<(),
     // The reference level follows from the textiles made.
     tuning.compression_reference_db = None;
     let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let n_threads = n_threads.map_or_else(textile::n_threads, usize::from);
+    let n_threads = n_threads.map_or_else(selvedge_textile::n_threads, usize::from);
     let mut meter = Meter::new("making");
     let mut report = |share: f64, doing: &str| meter.show(share, doing);
     let mut progress = Progress::new(&mut report, cancel);
-    let index = textile::build_library(library, to, tuning, n_threads, &mut progress)?;
+    let index = selvedge_textile::build_library(library, to, tuning, n_threads, &mut progress)?;
     let n_made = index.textiles.len();
     let seconds = fixed(started.elapsed().as_secs_f64(), 1);
     output::print(&format!(

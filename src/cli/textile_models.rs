@@ -10,9 +10,9 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{CliError, output, terminal};
-use crate::files::{self, FileError};
-use crate::surface::Profile;
-use crate::textile::{self, FourierTemplate, Readings, Reduced, TextileError};
+use selvedge_foundation::files::{self, FileError};
+use selvedge_textile::surface::Profile;
+use selvedge_textile::{FourierTemplate, Readings, Reduced, TextileError};
 
 /// What every made surface takes.
 #[derive(Debug, Args)]
@@ -212,7 +212,7 @@ pub(super) fn learn(args: &LearnArgs) -> Result<(), CliError> {
             Ok(Readings::from_csv(&files::read_text(path)?, path, column)?)
         };
         let (probe, tracker) = (read(&pair[0], "height_um")?, read(&pair[1], "x_mm")?);
-        let imported = textile::import(&probe, &tracker)?;
+        let imported = selvedge_textile::import(&probe, &tracker)?;
         terminal::notice(&format!(
             "{}: the worst sampling step is {:.3} mm; {} readings without progress",
             pair[1].display(),
@@ -223,7 +223,7 @@ pub(super) fn learn(args: &LearnArgs) -> Result<(), CliError> {
     }
     let learnt = FourierTemplate::learn(&args.name, &profiles, args.harmonics)?;
     let n_harmonics = learnt.mean_cos_um.len();
-    let text = textile::templates_to_toml(&[learnt], &args.out)?;
+    let text = selvedge_textile::templates_to_toml(&[learnt], &args.out)?;
     files::write_atomic(&args.out, text.as_bytes())?;
     let out = args.out.display();
     let n = profiles.len();
@@ -231,12 +231,15 @@ pub(super) fn learn(args: &LearnArgs) -> Result<(), CliError> {
 }
 
 fn profile(path: &Path) -> Result<Profile, CliError> {
-    Ok(textile::read_profile(&files::read_text(path)?, path)?)
+    Ok(selvedge_textile::read_profile(
+        &files::read_text(path)?,
+        path,
+    )?)
 }
 
 /// An example by its name, or the first template of a file.
 fn template(which: &str) -> Result<FourierTemplate, CliError> {
-    let examples = textile::example_templates()?;
+    let examples = selvedge_textile::example_templates()?;
     let path = Path::new(which);
     if let Some(found) = examples.iter().find(|template| template.name == which) {
         return Ok(found.clone());
@@ -250,7 +253,7 @@ fn template(which: &str) -> Result<FourierTemplate, CliError> {
         let what = format!("no file and no example template is called \"{which}\"");
         return Err(CliError::Input(format!("{what}; the examples are {known}")));
     }
-    let found = textile::templates_from_toml(&files::read_text(path)?, path)?;
+    let found = selvedge_textile::templates_from_toml(&files::read_text(path)?, path)?;
     let none = || FileError::content(path, 1, "no template", "add [[template]]");
     Ok(found.into_iter().next().ok_or_else(none)?)
 }
@@ -284,7 +287,7 @@ fn make(
     }
     lines.push(tables()?);
     let recipe = lines.join("\n");
-    let made = textile::make(&recipe, Path::new("options"), &common.out);
+    let made = selvedge_textile::make(&recipe, Path::new("options"), &common.out);
     let made = made.map_err(without_line)?;
     output::print(&format!("{}: {}\n", common.out.display(), made.name))
 }

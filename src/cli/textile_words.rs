@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use clap::{Args, ValueEnum};
 
 use super::CliError;
-use crate::textile::{Construction, Words};
+use selvedge_textile::{Construction, Words};
 
 /// How a textile is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{CliError, signals};
-use crate::app;
-use crate::scene::Scene;
+
+use selvedge_render::scene::Scene;
 
 /// Opens the workbench, on the shipped scene if none is named.
 ///
@@ -18,6 +18,9 @@ pub(super) fn open(scene: Option<&Path>) -> Result<(), CliError> {
         }
         Scene::read(path)?;
     }
-    let listen = |end: app::EndSwitch| signals::on_signal(move || end.press());
-    Ok(app::run(scene.map(Path::to_path_buf), listen)?)
+    let listen = |end: selvedge_workbench::EndSwitch| signals::on_signal(move || end.press());
+    Ok(selvedge_workbench::run(
+        scene.map(Path::to_path_buf),
+        listen,
+    )?)
 }

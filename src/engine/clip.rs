@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::EngineError;
-use crate::bridge::{
+use selvedge_device::{
     ArrayProfile, FrameTable, HjifSpec, HjifWriter, SampleFormat, SinkError, WavParts, WavSpec,
 };
-use crate::progress::Progress;
-use crate::render::array::{DisplayFrame, DriveSynth};
-use crate::render::{Replay, replay};
-use crate::scene::ExplorationPath;
+use selvedge_foundation::progress::Progress;
+use selvedge_render::array::{DisplayFrame, DriveSynth};
+use selvedge_render::scene::ExplorationPath;
+use selvedge_render::{Replay, replay};
 
 /// Ticks between two looks at whether to stop.
 const TICKS_A_STEP: u64 = 64;
@@ -253,8 +253,8 @@ pub fn write_clip(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::ScratchFolder;
-    use crate::progress::{CancelFlag, unheard};
+    use selvedge_scratch::ScratchFolder;
+    use selvedge_foundation::progress::{CancelFlag, unheard};
 
     fn clip(path: &Path, kind: ClipKind) -> ClipWriter {
         let profile = ArrayProfile::default();
@@ -316,10 +316,10 @@ mod tests {
 
     #[test]
     fn a_stopped_rendering_leaves_no_file() {
-        use crate::geometry::{Displacement, Point};
-        use crate::render::array::{Accuracy, Method};
-        use crate::render::{ContactorArray, RenderScene};
-        use crate::scene::PathRow;
+        use selvedge_foundation::geometry::{Displacement, Point};
+        use selvedge_render::array::{Accuracy, Method};
+        use selvedge_render::scene::PathRow;
+        use selvedge_render::{ContactorArray, RenderScene};
         let scene = RenderScene {
             displays: vec![ContactorArray {
                 offsets: vec![Displacement::default()],

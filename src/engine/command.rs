@@ -8,10 +8,10 @@ use std::io::BufRead;
 use std::sync::Arc;
 
 use super::{PointerInput, PreparedScene, Tap, VibrationStep};
-use crate::bridge::{ArrayProfile, BridgeEvent, Target};
-use crate::render::{PlacedLevel, RenderError};
-use crate::scene::{ExplorationPath, Stroke};
-use crate::tactile::Tuning;
+use selvedge_device::{ArrayProfile, BridgeEvent, Target};
+use selvedge_render::scene::{ExplorationPath, Stroke};
+use selvedge_render::{PlacedLevel, RenderError};
+use selvedge_textile::tactile::Tuning;
 
 /// Something asked of the engine. Every one takes effect at a tick, except the stops.
 pub enum Command {

@@ -1,9 +1,9 @@
 //! What can go wrong with an engine.
 
 use super::{AudioError, InputError};
-use crate::bridge::SinkError;
-use crate::render::RenderError;
-use crate::scene::SceneError;
+use selvedge_device::SinkError;
+use selvedge_render::RenderError;
+use selvedge_render::scene::SceneError;
 
 /// Why an engine, or something that was asked of it, could not be.
 #[derive(Debug, thiserror::Error)]

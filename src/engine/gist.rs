@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle, Thread};
 
 use super::{EngineError, Playback, Snapshot};
-use crate::bridge::{BridgeState, CodeCounters, DeviceCounters};
-use crate::scene::Pose;
-use crate::tactile::Tuning;
+use selvedge_device::{BridgeState, CodeCounters, DeviceCounters};
+use selvedge_render::scene::Pose;
+use selvedge_textile::tactile::Tuning;
 
 /// What of a snapshot is worth drawing a window for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -7,8 +7,8 @@
 use rtrb::Producer;
 
 use super::EngineCore;
-use crate::geometry::Velocity;
-use crate::scene::Pose;
+use selvedge_foundation::geometry::Velocity;
+use selvedge_render::scene::Pose;
 
 /// Glimpses on the way: almost 13 s of movement.
 pub(super) const MOST_GLIMPSES: usize = 512;

@@ -24,7 +24,7 @@ use super::{
     Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
     Recording, Snapshot, StopSwitch,
 };
-use crate::bridge::{ArrayProfile, PlantWatch, SessionLog};
+use selvedge_device::{ArrayProfile, PlantWatch, SessionLog};
 
 /// Commands on the way.
 const MOST_ORDERS: usize = 64;

@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use super::{LinkView, Notice, TICK};
-use crate::bridge::{ArrayChange, Bridge, BridgeEvent, DeviceUid, SentFrame, StopHow, Timings};
+use selvedge_device::{ArrayChange, Bridge, BridgeEvent, DeviceUid, SentFrame, StopHow, Timings};
 
 /// Ticks between two looks at the timings of the link: one second.
 const TIMINGS_EVERY: u64 = 40;

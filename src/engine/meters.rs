@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::bridge::Spread;
+use selvedge_device::Spread;
 
 /// Buckets to an octave: a quantile is at most 9 % too high.
 const PER_OCTAVE: usize = 8;

@@ -6,9 +6,9 @@ use super::input::{Control, PointerInput};
 use super::recording::Recorder;
 use super::vibration::Vibration;
 use super::{PreparedScene, Snapshot, Tap, VelocityMethod};
-use crate::bridge::{ArrayChange, Bridge, Coder};
-use crate::render::PlacedLevel;
-use crate::tactile::Tuning;
+use selvedge_device::{ArrayChange, Bridge, Coder};
+use selvedge_render::PlacedLevel;
+use selvedge_textile::tactile::Tuning;
 
 /// What the engine's thread obeys. Everything in it is already allocated.
 pub(super) enum Order {

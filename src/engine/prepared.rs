@@ -4,11 +4,11 @@ use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{ContactorView, DisplayView, EngineError};
-use crate::bridge::{ArrayProfile, Coder};
-use crate::geometry::Point;
-use crate::render::RenderScene;
-use crate::render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
-use crate::scene::{Display, LoadedScene, Pose};
+use selvedge_device::{ArrayProfile, Coder};
+use selvedge_foundation::geometry::Point;
+use selvedge_render::RenderScene;
+use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
+use selvedge_render::scene::{Display, LoadedScene, Pose};
 
 /// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
 pub struct PreparedScene {

@@ -12,9 +12,9 @@ use std::time::Instant;
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::{ApplyTicks, PointerSample};
-use crate::bridge::SentFrame;
-use crate::geometry::Point;
-use crate::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
+use selvedge_device::SentFrame;
+use selvedge_foundation::geometry::Point;
+use selvedge_render::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
 
 /// Ticks in a block: ten seconds.
 const BLOCK_TICKS: usize = 400;
@@ -293,7 +293,7 @@ impl fmt::Debug for Recording {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+    use selvedge_foundation::geometry::Point;
 
     fn tick(n: u64) -> RecordedTick {
         let pose = Pose {

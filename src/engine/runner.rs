@@ -16,7 +16,7 @@ use super::meters::{DurationHistogram, RecentMedian};
 use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch, Tap};
-use crate::bridge::{Bridge, SentFrame, StopHow};
+use selvedge_device::{Bridge, SentFrame, StopHow};
 
 /// A tick that begins later than this after it was due is late.
 const LATE: Duration = Duration::from_millis(1);

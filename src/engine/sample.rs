@@ -4,7 +4,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::geometry::Point;
+use selvedge_foundation::geometry::Point;
 
 /// Where the pointer was, and when.
 #[derive(Debug, Clone, Copy, PartialEq)]

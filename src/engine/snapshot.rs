@@ -6,14 +6,14 @@
 use std::time::Duration;
 
 use super::{DurationHistogram, InputRate, PreparedScene, SampleCounters, VelocityMethod};
-use crate::bridge::{
+use selvedge_device::{
     Bite, BridgeCounters, BridgeState, Caps, ClockFit, SentFrame, Spread, Status, Timings,
 };
-use crate::geometry::Point;
-use crate::render::Counters;
-use crate::render::array::{ErrorBound, Method};
-use crate::scene::Pose;
-use crate::tactile::Tuning;
+use selvedge_foundation::geometry::Point;
+use selvedge_render::Counters;
+use selvedge_render::array::{ErrorBound, Method};
+use selvedge_render::scene::Pose;
+use selvedge_textile::tactile::Tuning;
 
 /// The engine after a tick.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::Thread;
 
-use crate::bridge::{StopHandle, StopHow};
+use selvedge_device::{StopHandle, StopHow};
 
 /// Switches everything off. Clones are the same switch.
 ///

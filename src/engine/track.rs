@@ -6,7 +6,7 @@ use super::input::{InputLosses, RateMeter};
 use super::sample::{SampleGate, Verdict};
 use super::velocity::{Estimate, REST, VelocityEstimator};
 use super::{InputRate, PointerSample, PointerView, TICK, VelocityMethod};
-use crate::geometry::Point;
+use selvedge_foundation::geometry::Point;
 
 /// The samples of a source and what follows from them.
 #[derive(Debug)]

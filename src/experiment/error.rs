@@ -2,9 +2,9 @@
 
 use super::schedule::ScheduleError;
 use super::trial::AnswerError;
-use crate::files::FileError;
-use crate::progress::Cancelled;
-use crate::textile::TextileError;
+use selvedge_foundation::files::FileError;
+use selvedge_foundation::progress::Cancelled;
+use selvedge_textile::TextileError;
 
 /// What can be wrong with a design, a session or a log.
 #[derive(Debug, thiserror::Error)]

@@ -5,11 +5,11 @@
 
 use super::design::{Design, Method, Source, Standard, TunedParameter};
 use super::trial::Task;
-use crate::engine::{TICKS_PER_S, VibrationStep};
-use crate::geometry::Point;
-use crate::quantity::factor_of_gain;
-use crate::scene::{Display, PlacedTextile, Scene};
-use crate::tactile::{Band, Tuning};
+use selvedge_engine::{TICKS_PER_S, VibrationStep};
+use selvedge_foundation::geometry::Point;
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_render::scene::{Display, PlacedTextile, Scene};
+use selvedge_textile::tactile::{Band, Tuning};
 
 /// Side of a stimulus, mm (Philpott & Summers 2012).
 const SIDE_MM: f64 = 100.0;

@@ -11,9 +11,9 @@ use std::io::{self, Write as _};
 use std::path::Path;
 
 use super::ExperimentError;
-use crate::files::{FileError, Staged};
-use crate::numerics::{Complex, Random, RealTransform};
-use crate::progress::Progress;
+use selvedge_foundation::files::{FileError, Staged};
+use selvedge_foundation::numerics::{Complex, Random, RealTransform};
+use selvedge_foundation::progress::Progress;
 
 /// Samples per second.
 pub const NOISE_RATE_HZ: u32 = 48_000;
@@ -196,8 +196,8 @@ fn header(n_samples: u64) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::session::tests::Folder;
-    use crate::progress::unheard;
+    use crate::session::tests::Folder;
+    use selvedge_foundation::progress::unheard;
 
     fn written(folder: &Folder, noise: MaskingNoise) -> Vec<f64> {
         std::fs::create_dir_all(&folder.0).unwrap();

@@ -9,8 +9,8 @@ use std::time::SystemTime;
 
 use super::ExperimentError;
 use super::design::is_name;
-use crate::files::{self, FileError, Journal, Table};
-use crate::quantity::rfc3339;
+use selvedge_foundation::files::{self, FileError, Journal, Table};
+use selvedge_foundation::quantity::rfc3339;
 
 /// The columns of the table.
 const COLUMNS: [&str; 7] = [
@@ -285,7 +285,7 @@ mod tests {
     use std::time::UNIX_EPOCH;
 
     use super::*;
-    use crate::experiment::session::tests::Folder;
+    use crate::session::tests::Folder;
 
     const TOLD: Particulars<'static> = Particulars {
         age_years: Some(31),

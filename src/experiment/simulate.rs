@@ -12,7 +12,7 @@ use super::design::{Design, Subject};
 use super::observer::{Observer, Participant, Stimuli};
 use super::record::{Apparatus, Outcome, Record, Timing};
 use super::session::{Opening, unwritten, write_whole};
-use crate::progress::Progress;
+use selvedge_foundation::progress::Progress;
 
 /// What a log names as the device.
 pub const SIMULATED: &str = "simulated";

@@ -5,8 +5,8 @@
 //! beyond [`MOST_ENTRIES`] entries. Renders nothing.
 
 use super::array::DisplayFrame;
-use crate::quantity::level_db;
-use crate::tactile::{Perception, vibrating_mean_um};
+use selvedge_foundation::quantity::level_db;
+use selvedge_textile::tactile::{Perception, vibrating_mean_um};
 
 /// An amplitude below this counts as silence, µm: a nanometre, 49 dB or more below any threshold
 /// of detection.
@@ -129,7 +129,7 @@ impl Spread {
     }
 }
 
-/// By how much two runs differ; bands by [`crate::tactile::Band::index`].
+/// By how much two runs differ; bands by [`selvedge_textile::tactile::Band::index`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct LevelDifference {
     /// Ticks that were compared.
@@ -250,10 +250,10 @@ mod tests {
     use std::ops::ControlFlow;
 
     use super::*;
-    use crate::geometry::Point;
-    use crate::render::array::{Method, TableCache};
-    use crate::render::{RenderScene, replay_pair};
+    use crate::array::{Method, TableCache};
     use crate::scene::{LoadedScene, Pose, Stroke};
+    use crate::{RenderScene, replay_pair};
+    use selvedge_foundation::geometry::Point;
 
     const N_TICKS: u64 = 136;
 

@@ -4,8 +4,8 @@
 //! ten and never touches a spectrum; it allocates nothing, so sliders may move while a tick is due.
 
 use super::{PlacedLevel, RenderError, RenderScene};
-use crate::quantity::factor_of_gain;
-use crate::tactile::{Band, Tuning, check_gain};
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_textile::tactile::{Band, Tuning, check_gain};
 
 /// Total gains above this count as this, so that every product stays finite, dB.
 pub const MAX_TOTAL_GAIN_DB: f64 = 300.0;

@@ -5,10 +5,10 @@
 use std::sync::Arc;
 
 use super::RenderError;
-use crate::geometry::{Displacement, Frame};
 use crate::scene::LoadedScene;
-use crate::surface::Surface;
-use crate::tactile::{Filters, Tuning, check_gain};
+use selvedge_foundation::geometry::{Displacement, Frame};
+use selvedge_textile::surface::Surface;
+use selvedge_textile::tactile::{Filters, Tuning, check_gain};
 
 /// Most textiles that a scene to render may hold.
 const MAX_TEXTILES: usize = 65_000;
@@ -58,7 +58,7 @@ pub enum PlacedLevel {
 }
 
 impl PlacedLevel {
-    /// The level of [`crate::tactile::Levels::level_db`].
+    /// The level of [`selvedge_textile::tactile::Levels::level_db`].
     pub fn of(level_db: Option<f64>) -> Self {
         level_db.map_or(Self::Silent, Self::Known)
     }

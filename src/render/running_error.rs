@@ -172,7 +172,7 @@ fn octave_of(amplitude_um: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::ErrorMeter;
+    use crate::ErrorMeter;
 
     #[test]
     fn a_run_that_went_on_is_judged_like_one_that_is_over() {

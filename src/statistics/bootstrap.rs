@@ -1,7 +1,7 @@
 //! Intervals by drawing subjects again, with replacement: percentile, and bias-corrected and
 //! accelerated (Efron 1987; Efron & Tibshirani 1993, chapter 14).
 
-use crate::numerics::{Random, quantile};
+use selvedge_foundation::numerics::{Random, quantile};
 
 use super::distribution::{normal_lower, normal_quantile};
 use super::summary::{centred, sum_of_squares};
@@ -202,7 +202,7 @@ fn shifted(values: &[f64], estimate: f64, a: f64, tails: [f64; 2]) -> Computed<[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::{Summary, mean};
+    use crate::{Summary, mean};
 
     const HOW: Resampling = Resampling {
         n_resamples: 4000,

@@ -150,7 +150,7 @@ fn exact_p(x: &[f64], y: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn r_of_sixteen_textiles_has_the_p_that_follows_from_its_size() -> Computed<()> {

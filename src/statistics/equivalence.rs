@@ -119,7 +119,7 @@ fn over_spread(df: f64, function: impl Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn the_spread_is_distributed_as_a_whole() {

@@ -52,7 +52,7 @@ pub(super) fn fisher_z_with(r: f64, n: usize, inflation: f64, level: f64) -> Com
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::distribution::binomial_mass;
+    use crate::distribution::binomial_mass;
 
     #[test]
     fn the_ends_of_wilson_are_where_the_score_test_turns() -> Computed<()> {

@@ -1,7 +1,7 @@
 //! The sign-flip permutation test of paired differences: under the null hypothesis each subject's
 //! labels could as well be exchanged, whatever the distribution of answers.
 
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 use super::summary::{at_least, largest};
 use super::{Computed, Freedom, Named, Outcome, Sides, Undefined};
@@ -103,7 +103,7 @@ fn random_count(differences: &[f64], least: f64, n_random: usize, seed: u64) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::{Summary, one_sample_t};
+    use crate::{Summary, one_sample_t};
 
     #[test]
     fn few_differences_are_counted_by_hand() -> Computed<()> {

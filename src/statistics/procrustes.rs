@@ -7,7 +7,7 @@
 use nalgebra::DMatrix;
 
 use super::Undefined;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// One configuration laid over another.
 #[derive(Debug, Clone, PartialEq)]

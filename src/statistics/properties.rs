@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Undefined;
 use super::procrustes::Procrustes;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// Turns tried before the best is refined.
 const N_TURNS: u32 = 180;

@@ -137,7 +137,7 @@ impl Difference {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     fn assert_about(found: f64, printed: f64, half_digit: f64) {
         assert!(

@@ -1,6 +1,6 @@
 //! Wilcoxon's signed rank test, exact for small samples with ties too.
 
-use crate::numerics::median;
+use selvedge_foundation::numerics::median;
 
 use super::distribution::normal_upper;
 use super::rank::Ranks;

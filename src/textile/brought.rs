@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::{kes, metrology};
-use crate::files::{self, FileError};
+use selvedge_foundation::files::{self, FileError};
 
 /// Larger files are refused before they are read: more than the heights of any map that is read.
 const MOST_BYTES: u64 = 1 << 30;

@@ -12,13 +12,15 @@ use super::loaded::{MANIFEST, Textile, read_manifest};
 use super::manifest::{AppearanceKeys, Manifest, ProfileFiles, Source};
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, workers};
-use crate::files::{FileError, encode_png_small, read_text, sha256_hex, write_atomic};
-use crate::progress::{Progress, unheard};
 use crate::surface::{Direction, Representation, Surface};
 use crate::tactile::{Filters, Levels, Tuning};
+use selvedge_foundation::files::{
+    FileError, encode_png_small, read_text, sha256_hex, write_atomic,
+};
+use selvedge_foundation::progress::{Progress, unheard};
 
 /// The name of the picture.
-pub(crate) const PICTURE: &str = "appearance.png";
+pub const PICTURE: &str = "appearance.png";
 
 /// A file of a built textile.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -140,7 +142,7 @@ pub fn build_library(
 }
 
 /// The files of a textile of a library, as they are; recipes of a file are built.
-pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+pub fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
     let store = from.files_of(id)?;
     let manifest = read_manifest(&store, id)?;
     let mut names = content_names(&manifest);
@@ -173,7 +175,7 @@ fn content_names(manifest: &Manifest) -> Vec<String> {
 }
 
 /// What the figures of an index are made from: id, manifest and surface.
-pub(crate) fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, TextileError> {
+pub fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, TextileError> {
     let manifest = read_manifest(store, id)?;
     let mut content = vec![
         id.as_bytes().to_vec(),
@@ -187,7 +189,7 @@ pub(crate) fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, Textil
 
 /// The index of a library, from its profiles: levels with the default filters (to six digits), the
 /// mean level, the hash of what they were made from.
-pub(crate) fn index_of(
+pub fn index_of(
     library: &Library,
     tuning: Tuning,
     n_threads: usize,
@@ -219,7 +221,7 @@ pub(crate) fn index_of(
 }
 
 /// The hash that the index of a library states: of what its figures are made from, in order.
-pub(crate) fn hash_of(library: &Library) -> Result<String, TextileError> {
+pub fn hash_of(library: &Library) -> Result<String, TextileError> {
     let contents = library
         .ids()
         .iter()
@@ -229,7 +231,7 @@ pub(crate) fn hash_of(library: &Library) -> Result<String, TextileError> {
 }
 
 /// Mean amplitude of both bands as an index states it, to six digits, µm.
-pub(crate) fn means_um(surface: &Surface) -> [f64; 2] {
+pub fn means_um(surface: &Surface) -> [f64; 2] {
     let levels = Levels::of(surface, &Filters::default());
     levels.mean_um.map(six_digits)
 }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use super::build::BuiltFile;
-use crate::files::{sha256_hex, write_atomic};
+use selvedge_foundation::files::{sha256_hex, write_atomic};
 
 /// How large the folder may grow, bytes.
 const LIMIT_BYTES: u64 = 256 << 20;
@@ -43,7 +43,7 @@ impl BuildCache {
     }
 
     /// The files of an entry; `None` if there is none or it is damaged.
-    pub(crate) fn get(&self, key: &str) -> Option<Vec<BuiltFile>> {
+    pub fn get(&self, key: &str) -> Option<Vec<BuiltFile>> {
         let path = self.path(key);
         let bytes = fs::read(&path).ok()?;
         let files = decode(&bytes);
@@ -58,7 +58,7 @@ impl BuildCache {
 
     /// Keeps the files of an entry and makes room. What cannot be kept is built again next time,
     /// so a folder that is full or read-only is no error.
-    pub(crate) fn put(&self, key: &str, files: &[BuiltFile]) {
+    pub fn put(&self, key: &str, files: &[BuiltFile]) {
         let bytes = encode(files);
         let fits = u64::try_from(bytes.len()).is_ok_and(|n| n <= self.limit_bytes);
         if fits
@@ -157,7 +157,7 @@ fn line(bytes: &[u8]) -> Option<(&str, &[u8])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::ScratchFolder;
+    use selvedge_scratch::ScratchFolder;
 
     fn entries(folder: &Path) -> Vec<String> {
         let mut names: Vec<String> = (fs::read_dir(folder).into_iter().flatten().flatten())

@@ -3,26 +3,26 @@
 use std::path::Path;
 
 use super::{TextileError, profile_file};
-use crate::files::Rgb8Image;
-use crate::numerics::{Grid, quantile};
 use crate::surface::{Direction, HeightMap, ProfileSet};
+use selvedge_foundation::files::Rgb8Image;
+use selvedge_foundation::numerics::{Grid, quantile};
 
 /// Four strokes and a patch.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Drawn {
+pub struct Drawn {
     /// Heights of the strokes, µm, by [`Direction::index`], in travel order.
-    pub(crate) strokes_um: [Vec<f64>; 4],
+    pub strokes_um: [Vec<f64>; 4],
     /// Steps along warp and weft, mm.
-    pub(crate) step_mm: [f64; 2],
+    pub step_mm: [f64; 2],
     /// What is pictured.
-    pub(crate) patch: HeightMap,
+    pub patch: HeightMap,
     /// Figures found on it, for the manifest.
-    pub(crate) measured: Vec<(&'static str, f64)>,
+    pub measured: Vec<(&'static str, f64)>,
 }
 
 impl Drawn {
     /// Strokes along two lines, forward and back: a point has no friction.
-    pub(crate) fn of_lines(lines_um: [Vec<f64>; 2], step_mm: f64, patch: HeightMap) -> Self {
+    pub fn of_lines(lines_um: [Vec<f64>; 2], step_mm: f64, patch: HeightMap) -> Self {
         let back = |line: &[f64]| line.iter().rev().copied().collect();
         let [warp, weft] = lines_um.map(about_mean);
         let strokes_um = [warp.clone(), back(&warp), weft.clone(), back(&weft)];
@@ -35,7 +35,7 @@ impl Drawn {
     }
 
     /// Strokes that a probe made over a map.
-    pub(crate) fn of_strokes(strokes: &ProfileSet, patch: HeightMap) -> Self {
+    pub fn of_strokes(strokes: &ProfileSet, patch: HeightMap) -> Self {
         let heights = |index: usize| {
             let profile = strokes[index].as_ref();
             profile.map_or_else(Vec::new, |profile| profile.heights_um().to_vec())
@@ -49,7 +49,7 @@ impl Drawn {
     }
 
     /// The strokes as profile files, by [`Direction::index`].
-    pub(crate) fn profile_files(&self) -> Result<[String; 4], TextileError> {
+    pub fn profile_files(&self) -> Result<[String; 4], TextileError> {
         let mut texts: [String; 4] = Default::default();
         for direction in Direction::ALL {
             let is_weft = matches!(direction, Direction::WeftForward | Direction::WeftReverse);
@@ -63,7 +63,7 @@ impl Drawn {
 
     /// The picture of the patch: its relief lit from the upper left, one pixel a point; and pixels
     /// a mm.
-    pub(crate) fn picture(&self) -> (Rgb8Image, f64) {
+    pub fn picture(&self) -> (Rgb8Image, f64) {
         (lit(self.patch.heights_um()), 1.0 / self.patch.step_mm()[0])
     }
 }
@@ -78,7 +78,7 @@ fn about_mean(mut heights_um: Vec<f64>) -> Vec<f64> {
 }
 
 /// Every `stride`-th point of a map, so that a picture of it stays small.
-pub(crate) fn thinned(map: &HeightMap, stride: usize) -> Option<HeightMap> {
+pub fn thinned(map: &HeightMap, stride: usize) -> Option<HeightMap> {
     let heights = map.heights_um();
     let (width, stride) = (heights.width().div_ceil(stride.max(1)), stride.max(1));
     let rows = (0..heights.height()).step_by(stride);

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::TextileError;
 use super::manifest::Checker;
-use crate::files::{keys_from_str, keys_to_string};
-use crate::quantity::level_db;
 use crate::tactile::Tuning;
+use selvedge_foundation::files::{keys_from_str, keys_to_string};
+use selvedge_foundation::quantity::level_db;
 
 /// What `library.toml` holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -99,7 +99,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::textile::shipped;
+    use crate::shipped;
 
     proptest! {
         #[test]

@@ -12,8 +12,8 @@ use super::library::{INDEX, Library};
 use super::loaded::MANIFEST;
 use super::words::id_of;
 use super::{TextileError, workers};
-use crate::files::write_atomic;
-use crate::progress::Progress;
+use selvedge_foundation::files::write_atomic;
+use selvedge_foundation::progress::Progress;
 
 /// Textiles that may share a name but for a number.
 const MOST_ALIKE: u32 = 9999;

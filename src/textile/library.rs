@@ -14,19 +14,19 @@ use super::loaded::{Appearance, MANIFEST, Textile, read_appearance, read_manifes
 use super::manifest::Manifest;
 use super::recipes::{Recipes, SEVENTY_FOUR};
 use super::{TextileError, shipped, workers};
-use crate::files::{FileError, read, read_text};
-use crate::progress::Progress;
 use crate::tactile::Tuning;
+use selvedge_foundation::files::{FileError, read, read_text};
+use selvedge_foundation::progress::Progress;
 
 /// The name of the index in a library's folder.
-pub(crate) const INDEX: &str = "library.toml";
+pub const INDEX: &str = "library.toml";
 
 /// Textiles that are named when one is not found; more would hide what is wrong.
 const NAMED: usize = 20;
 
 /// Where a library's files lie.
 #[derive(Debug, Clone)]
-pub(crate) enum Store {
+pub enum Store {
     /// A folder with a folder for every textile.
     Folder(PathBuf),
     /// Part of the program.
@@ -110,7 +110,7 @@ impl Library {
     }
 
     /// One textile whose files are at hand and lie in no folder yet.
-    pub(crate) fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
+    pub fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
         Self {
             store: Store::Built(Arc::new(files), PathBuf::from("the new textile")),
             ids: vec![id.to_owned()],
@@ -119,7 +119,7 @@ impl Library {
     }
 
     /// The textiles with these ids of a folder, whatever index it has.
-    pub(crate) fn of_folder(folder: &Path, ids: &[String]) -> Self {
+    pub fn of_folder(folder: &Path, ids: &[String]) -> Self {
         Self {
             store: Store::Folder(folder.to_owned()),
             ids: ids.to_vec(),
@@ -203,7 +203,7 @@ impl Library {
     }
 
     /// Where the files of a textile are: built, if they were not there.
-    pub(crate) fn files_of(&self, id: &str) -> Result<Store, TextileError> {
+    pub fn files_of(&self, id: &str) -> Result<Store, TextileError> {
         self.check_id(id)?;
         match &self.store {
             Store::Recipes(recipes) => {
@@ -238,7 +238,7 @@ pub fn is_of_the_program(name: &Path) -> bool {
 }
 
 /// There is no textile of that id.
-pub(crate) fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError {
+pub fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError {
     let known = match ids.split_at_checked(NAMED) {
         _ if ids.is_empty() => "no textiles".to_owned(),
         Some((named, rest)) if !rest.is_empty() => {
@@ -255,7 +255,7 @@ pub(crate) fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError 
 
 impl Store {
     /// The text of a file of a textile.
-    pub(crate) fn text(&self, id: &str, name: &str) -> Result<String, FileError> {
+    pub fn text(&self, id: &str, name: &str) -> Result<String, FileError> {
         match self {
             Self::Folder(_) => read_text(&self.path(id, name)),
             Self::Shipped | Self::Recipes(_) | Self::Built(..) => self
@@ -274,12 +274,12 @@ impl Store {
     }
 
     /// How a file of a textile is called in messages.
-    pub(crate) fn path(&self, id: &str, name: &str) -> PathBuf {
+    pub fn path(&self, id: &str, name: &str) -> PathBuf {
         self.root().join(id).join(name)
     }
 
     /// The bytes of a file of a textile.
-    pub(crate) fn read(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, FileError> {
+    pub fn read(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, FileError> {
         let path = self.path(id, name);
         let found = match self {
             Self::Folder(_) => return read(&path).map(Cow::Owned),

@@ -7,8 +7,8 @@ use super::library::Store;
 use super::manifest::Manifest;
 use super::model::{Model, profiles_of_files};
 use super::{TextileError, profile_file};
-use crate::files::{Rgb8Image, decode_png, sha256_hex};
 use crate::surface::{Direction, FrictionTrace, HeightMap, ProfileSet, Representation, Surface};
+use selvedge_foundation::files::{Rgb8Image, decode_png, sha256_hex};
 
 /// A textile, ready to be felt.
 #[derive(Debug, Clone)]
@@ -32,7 +32,7 @@ pub struct Appearance {
 impl Textile {
     /// Reads a textile of a store: manifest, profiles, spectra. A model or a height
     /// map that names no profile files is built on the spot, which takes a second or so.
-    pub(crate) fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
+    pub fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
         let manifest = read_manifest(store, id)?;
         let floor = manifest.noise_floor_um2_mm.unwrap_or(0.0);
         let is_areal = manifest.source.representation() == Representation::Areal;
@@ -127,7 +127,7 @@ impl Textile {
 }
 
 /// Reads the picture that a manifest names; `None` if it names none.
-pub(crate) fn read_appearance(
+pub fn read_appearance(
     store: &Store,
     id: &str,
     manifest: &Manifest,
@@ -144,10 +144,10 @@ pub(crate) fn read_appearance(
 }
 
 /// The name of a manifest in its textile's folder.
-pub(crate) const MANIFEST: &str = "textile.toml";
+pub const MANIFEST: &str = "textile.toml";
 
 /// Reads the manifest of a textile.
-pub(crate) fn read_manifest(store: &Store, id: &str) -> Result<Manifest, TextileError> {
+pub fn read_manifest(store: &Store, id: &str) -> Result<Manifest, TextileError> {
     let path = store.path(id, MANIFEST);
     Manifest::from_toml(&store.text(id, MANIFEST)?, &path)
 }

@@ -7,9 +7,9 @@ use super::cloth::{Cloth, PX_PER_MM, Side, portrait, profiles, relief_map};
 use super::drawn::Drawn;
 use super::manifest::Source;
 use super::{TextileError, profile_file, shipped};
-use crate::files::{Rgb8Image, sha256_hex};
-use crate::numerics::Random;
 use crate::surface::{Direction, HeightMap, Probe, ProfileSet, SurfaceError};
+use selvedge_foundation::files::{Rgb8Image, sha256_hex};
+use selvedge_foundation::numerics::Random;
 
 /// Distance of a cloth's samples, mm.
 const STEP_MM: f64 = 1.0 / 230.0;
@@ -22,7 +22,7 @@ const RELIEF_STEP_MM: f64 = 0.02;
 const MODEL: &str = "selvedge models 2";
 
 /// Says which models build: other models, other text.
-pub(crate) fn version() -> String {
+pub fn version() -> String {
     let program = env!("CARGO_PKG_VERSION");
     let shipped = sha256_hex([shipped::INDEX.as_bytes()]);
     format!("{MODEL}\n{program}\n{shipped}\n")
@@ -30,7 +30,7 @@ pub(crate) fn version() -> String {
 
 /// A model, ready to be felt.
 #[derive(Debug)]
-pub(crate) enum Model {
+pub enum Model {
     /// A model cloth under the virtual tester.
     Cloth {
         cloth: Box<Cloth>,
@@ -43,7 +43,7 @@ pub(crate) enum Model {
 
 impl Model {
     /// The model of a source; `None` if it was measured.
-    pub(crate) fn of(source: &Source) -> Result<Option<Self>, TextileError> {
+    pub fn of(source: &Source) -> Result<Option<Self>, TextileError> {
         let (cloth, seed, noise_um, side) = match source {
             Source::Profiles(_) | Source::Heightmap(_) | Source::Picture(_) => return Ok(None),
             Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um, weave.side),
@@ -72,7 +72,7 @@ impl Model {
     }
 
     /// The four strokes as profile files, by [`Direction::index`].
-    pub(crate) fn profile_files(&self) -> Result<[String; 4], TextileError> {
+    pub fn profile_files(&self) -> Result<[String; 4], TextileError> {
         let (cloth, probe, random) = match self {
             Self::Drawn(drawn) => return drawn.profile_files(),
             Self::Cloth {
@@ -92,7 +92,7 @@ impl Model {
 
     /// The relief of the whole cloth, which repeats: heights of the model itself, without a probe;
     /// `None` of what is no cloth.
-    pub(crate) fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+    pub fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
         match self {
             Self::Cloth { cloth, .. } => Some(relief_map(cloth, RELIEF_STEP_MM)),
             Self::Drawn(_) => None,
@@ -101,7 +101,7 @@ impl Model {
 
     /// Heights over an area to look at: a cloth's relief with points about so far apart, or the
     /// patch of what was drawn.
-    pub(crate) fn relief(&self, step_mm: f64) -> Result<HeightMap, SurfaceError> {
+    pub fn relief(&self, step_mm: f64) -> Result<HeightMap, SurfaceError> {
         match self {
             Self::Cloth { cloth, .. } => relief_map(cloth, step_mm),
             Self::Drawn(drawn) => Ok(drawn.patch.clone()),
@@ -109,7 +109,7 @@ impl Model {
     }
 
     /// The picture, and pixels a mm.
-    pub(crate) fn picture(&self) -> (Rgb8Image, f64) {
+    pub fn picture(&self) -> (Rgb8Image, f64) {
         match self {
             Self::Cloth { cloth, .. } => (portrait(cloth), PX_PER_MM),
             Self::Drawn(drawn) => drawn.picture(),
@@ -117,7 +117,7 @@ impl Model {
     }
 
     /// Figures that the model found on its own surface, beside the roughness.
-    pub(crate) fn measured(&self) -> &[(&'static str, f64)] {
+    pub fn measured(&self) -> &[(&'static str, f64)] {
         match self {
             Self::Cloth { .. } => &[],
             Self::Drawn(drawn) => &drawn.measured,
@@ -134,7 +134,7 @@ impl Source {
 }
 
 /// The profiles of four profile files, by [`Direction::index`].
-pub(crate) fn profiles_of_files(texts: &[String; 4]) -> Result<ProfileSet, TextileError> {
+pub fn profiles_of_files(texts: &[String; 4]) -> Result<ProfileSet, TextileError> {
     let mut profiles = ProfileSet::default();
     for (direction, text) in Direction::ALL.into_iter().zip(texts) {
         let profile = profile_file::read(text, Path::new(direction.key()))?;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::TextileError;
-use crate::files::{FileError, Table, TableWriter};
 use crate::surface::{FrictionTrace, Profile};
+use selvedge_foundation::files::{FileError, Table, TableWriter};
 
 const COLUMNS: [&str; 2] = ["x_mm", "height_um"];
 const FRICTION_COLUMNS: [&str; 2] = ["x_mm", "mu"];
@@ -43,7 +43,7 @@ fn columns(text: &str, path: &Path, [x, y]: [&str; 2]) -> Result<(Vec<f64>, Vec<
 }
 
 /// Reads a friction trace. `path` only names it in errors.
-pub(crate) fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileError> {
+pub fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileError> {
     let (x_mm, mu) = columns(text, path, FRICTION_COLUMNS)?;
     FrictionTrace::from_positions(&x_mm, mu).map_err(|source| TextileError::Surface {
         path: path.to_owned(),
@@ -52,13 +52,13 @@ pub(crate) fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, Te
 }
 
 /// Writes a friction trace: places to a nanometre, coefficients to a millionth.
-pub(crate) fn write_friction(trace: &FrictionTrace, path: &Path) -> Result<String, FileError> {
+pub fn write_friction(trace: &FrictionTrace, path: &Path) -> Result<String, FileError> {
     written(trace.mu(), trace.step_mm(), 1e6, (path, FRICTION_COLUMNS))
 }
 
 /// Writes heights in µm, `step_mm` apart: places to a nanometre, heights to a nanometre. What the
 /// rounding hides cannot differ from machine to machine.
-pub(crate) fn write(heights_um: &[f64], step_mm: f64, path: &Path) -> Result<String, FileError> {
+pub fn write(heights_um: &[f64], step_mm: f64, path: &Path) -> Result<String, FileError> {
     written(heights_um, step_mm, 1e3, (path, COLUMNS))
 }
 

@@ -15,7 +15,7 @@ use super::index::Index;
 use super::manifest::{Manifest, Source};
 use super::model::version;
 use super::{TextileError, shipped};
-use crate::files::{
+use selvedge_foundation::files::{
     FileError, Keys, keys_from_str, keys_to_string, lay_over, line_of_key, read_text, sha256_hex,
     take_text,
 };
@@ -27,7 +27,7 @@ const BACK: &str = "-back";
 
 /// The recipes of a file, in its order.
 #[derive(Debug)]
-pub(crate) struct Recipes {
+pub struct Recipes {
     path: PathBuf,
     surfaces: Vec<Recipe>,
     index: Option<Index>,
@@ -50,7 +50,7 @@ struct File {
 
 impl Recipes {
     /// The recipes of the seventy-four, which are part of the program.
-    pub(crate) fn seventy_four(cache: Option<BuildCache>) -> Result<Self, TextileError> {
+    pub fn seventy_four(cache: Option<BuildCache>) -> Result<Self, TextileError> {
         let mut recipes = Self::parse(shipped::RECIPES, Path::new(SEVENTY_FOUR), cache)?;
         let path = index_path(Path::new("seventy-four.toml"));
         recipes.index = Some(Index::from_toml(shipped::RECIPES_INDEX, &path)?);
@@ -59,7 +59,7 @@ impl Recipes {
 
     /// The recipes of a file, with the index `NAME.library.toml` beside it if that is there and
     /// lists the same textiles.
-    pub(crate) fn read(path: &Path, cache: Option<BuildCache>) -> Result<Self, TextileError> {
+    pub fn read(path: &Path, cache: Option<BuildCache>) -> Result<Self, TextileError> {
         let mut recipes = Self::parse(&read_text(path)?, path, cache)?;
         let beside = index_path(path);
         if beside.is_file() {
@@ -101,12 +101,12 @@ impl Recipes {
     }
 
     /// The file, or the name of the library.
-    pub(crate) fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// The ids, in order.
-    pub(crate) fn ids(&self) -> Vec<String> {
+    pub fn ids(&self) -> Vec<String> {
         self.surfaces
             .iter()
             .map(|recipe| recipe.id.clone())
@@ -114,18 +114,18 @@ impl Recipes {
     }
 
     /// Levels that were measured before.
-    pub(crate) fn index(&self) -> Option<&Index> {
+    pub fn index(&self) -> Option<&Index> {
         self.index.as_ref()
     }
 
     /// The manifest of a textile before it is built; `None` if there is none of that id.
-    pub(crate) fn manifest(&self, id: &str) -> Option<&Manifest> {
+    pub fn manifest(&self, id: &str) -> Option<&Manifest> {
         let recipe = self.surfaces.iter().find(|recipe| recipe.id == id)?;
         Some(&recipe.manifest)
     }
 
     /// The files of a textile: from the cache, or built now and kept there.
-    pub(crate) fn built(&self, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+    pub fn built(&self, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
         let path = self.path.join(id);
         let Some(manifest) = self.manifest(id) else {
             return Err(super::library::unknown(id, &self.path, &self.ids()));

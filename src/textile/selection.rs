@@ -9,7 +9,7 @@ use super::knit::Structure;
 use super::manifest::{Manifest, Source};
 use super::weave::Interlacing;
 use super::{Library, TextileError};
-use crate::quantity::level_db;
+use selvedge_foundation::quantity::level_db;
 
 /// Fibres from stems and leaves: stiff, uneven yarns.
 const BAST_AND_LEAF: [&str; 4] = ["jute", "linen", "hemp", "sisal"];

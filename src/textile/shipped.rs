@@ -3,13 +3,13 @@
 //! The bytes are embedded as they lie in `textiles/`; nothing is decoded before it is asked for.
 
 /// `library.toml`.
-pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
+pub const INDEX: &str = include_str!("../../textiles/library.toml");
 
 /// The recipes of the seventy-four.
-pub(crate) const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
+pub const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
 
 /// What was measured on the seventy-four, as a `library.toml`.
-pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
+pub const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
 
 /// One embedded file of a textile.
 macro_rules! embedded {
@@ -22,7 +22,7 @@ macro_rules! embedded {
 macro_rules! textiles {
     ($($id:literal),+ $(,)?) => {
         /// A file of a shipped textile.
-        pub(crate) fn file(id: &str, name: &str) -> Option<&'static [u8]> {
+        pub fn file(id: &str, name: &str) -> Option<&'static [u8]> {
             match (id, name) {
                 $(
                     ($id, "textile.toml") => embedded!($id, "textile.toml"),

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::TextileError;
 use super::manifest::Manifest;
 use super::model::{Model, profiles_of_files};
-use crate::progress::Progress;
 use crate::surface::{HeightMap, Representation, Surface, SurfaceError};
+use selvedge_foundation::progress::Progress;
 
 /// Distance of the points of a cloth's relief where only a picture is wanted, mm.
 const PICTURE_STEP_MM: f64 = 0.05;
@@ -68,10 +68,10 @@ impl Trial {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::{CancelFlag, unheard};
+    use crate::library::Store;
     use crate::surface::Direction;
-    use crate::textile::library::Store;
-    use crate::textile::{Textile, build, example};
+    use crate::{Textile, build, example};
+    use selvedge_foundation::progress::{CancelFlag, unheard};
 
     #[test]
     fn a_trial_has_the_surface_of_the_textile_that_is_built_from_its_recipe() {

@@ -6,15 +6,15 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
 
 use super::TextileError;
-use crate::progress::Progress;
+use selvedge_foundation::progress::Progress;
 
-pub use crate::numerics::n_threads;
+pub use selvedge_foundation::numerics::n_threads;
 
 /// Does `work` for every id and returns the results in the order of the ids.
 ///
 /// # Errors
 /// Of the ids that failed, the error of the first in order that was reached; cancelling.
-pub(crate) fn for_each<T: Send>(
+pub fn for_each<T: Send>(
     ids: &[String],
     n_threads: usize,
     progress: &mut Progress<'_>,
@@ -76,7 +76,7 @@ pub(crate) fn for_each<T: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::{CancelFlag, unheard};
+    use selvedge_foundation::progress::{CancelFlag, unheard};
 
     fn ids(n: usize) -> Vec<String> {
         (0..n).map(|i| i.to_string()).collect()

@@ -6,10 +6,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use selvedge::numerics::{median, quantile};
-use selvedge::progress::{CancelFlag, Progress};
-use selvedge::render::array::DriveSynth;
-use selvedge::report::{Bench, ClipsStudy, Effort, Study as _};
+use selvedge_foundation::numerics::{median, quantile};
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_render::array::DriveSynth;
+use selvedge_studies::{Bench, ClipsStudy, Effort, Study as _};
 
 const ROUNDS: usize = 15;
 

@@ -16,14 +16,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use selvedge::bridge::{ArrayProfile, BridgeState, Spread, Target};
-use selvedge::engine::{
+use selvedge_device::{ArrayProfile, BridgeState, Spread, Target};
+use selvedge_engine::{
     Command, Engine, EngineConfig, PointerSample, PointerSender, PreparedScene, Snapshot,
 };
-use selvedge::geometry::Point;
-use selvedge::quantity::time_span;
-use selvedge::render::array::{Accuracy, Method};
-use selvedge::scene::LoadedScene;
+use selvedge_foundation::geometry::Point;
+use selvedge_foundation::quantity::time_span;
+use selvedge_render::array::{Accuracy, Method};
+use selvedge_render::scene::LoadedScene;
 
 /// Between two samples of the pointer.
 const MOUSE: Duration = Duration::from_millis(8);
@@ -44,7 +44,7 @@ fn main() {
 
 #[cfg(unix)]
 fn over_a_terminal(duration: Duration) {
-    use selvedge::bridge::{DeviceModel, PtyEmulator};
+    use selvedge_device::{DeviceModel, PtyEmulator};
 
     let link = std::env::temp_dir().join(format!("selvedge-bench-{}", std::process::id()));
     let model = DeviceModel::for_array(&ArrayProfile::default());

@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
 
-use selvedge::numerics::{Grid, Random, median};
-use selvedge::progress::unheard;
-use selvedge::textile::picture::{
+use selvedge_foundation::numerics::{Grid, Random, median};
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::picture::{
     AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture, analyse,
 };
 

@@ -8,12 +8,12 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use selvedge::geometry::{Displacement, Frame, Point, Rotation, Velocity};
-use selvedge::numerics::{Grid, Random, median};
-use selvedge::render::array::{Accuracy, ArrayRenderer, Method};
-use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge::scene::Pose;
-use selvedge::surface::{AREAL_WIRE_MM, HeightMap, Probe, Profile, ProfileSet, Surface};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
+use selvedge_foundation::numerics::{Grid, Random, median};
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::scene::Pose;
+use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
+use selvedge_textile::surface::{AREAL_WIRE_MM, HeightMap, Probe, Profile, ProfileSet, Surface};
 
 const ROUNDS: usize = 9;
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];

@@ -10,12 +10,12 @@
 use std::process::Command;
 use std::time::Instant;
 
-use selvedge::engine::PreparedScene;
-use selvedge::numerics::median;
-use selvedge::quantity::time_span;
-use selvedge::render::array::{Accuracy, Method};
-use selvedge::scene::LoadedScene;
-use selvedge::textile::Library;
+use selvedge_engine::PreparedScene;
+use selvedge_foundation::numerics::median;
+use selvedge_foundation::quantity::time_span;
+use selvedge_render::array::{Accuracy, Method};
+use selvedge_render::scene::LoadedScene;
+use selvedge_textile::Library;
 
 const ROUNDS: usize = 11;
 

@@ -19,10 +19,10 @@ use eframe::egui::epaint::{ClippedPrimitive, Primitive};
 use eframe::egui::{Key, Shape, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use selvedge::app::{Drive, Workbench};
-use selvedge::numerics::{median, quantile};
-use selvedge::progress::thread_cpu_seconds;
-use selvedge::quantity::time_span;
+use selvedge_foundation::numerics::{median, quantile};
+use selvedge_foundation::progress::thread_cpu_seconds;
+use selvedge_foundation::quantity::time_span;
+use selvedge_workbench::{Drive, Workbench};
 
 const FRAMES: u16 = 400;
 

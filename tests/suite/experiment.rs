@@ -5,10 +5,10 @@ use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use selvedge::experiment::design::{Design, Subject};
-use selvedge::experiment::session::{Circumstances, Session, path_file};
-use selvedge::experiment::{Answer, Apparatus, Grade, Step, Timing};
-use selvedge::scene::ExplorationPath;
+use selvedge_experiment::design::{Design, Subject};
+use selvedge_experiment::session::{Circumstances, Session, path_file};
+use selvedge_experiment::{Answer, Apparatus, Grade, Step, Timing};
+use selvedge_render::scene::ExplorationPath;
 
 use crate::program::{Lab, Outcome, PATH, Rows};
 

@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use selvedge::experiment::design::{Design, Subject};
-use selvedge::experiment::session::{Circumstances, Session};
-use selvedge::experiment::{Answer, Apparatus, Grade, Step, Task, Timing};
+use selvedge_experiment::design::{Design, Subject};
+use selvedge_experiment::session::{Circumstances, Session};
+use selvedge_experiment::{Answer, Apparatus, Grade, Step, Task, Timing};
 
 use crate::program::{Lab, Outcome};
 

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 
-use selvedge::bridge::{ContactorModel, Plant, Skin};
-use selvedge::geometry::{Displacement, Frame, Point, Rotation, Velocity};
-use selvedge::numerics::{Grid, Random};
-use selvedge::render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
-use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge::scene::Pose;
-use selvedge::surface::{HeightMap, Profile, ProfileSet, Surface};
-use selvedge::tactile::Tuning;
+use selvedge_device::{ContactorModel, Plant, Skin};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
+use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
+use selvedge_render::scene::Pose;
+use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
+use selvedge_textile::surface::{HeightMap, Profile, ProfileSet, Surface};
+use selvedge_textile::tactile::Tuning;
 
 fn surface(seed: u64, n_samples: u32) -> Arc<Surface> {
     let mut random = Random::new(seed);

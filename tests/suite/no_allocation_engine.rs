@@ -8,17 +8,17 @@ use std::time::{Duration, Instant};
 
 use assert_no_alloc::assert_no_alloc;
 
-use selvedge::bridge::{ArrayProfile, BridgeState, Target};
-use selvedge::engine::{
+use selvedge_device::{ArrayProfile, BridgeState, Target};
+use selvedge_engine::{
     Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene,
     ProgramLink, TICK, VibrationStep, loopback,
 };
-use selvedge::geometry::{Displacement, Frame, Point, Rotation};
-use selvedge::render::array::{Accuracy, Method};
-use selvedge::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge::scene::{ExplorationPath, Geometry, PathRow};
-use selvedge::surface::{Profile, ProfileSet, Surface};
-use selvedge::tactile::Tuning;
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
+use selvedge_render::array::{Accuracy, Method};
+use selvedge_render::scene::{ExplorationPath, Geometry, PathRow};
+use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
+use selvedge_textile::surface::{Profile, ProfileSet, Surface};
+use selvedge_textile::tactile::Tuning;
 
 fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
     let heights = (0..4600)

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use selvedge::files::{
+use selvedge_foundation::files::{
     GrayImage, Rgb8Image, decode_gray_png, encode_gray_png, encode_png, gray_values,
 };
-use selvedge::textile::picture::{
+use selvedge_textile::picture::{
     AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Place, analyse, load,
 };
 
@@ -443,7 +443,8 @@ fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
             continue;
         };
         let picture = load(&bytes, &path).unwrap();
-        let analysis = selvedge::progress::unheard(|p| analyse(&picture, &options, p)).unwrap();
+        let analysis =
+            selvedge_foundation::progress::unheard(|p| analyse(&picture, &options, p)).unwrap();
         match (analysis.found, expected) {
             (Err(NoLattice::NotResolved { .. } | NoLattice::Weak { .. }), None) => {}
             (Ok(found), Some([p1, p2])) => {

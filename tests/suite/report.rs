@@ -1,6 +1,6 @@
 //! `selvedge report`, run as a user runs it.
 
-use selvedge::files::Table;
+use selvedge_foundation::files::Table;
 
 use crate::program::{Lab, Outcome};
 

@@ -6,14 +6,14 @@ use clap::Args;
 
 use super::super::terminal::{self, Meter};
 use super::super::{CliError, output, signals};
-use crate::app;
-use crate::experiment::ExperimentError;
-use crate::experiment::analysis::{Analysis, Cell, Options, UNREAD, analyse_folder};
-use crate::progress::{CancelFlag, Progress};
+
+use selvedge_experiment::ExperimentError;
+use selvedge_experiment::analysis::{Analysis, Cell, Options, UNREAD, analyse_folder};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// Logs, and how they are analysed.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct AnalyseArgs {
+pub struct AnalyseArgs {
     /// Folder of the logs, each with its .json beside it
     logs: PathBuf,
     /// Folder for index.md, tables and figures; it is made where it is missing
@@ -49,7 +49,7 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
         n_permutations: usize::try_from(args.permutations).unwrap_or(usize::MAX),
         n_maps: usize::from(args.maps),
         n_random_data: usize::from(args.random_data),
-        cache: app::build_cache(),
+        cache: selvedge_workbench::build_cache(),
         ..Options::default()
     };
     let cancel = CancelFlag::shared(signals::stop_flag()?);

@@ -3,11 +3,11 @@
 use clap::Args;
 
 use super::super::{CliError, output};
-use crate::experiment::design::Design;
+use selvedge_experiment::design::Design;
 
 /// Which designs to show.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct DesignsArgs {
+pub struct DesignsArgs {
     /// Print the file of this design, to begin one's own with
     #[arg(long, value_name = "NAME")]
     show: Option<String>,

@@ -13,7 +13,7 @@ use std::path::Path;
 use clap::Subcommand;
 
 use super::CliError;
-use crate::experiment::design::Design;
+use selvedge_experiment::design::Design;
 
 /// What to do with experiments.
 #[derive(Debug, Subcommand)]

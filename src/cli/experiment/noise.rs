@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::cli::terminal::Meter;
-use crate::cli::{CliError, signals};
-use crate::experiment::{Colour, MOST_NOISE_MINUTES, MaskingNoise};
-use crate::progress::{CancelFlag, Progress};
+use crate::terminal::Meter;
+use crate::{CliError, signals};
+use selvedge_experiment::{Colour, MOST_NOISE_MINUTES, MaskingNoise};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// A noise and its file.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct NoiseArgs {
+pub struct NoiseArgs {
     /// Where it is written: one channel of 16 bits at 48 kHz, for any player
     #[arg(long, value_name = "WAV")]
     out: PathBuf,

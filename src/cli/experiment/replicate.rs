@@ -7,14 +7,14 @@ use clap::Args;
 
 use super::super::terminal::Meter;
 use super::super::{CliError, output, signals};
-use crate::app;
-use crate::experiment::replication::{Comparison, Options, Replication, replicate};
-use crate::progress::{CancelFlag, Progress};
-use crate::quantity::fixed;
+
+use selvedge_experiment::replication::{Comparison, Options, Replication, replicate};
+use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::quantity::fixed;
 
 /// How much is simulated, and where it goes.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ReplicateArgs {
+pub struct ReplicateArgs {
     /// Folder for index.md, tables and figures; it is made where it is missing
     #[arg(long, value_name = "OUT")]
     out: PathBuf,
@@ -39,7 +39,7 @@ pub(super) fn run(args: &ReplicateArgs) -> Result<(), CliError> {
         n_swept: n_studies.div_ceil(4),
         n_maps: n_studies.div_ceil(4),
         is_detailed: !args.brief,
-        cache: app::build_cache(),
+        cache: selvedge_workbench::build_cache(),
     };
     let cancel = CancelFlag::shared(signals::stop_flag()?);
     let mut meter = Meter::new("replicating");

@@ -13,14 +13,14 @@ use clap::Args;
 
 use super::super::{CliError, terminal};
 use super::desk::{Bench, Desk, Ended, Moment};
-use crate::experiment::by_hand::needs_array;
-use crate::experiment::design::{Design, Source, Subject};
-use crate::experiment::session::{Found, Origin, Session, log_path};
-use crate::experiment::{Apparatus, Course, Participant, Participants, Particulars};
-use crate::files;
-use crate::quantity::moment_of;
-use crate::tactile::Tuning;
-use crate::textile::{Library, is_of_the_program};
+use selvedge_experiment::by_hand::needs_array;
+use selvedge_experiment::design::{Design, Source, Subject};
+use selvedge_experiment::session::{Found, Origin, Session, log_path};
+use selvedge_experiment::{Apparatus, Course, Participant, Participants, Particulars};
+use selvedge_foundation::files;
+use selvedge_foundation::quantity::moment_of;
+use selvedge_textile::tactile::Tuning;
+use selvedge_textile::{Library, is_of_the_program};
 
 /// What presents cloth on the table.
 const TABLE: &str = "cloth on the table";
@@ -29,7 +29,7 @@ const STEP: Duration = Duration::from_millis(100);
 
 /// What to hold, with whom.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct RunArgs {
+pub struct RunArgs {
     /// Design: a file, or a name that "selvedge experiment designs" lists
     design: PathBuf,
     /// Pseudonym of the participant: letters, digits, - and _, and no real name

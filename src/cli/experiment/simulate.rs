@@ -5,16 +5,15 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use crate::app;
-use crate::cli::terminal::Meter;
-use crate::cli::{CliError, output, signals};
-use crate::experiment::observer::{Jnd, Observer, Stimuli, Strategy, Weighting};
-use crate::experiment::{ExperimentError, Simulation};
-use crate::progress::{CancelFlag, Progress};
+use crate::terminal::Meter;
+use crate::{CliError, output, signals};
+use selvedge_experiment::observer::{Jnd, Observer, Stimuli, Strategy, Weighting};
+use selvedge_experiment::{ExperimentError, Simulation};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// A design, and who takes part.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct SimulateArgs {
+pub struct SimulateArgs {
     /// Design file, or the name of a design of the program
     design: PathBuf,
     /// How many observers take part
@@ -120,7 +119,7 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let design = super::design(&args.design)?;
     let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
     let library = design
-        .open_library(folder, app::build_cache().as_ref())
+        .open_library(folder, selvedge_workbench::build_cache().as_ref())
         .map_err(ExperimentError::from)?;
     let stop = signals::stop_flag()?;
     let stimuli = {

@@ -8,7 +8,7 @@ use cpal::{Device, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
 
 use super::wave::{Wave, WaveFrames, wave};
 use super::{AudioEntry, AudioError};
-use crate::bridge::ArrayProfile;
+use selvedge_device::ArrayProfile;
 
 /// The rate that is taken where a card offers it: whole samples a tick and a period.
 const BEST_RATE_HZ: u32 = 48_000;

@@ -12,9 +12,9 @@ use std::thread::Thread;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use crate::bridge::{ArrayProfile, Coder, FULL_CODE};
-use crate::render::RenderError;
-use crate::render::array::DriveSynth;
+use selvedge_device::{ArrayProfile, Coder, FULL_CODE};
+use selvedge_render::RenderError;
+use selvedge_render::array::DriveSynth;
 
 /// Frames on the way: what a card takes at once, and some.
 const MOST_FRAMES: usize = 8;

@@ -1,7 +1,7 @@
 //! A program without audio: it says so.
 
 use super::{AudioEntry, AudioError};
-use crate::bridge::ArrayProfile;
+use selvedge_device::ArrayProfile;
 
 /// A sound card that plays; there is none in this program.
 #[derive(Debug)]

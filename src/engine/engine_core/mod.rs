@@ -18,8 +18,8 @@ use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot,
     SourceKind, TICKS_PER_S, VelocityMethod,
 };
-use crate::bridge::{Coder, SentFrame};
-use crate::scene::Pose;
+use selvedge_device::{Coder, SentFrame};
+use selvedge_render::scene::Pose;
 
 /// From a command's refusal to the window: every tick has at most a few.
 type Say<'a> = &'a mut dyn FnMut(Notice);

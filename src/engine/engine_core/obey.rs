@@ -3,20 +3,16 @@
 //! Everything takes effect at the next tick. What is replaced goes back to be dropped elsewhere.
 
 use super::{EngineCore, Say};
-use crate::engine::input::PointerInput;
-use crate::engine::order::{CoreOrder, NextScene, Retired};
-use crate::engine::vibration::Vibration;
-use crate::engine::{Notice, VelocityMethod};
-use crate::render::RenderError;
-use crate::scene::Pose;
+use crate::input::PointerInput;
+use crate::order::{CoreOrder, NextScene, Retired};
+use crate::vibration::Vibration;
+use crate::{Notice, VelocityMethod};
+use selvedge_render::RenderError;
+use selvedge_render::scene::Pose;
 
 impl EngineCore {
     /// Obeys, and hands back what was replaced: at most two things.
-    pub(in crate::engine) fn obey(
-        &mut self,
-        order: CoreOrder,
-        say: Say<'_>,
-    ) -> [Option<Retired>; 2] {
+    pub fn obey(&mut self, order: CoreOrder, say: Say<'_>) -> [Option<Retired>; 2] {
         let mut retired = [None, None];
         match order {
             CoreOrder::Scene(next) => retired = self.next_scene(next),

@@ -2,8 +2,8 @@
 //! contactors do.
 
 use super::Engine;
-use crate::bridge::{Bridge, PlantWatch, SessionLog, Target};
-use crate::engine::order::Order;
+use crate::order::Order;
+use selvedge_device::{Bridge, PlantWatch, SessionLog, Target};
 
 impl Engine {
     /// A look at the contactors of the emulator that was connected last; `None` of other devices.

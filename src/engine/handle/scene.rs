@@ -2,9 +2,9 @@
 //! scene whose first display has as many contactors.
 
 use super::Engine;
-use crate::bridge::{ArrayChange, ArrayProfile, Coder};
-use crate::engine::Snapshot;
-use crate::engine::order::{ArrayOrder, NextScene, Order};
+use crate::Snapshot;
+use crate::order::{ArrayOrder, NextScene, Order};
+use selvedge_device::{ArrayChange, ArrayProfile, Coder};
 
 impl Engine {
     pub(super) fn scene_order(&mut self, mut next: NextScene) -> Order {

@@ -11,14 +11,14 @@ use std::time::Instant;
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use super::{InputLosses, PointerInput, Reading};
-use crate::engine::{PointerSample, SourceKind};
+use crate::{PointerSample, SourceKind};
 
 /// Room for positions between two ticks: 8 kHz and then some.
 pub(super) const CAPACITY: usize = 1024;
 
 /// What a reader found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::engine) enum FeedItem {
+pub enum FeedItem {
     /// The finger is here; the angle of the display where the source tells it, degrees.
     Sample(PointerSample, Option<f64>),
     /// The finger left the surface.
@@ -35,14 +35,14 @@ struct Shared {
 
 /// The reader's end.
 #[derive(Debug)]
-pub(in crate::engine) struct FeedSender {
+pub struct FeedSender {
     ring: Producer<FeedItem>,
     shared: Arc<Shared>,
 }
 
 /// The engine's end.
 #[derive(Debug)]
-pub(in crate::engine) struct FeedInput {
+pub struct FeedInput {
     ring: Consumer<FeedItem>,
     shared: Arc<Shared>,
     kind: SourceKind,
@@ -51,7 +51,7 @@ pub(in crate::engine) struct FeedInput {
 }
 
 /// Both ends of a feed of this kind.
-pub(in crate::engine) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
+pub fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
     let (sender, ring) = RingBuffer::new(CAPACITY);
     let shared = Arc::new(Shared::default());
     let input = FeedInput {
@@ -70,35 +70,35 @@ pub(in crate::engine) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
 
 impl FeedSender {
     /// Hands over an item; it comes back when there is no room.
-    pub(in crate::engine) fn offer(&mut self, item: FeedItem) -> Result<(), FeedItem> {
+    pub fn offer(&mut self, item: FeedItem) -> Result<(), FeedItem> {
         self.ring.push(item).map_err(|PushError::Full(item)| item)
     }
 
     /// Hands over an item, or drops and counts it when there is no room.
-    pub(in crate::engine) fn push(&mut self, item: FeedItem) {
+    pub fn push(&mut self, item: FeedItem) {
         if self.offer(item).is_err() {
             self.shared.overflowed.fetch_add(1, Ordering::Relaxed);
         }
     }
 
     /// Counts a line that was no position.
-    pub(in crate::engine) fn count_bad_line(&self) {
+    pub fn count_bad_line(&self) {
         self.shared.bad_lines.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Counts reports that the system dropped before they could be read.
     #[cfg(target_os = "linux")]
-    pub(in crate::engine) fn count_lost_in_system(&self) {
+    pub fn count_lost_in_system(&self) {
         self.shared.lost_in_system.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Whether nobody listens any more.
-    pub(in crate::engine) fn is_abandoned(&self) -> bool {
+    pub fn is_abandoned(&self) -> bool {
         self.ring.is_abandoned()
     }
 
     /// Nothing will follow.
-    pub(in crate::engine) fn end(&self) {
+    pub fn end(&self) {
         self.shared.has_ended.store(true, Ordering::Release);
     }
 }
@@ -150,7 +150,7 @@ impl PointerInput for FeedInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+    use selvedge_foundation::geometry::Point;
 
     fn sample(x_mm: f64) -> FeedItem {
         let position = Point::new(x_mm, 0.0);

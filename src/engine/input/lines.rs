@@ -11,8 +11,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::feed::{FeedInput, FeedItem, FeedSender, feed};
-use crate::engine::{EngineError, PointerSample, SourceKind};
-use crate::geometry::Point;
+use crate::{EngineError, PointerSample, SourceKind};
+use selvedge_foundation::geometry::Point;
 
 /// A longer line is bad, whatever it holds, in bytes.
 const LONGEST_LINE: u64 = 256;
@@ -25,9 +25,7 @@ const HEADERS: [&str; 3] = ["x_mm,y_mm", "t_s,x_mm,y_mm", "t_s,x_mm,y_mm,angle_d
 
 /// Starts to read a stream. The thread ends with it, or at the next line after the input is
 /// dropped.
-pub(in crate::engine) fn start_lines(
-    lines: Box<dyn BufRead + Send>,
-) -> Result<FeedInput, EngineError> {
+pub fn start_lines(lines: Box<dyn BufRead + Send>) -> Result<FeedInput, EngineError> {
     let (mut sender, input) = feed(SourceKind::Lines);
     let mut lines = Lines::new(lines);
     thread::Builder::new()
@@ -61,14 +59,14 @@ fn push_patiently(sender: &mut FeedSender, mut item: FeedItem) {
 
 /// What a line says.
 #[derive(Debug, PartialEq)]
-pub(in crate::engine) enum Said {
+pub enum Said {
     Item(FeedItem),
     Aside,
     Bad,
 }
 
 /// A stream of lines with its clock.
-pub(in crate::engine) struct Lines<R> {
+pub struct Lines<R> {
     stream: R,
     text: Vec<u8>,
     /// The stream's first time, s, and when it arrived.
@@ -89,7 +87,7 @@ enum Line {
 }
 
 impl<R: BufRead> Lines<R> {
-    pub(in crate::engine) fn new(lines: R) -> Self {
+    pub fn new(lines: R) -> Self {
         Self {
             stream: lines,
             text: Vec::new(),
@@ -99,7 +97,7 @@ impl<R: BufRead> Lines<R> {
 
     /// What the next line says, with its time on the engine's clock, waited for if that is a
     /// little ahead; `None` at the end.
-    pub(in crate::engine) fn next(&mut self) -> Option<Said> {
+    pub fn next(&mut self) -> Option<Said> {
         if !self.read_line().unwrap_or(false) {
             return None;
         }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::{InputLosses, PointerInput, Reading};
-use crate::engine::{PointerSample, SourceKind};
+use crate::{PointerSample, SourceKind};
 
 /// Room for samples between two ticks: a mouse with 8 kHz and then some.
 const CAPACITY: usize = 1024;
@@ -34,13 +34,13 @@ impl PointerSender {
 
 /// The end of the ring that the engine reads.
 #[derive(Debug)]
-pub(in crate::engine) struct LiveInput {
+pub struct LiveInput {
     ring: Consumer<PointerSample>,
     overflowed: Arc<AtomicU64>,
 }
 
 /// A ring for live samples.
-pub(in crate::engine) fn live_ring() -> (PointerSender, LiveInput) {
+pub fn live_ring() -> (PointerSender, LiveInput) {
     let (sender, ring) = RingBuffer::new(CAPACITY);
     let overflowed = Arc::new(AtomicU64::new(0));
     (
@@ -77,7 +77,7 @@ impl PointerInput for LiveInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+    use selvedge_foundation::geometry::Point;
 
     #[test]
     fn a_full_ring_drops_the_newest_and_counts_it() {

@@ -25,7 +25,7 @@ use std::fmt::Debug;
 use std::time::Instant;
 
 use super::{Playback, PointerSample, SourceKind};
-use crate::scene::Pose;
+use selvedge_render::scene::Pose;
 
 /// What a source says of one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]

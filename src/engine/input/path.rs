@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::{Control, PointerInput, Reading};
-use crate::engine::{Playback, PointerSample, SourceKind};
-use crate::scene::{ExplorationPath, PathCursor, Pose, Stroke, TICKS_PER_S};
+use crate::{Playback, PointerSample, SourceKind};
+use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Stroke, TICKS_PER_S};
 
 /// Whether the next tick moves on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +42,7 @@ impl Motion {
 
 /// A recorded exploration, tick by tick.
 #[derive(Debug)]
-pub(in crate::engine) struct ReplayInput {
+pub struct ReplayInput {
     path: Arc<ExplorationPath>,
     cursor: PathCursor,
     motion: Motion,
@@ -53,7 +53,7 @@ pub(in crate::engine) struct ReplayInput {
 
 impl ReplayInput {
     /// A replay that is held before its first tick.
-    pub(in crate::engine) fn new(path: Arc<ExplorationPath>) -> Self {
+    pub fn new(path: Arc<ExplorationPath>) -> Self {
         Self {
             path,
             cursor: PathCursor::default(),
@@ -133,7 +133,7 @@ impl PointerInput for ReplayInput {
 
 /// A generated stroke, tick by tick; it never ends.
 #[derive(Debug)]
-pub(in crate::engine) struct StrokeInput {
+pub struct StrokeInput {
     stroke: Stroke,
     motion: Motion,
     next_tick: u64,
@@ -141,7 +141,7 @@ pub(in crate::engine) struct StrokeInput {
 
 impl StrokeInput {
     /// A stroke that is held before its first tick.
-    pub(in crate::engine) fn new(stroke: Stroke) -> Self {
+    pub fn new(stroke: Stroke) -> Self {
         Self {
             stroke,
             motion: Motion::Held,
@@ -186,8 +186,8 @@ impl PointerInput for StrokeInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
-    use crate::scene::PathRow;
+    use selvedge_foundation::geometry::Point;
+    use selvedge_render::scene::PathRow;
 
     fn path() -> Arc<ExplorationPath> {
         let row = |n: i32| PathRow {

@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::geometry::Point;
+use selvedge_foundation::geometry::Point;
 
 /// Intervals that are looked at: some seconds of a tablet.
 const N_INTERVALS: usize = 256;
@@ -33,7 +33,7 @@ pub struct InputRate {
 
 /// Measures the rate of a source. Allocates nothing.
 #[derive(Debug)]
-pub(in crate::engine) struct RateMeter {
+pub struct RateMeter {
     intervals_s: [f64; N_INTERVALS],
     n_seen: usize,
     last: Option<(Instant, Point)>,
@@ -53,7 +53,7 @@ impl Default for RateMeter {
 
 impl RateMeter {
     /// Takes a sample whose stamp follows that of the last.
-    pub(in crate::engine) fn add(&mut self, stamp: Instant, position: Point) {
+    pub fn add(&mut self, stamp: Instant, position: Point) {
         let Some((last, from)) = self.last.replace((stamp, position)) else {
             return;
         };
@@ -79,12 +79,12 @@ impl RateMeter {
     }
 
     /// What comes next does not follow what came last.
-    pub(in crate::engine) fn pause(&mut self) {
+    pub fn pause(&mut self) {
         self.last = None;
     }
 
     /// What is known so far.
-    pub(in crate::engine) fn rate(&self) -> InputRate {
+    pub fn rate(&self) -> InputRate {
         self.rate
     }
 

@@ -23,8 +23,8 @@ use std::time::Duration;
 use super::input::{FeedSender, InputError, feed};
 use super::tap::{FeltTick, Tap, TapReader, tap};
 use super::{EngineError, InputSource, SourceKind};
-use crate::files::push_number;
 use client::Client;
+use selvedge_foundation::files::push_number;
 
 /// Programs that may be connected at once.
 const MOST_CLIENTS: usize = 16;

@@ -3,9 +3,9 @@
 //! The waveform is that of [`DriveSynth`], which WAV files have too; the amplitudes are codes, so
 //! that every limit and the soft start are in them. A code of 65535 is a sample of 32767.
 
-use crate::bridge::Waveform;
-use crate::render::RenderError;
-use crate::render::array::DriveSynth;
+use selvedge_device::Waveform;
+use selvedge_render::RenderError;
+use selvedge_render::array::DriveSynth;
 
 /// Ticks a second.
 const TICKS_PER_S: u32 = 40;

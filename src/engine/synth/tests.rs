@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::bridge::{BridgeState, Caps, DeviceModel, DeviceState, Simulation, StopHow};
+use selvedge_device::{BridgeState, Caps, DeviceModel, DeviceState, Simulation, StopHow};
 
 const RATE_HZ: f64 = 8000.0;
 const PER_TICK: usize = 200;
@@ -65,7 +65,7 @@ fn what_is_played_is_what_mode_a_would_play_sample_for_sample() {
 fn every_sample_that_is_sent_is_counted_and_played_once() {
     let trial = by_samples(2000);
     let counts = &trial.log.sampled;
-    let sum = |of: fn(&crate::bridge::SampleCount) -> u32| counts.iter().map(of).sum::<u32>();
+    let sum = |of: fn(&selvedge_device::SampleCount) -> u32| counts.iter().map(of).sum::<u32>();
     // What came in the tick that is not over yet is not counted.
     let n_sent = u32::try_from((trial.sent.len() - 1) * PER_TICK).unwrap();
     assert_eq!(sum(|count| count.received), n_sent);

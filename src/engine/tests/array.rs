@@ -3,7 +3,7 @@
 use std::thread;
 
 use super::*;
-use crate::bridge::{BridgeEvent, BridgeState, Target};
+use selvedge_device::{BridgeEvent, BridgeState, Target};
 
 /// Waits for a notice, for as long as a busy machine may take.
 fn wait_for(engine: &mut Engine, what: &str, is_it: impl Fn(&Notice) -> bool) {

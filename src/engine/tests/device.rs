@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use super::*;
-use crate::bridge::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
+use crate::input::PointerInput;
+use crate::order::{CoreOrder, Order};
+use selvedge_device::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
 #[cfg(unix)]
-use crate::bridge::{DeviceModel, PtyEmulator};
-use crate::engine::input::PointerInput;
-use crate::engine::order::{CoreOrder, Order};
-use crate::files::ScratchFolder;
+use selvedge_device::{DeviceModel, PtyEmulator};
+use selvedge_scratch::ScratchFolder;
 
 /// Waits for what must come, for as long as a busy machine may take.
 fn wait<T>(engine: &mut Engine, what: &str, mut look: impl FnMut(&mut Engine) -> Option<T>) -> T {
@@ -35,7 +35,7 @@ fn wait_for(engine: &mut Engine, what: &str, is_it: impl Fn(&BridgeEvent) -> boo
 fn wait_for_status(
     engine: &mut Engine,
     what: &str,
-    is_it: impl Fn(&crate::bridge::Status) -> bool,
+    is_it: impl Fn(&selvedge_device::Status) -> bool,
 ) {
     wait(engine, what, |engine| {
         let status = engine.snapshot().link.and_then(|link| link.status);

@@ -18,13 +18,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use super::*;
-use crate::bridge::ArrayProfile;
-use crate::geometry::{Displacement, Frame, Point, Rotation, Velocity};
-use crate::render::array::{Accuracy, ArrayRenderer, Method};
-use crate::render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use crate::scene::{ExplorationPath, Geometry, PathRow, Pose, Stroke};
-use crate::surface::{Profile, ProfileSet, Surface};
-use crate::tactile::Tuning;
+use selvedge_device::ArrayProfile;
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::scene::{ExplorationPath, Geometry, PathRow, Pose, Stroke};
+use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
+use selvedge_textile::surface::{Profile, ProfileSet, Surface};
+use selvedge_textile::tactile::Tuning;
 
 /// A square of 100 mm with waves of 1 mm along the warp and 0.7 mm along the weft, felt by these
 /// contactors.

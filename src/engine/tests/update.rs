@@ -1,7 +1,7 @@
 //! A scene that is edited while it is felt.
 
 use super::*;
-use crate::render::array::TableCache;
+use selvedge_render::array::TableCache;
 
 /// The scene of these tests after its textile was dragged this far.
 fn dragged(offsets: Vec<Displacement>, by_mm: f64) -> (RenderScene, Box<PreparedScene>) {
@@ -97,7 +97,7 @@ fn a_held_moment_and_a_pointer_at_rest_stay_where_they_are() {
 
 #[test]
 fn thirty_edits_a_second_from_the_cache_are_all_taken_over() {
-    let loaded = crate::scene::LoadedScene::shipped().unwrap();
+    let loaded = selvedge_render::scene::LoadedScene::shipped().unwrap();
     let (accuracy, mut cache) = (Accuracy::default(), TableCache::default());
     let scene = PreparedScene::prepare_cached(&loaded, Method::Auto, &accuracy, &mut cache);
     let config = EngineConfig {

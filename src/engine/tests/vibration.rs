@@ -59,7 +59,7 @@ fn limits_show_and_masked_contactors_stay_silent() {
     let snapshot = engine.snapshot();
     let contactors = &snapshot.displays[0].contactors;
     assert_eq!(contactors[1].amplitude_um, [0.0; 2]);
-    assert_ne!(contactors[0].bite, crate::bridge::Bite::default());
+    assert_ne!(contactors[0].bite, selvedge_device::Bite::default());
 }
 
 #[test]

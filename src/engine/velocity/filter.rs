@@ -6,8 +6,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::VelocityMethod;
-use crate::geometry::{Displacement, Point, Velocity};
+use crate::VelocityMethod;
+use selvedge_foundation::geometry::{Displacement, Point, Velocity};
 
 /// What a filter knows after a sample.
 #[derive(Debug, Clone, Copy, Default)]

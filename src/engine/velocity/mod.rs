@@ -10,8 +10,8 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::{PointerSample, VelocityMethod};
-use crate::geometry::{Displacement, Velocity};
 use filter::Tracked;
+use selvedge_foundation::geometry::{Displacement, Velocity};
 
 /// A pointer that is silent for longer is at rest, and what it did before is forgotten.
 pub const REST: Duration = Duration::from_millis(50);

@@ -1,7 +1,7 @@
 //! Closed forms of the velocity estimators: constant velocity, a ramp, rest.
 
 use super::*;
-use crate::geometry::Point;
+use selvedge_foundation::geometry::Point;
 
 const METHODS: [VelocityMethod; 5] = [
     VelocityMethod::FiniteDifference,

@@ -8,15 +8,15 @@ use super::map::undefined;
 use super::model::{Cell, Section, Table, tests};
 use super::properties::Measures;
 use super::variance::effects;
-use crate::experiment::design::{Adjusting, Standard, Tunable, TunedParameter};
-use crate::experiment::{Answer, Task};
-use crate::figure::{Axis, Series, Style};
-use crate::numerics::LineFit;
-use crate::progress::{Cancelled, Progress};
-use crate::quantity::factor_of_gain;
-use crate::statistics::psychometric::{Adjustments, Settings, Starts};
-use crate::statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
-use crate::statistics::{Computed, Interval, Summary, Undefined, one_sample_t, t_quantile_upper};
+use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
+use crate::{Answer, Task};
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_foundation::numerics::LineFit;
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_statistics::psychometric::{Adjustments, Settings, Starts};
+use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
+use selvedge_statistics::{Computed, Interval, Summary, Undefined, one_sample_t, t_quantile_upper};
 
 /// A setting of one parameter.
 struct Setting<'a> {
@@ -159,7 +159,7 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
     row.push(Cell::of(&of(&|a| Ok(a.all.se))));
     for values in [&ascending, &descending] {
         row.push(values.len().into());
-        row.push(Cell::of(&crate::statistics::mean(values)));
+        row.push(Cell::of(&selvedge_statistics::mean(values)));
     }
     row.push(Cell::of(&of(&|a| {
         a.difference.clone()?.estimate.map(|e| e.value)
@@ -205,7 +205,7 @@ fn start_effect(
         let own = all
             .iter()
             .filter(|s| s.subject == name && (s.start < middle) == is_low);
-        crate::statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>())
+        selvedge_statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>())
     };
     let of = |subject: &super::kept::Subject<'_>| {
         Ok(mean_of(subject.name, false)? - mean_of(subject.name, true)?)
@@ -257,7 +257,7 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
             let own = all
                 .iter()
                 .filter(|s| s.item == item && name.is_none_or(|n| s.subject == n));
-            let mean = crate::statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>());
+            let mean = selvedge_statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>());
             Some([*level, mean.ok()?])
         };
         level.values.iter().enumerate().filter_map(of).collect()
@@ -323,7 +323,7 @@ fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> super::model::
         let x = points.iter().map(|p| p[0]);
         let low = x.clone().fold(f64::INFINITY, f64::min);
         let high = x.fold(f64::NEG_INFINITY, f64::max);
-        let kappa = crate::quantity::fixed(-line.slope, 2);
+        let kappa = selvedge_foundation::quantity::fixed(-line.slope, 2);
         series.push(Series {
             name: format!("κ = {kappa}"),
             points: [low, high]

@@ -1,7 +1,7 @@
 //! Figures of the kinds that the papers print, from plain numbers.
 
 use super::model::{Cell, Drawn, Table};
-use crate::figure::{
+use selvedge_chart::{
     At, Axis, ColourBar, Extent, Figure, Ink, Panel, Row, Rule, Scale, Series, Style, Tone,
     Upright, Words,
 };
@@ -206,12 +206,7 @@ pub(super) fn figure(
 }
 
 /// Dots and lines by name over two axes.
-pub(in crate::experiment) fn scatter(
-    key: &str,
-    title: &str,
-    axes: [Axis; 2],
-    series: Vec<Series>,
-) -> Drawn {
+pub fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Series>) -> Drawn {
     let columns = [
         ("series", "series"),
         ("x", axes[0].label.as_str()),

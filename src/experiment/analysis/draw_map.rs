@@ -2,10 +2,10 @@
 
 use super::draw::{figure, list};
 use super::model::{Cell, Column, Drawn, Table};
-use crate::figure::{
+use selvedge_chart::{
     Axis, ColourBar, Ink, Panel, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
 };
-use crate::statistics::properties::Ellipse;
+use selvedge_statistics::properties::Ellipse;
 
 /// Corners of an ellipse.
 const N_CORNERS: u32 = 48;

@@ -3,8 +3,8 @@
 use super::kept::Experiment;
 use super::model::{Section, summaries, tests};
 use super::ranking;
-use crate::experiment::design::Method;
-use crate::statistics::{Computed, Outcome, Summary, Undefined, paired_t, two_sample_t};
+use crate::design::Method;
+use selvedge_statistics::{Computed, Outcome, Summary, Undefined, paired_t, two_sample_t};
 
 /// A score of every subject, %.
 type Scores = Vec<(String, f64)>;
@@ -57,7 +57,7 @@ fn two(what: &str, first: &Scores, second: &Scores) -> Vec<(String, Computed<Out
     let summaries =
         Summary::of(&values(first)).and_then(|a| Ok((a, Summary::of(&values(second))?)));
     let both = summaries.and_then(|(a, b)| two_sample_t(&a, &b));
-    let part = |of: fn(crate::statistics::TwoSamples) -> Outcome| both.clone().map(of);
+    let part = |of: fn(selvedge_statistics::TwoSamples) -> Outcome| both.clone().map(of);
     let common: Vec<[f64; 2]> = first
         .iter()
         .filter_map(|(name, score)| {

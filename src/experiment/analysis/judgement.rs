@@ -5,24 +5,24 @@ use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use super::{Options, judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
-use crate::experiment::design::{Judging, JudgingProtocol};
-use crate::experiment::{Answer, Record, Task};
-use crate::statistics::detection::{Answers, Correction, forced_choice, yes_no};
-use crate::statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
+use crate::design::{Judging, JudgingProtocol};
+use crate::{Answer, Record, Task};
+use selvedge_statistics::detection::{Answers, Correction, forced_choice, yes_no};
+use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
 
 #[expect(
     clippy::struct_field_names,
     reason = "what was said is told from what is"
 )]
 /// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
-pub(in crate::experiment) struct Said {
-    pub(in crate::experiment) item: usize,
-    pub(in crate::experiment) is_real: bool,
-    pub(in crate::experiment) said_real: bool,
-    pub(in crate::experiment) confidence: Option<u8>,
+pub struct Said {
+    pub item: usize,
+    pub is_real: bool,
+    pub said_real: bool,
+    pub confidence: Option<u8>,
 }
 
-pub(in crate::experiment) fn said(record: &Record) -> Vec<Said> {
+pub fn said(record: &Record) -> Vec<Said> {
     match (&record.trial.task, record.answer()) {
         (
             Task::Judge { item, is_real },

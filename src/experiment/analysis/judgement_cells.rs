@@ -5,9 +5,9 @@ use super::judgement::said;
 use super::kept::{Experiment, Subject};
 use super::model::{Section, summaries, tests};
 use super::variance::effects;
-use crate::experiment::design::Stimulus;
-use crate::statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
-use crate::statistics::{Computed, Outcome, Summary, Undefined, paired_t};
+use crate::design::Stimulus;
+use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
+use selvedge_statistics::{Computed, Outcome, Summary, Undefined, paired_t};
 
 /// What was called real, by material and condition (Table 3 and Fig. 9 of the paper).
 pub(super) fn section(experiment: &Experiment<'_>) -> Section {
@@ -112,7 +112,7 @@ fn by_subject(
                 && condition.is_none_or(|c| a.levels[1] == c)
         });
         let values: Vec<f64> = own.map(|a| a.value).collect();
-        crate::statistics::mean(&values).ok()
+        selvedge_statistics::mean(&values).ok()
     };
     experiment.subjects.iter().filter_map(of).collect()
 }

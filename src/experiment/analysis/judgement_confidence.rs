@@ -5,10 +5,10 @@ use super::judgement::{Said, said};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Drawn, Section, Table, ends, tests};
-use crate::experiment::design::Judging;
-use crate::figure::{Axis, Series, Style};
-use crate::statistics::detection::{Roc, roc};
-use crate::statistics::{Computed, Summary, one_sample_t};
+use crate::design::Judging;
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_statistics::detection::{Roc, roc};
+use selvedge_statistics::{Computed, Summary, one_sample_t};
 
 /// How often each rating from `surely generated` to `surely real` was given, of real ones and of
 /// the others.

@@ -6,9 +6,9 @@ use super::judgement_cells::levels;
 use super::kept::{Experiment, Subject};
 use super::model::Section;
 use super::pairs::{Pairs, TOLD};
-use crate::experiment::{Answer, Record, Task};
-use crate::statistics::Computed;
-use crate::statistics::ranking::Preferences;
+use crate::{Answer, Record, Task};
+use selvedge_statistics::Computed;
+use selvedge_statistics::ranking::Preferences;
 
 /// The stimulus that was taken for real, and the other.
 fn chosen(record: &Record) -> Option<[usize; 2]> {

@@ -5,8 +5,8 @@ use super::judgement_cells::differences_of_conditions;
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Drawn, Section, Table};
-use crate::figure::{Axis, Series, Style};
-use crate::statistics::{Computed, Summary, power_of_t, tost};
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_statistics::{Computed, Summary, power_of_t, tost};
 
 /// Bounds within which a difference of percentages counts as none, points.
 const BOUNDS_PERCENT: f64 = 10.0;
@@ -97,14 +97,14 @@ impl Curve {
         let shares: Vec<f64> = (50..=100).map(f64::from).collect();
         let (n, df) = (percents.len() as f64, percents.len() as f64 - 1.0);
         let sd = Summary::of(percents).map(|summary| summary.sd);
-        let mean_trials = crate::statistics::mean(n_trials);
+        let mean_trials = selvedge_statistics::mean(n_trials);
         let power = |share: f64, sd: f64| {
             let errors = (share - 50.0) / (sd / n.sqrt());
             power_of_t(errors.clamp(0.0, 40.0), df, ALPHA)
         };
         let as_seen = |share: &f64| match &sd {
             Ok(sd) if *sd > 0.0 => power(*share, *sd),
-            Ok(_) => Err(crate::statistics::Undefined::because(
+            Ok(_) => Err(selvedge_statistics::Undefined::because(
                 "subjects do not vary",
             )),
             Err(why) => Err(why.clone()),
@@ -135,7 +135,7 @@ impl Curve {
             None => "no share".to_owned(),
         };
         let n_trials = match &self.n_trials {
-            Ok(n) => crate::quantity::fixed(*n, 0),
+            Ok(n) => selvedge_foundation::quantity::fixed(*n, 0),
             Err(_) => "no".to_owned(),
         };
         format!(

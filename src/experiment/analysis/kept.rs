@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use super::model::{Cell, Section, Table};
-use crate::experiment::design::Design;
-use crate::experiment::record::{Outcome, Record};
-use crate::experiment::session::Found;
-use crate::experiment::{Course, Step};
+use crate::design::Design;
+use crate::record::{Outcome, Record};
+use crate::session::Found;
+use crate::{Course, Step};
 
 /// One experiment: a design, and the subjects whose trials count.
 #[derive(Debug)]

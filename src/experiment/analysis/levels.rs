@@ -6,12 +6,12 @@ use super::draw::{Bar, bars, scatter};
 use super::kept::{Experiment, Subject};
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
-use crate::experiment::design::{Levels, StaircaseTrack, Track};
-use crate::experiment::{Record, Task};
-use crate::figure::{Axis, Series, Style};
-use crate::statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
-use crate::statistics::psychometric::{Fit, Model, blocks};
-use crate::statistics::{Computed, Outcome, Summary, Undefined, one_sample_t};
+use crate::design::{Levels, StaircaseTrack, Track};
+use crate::{Record, Task};
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
+use selvedge_statistics::psychometric::{Fit, Model, blocks};
+use selvedge_statistics::{Computed, Outcome, Summary, Undefined, one_sample_t};
 
 /// Points of a drawn curve.
 const N_DRAWN: u32 = 100;
@@ -174,7 +174,7 @@ fn curves(
         });
     }
     if let [(_, fit)] = fits {
-        let share = |b: &crate::statistics::psychometric::Block| {
+        let share = |b: &selvedge_statistics::psychometric::Block| {
             [b.x, f64::from(b.n_right) / f64::from(b.n)]
         };
         series.push(Series {
@@ -235,7 +235,10 @@ fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrac
         track.reversals_averaged,
         target.map_or_else(
             |why| why.reason,
-            |share| format!("{} %", crate::quantity::fixed(100.0 * share, 1))
+            |share| format!(
+                "{} %",
+                selvedge_foundation::quantity::fixed(100.0 * share, 1)
+            )
         )
     ));
     let mut table = Table::new("reversals", "Means of the last reversals", &REVERSALS);
@@ -243,7 +246,7 @@ fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrac
     let mut series = Vec::new();
     for subject in &experiment.subjects {
         let own = of_subject(subject, (levels, track), (&mut table, &mut series));
-        let mean = crate::statistics::mean(&own);
+        let mean = selvedge_statistics::mean(&own);
         if let Ok(mean) = mean {
             means.push(mean);
             let ends = Summary::of(&own).ok().map(|s| [mean - s.sd, mean + s.sd]);

@@ -4,12 +4,12 @@ use super::draw::{Bar, bars, scatter};
 use super::kept::Experiment;
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, summaries, tests};
-use crate::experiment::design::Source;
-use crate::experiment::{Answer, Task};
-use crate::figure::{Axis, Scale, Series, Style};
-use crate::quantity::factor_of_gain;
-use crate::statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
-use crate::statistics::{Summary, paired_t};
+use crate::design::Source;
+use crate::{Answer, Task};
+use selvedge_chart::{Axis, Scale, Series, Style};
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
+use selvedge_statistics::{Summary, paired_t};
 
 /// Estimates of one condition's stimuli, in amplitudes.
 fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
@@ -147,7 +147,7 @@ fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Se
         series.push(Series {
             name: format!(
                 "{condition}, exponent {}",
-                crate::quantity::fixed(law.group.exponent, 2)
+                selvedge_foundation::quantity::fixed(law.group.exponent, 2)
             ),
             points: law.stimuli.iter().map(line).collect(),
             style: Style::Line,

@@ -5,11 +5,11 @@ use super::Options;
 use super::draw::scatter;
 use super::model::{Cell, Section, Table, matrix, tests};
 use super::properties::Measures;
-use crate::figure::{Axis, Series, Style};
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::Undefined;
-use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
-use crate::statistics::properties::{Ellipse, bootstrap_ellipses};
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::Undefined;
+use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
+use selvedge_statistics::properties::{Ellipse, bootstrap_ellipses};
 
 /// The share of resampled subjects that an ellipse holds.
 const ELLIPSE_SHARE: f64 = 0.95;

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use super::map::{Mapping, told};
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::mds::{Dissimilarities, Map, Mds, Null, NullKind};
-use crate::statistics::variance::friedman;
-use crate::statistics::{Computed, Outcome, Undefined};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::mds::{Dissimilarities, Map, Mds, Null, NullKind};
+use selvedge_statistics::variance::friedman;
+use selvedge_statistics::{Computed, Outcome, Undefined};
 
 /// What was found of random ranks before; clones share it. It depends on the number of objects,
 /// the pairs that are missing, dimensions and loss, never on the answers: ranks at random have no

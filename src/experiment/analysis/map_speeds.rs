@@ -3,8 +3,8 @@
 use super::map::Mapping;
 use super::model::{Cell, Table};
 use super::properties::{Measure, Own};
-use crate::statistics::pearson_r;
-use crate::statistics::properties::BestTurn;
+use selvedge_statistics::pearson_r;
+use selvedge_statistics::properties::BestTurn;
 
 const SPEEDS: [(&str, &str); 11] = [
     ("subject", "subject"),

@@ -5,11 +5,11 @@ use super::draw_map::MapDrawing;
 use super::map::{Mapping, told, undefined};
 use super::model::{Cell, Section, Table, ends};
 use super::properties::Measure;
-use crate::numerics::Random;
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::mds::Map;
-use crate::statistics::properties::{BestTurn, Ellipse, PropertyVector};
-use crate::statistics::{Computed, f_upper, fisher_z};
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::mds::Map;
+use selvedge_statistics::properties::{BestTurn, Ellipse, PropertyVector};
+use selvedge_statistics::{Computed, f_upper, fisher_z};
 
 /// Measures that the plane map is turned to, the first that exist for the figure.
 const PAIRS: [(&str, &str); 5] = [
@@ -93,9 +93,9 @@ impl Mapping<'_> {
         let note = format!(
             "{} {}, {} ties; stress-1 {}. A bar is as long as the multiple correlation.",
             told(self.loss),
-            crate::quantity::fixed(plane.loss(self.loss), 4),
+            selvedge_foundation::quantity::fixed(plane.loss(self.loss), 4),
             self.ties.name(),
-            crate::quantity::fixed(plane.stress1, 4)
+            selvedge_foundation::quantity::fixed(plane.stress1, 4)
         );
         section.figures.push(drawing.drawn(
             "map",

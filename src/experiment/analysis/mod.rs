@@ -54,10 +54,10 @@ pub(super) use ranking::ranking as rank_trial;
 use super::ExperimentError;
 use super::design::Method;
 use super::session::{self, Found, Unread};
-use crate::progress::Progress;
-use crate::statistics::Resampling;
-use crate::textile::BuildCache;
 use kept::Experiment;
+use selvedge_foundation::progress::Progress;
+use selvedge_statistics::Resampling;
+use selvedge_textile::BuildCache;
 
 /// The key of the section that lists logs that cannot be read.
 pub const UNREAD: &str = "unread";
@@ -211,7 +211,7 @@ fn sections_of(
     experiment: &Experiment<'_>,
     options: &Options,
     progress: &mut Progress<'_>,
-) -> Result<Vec<Section>, crate::progress::Cancelled> {
+) -> Result<Vec<Section>, selvedge_foundation::progress::Cancelled> {
     match &experiment.design.method {
         Method::Ranking(ranking) => ranking::sections(experiment, *ranking, options, progress),
         Method::OddOneOut(choosing) => {

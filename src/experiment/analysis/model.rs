@@ -1,7 +1,7 @@
 //! What an analysis found, as plain data: sections of notes, tables and figures.
 
-use crate::figure::Figure;
-use crate::statistics::{
+use selvedge_chart::Figure;
+use selvedge_statistics::{
     Computed, Freedom, Interval, Named, Outcome, Resampling, Sides, Summary, bootstrap, mean,
 };
 
@@ -74,7 +74,7 @@ pub struct Drawn {
 }
 
 impl Section {
-    pub(in crate::experiment) fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
+    pub fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
             key: key.into(),
             title: title.into(),
@@ -82,14 +82,14 @@ impl Section {
         }
     }
 
-    pub(in crate::experiment) fn note(&mut self, note: impl Into<String>) {
+    pub fn note(&mut self, note: impl Into<String>) {
         self.notes.push(note.into());
     }
 }
 
 impl Table {
     /// An empty table with columns by name and heading.
-    pub(in crate::experiment) fn new(key: &str, title: &str, columns: &[(&str, &str)]) -> Self {
+    pub fn new(key: &str, title: &str, columns: &[(&str, &str)]) -> Self {
         let column = |(name, heading): &(&str, &str)| Column::new(name, heading);
         Self {
             key: key.to_owned(),
@@ -106,7 +106,7 @@ impl Table {
         self
     }
 
-    pub(in crate::experiment) fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
+    pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
         let missing = || Cell::Undefined("no value".to_owned());
         row.resize_with(self.columns.len(), missing);
@@ -152,7 +152,7 @@ impl Cell {
         }
     }
 
-    pub(in crate::experiment) fn none(reason: &str) -> Self {
+    pub fn none(reason: &str) -> Self {
         Self::Undefined(reason.to_owned())
     }
 

@@ -8,13 +8,13 @@ use super::model::{Cell, Drawn, Section, Table, ends, resampled, summaries, test
 use super::odd_one_out_craven::Craven;
 use super::properties::Measures;
 use super::{Options, odd_one_out_craven, odd_one_out_distances, odd_one_out_variants};
-use crate::experiment::{self as exp, Answer, Record, Task};
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::detection::{Correction, triangle};
-use crate::statistics::mds::{Loss, Ties};
-use crate::statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
-use crate::statistics::variance::friedman;
-use crate::statistics::{
+use crate::{self as exp, Answer, Record, Task};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::detection::{Correction, triangle};
+use selvedge_statistics::mds::{Loss, Ties};
+use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
+use selvedge_statistics::variance::friedman;
+use selvedge_statistics::{
     Computed, Outcome, Sides, Summary, Undefined, exact_binomial, one_sample_t,
     wilcoxon_signed_rank, wilson,
 };
@@ -22,7 +22,7 @@ use crate::statistics::{
 const CHANCE: f64 = 1.0 / 3.0;
 const CHANCE_PERCENT: f64 = 100.0 / 3.0;
 /// The answer to a triad.
-pub(in crate::experiment) fn triad(record: &Record) -> Option<TriadAnswer> {
+pub fn triad(record: &Record) -> Option<TriadAnswer> {
     let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
         (&record.trial.task, record.answer())
     else {
@@ -51,7 +51,7 @@ fn percent(answers: &[TriadAnswer]) -> f64 {
     100.0 * n_right(answers) as f64 / answers.len() as f64
 }
 
-pub(in crate::experiment) fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
+pub fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
     GradeWeights { easy, normal, hard }
 }
 
@@ -148,7 +148,7 @@ fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell>
     row
 }
 
-pub(super) fn interval(right: u64, n: u64) -> Computed<crate::statistics::Interval> {
+pub(super) fn interval(right: u64, n: u64) -> Computed<selvedge_statistics::Interval> {
     wilson(right, n, 0.95).map(|mut interval| {
         interval.low *= 100.0;
         interval.high *= 100.0;
@@ -320,7 +320,7 @@ fn grades(experiment: &Experiment<'_>) -> Section {
             let (count, shares) = graded(experiment, is_correct, grade);
             let told = exp::Grade::ALL[grade as usize].name();
             let summary = Summary::of(&shares);
-            let mean = crate::statistics::mean(&shares);
+            let mean = selvedge_statistics::mean(&shares);
             table.push([
                 name.into(),
                 told.into(),

@@ -4,9 +4,9 @@
 use super::kept::Experiment;
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, matrix};
-use crate::statistics::Computed;
-use crate::statistics::detection::{Choice, Correction, triangle};
-use crate::statistics::ranking::{OddOneOut, PairTally};
+use selvedge_statistics::Computed;
+use selvedge_statistics::detection::{Choice, Correction, triangle};
+use selvedge_statistics::ranking::{OddOneOut, PairTally};
 
 /// Distances of all pairs.
 pub(super) struct Craven {

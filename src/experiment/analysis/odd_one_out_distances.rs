@@ -3,7 +3,7 @@
 use super::kept::Experiment;
 use super::model::{Cell, Section, Table, ends, matrix};
 use super::odd_one_out::interval;
-use crate::statistics::ranking::{GradeWeights, OddOneOut};
+use selvedge_statistics::ranking::{GradeWeights, OddOneOut};
 
 /// Sums of weights, and errors by fabric.
 pub(super) fn section(experiment: &Experiment<'_>, found: &OddOneOut, names: &[String]) -> Section {

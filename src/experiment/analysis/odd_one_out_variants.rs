@@ -7,12 +7,12 @@ use super::map::{Mapping, undefined};
 use super::model::{Cell, Section, Table};
 use super::odd_one_out::weights;
 use super::odd_one_out_craven::Craven;
-use crate::numerics::Random;
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::mds::{Dissimilarities, Map, Mds};
-use crate::statistics::procrustes::{Procrustes, protest};
-use crate::statistics::ranking::{GradeWeights, OddOneOut, TriadAnswer};
-use crate::statistics::{Computed, Ranks, pearson_r};
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::mds::{Dissimilarities, Map, Mds};
+use selvedge_statistics::procrustes::{Procrustes, protest};
+use selvedge_statistics::ranking::{GradeWeights, OddOneOut, TriadAnswer};
+use selvedge_statistics::{Computed, Ranks, pearson_r};
 
 /// Weights of easy, normal and hard that maps are tried with besides the design's.
 const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
@@ -139,7 +139,7 @@ fn plane(maps: &Maps) -> Computed<Vec<Vec<f64>>> {
 fn of_dims(maps: &Maps, dims: usize) -> Computed<&Map> {
     let maps = maps.as_ref().map_err(Clone::clone)?;
     let found = maps.iter().find(|map| map.dims == dims);
-    found.ok_or_else(|| crate::statistics::Undefined::because("no map in so many dimensions"))
+    found.ok_or_else(|| selvedge_statistics::Undefined::because("no map in so many dimensions"))
 }
 
 impl Variant {

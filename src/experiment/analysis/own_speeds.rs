@@ -9,12 +9,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::kept::{Experiment, Subject};
-use crate::experiment::session::path_file;
-use crate::numerics::{in_pieces, n_threads, quantile};
-use crate::progress::{Cancelled, Progress};
-use crate::scene::{ExplorationPath, TICKS_PER_S};
-use crate::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
-use crate::textile::Textile;
+use crate::session::path_file;
+use selvedge_foundation::numerics::{in_pieces, n_threads, quantile};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_render::scene::{ExplorationPath, TICKS_PER_S};
+use selvedge_textile::Textile;
+use selvedge_textile::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
 
 /// Slower than this a display rests, mm/s: nothing is felt, and a hand that rests trembles.
 pub(super) const MOVING_MM_PER_S: f64 = 5.0;

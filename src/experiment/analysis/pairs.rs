@@ -4,11 +4,11 @@
 use super::Options;
 use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, tests};
-use crate::statistics::ranking::{
+use selvedge_statistics::ranking::{
     BradleyTerry, Estimate, Majority, Preferences, Prior, Scale, Thurstone, bradley_terry,
     mosteller, thurstone,
 };
-use crate::statistics::{Computed, Outcome, Undefined, bootstrap_errors};
+use selvedge_statistics::{Computed, Outcome, Undefined, bootstrap_errors};
 
 /// Draws of subjects that errors over subjects follow from, at most.
 const MOST_DRAWS: usize = 200;

@@ -10,11 +10,11 @@ use super::Options;
 use super::kept::Experiment;
 use super::model::{Cell, Section, Table};
 use super::own_speeds::{self, MOVING_MM_PER_S, OwnSpeeds};
-use crate::experiment::design::Source;
-use crate::progress::{Cancelled, Progress};
-use crate::quantity::level_db;
-use crate::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
-use crate::textile::{Library, Textile, TextileError};
+use crate::design::Source;
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_foundation::quantity::level_db;
+use selvedge_textile::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
+use selvedge_textile::{Library, Textile, TextileError};
 
 /// A measure of every stimulus, in the order of the design.
 #[derive(Debug, Clone)]
@@ -204,7 +204,7 @@ impl Measures {
 }
 
 fn textile_ids(experiment: &Experiment<'_>) -> Result<Vec<String>, String> {
-    let id = |stimulus: &crate::experiment::design::Stimulus| match &stimulus.source {
+    let id = |stimulus: &crate::design::Stimulus| match &stimulus.source {
         Source::Textile { id, .. } => Ok(id.clone()),
         Source::RealCloth(_) | Source::Vibration { .. } => Err(format!(
             "No physical measures: {} is no textile of a library.",
@@ -219,7 +219,7 @@ fn library(experiment: &Experiment<'_>, options: &Options) -> Result<Library, Te
     let Some(name) = &experiment.design.library else {
         return Library::shipped();
     };
-    if crate::textile::is_of_the_program(name) {
+    if selvedge_textile::is_of_the_program(name) {
         return Library::named(name, options.cache.as_ref());
     }
     let beside = experiment
@@ -293,7 +293,7 @@ fn over_subjects(all: &[&Vec<Measure>]) -> Vec<Measure> {
 
 /// Centred, with a standard deviation of 1; all 0 without spread.
 fn standardised(values: &[f64]) -> Vec<f64> {
-    let summary = crate::statistics::Summary::of(values);
+    let summary = selvedge_statistics::Summary::of(values);
     let of = |v: &f64| match &summary {
         Ok(s) if s.sd > 0.0 => (v - s.mean) / s.sd,
         _ => 0.0,

@@ -8,13 +8,13 @@ use super::map::Mapping;
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
 use super::properties::Measures;
 use super::{ranking_confusions, ranking_pairs, ranking_scale};
-use crate::experiment::design::{Ranking, Standard};
-use crate::experiment::{Answer, Task};
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::detection::{Choice, Correction, forced_choice};
-use crate::statistics::mds::{Loss, Ties};
-use crate::statistics::ranking::{MeanRanks, RankTrial};
-use crate::statistics::{
+use crate::design::{Ranking, Standard};
+use crate::{Answer, Task};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::detection::{Choice, Correction, forced_choice};
+use selvedge_statistics::mds::{Loss, Ties};
+use selvedge_statistics::ranking::{MeanRanks, RankTrial};
+use selvedge_statistics::{
     Computed, Outcome, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank, wilson,
 };
 
@@ -63,7 +63,7 @@ pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
 }
 
 /// A ranking as it was given; `None` of another task or without an answer.
-pub(in crate::experiment) fn ranking(record: &crate::experiment::Record) -> Option<RankTrial> {
+pub fn ranking(record: &crate::Record) -> Option<RankTrial> {
     let (
         Task::Rank {
             target,
@@ -218,7 +218,7 @@ fn subject_row(one: &Rankings<'_>, choice: &Computed<Choice>) -> Vec<Cell> {
     row
 }
 
-pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<crate::statistics::Interval> {
+pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<selvedge_statistics::Interval> {
     wilson(hits, n, 0.95).map(|mut interval| {
         interval.low *= 100.0;
         interval.high *= 100.0;

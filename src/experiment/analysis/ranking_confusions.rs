@@ -5,8 +5,8 @@ use super::draw_map::heat;
 use super::kept::Experiment;
 use super::model::{Cell, Drawn, Section, Table, ends, matrix};
 use super::ranking::{CHANCE_PERCENT, percent_interval};
-use crate::experiment::design::{Ranking, Standard};
-use crate::statistics::ranking::MeanRanks;
+use crate::design::{Ranking, Standard};
+use selvedge_statistics::ranking::MeanRanks;
 
 /// Matrices of targets and alternatives, all subjects together.
 pub(super) fn section(
@@ -133,8 +133,8 @@ fn asymmetry(ranks: &MeanRanks, names: &[String], section: &mut Section) {
     };
     section.note(format!(
         "Asymmetry of mean ranks, |M − Mᵀ|: mean {}, largest {} over {} pairs.",
-        crate::quantity::fixed(found.mean, 3),
-        crate::quantity::fixed(found.largest, 3),
+        selvedge_foundation::quantity::fixed(found.mean, 3),
+        selvedge_foundation::quantity::fixed(found.largest, 3),
         found.pairs.len()
     ));
     let columns = [

@@ -5,7 +5,7 @@ use super::kept::Experiment;
 use super::model::Section;
 use super::pairs::{Pairs, TOLD};
 use super::ranking::Rankings;
-use crate::statistics::ranking::{Preferences, RankTrial};
+use selvedge_statistics::ranking::{Preferences, RankTrial};
 
 /// The alternatives of a trial that are not its target, the nearest first.
 fn others(trial: &RankTrial) -> Vec<usize> {

@@ -7,10 +7,10 @@ use super::map::undefined;
 use super::model::{Cell, Section, Table, ends, tests};
 use super::pairs::over_subjects;
 use super::ranking::Rankings;
-use crate::numerics::{in_pieces, n_threads};
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};
-use crate::statistics::{Computed, Outcome, Undefined, jackknife_errors};
+use selvedge_foundation::numerics::{in_pieces, n_threads};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};
+use selvedge_statistics::{Computed, Outcome, Undefined, jackknife_errors};
 
 /// Strength of the prior that keeps worths finite where a target was always ranked first.
 const STRENGTH: f64 = 0.5;
@@ -164,7 +164,7 @@ fn targets(
 fn of_target(n_items: usize, target: usize, all: &[Rankings<'_>]) -> Target {
     let rankings = |one: &Rankings<'_>| {
         let own = one.trials.iter().filter(|trial| trial.target == target);
-        own.map(crate::statistics::ranking::RankTrial::best_first)
+        own.map(selvedge_statistics::ranking::RankTrial::best_first)
             .collect()
     };
     let subjects: Subjects = all.iter().map(rankings).collect();

@@ -6,11 +6,11 @@ use super::kept::Experiment;
 use super::model::{Cell, Drawn, SUMMARY, Section, Table, file_name, summary_cells, tests};
 use super::properties::Measures;
 use super::variance::effects;
-use crate::experiment::design::{Rating, Scale};
-use crate::experiment::{Answer, Task};
-use crate::progress::{Cancelled, Progress};
-use crate::statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
-use crate::statistics::{Computed, Outcome, Summary, pearson, spearman};
+use crate::design::{Rating, Scale};
+use crate::{Answer, Task};
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
+use selvedge_statistics::{Computed, Outcome, Summary, pearson, spearman};
 
 /// A subject's mean rating of every stimulus on one scale; `None` where it was not rated.
 type Subjects = Vec<Vec<Option<f64>>>;
@@ -38,7 +38,7 @@ fn ratings(experiment: &Experiment<'_>, scale: usize) -> Subjects {
 fn means(subjects: &Subjects, n_items: usize) -> Vec<Option<f64>> {
     let of = |item: usize| {
         let values: Vec<f64> = subjects.iter().filter_map(|s| s[item]).collect();
-        crate::statistics::mean(&values).ok()
+        selvedge_statistics::mean(&values).ok()
     };
     (0..n_items).map(of).collect()
 }
@@ -118,7 +118,7 @@ fn picture(experiment: &Experiment<'_>, scale: &Scale, shown: &[Bar]) -> Drawn {
 }
 
 fn bar(name: &str, values: &[f64]) -> Option<Bar> {
-    let mean = crate::statistics::mean(values).ok()?;
+    let mean = selvedge_statistics::mean(values).ok()?;
     Some(Bar {
         name: name.to_owned(),
         group: String::new(),

@@ -2,8 +2,8 @@
 
 use super::map::undefined;
 use super::model::{Cell, Table};
-use crate::statistics::Computed;
-use crate::statistics::variance::{Effect, Repeated};
+use selvedge_statistics::Computed;
+use selvedge_statistics::variance::{Effect, Repeated};
 
 const EFFECTS: [(&str, &str); 17] = [
     ("effect", "effect"),

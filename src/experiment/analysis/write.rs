@@ -8,9 +8,11 @@ use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
 use super::model::{Analysis, Cell, Drawn, Table};
-use crate::experiment::ExperimentError;
-use crate::files::{FileError, TableWriter, encode_png_rgba, to_json_string, write_atomic};
-use crate::quantity::fixed;
+use crate::ExperimentError;
+use selvedge_foundation::files::{
+    FileError, TableWriter, encode_png_rgba, to_json_string, write_atomic,
+};
+use selvedge_foundation::quantity::fixed;
 
 /// Pixels across a PNG.
 const PNG_WIDTH: u32 = 1720;
@@ -257,7 +259,7 @@ impl Serialize for Row<'_> {
 
 fn write_figure(drawn: &Drawn, out: &Path, stem: &str) -> Result<(), ExperimentError> {
     let path = out.join(format!("{stem}.svg"));
-    let failed = |error: crate::figure::FigureError| {
+    let failed = |error: selvedge_chart::FigureError| {
         ExperimentError::value(
             format!("{}: {error}", path.display()),
             "the tables beside it hold the same numbers",

@@ -1,9 +1,9 @@
 //! What is to be laid where. The right answer is not marked; whoever lays the cloth can often
 //! tell it from what lies where.
 
-use crate::experiment::design::{Design, Medium, Method, Source, Standard, Stimulus};
-use crate::experiment::trial::Task;
-use crate::quantity::with_unit;
+use crate::design::{Design, Medium, Method, Source, Standard, Stimulus};
+use crate::trial::Task;
+use selvedge_foundation::quantity::with_unit;
 
 /// Something at a place.
 #[derive(Debug, Clone, PartialEq, Eq)]

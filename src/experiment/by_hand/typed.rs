@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use crate::experiment::design::{Adjusting, Design, Method, Rating, Scale};
-use crate::experiment::trial::{Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task};
+use crate::design::{Adjusting, Design, Method, Rating, Scale};
+use crate::trial::{Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task};
 
 /// How an answer is typed, as an imperative with an example.
 pub fn form(design: &Design, task: &Task) -> String {
@@ -247,8 +247,8 @@ fn rating_form(rating: &Rating) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::design::Subject;
-    use crate::experiment::{Course, Step};
+    use crate::design::Subject;
+    use crate::{Course, Step};
 
     /// A shipped design and its first trial's task.
     fn first(name: &str) -> (Design, Task) {

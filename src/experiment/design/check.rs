@@ -7,8 +7,8 @@ use super::{
     Adjusting, Design, Judging, JudgingProtocol, Medium, Method, Rating, Source, Standard, Tunable,
     is_name,
 };
-use crate::experiment::schedule::is_ranked;
-use crate::files::{Flaw, Place};
+use crate::schedule::is_ranked;
+use selvedge_foundation::files::{Flaw, Place};
 
 /// Most stimuli of a design: schedules are made at once.
 pub(super) const MOST_STIMULI: usize = 400;

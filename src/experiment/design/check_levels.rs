@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::check::{MOST_REPEATS, MOST_STIMULI};
 use super::{Levels, QuestPlusTrack, StaircaseTrack, Stopping, Track};
-use crate::files::{Flaw, Place};
+use selvedge_foundation::files::{Flaw, Place};
 
 /// Most trials that a series of levels may take: what never ends is stopped.
 const MOST_TRIALS: usize = 10_000;

@@ -13,9 +13,9 @@ use super::{
     CourseSettings, Design, Familiarisation, Medium, Method, Movement, Rules, Source, Standard,
     Stimulus,
 };
-use crate::experiment::ExperimentError;
-use crate::files::{self, Flaw, Place};
-use crate::tactile::{Band, Tuning};
+use crate::ExperimentError;
+use selvedge_foundation::files::{self, Flaw, Place};
+use selvedge_textile::tactile::{Band, Tuning};
 
 /// The tables that say what is asked.
 const METHOD_TABLES: [&str; 7] = [

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::Design;
-use crate::textile::{BuildCache, Library, TextileError, is_of_the_program};
+use selvedge_textile::{BuildCache, Library, TextileError, is_of_the_program};
 
 impl Design {
     /// Opens the design's library: the one that it names, seen from the folder that the design's

@@ -1,8 +1,8 @@
 //! What is asked, and how the next question is found.
 
-use crate::statistics::adaptive::{Rule, Stage, StaircasePlan, StepScale, Stop};
-use crate::statistics::psychometric::Family;
-use crate::tactile::{Band, Tuning};
+use selvedge_statistics::adaptive::{Rule, Stage, StaircasePlan, StepScale, Stop};
+use selvedge_statistics::psychometric::Family;
+use selvedge_textile::tactile::{Band, Tuning};
 
 /// What a session asks.
 #[derive(Debug, Clone, PartialEq)]

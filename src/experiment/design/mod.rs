@@ -20,7 +20,7 @@ pub use method::{
 };
 pub use stimulus::{Medium, Source, Stimulus};
 
-use crate::tactile::Tuning;
+use selvedge_textile::tactile::Tuning;
 
 /// A study.
 #[derive(Debug, Clone, PartialEq)]

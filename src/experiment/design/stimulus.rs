@@ -1,6 +1,6 @@
 //! What is felt in a trial.
 
-use crate::tactile::Band;
+use selvedge_textile::tactile::Band;
 
 /// What the finger lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use super::{
     Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, QuestPlusTrack, Ranking, Rating,
     Scale, StaircaseTrack, Stopping, Track, Tunable, TunedParameter,
 };
-use crate::files::Flaw;
+use selvedge_foundation::files::Flaw;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,8 +1,8 @@
 //! What trials present: where it lies, what is told of it, and what is played.
 
 use super::*;
-use crate::experiment::Procedure;
-use crate::experiment::design::Subject;
+use crate::Procedure;
+use crate::design::Subject;
 
 fn subject() -> Subject {
     Subject {

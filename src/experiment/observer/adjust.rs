@@ -7,9 +7,9 @@
 
 use super::answer::Participant;
 use super::percept::look;
-use crate::experiment::design::{Adjusting, Method, TunedParameter};
-use crate::experiment::trial::{Adjustment, Answer};
-use crate::numerics::Random;
+use crate::design::{Adjusting, Method, TunedParameter};
+use crate::trial::{Adjustment, Answer};
+use selvedge_foundation::numerics::Random;
 
 /// Strides that a range is crossed in, where a step is finer than that.
 const MOST_STRIDES: f64 = 100.0;

@@ -4,9 +4,9 @@ use super::percept::{distance, look};
 use super::scale::{Jnd, NOISE_JND};
 use super::times::response_s;
 use super::{Observer, Stimuli, Strategy};
-use crate::experiment::design::{Design, Levels, Method, Scale, Standard, Subject};
-use crate::experiment::trial::{Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};
-use crate::numerics::Random;
+use crate::design::{Design, Levels, Method, Scale, Standard, Subject};
+use crate::trial::{Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};
+use selvedge_foundation::numerics::Random;
 
 /// What came of a trial.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,13 +7,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::experiment::ExperimentError;
-use crate::experiment::design::{Design, Source, Stimulus};
-use crate::files::sha256_hex;
-use crate::progress::Progress;
-use crate::quantity::factor_of_gain;
-use crate::tactile::{Band, Filters, Levels, Tuning};
-use crate::textile::Library;
+use crate::ExperimentError;
+use crate::design::{Design, Source, Stimulus};
+use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::progress::Progress;
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_textile::Library;
+use selvedge_textile::tactile::{Band, Filters, Levels, Tuning};
 
 /// What presents a stimulus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,11 +2,11 @@
 //! coordinate, and what a look at it makes of that.
 
 use super::scale::{Jnd, NOISE_JND};
-use crate::numerics::Random;
-use crate::quantity::level_db;
-use crate::statistics::Summary;
-use crate::surface::Direction;
-use crate::tactile::{Band, Levels};
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::quantity::level_db;
+use selvedge_statistics::Summary;
+use selvedge_textile::surface::Direction;
+use selvedge_textile::tactile::{Band, Levels};
 
 /// What an observer goes by. Each cue has a noise of its own, as if it were looked at by itself.
 ///

@@ -5,7 +5,7 @@
 //! same everywhere. A level is a whole step above nothing at its threshold, where two intervals
 //! are told apart three times in four; one step below it nothing is felt.
 
-use crate::tactile::{Band, detection_threshold_db, just_noticeable_db};
+use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
 
 /// Contactors that vibrate together: all of the array that the studies used.
 pub(super) const N_ACTIVE: usize = 24;
@@ -67,7 +67,7 @@ impl Jnd {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::{normal_lower, normal_quantile};
+    use selvedge_statistics::{normal_lower, normal_quantile};
 
     #[test]
     fn one_difference_is_told_apart_three_times_in_four() {

@@ -1,10 +1,10 @@
 //! Numbers for strengths, and places on scales.
 
 use super::answer::Participant;
-use crate::experiment::design::{Method, Scale};
-use crate::numerics::Random;
-use crate::statistics::Summary;
-use crate::tactile::Perception;
+use crate::design::{Method, Scale};
+use selvedge_foundation::numerics::Random;
+use selvedge_statistics::Summary;
+use selvedge_textile::tactile::Perception;
 
 use super::scale::N_ACTIVE;
 

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::*;
-use crate::experiment::design::Design;
-use crate::experiment::{Answer, Record, Simulation, Task, simulated_subject};
-use crate::quantity::{factor_of_gain, level_db};
-use crate::statistics::{mean, spearman};
-use crate::tactile::{Band, Levels, Tuning, detection_threshold_db};
+use crate::design::Design;
+use crate::{Answer, Record, Simulation, Task, simulated_subject};
+use selvedge_foundation::quantity::{factor_of_gain, level_db};
+use selvedge_statistics::{mean, spearman};
+use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
 
 /// Levels of the sixteen on a grid of 4 by 4, 6 dB apart; of others by their names.
 fn levels_of(ids: &[String], id: &str) -> Levels {
@@ -31,7 +31,7 @@ fn ids(design: &Design) -> Vec<String> {
     ids.collect()
 }
 
-pub(in crate::experiment) fn stimuli(design: &Design) -> Stimuli {
+pub fn stimuli(design: &Design) -> Stimuli {
     let known = ids(design);
     let of = |id: &str| Some((levels_of(&known, id), 0.0));
     Stimuli::from_levels(design, Tuning::default(), of).unwrap()

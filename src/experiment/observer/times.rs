@@ -2,8 +2,8 @@
 //! ranking takes 30 to 90 s.
 
 use super::answer::Participant;
-use crate::experiment::trial::Task;
-use crate::numerics::Random;
+use crate::trial::Task;
+use selvedge_foundation::numerics::Random;
 
 /// Median time of a task, s; intervals come on top.
 fn median_s(task: &Task) -> f64 {

@@ -1,14 +1,14 @@
 //! Trials whose level depends on the answers before: staircases in turn, or QUEST+.
 
-use crate::experiment::ExperimentError;
-use crate::experiment::design::{Levels, QuestPlusTrack, StaircaseTrack, Stopping, Track};
-use crate::experiment::trial::{Answer, AnswerError, Task, Trial};
-use crate::numerics::Random;
-use crate::statistics::Computed;
-use crate::statistics::adaptive::{
+use crate::ExperimentError;
+use crate::design::{Levels, QuestPlusTrack, StaircaseTrack, Stopping, Track};
+use crate::trial::{Answer, AnswerError, Task, Trial};
+use selvedge_foundation::numerics::Random;
+use selvedge_statistics::Computed;
+use selvedge_statistics::adaptive::{
     Interleaved, Procedure as _, QuestGrid, QuestPlus, Staircase, Stop,
 };
-use crate::statistics::psychometric::Guess;
+use selvedge_statistics::psychometric::Guess;
 
 /// A series that nothing has ended after so many trials is ended: at a limit of the levels no
 /// reversal may ever come.

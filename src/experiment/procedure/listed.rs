@@ -1,12 +1,12 @@
 //! Trials that are known before the first answer.
 
-use crate::experiment::ExperimentError;
-use crate::experiment::design::{
+use crate::ExperimentError;
+use crate::design::{
     Adjusting, Design, Judging, JudgingProtocol, Levels, Method, Subject, Track, TunedParameter,
 };
-use crate::experiment::schedule::{RankingSchedule, rounds, triads};
-use crate::experiment::trial::{Task, Trial};
-use crate::numerics::Random;
+use crate::schedule::{RankingSchedule, rounds, triads};
+use crate::trial::{Task, Trial};
+use selvedge_foundation::numerics::Random;
 
 /// Trials of a subject: practice, then those that count.
 ///
@@ -77,7 +77,7 @@ fn ranking(n: usize, random: &Random) -> Result<Vec<Vec<Task>>, ExperimentError>
 }
 
 fn odd_one_out(n: usize, nth_subject: usize, random: &Random) -> Vec<Task> {
-    let task = |triad: crate::experiment::schedule::Triad| Task::OddOne {
+    let task = |triad: crate::schedule::Triad| Task::OddOne {
         items: triad.items(),
         odd: triad.position,
     };

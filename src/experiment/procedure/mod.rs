@@ -13,7 +13,7 @@ use super::ExperimentError;
 use super::design::{Design, Method, Subject};
 use super::schedule::subject_random;
 use super::trial::{Answer, AnswerError, Trial};
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// What a subject is asked in a session.
 #[derive(Debug, Clone)]

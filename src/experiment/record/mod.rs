@@ -12,9 +12,9 @@ pub use read::read_records;
 
 use super::design::{Design, Method, Subject};
 use super::trial::{Answer, Trial};
-use crate::files::push_number;
-use crate::quantity::rfc3339;
-use crate::tactile::Tuning;
+use selvedge_foundation::files::push_number;
+use selvedge_foundation::quantity::rfc3339;
+use selvedge_textile::tactile::Tuning;
 
 /// The version of the columns; a log of a later one is refused.
 pub(super) const SCHEMA_VERSION: u32 = 1;
@@ -184,7 +184,7 @@ impl Record {
             number(tuning.gain_320_db),
             number(tuning.compression),
             design.seed.to_string(),
-            concat!("selvedge ", env!("CARGO_PKG_VERSION")).to_owned(),
+            selvedge_foundation::PROGRAM.to_owned(),
             flag(self.outcome == Outcome::Aborted),
             self.note.clone(),
         ]);

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::{Apparatus, Outcome, Record, SCHEMA_VERSION, Timing, column_names};
-use crate::experiment::ExperimentError;
-use crate::experiment::design::{Design, JudgingProtocol, Method};
-use crate::experiment::trial::{Adjustment, Answer, Grade, Task, Trial};
-use crate::files::{FileError, Table};
-use crate::tactile::Tuning;
+use crate::ExperimentError;
+use crate::design::{Design, JudgingProtocol, Method};
+use crate::trial::{Adjustment, Answer, Grade, Task, Trial};
+use selvedge_foundation::files::{FileError, Table};
+use selvedge_textile::tactile::Tuning;
 
 /// The records of a log.
 ///

@@ -1,8 +1,8 @@
 //! The columns of each method: what was presented, and answers of several numbers.
 
 use super::{Method, flag, number, position};
-use crate::experiment::design::{Adjusting, Design, JudgingProtocol, Rating, Stimulus};
-use crate::experiment::trial::{Adjustment, Answer, Task};
+use crate::design::{Adjusting, Design, JudgingProtocol, Rating, Stimulus};
+use crate::trial::{Adjustment, Answer, Task};
 
 type Column = (String, String);
 

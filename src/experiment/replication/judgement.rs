@@ -2,12 +2,12 @@
 
 use super::studies::{Studies, Subjects, percent_right};
 use super::{Kind, Laid, Options, Replication, by_levels, guessing, printed};
-use crate::experiment::ExperimentError;
-use crate::experiment::analysis::{Cell, Section, Table, judged};
-use crate::experiment::design::Design;
-use crate::progress::Progress;
-use crate::statistics::variance::{Answer, Crossed, Effect, repeated_two_way};
-use crate::statistics::{Computed, Undefined};
+use crate::ExperimentError;
+use crate::analysis::{Cell, Section, Table, judged};
+use crate::design::Design;
+use selvedge_foundation::progress::Progress;
+use selvedge_statistics::variance::{Answer, Crossed, Effect, repeated_two_way};
+use selvedge_statistics::{Computed, Undefined};
 
 const PAPER: &str = "Cai et al. 2021, phase 2";
 /// A test at this level finds something.

@@ -1,7 +1,7 @@
 //! Number by number: printed beside obtained.
 
 use super::Comparison;
-use crate::experiment::analysis::{Cell, Section, Table};
+use crate::analysis::{Cell, Section, Table};
 
 const COLUMNS: [(&str, &str); 12] = [
     ("paper", "paper"),

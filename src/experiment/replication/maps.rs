@@ -3,17 +3,17 @@
 use super::ranking::VIRTUAL;
 use super::studies::{Studies, Subjects};
 use super::{Kind, Laid, Options, Replication, by_levels, practised, printed};
-use crate::experiment::ExperimentError;
-use crate::experiment::analysis::{Cell, Section, Table, rank_trial};
-use crate::experiment::observer::Jnd;
-use crate::progress::{Progress, unheard};
-use crate::quantity::level_db;
-use crate::statistics::mds::{Dissimilarities, Loss, Map, Mds, Ties};
-use crate::statistics::procrustes::Procrustes;
-use crate::statistics::properties::BestTurn;
-use crate::statistics::ranking::{MeanRanks, RankTrial};
-use crate::statistics::{Computed, Undefined};
-use crate::tactile::Band;
+use crate::ExperimentError;
+use crate::analysis::{Cell, Section, Table, rank_trial};
+use crate::observer::Jnd;
+use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::quantity::level_db;
+use selvedge_statistics::mds::{Dissimilarities, Loss, Map, Mds, Ties};
+use selvedge_statistics::procrustes::Procrustes;
+use selvedge_statistics::properties::BestTurn;
+use selvedge_statistics::ranking::{MeanRanks, RankTrial};
+use selvedge_statistics::{Computed, Undefined};
+use selvedge_textile::tactile::Band;
 
 /// Starts of a plane map of one study of many.
 const N_STARTS: usize = 20;

@@ -24,13 +24,13 @@ mod studies;
 #[cfg(test)]
 mod tests;
 
-use crate::experiment::ExperimentError;
-use crate::experiment::analysis::{self, Analysis};
-use crate::experiment::design::Design;
-use crate::experiment::observer::{Observer, Stimuli, Strategy, Weighting};
-use crate::figure::{Plot, Series, Style};
-use crate::progress::Progress;
-use crate::textile::BuildCache;
+use crate::ExperimentError;
+use crate::analysis::{self, Analysis};
+use crate::design::Design;
+use crate::observer::{Observer, Stimuli, Strategy, Weighting};
+use selvedge_chart::{Plot, Series, Style};
+use selvedge_foundation::progress::Progress;
+use selvedge_textile::BuildCache;
 
 pub use studies::Spread;
 

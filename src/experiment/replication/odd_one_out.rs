@@ -2,13 +2,13 @@
 
 use super::studies::{Studies, Subjects, percent_right, planned};
 use super::{Kind, Laid, Options, Replication, by_levels, guessing};
-use crate::experiment::ExperimentError;
-use crate::experiment::analysis::{Cell, Section, Table, grade_weights, triad_answer};
-use crate::experiment::design::{Design, Method};
-use crate::progress::{Progress, unheard};
-use crate::statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
-use crate::statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
-use crate::statistics::{Computed, Undefined};
+use crate::ExperimentError;
+use crate::analysis::{Cell, Section, Table, grade_weights, triad_answer};
+use crate::design::{Design, Method};
+use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
+use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
+use selvedge_statistics::{Computed, Undefined};
 
 const PAPER: &str = "Allerkamp et al., odd one out";
 /// The paper ends with this many dimensions for virtual fabrics, by the elbow.

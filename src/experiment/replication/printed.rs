@@ -4,10 +4,10 @@
 //! at both ends of what they stand for; another printed number follows if it can be reached within
 //! its own rounding.
 
-use crate::experiment::analysis::{Cell, Section, Table};
-use crate::quantity::fixed;
-use crate::statistics::variance::partial_eta_squared;
-use crate::statistics::{Computed, Outcome, Summary, f_upper, one_sample_t, two_sample_t};
+use crate::analysis::{Cell, Section, Table};
+use selvedge_foundation::quantity::fixed;
+use selvedge_statistics::variance::partial_eta_squared;
+use selvedge_statistics::{Computed, Outcome, Summary, f_upper, one_sample_t, two_sample_t};
 
 /// A printed share, %.
 #[derive(Debug, Clone, Copy)]
@@ -251,7 +251,7 @@ fn at_ends(share: Share, of: impl Fn(&Summary) -> Computed) -> Computed<[f64; 2]
     Ok(ends_of(&values?))
 }
 
-fn between(of: impl Fn(&crate::statistics::TwoSamples) -> f64) -> Computed<[f64; 2]> {
+fn between(of: impl Fn(&selvedge_statistics::TwoSamples) -> f64) -> Computed<[f64; 2]> {
     let mut values = Vec::new();
     for a in corners(VIRTUAL) {
         for b in corners(REAL) {

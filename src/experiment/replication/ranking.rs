@@ -4,13 +4,13 @@
 use super::studies::{Spread, Studies, Subjects, percent_right};
 use super::{Kind, Laid, Options, Replication, by_levels, guessing, practised};
 use super::{printed, printed_line};
-use crate::experiment::ExperimentError;
-use crate::experiment::analysis::{Cell, Section, Table, scatter};
-use crate::experiment::observer::{Observer, Strategy, Weighting};
-use crate::figure::{Axis, Plot, Series, Style};
-use crate::progress::{Progress, unheard};
-use crate::quantity::fixed;
-use crate::statistics::{Computed, Summary};
+use crate::ExperimentError;
+use crate::analysis::{Cell, Section, Table, scatter};
+use crate::observer::{Observer, Strategy, Weighting};
+use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::quantity::fixed;
+use selvedge_statistics::{Computed, Summary};
 
 /// Looks that exploring is taken to be worth, from one to more than anybody would assume.
 const LOOKS: [u32; 7] = [1, 2, 3, 4, 6, 8, 12];
@@ -265,7 +265,7 @@ fn what_it_takes(nearest: u32, errors: &[Swept]) -> String {
 pub(super) fn crossing(points: &[[f64; 2]], value: f64) -> Computed {
     let crosses = |pair: &&[[f64; 2]]| pair[0][1] >= value && pair[1][1] < value;
     let pair = points.windows(2).find(crosses).ok_or_else(|| {
-        crate::statistics::Undefined::because("the curve does not cross the value")
+        selvedge_statistics::Undefined::because("the curve does not cross the value")
     })?;
     let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
     Ok(x0 + (x1 - x0) * (y0 - value) / (y0 - y1))
@@ -366,7 +366,7 @@ fn lines(swept: &[Swept]) -> Vec<Series> {
     names.into_iter().map(line).collect()
 }
 
-fn drawn_of(key: &str, plot: &Plot) -> crate::experiment::analysis::Drawn {
+fn drawn_of(key: &str, plot: &Plot) -> crate::analysis::Drawn {
     let axes = [plot.x.clone(), plot.y.clone()];
     scatter(key, &plot.title, axes, plot.series.clone())
 }

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use super::{Laid, Options};
-use crate::experiment::design::Design;
-use crate::experiment::observer::Observer;
-use crate::experiment::session::Found;
-use crate::experiment::{ExperimentError, Record, Simulation, simulated_subject};
-use crate::numerics::{Random, in_pieces, n_threads, quantile};
-use crate::progress::Progress;
-use crate::statistics::{Computed, Summary, mean};
+use crate::design::Design;
+use crate::observer::Observer;
+use crate::session::Found;
+use crate::{ExperimentError, Record, Simulation, simulated_subject};
+use selvedge_foundation::numerics::{Random, in_pieces, n_threads, quantile};
+use selvedge_foundation::progress::Progress;
+use selvedge_statistics::{Computed, Summary, mean};
 
 /// How a number is spread over studies.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::ranking::crossing;
 use super::*;
-use crate::progress::unheard;
+use selvedge_foundation::progress::unheard;
 
 fn small() -> Options {
     Options {
@@ -18,7 +18,7 @@ fn small() -> Options {
 fn papers() -> Papers {
     let laid = |name: &str| {
         let design = Design::shipped(name).unwrap();
-        let stimuli = crate::experiment::observer::tests::stimuli(&design);
+        let stimuli = crate::observer::tests::stimuli(&design);
         Laid { design, stimuli }
     };
     Papers {
@@ -103,7 +103,7 @@ fn every_table_has_a_key_of_its_own_and_no_number_that_is_none() {
 
 #[test]
 fn a_replication_can_be_stopped() {
-    let cancel = crate::progress::CancelFlag::default();
+    let cancel = selvedge_foundation::progress::CancelFlag::default();
     cancel.cancel();
     let mut silent = |_: f64, _: &str| ();
     let stopped = replicated(&papers(), &small(), &mut Progress::new(&mut silent, cancel));
@@ -119,7 +119,7 @@ fn what_chance_gives_is_known_for_every_number_of_dimensions() {
     let chance = unheard(|progress| odd_one_out::chance(&triads, progress)).unwrap();
     let means: Vec<f64> = chance
         .iter()
-        .map(crate::statistics::mds::Null::mean)
+        .map(selvedge_statistics::mds::Null::mean)
         .collect();
     assert_eq!(means.len(), 4);
     assert!(means.windows(2).all(|pair| pair[0] > pair[1]), "{means:?}");

@@ -1,7 +1,7 @@
 //! Trials split into blocks in which every target stands once: perfect matchings of targets and
 //! sets (Kőnig 1916: a graph of equal degree on both sides splits into as many of them).
 
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// Splits the pairs (target, set) into blocks; `sets_of[target]` are the sets in which it stands,
 /// and every target has as many. In no block a set stands twice. Gives for each block the set of

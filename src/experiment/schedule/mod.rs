@@ -14,7 +14,7 @@ pub use ranking::{RankingSchedule, RankingTrial, ScheduleError, is_ranked};
 pub use rounds::rounds;
 pub use triads::{Triad, triads};
 
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// The generator of one subject in one experiment of a study.
 pub fn subject_random(study_seed: u64, experiment: &str, subject: &str) -> Random {

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use super::blocks;
 use super::plane::{LINE_POINTS, Lines, product};
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// Alternatives of a trial.
 const N_ALTERNATIVES: usize = LINE_POINTS;

@@ -1,6 +1,6 @@
 //! Every stimulus once a round, in an order by chance.
 
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// `n_rounds` orders of 0…n−1. No stimulus comes twice in a row where there are two or more.
 pub fn rounds(n: usize, n_rounds: usize, random: &mut Random) -> Vec<Vec<usize>> {

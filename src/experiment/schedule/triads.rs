@@ -1,7 +1,7 @@
 //! Triads of the odd one out (after Allerkamp et al.): every pair of stimuli once, two alike and
 //! one odd.
 
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// One trial: which two stimuli, which of them is odd, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -2,9 +2,9 @@
 
 use super::tests::{Folder, circumstances, files_text, go_on, subject};
 use super::*;
-use crate::experiment::Grade;
-use crate::numerics::Random;
-use crate::scene::PathRow;
+use crate::Grade;
+use selvedge_foundation::numerics::Random;
+use selvedge_render::scene::PathRow;
 
 /// Twenty-one triads of cloth on the table.
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
@@ -193,7 +193,7 @@ fn the_path_of_a_trial_is_a_path_and_is_there_before_its_row() {
     let mut session = Session::create(&folder.0, cloth(), subject(), "none").unwrap();
     let row = |t_s: f64| PathRow {
         t_s,
-        position: crate::geometry::Point::new(100.0 * t_s, 5.0),
+        position: selvedge_foundation::geometry::Point::new(100.0 * t_s, 5.0),
         ..PathRow::default()
     };
     let explored = ExplorationPath::new(vec![row(0.0), row(0.5)]).unwrap();

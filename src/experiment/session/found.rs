@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Sidecar;
-use crate::experiment::ExperimentError;
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::record::{Record, column_names, read_records};
-use crate::files::{self, FileError, Journal, Table};
+use crate::ExperimentError;
+use crate::design::{Design, Subject};
+use crate::record::{Record, column_names, read_records};
+use selvedge_foundation::files::{self, FileError, Journal, Table};
 
 /// A session that was held.
 #[derive(Debug, Clone, PartialEq)]

@@ -30,10 +30,10 @@ use super::course::{Course, Step};
 use super::design::{Design, Subject, is_name};
 use super::record::{Apparatus, Outcome, Record, Timing, column_names, read_records};
 use super::trial::{Answer, Trial};
-use crate::engine::RecordedSample;
-use crate::files::{FileError, Journal, Reopened};
-use crate::quantity::rfc3339;
-use crate::scene::ExplorationPath;
+use selvedge_engine::RecordedSample;
+use selvedge_foundation::files::{FileError, Journal, Reopened};
+use selvedge_foundation::quantity::rfc3339;
+use selvedge_render::scene::ExplorationPath;
 
 /// A session that is being held.
 #[derive(Debug)]

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use crate::engine::RecordedSample;
-use crate::files::{FileError, push_number, write_atomic};
+use selvedge_engine::RecordedSample;
+use selvedge_foundation::files::{FileError, push_number, write_atomic};
 
 /// Columns: s after the path's first row, and the place, mm.
 const HEADER: &str = "t_s,x_mm,y_mm\n";
@@ -34,9 +34,9 @@ pub(super) fn write(samples: &[RecordedSample], file: &Path) -> Result<(), FileE
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::session::tests::Folder;
-    use crate::files::{Table, read_text};
-    use crate::geometry::Point;
+    use crate::session::tests::Folder;
+    use selvedge_foundation::files::{Table, read_text};
+    use selvedge_foundation::geometry::Point;
 
     #[test]
     fn every_report_stands_in_the_file_with_its_time_and_place() {

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 
 use super::origin::{DesignFolder, Origin};
 use super::told_utc;
-use crate::experiment::ExperimentError;
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::record::{SCHEMA_VERSION, columns};
-use crate::files::{self, FileError};
-use crate::textile::is_of_the_program;
+use crate::ExperimentError;
+use crate::design::{Design, Subject};
+use crate::record::{SCHEMA_VERSION, columns};
+use selvedge_foundation::files::{self, FileError};
+use selvedge_textile::is_of_the_program;
 
 /// What the file of a design is called where its own name is not known.
 const NAME: &str = "design.toml";
@@ -74,7 +74,7 @@ impl Sidecar {
     pub(super) fn of(design: &Design, subject: &Subject, n_trials_at_most: usize) -> Self {
         Self {
             schema_version: SCHEMA_VERSION,
-            software: concat!("selvedge ", env!("CARGO_PKG_VERSION")).to_owned(),
+            software: selvedge_foundation::PROGRAM.to_owned(),
             study: design.study.clone(),
             experiment: design.experiment.clone(),
             title: design.title.clone(),

@@ -3,10 +3,10 @@
 use std::time::UNIX_EPOCH;
 
 use super::*;
-use crate::experiment::design::Method;
-use crate::experiment::{Grade, Task};
-pub(in crate::experiment) use crate::files::ScratchFolder as Folder;
-use crate::numerics::Random;
+use crate::design::Method;
+use crate::{Grade, Task};
+pub use selvedge_scratch::ScratchFolder as Folder;
+use selvedge_foundation::numerics::Random;
 
 pub(super) fn subject() -> Subject {
     Subject {
@@ -17,11 +17,7 @@ pub(super) fn subject() -> Subject {
 }
 
 /// Some answer to a task.
-pub(in crate::experiment) fn any_answer(
-    design: &Design,
-    task: &Task,
-    random: &mut Random,
-) -> Answer {
+pub fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
     match task {
         Task::Rank { .. } => {
             let mut ranks = [1, 2, 3, 4];
@@ -34,7 +30,7 @@ pub(in crate::experiment) fn any_answer(
         },
         Task::Adjust { starts, .. } => Answer::Adjusted {
             values: starts.iter().map(|start| start / 3.0).collect(),
-            steps: vec![crate::experiment::Adjustment {
+            steps: vec![crate::Adjustment {
                 at_ms: 0.1,
                 parameter: 0,
                 value: starts[0] / 3.0,
@@ -113,7 +109,8 @@ fn every_shipped_design_can_be_held_to_its_end_and_read_back() {
             .iter()
             .map(|record| record.cells(&found[0].design, &found[0].subject))
             .collect();
-        let mut writer = crate::files::TableWriter::continued(Vec::new(), session.log());
+        let mut writer =
+            selvedge_foundation::files::TableWriter::continued(Vec::new(), session.log());
         for cells in again {
             for cell in &cells {
                 writer.text(&cell.replace('\n', " "));

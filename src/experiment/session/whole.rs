@@ -5,11 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{Opening, Sidecar, check_pseudonym, log_path};
-use crate::experiment::ExperimentError;
-use crate::experiment::course::Course;
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::record::{Record, column_names};
-use crate::files::{FileError, TableWriter, write_atomic};
+use crate::ExperimentError;
+use crate::course::Course;
+use crate::design::{Design, Subject};
+use crate::record::{Record, column_names};
+use selvedge_foundation::files::{FileError, TableWriter, write_atomic};
 
 /// Writes the files of a session, as they would be had it been held trial by trial: its log.
 ///

@@ -3,10 +3,10 @@
 use std::fs;
 
 use super::*;
-use crate::experiment::observer::{Strategy, Weighting, tests::stimuli};
-use crate::experiment::session::{Circumstances, Session, find, tests::Folder};
-use crate::progress::unheard;
-use crate::textile::Library;
+use crate::observer::{Strategy, Weighting, tests::stimuli};
+use crate::session::{Circumstances, Session, find, tests::Folder};
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::Library;
 
 fn simulation<'a>(
     design: &'a Design,
@@ -157,7 +157,7 @@ fn what_the_shipped_ranking_gives() {
                     100.0 * right.count() as f64 / 80.0
                 };
                 let shares: Vec<f64> = (0..8).map(share).collect();
-                let summary = crate::statistics::Summary::of(&shares).unwrap();
+                let summary = selvedge_statistics::Summary::of(&shares).unwrap();
                 let se = summary.sd / 8.0_f64.sqrt();
                 println!("{:.1} % ± {se:.1} SE: {}", summary.mean, observer.told());
             }

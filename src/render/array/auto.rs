@@ -5,9 +5,9 @@
 
 use super::table::{Grid, MAX_TABLE_BYTES, table_bytes};
 use super::{Accuracy, ErrorBound, Method};
-use crate::render::RenderScene;
-use crate::render::plan::ScenePlan;
-use crate::surface::N_BINS;
+use crate::RenderScene;
+use crate::plan::ScenePlan;
+use selvedge_textile::surface::N_BINS;
 
 /// Operations (multiplications and additions, or as long) for one bin of the reference: a
 /// logarithm and an exponential for each band.

@@ -10,11 +10,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::reference::{amplitudes_of, bin_frequency_hz, evaluate_each};
-use crate::render::plan::{
-    Axis, Component, Contacts, Counters, Feel, Motion, Rule, Rules, ScenePlan,
-};
-use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
-use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
+use crate::plan::{Axis, Component, Contacts, Counters, Feel, Motion, Rule, Rules, ScenePlan};
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
+use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
 /// Sums the bins that matter, once for each point and speed.
 #[derive(Debug, Clone)]

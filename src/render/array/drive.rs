@@ -8,8 +8,8 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use crate::render::{RenderError, single};
-use crate::tactile::Band;
+use crate::{RenderError, single};
+use selvedge_textile::tactile::Band;
 
 /// Ticks a second.
 const TICKS_PER_S: u64 = 40;

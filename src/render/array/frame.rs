@@ -1,8 +1,8 @@
 //! What a display's contactors are told to do in one tick.
 
-use crate::geometry::{Displacement, Point, Rotation};
-use crate::render::plan::OUTSIDE;
-use crate::render::{ContactorArray, single};
+use crate::plan::OUTSIDE;
+use crate::{ContactorArray, single};
+use selvedge_foundation::geometry::{Displacement, Point, Rotation};
 
 /// One display's amplitudes after a tick: after gains, before the limits of an output.
 #[derive(Debug, Clone)]

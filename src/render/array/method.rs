@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
-use crate::render::RenderError;
+use crate::RenderError;
 
 /// How amplitudes are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]

@@ -37,7 +37,7 @@ use super::gains::Gains;
 use super::plan::{Contacts, Counters, DisplayPlan, Rules, ScenePlan};
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::scene::Pose;
-use crate::tactile::Tuning;
+use selvedge_textile::tactile::Tuning;
 
 /// How powers are found.
 #[derive(Debug, Clone)]

@@ -2,10 +2,10 @@
 //! enough to be drawn with every frame.
 
 use super::trace::ContactInspector;
-use crate::geometry::{Point, Velocity};
-use crate::render::plan::{Axis, Component, Contacts, Counters, ScenePlan, nearest_mm};
+use crate::plan::{Axis, Component, Contacts, Counters, ScenePlan, nearest_mm};
 use crate::scene::Pose;
-use crate::surface::Direction;
+use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_textile::surface::Direction;
 
 /// A contactor as it moves over the workspace.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,9 +3,9 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
-use crate::render::plan::{Axis, Contacts, Counters, Feel, Rule, ScenePlan};
-use crate::surface::{BIN_SPACING_PER_MM, LocalSpectra};
-use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
+use crate::plan::{Axis, Contacts, Counters, Feel, Rule, ScenePlan};
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra};
+use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
 /// Sums every bin of every contactor anew.
 #[derive(Debug, Clone)]

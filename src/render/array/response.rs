@@ -12,10 +12,10 @@
 use std::sync::Arc;
 
 use super::trace::ContactInspector;
-use crate::geometry::{Rotation, Velocity};
-use crate::render::plan::{Axis, Component, PointGrid};
-use crate::surface::{Direction, LocalSpectra, Surface};
-use crate::tactile::{Filters, SpeedResponse};
+use crate::plan::{Axis, Component, PointGrid};
+use selvedge_foundation::geometry::{Rotation, Velocity};
+use selvedge_textile::surface::{Direction, LocalSpectra, Surface};
+use selvedge_textile::tactile::{Filters, SpeedResponse};
 
 /// One textile as it is heard through filters and gains, apart from where it lies: cheap to clone,
 /// and free to go to another thread.

@@ -7,15 +7,13 @@ use serde::Serialize;
 
 use super::reading::Reading;
 use super::reference::{amplitudes_of, bin_frequency_hz};
-use crate::geometry::Point;
-use crate::render::RenderScene;
-use crate::render::gains::{GainTerms, Gains};
-use crate::render::plan::{
-    Axis, Component, Contacts, Counters, DisplayPlan, ScenePlan, TextilePlan,
-};
+use crate::RenderScene;
+use crate::gains::{GainTerms, Gains};
+use crate::plan::{Axis, Component, Contacts, Counters, DisplayPlan, ScenePlan, TextilePlan};
 use crate::scene::Pose;
-use crate::surface::{BIN_SPACING_PER_MM, Direction};
-use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
+use selvedge_foundation::geometry::Point;
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction};
+use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
 /// Explains the contactors of a scene: prepared once, asked as often as one likes.
 #[derive(Debug, Clone)]

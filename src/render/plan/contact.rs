@@ -1,8 +1,8 @@
 //! Where the contactors of a display touch which textile, and how they move over it.
 
 use super::{Axis, Component, Counters, DisplayPlan, PointGrid, Rule, Rules};
-use crate::geometry::{Point, Rotation, Velocity};
-use crate::render::PlacedSurface;
+use crate::PlacedSurface;
+use selvedge_foundation::geometry::{Point, Rotation, Velocity};
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
 /// and upper edge no longer, mm.
@@ -10,19 +10,19 @@ const EDGE_MM: f64 = 1e-6;
 
 /// A placed textile, ready to be asked for contacts.
 #[derive(Debug, Clone)]
-pub(in crate::render) struct TextilePlan {
+pub struct TextilePlan {
     origin: Point,
-    pub(in crate::render) textile_from_workspace: Rotation,
+    pub textile_from_workspace: Rotation,
     size_mm: [f64; 2],
     /// The spectra of each direction in the pool.
-    pub(in crate::render) spectra: [usize; 4],
+    pub spectra: [usize; 4],
     /// How places become points, for each direction.
-    pub(in crate::render) points: [PointGrid; 4],
+    pub points: [PointGrid; 4],
 }
 
 /// Where a display's centre is in a textile's frame, and how it lies there.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::render) struct Placing {
+pub struct Placing {
     pub(super) centre: Point,
     pub(super) textile_from_display: Rotation,
     /// Every contactor lies on the textile.
@@ -31,7 +31,7 @@ pub(in crate::render) struct Placing {
 
 /// How the contactors of a display move in a textile's frame.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::render) enum Motion<'a> {
+pub enum Motion<'a> {
     /// All alike.
     Together(Velocity),
     /// Each its own way: components along warp and weft, mm/s.
@@ -40,37 +40,37 @@ pub(in crate::render) enum Motion<'a> {
 
 /// The contacts of one display with one textile in one tick.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::render) struct Contacts<'a> {
+pub struct Contacts<'a> {
     /// Which textile.
-    pub(in crate::render) textile: usize,
+    pub textile: usize,
     /// Which textile every contactor lies on.
-    pub(in crate::render) owners: &'a [u16],
+    pub owners: &'a [u16],
     /// Places along warp and weft of every contactor, mm.
-    pub(in crate::render) places_mm: [&'a [f64]; 2],
+    pub places_mm: [&'a [f64]; 2],
     /// How they move.
-    pub(in crate::render) motion: Motion<'a>,
+    pub motion: Motion<'a>,
     /// How many contactors lie on this textile.
-    pub(in crate::render) n_contactors: usize,
+    pub n_contactors: usize,
     /// What may be left out.
-    pub(in crate::render) rules: Rules,
+    pub rules: Rules,
 }
 
 /// What a contactor feels along one axis.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::render) struct Feel {
+pub struct Feel {
     /// Which spectra of the pool.
-    pub(in crate::render) spectra: usize,
+    pub spectra: usize,
     /// The point of these spectra that it touches.
-    pub(in crate::render) point: usize,
+    pub point: usize,
     /// How fast it moves along the axis, mm/s.
-    pub(in crate::render) speed_mm_per_s: f64,
+    pub speed_mm_per_s: f64,
 }
 
 impl Contacts<'_> {
     /// What a contactor feels along an axis; `None`, counted, where it does not move along it or
     /// too fast.
     #[inline]
-    pub(in crate::render) fn feel(
+    pub fn feel(
         &self,
         textile: &TextilePlan,
         axis: Axis,
@@ -91,12 +91,7 @@ impl Contacts<'_> {
 
     /// What a contactor that feels nothing along an axis would feel at the nearest speed that is
     /// felt: to be evaluated for nothing. `None` where that is left out, as it should be.
-    pub(in crate::render) fn idle_feel(
-        &self,
-        textile: &TextilePlan,
-        axis: Axis,
-        contactor: usize,
-    ) -> Option<Feel> {
+    pub fn idle_feel(&self, textile: &TextilePlan, axis: Axis, contactor: usize) -> Option<Feel> {
         let component = self.component(axis, contactor);
         let speed_mm_per_s = component.nearest_felt_mm_per_s();
         (!self.rules.leave_out(component))
@@ -122,7 +117,7 @@ impl Contacts<'_> {
 
     /// Places of all contactors along and across an axis, mm.
     #[inline]
-    pub(in crate::render) fn along_and_across_mm(&self, axis: Axis) -> [&[f64]; 2] {
+    pub fn along_and_across_mm(&self, axis: Axis) -> [&[f64]; 2] {
         let [u_mm, w_mm] = self.places_mm;
         match axis {
             Axis::Warp => [u_mm, w_mm],
@@ -133,12 +128,7 @@ impl Contacts<'_> {
     /// Counts `n` directions of a component that is not felt, unless they are evaluated for
     /// nothing.
     #[inline]
-    pub(in crate::render) fn count_left_out(
-        &self,
-        component: Component,
-        n: u64,
-        counters: &mut Counters,
-    ) {
+    pub fn count_left_out(&self, component: Component, n: u64, counters: &mut Counters) {
         if self.rules.leave_out(component) {
             counters.left_out(component, n);
         }
@@ -146,17 +136,13 @@ impl Contacts<'_> {
 
     /// Whether a contactor lies on this textile.
     #[inline]
-    pub(in crate::render) fn owns(&self, contactor: usize) -> bool {
+    pub fn owns(&self, contactor: usize) -> bool {
         usize::from(self.owners[contactor]) == self.textile
     }
 
     /// Does something with the output of every contactor on this textile.
     #[inline]
-    pub(in crate::render) fn for_each_owned<T>(
-        &self,
-        outputs: &mut [T],
-        mut act: impl FnMut(usize, &mut T),
-    ) {
+    pub fn for_each_owned<T>(&self, outputs: &mut [T], mut act: impl FnMut(usize, &mut T)) {
         if self.n_contactors == self.owners.len() {
             // Without a question for each, the loop runs several contactors at a time.
             outputs
@@ -173,11 +159,7 @@ impl Contacts<'_> {
 
     /// The same with the contactor's place along warp and weft, mm.
     #[inline]
-    pub(in crate::render) fn for_each_placed<T>(
-        &self,
-        outputs: &mut [T],
-        mut act: impl FnMut([f64; 2], &mut T),
-    ) {
+    pub fn for_each_placed<T>(&self, outputs: &mut [T], mut act: impl FnMut([f64; 2], &mut T)) {
         let places = self.places_mm[0].iter().zip(self.places_mm[1]);
         let placed = outputs.iter_mut().zip(places);
         if self.n_contactors == self.owners.len() {
@@ -192,13 +174,13 @@ impl Contacts<'_> {
 
     /// A contactor's velocity component along an axis.
     #[inline]
-    pub(in crate::render) fn component(&self, axis: Axis, contactor: usize) -> Component {
+    pub fn component(&self, axis: Axis, contactor: usize) -> Component {
         Component::of(self.velocity_mm_per_s(contactor)[axis as usize])
     }
 
     /// A contactor's velocity along warp and weft, mm/s.
     #[inline]
-    pub(in crate::render) fn velocity_mm_per_s(&self, contactor: usize) -> [f64; 2] {
+    pub fn velocity_mm_per_s(&self, contactor: usize) -> [f64; 2] {
         match self.motion {
             Motion::Together(velocity) => [velocity.x_mm_per_s, velocity.y_mm_per_s],
             Motion::Turning(along_warp, along_weft) => {
@@ -210,7 +192,7 @@ impl Contacts<'_> {
 
 impl TextilePlan {
     pub(super) fn new(placed: &PlacedSurface, spectra: [usize; 4]) -> Self {
-        let points = crate::surface::Direction::ALL
+        let points = selvedge_textile::surface::Direction::ALL
             .map(|direction| PointGrid::new(placed.surface.spectra(direction).shape()));
         Self {
             origin: placed.workspace_from_textile.origin,
@@ -222,7 +204,7 @@ impl TextilePlan {
     }
 
     /// How a display lies in the textile's frame; `None` when none of its contactors can lie on it.
-    pub(in crate::render) fn placing(&self, display: &DisplayPlan, at: Point) -> Option<Placing> {
+    pub fn placing(&self, display: &DisplayPlan, at: Point) -> Option<Placing> {
         let centre = Point::default() + self.textile_from_workspace.turn(at - self.origin);
         let radius = display.radius_mm;
         let reaches =

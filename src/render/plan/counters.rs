@@ -49,7 +49,7 @@ pub struct Counters {
 
 impl Counters {
     /// Counts `n` directions of one component that is not felt.
-    pub(in crate::render) fn left_out(&mut self, component: super::Component, n: u64) {
+    pub fn left_out(&mut self, component: super::Component, n: u64) {
         match component {
             super::Component::AtRest => self.directions_at_rest += n,
             super::Component::TooFast => self.directions_over_speed += n,

@@ -2,14 +2,14 @@
 
 use super::contact::{Contacts, Motion, Placing, TextilePlan};
 use super::{Counters, OUTSIDE, Rule, Rules};
-use crate::geometry::{Displacement, Point, Rotation, Velocity};
-use crate::render::ContactorArray;
+use crate::ContactorArray;
 use crate::scene::Pose;
-use crate::tactile::MIN_SPEED_MM_PER_S;
+use selvedge_foundation::geometry::{Displacement, Point, Rotation, Velocity};
+use selvedge_textile::tactile::MIN_SPEED_MM_PER_S;
 
 /// A display's contactors, their places on the textile at hand, and who owns each.
 #[derive(Debug, Clone)]
-pub(in crate::render) struct DisplayPlan {
+pub struct DisplayPlan {
     x_mm: Vec<f64>,
     y_mm: Vec<f64>,
     pub(super) radius_mm: f64,
@@ -19,8 +19,8 @@ pub(in crate::render) struct DisplayPlan {
     w_mm: Vec<f64>,
     velocity_u: Vec<f64>,
     velocity_w: Vec<f64>,
-    pub(in crate::render) owners: Vec<u16>,
-    pub(in crate::render) n_owned: usize,
+    pub owners: Vec<u16>,
+    pub n_owned: usize,
     /// What may be left out.
     pub(super) rules: Rules,
     /// Where and how turned it rested in the last tick; `None` if it moved.
@@ -30,7 +30,7 @@ pub(in crate::render) struct DisplayPlan {
 }
 
 impl DisplayPlan {
-    pub(in crate::render) fn new(array: &ContactorArray) -> Self {
+    pub fn new(array: &ContactorArray) -> Self {
         let zeros = vec![0.0; array.offsets.len()];
         let longest = |far: f64, by: &Displacement| far.max(by.length_mm());
         // A hair more than the farthest contactor, for what turning rounds.
@@ -57,7 +57,7 @@ impl DisplayPlan {
     }
 
     /// Takes other rules.
-    pub(in crate::render) fn set_rules(&mut self, rules: Rules) {
+    pub fn set_rules(&mut self, rules: Rules) {
         self.rules = rules;
         self.rested = None;
         let n_spare = if rules.skip_spare_touches() {
@@ -68,19 +68,19 @@ impl DisplayPlan {
         self.spare = vec![OUTSIDE; n_spare];
     }
 
-    pub(in crate::render) fn n_contactors(&self) -> usize {
+    pub fn n_contactors(&self) -> usize {
         self.owners.len()
     }
 
     /// Where a contactor sits in the display's own frame; `None` when there is no such contactor.
-    pub(in crate::render) fn offset(&self, contactor: usize) -> Option<Displacement> {
+    pub fn offset(&self, contactor: usize) -> Option<Displacement> {
         let (x_mm, y_mm) = (self.x_mm.get(contactor)?, self.y_mm.get(contactor)?);
         Some(Displacement::new(*x_mm, *y_mm))
     }
 
     /// Whether the display rests where it rested the tick before: then its frame stands, silent as
     /// it is, whatever became of gains. Counted.
-    pub(in crate::render) fn stands(&mut self, pose: &Pose, counters: &mut Counters) -> bool {
+    pub fn stands(&mut self, pose: &Pose, counters: &mut Counters) -> bool {
         let rested = is_at_rest(pose).then_some((pose.position, pose.angle_deg));
         let before = std::mem::replace(&mut self.rested, rested);
         let (Some(before), Some(now)) = (before, rested) else {
@@ -101,21 +101,17 @@ impl DisplayPlan {
     }
 
     /// Whether textiles beneath those that were claimed need not be asked.
-    pub(in crate::render) fn is_taken(&self) -> bool {
+    pub fn is_taken(&self) -> bool {
         self.n_owned == self.owners.len() && self.rules.has(Rule::Beneath)
     }
 
     /// Forgets where it rested: its frame is no longer that of the last tick.
-    pub(in crate::render) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.rested = None;
     }
 
     /// Begins a tick: nobody owns a contactor yet. Returns how the display is turned.
-    pub(in crate::render) fn begin(
-        &mut self,
-        path_angle_deg: f64,
-        counters: &mut Counters,
-    ) -> Rotation {
+    pub fn begin(&mut self, path_angle_deg: f64, counters: &mut Counters) -> Rotation {
         self.owners.fill(OUTSIDE);
         self.n_owned = 0;
         let angle_deg = self.rotation_deg + path_angle_deg;
@@ -131,7 +127,7 @@ impl DisplayPlan {
 
     /// Gives a textile the contactors that lie on it and that nobody above it took. `None` when
     /// there are none.
-    pub(in crate::render) fn claim(
+    pub fn claim(
         &mut self,
         (textile, number): (&TextilePlan, usize),
         placing: &Placing,
@@ -158,7 +154,7 @@ impl DisplayPlan {
 
     /// The contactors, besides those just claimed, that are evaluated on a textile for nothing,
     /// because a rule that would leave them out is off. `None` when there are none.
-    pub(in crate::render) fn claim_spare(
+    pub fn claim_spare(
         &mut self,
         (textile, number): (&TextilePlan, usize),
         placing: &Placing,

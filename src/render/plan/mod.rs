@@ -21,8 +21,8 @@ pub use rules::{Rule, Rules};
 use std::sync::Arc;
 
 use super::RenderScene;
-use crate::surface::{Direction, LocalSpectra};
-use crate::tactile::{MAX_SPEED_MM_PER_S, MIN_SPEED_MM_PER_S};
+use selvedge_textile::surface::{Direction, LocalSpectra};
+use selvedge_textile::tactile::{MAX_SPEED_MM_PER_S, MIN_SPEED_MM_PER_S};
 
 /// No textile: the contactor lies outside.
 pub(super) const OUTSIDE: u16 = u16::MAX;

@@ -9,13 +9,13 @@ const BORDER_MM: f64 = 1e-6;
 /// The remainder is taken by two multiplications with a precomputed reciprocal (Lemire, Kaser,
 /// Kurz 2019), exact for 32-bit numbers: a division costs more than the rest of a contactor.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::render) struct PointIndex {
+pub struct PointIndex {
     n_points: u64,
     reciprocal: u64,
 }
 
 impl PointIndex {
-    pub(in crate::render) fn new(n_points: usize) -> Self {
+    pub fn new(n_points: usize) -> Self {
         let n_points = n_points.max(1) as u64;
         Self {
             n_points,
@@ -34,7 +34,7 @@ impl PointIndex {
         reason = "the result is below n_points"
     )]
     #[inline]
-    pub(in crate::render) fn nearest(self, place_mm: f64) -> usize {
+    pub fn nearest(self, place_mm: f64) -> usize {
         let whole = nearest_mm(place_mm);
         let fraction = self.reciprocal.wrapping_mul(u64::from(whole));
         ((u128::from(fraction) * u128::from(self.n_points)) >> 64) as usize
@@ -44,22 +44,22 @@ impl PointIndex {
 /// The whole millimetre nearest to a place in mm, at or right of −½: where the point that it reads
 /// lies on the cloth.
 #[inline]
-pub(in crate::render) fn nearest_mm(place_mm: f64) -> u32 {
+pub fn nearest_mm(place_mm: f64) -> u32 {
     whole_part(place_mm + 0.5 + BORDER_MM)
 }
 
 /// The point of spectra nearest to a place along and across their direction. Spectra along one
 /// profile are repeated across.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::render) struct PointGrid {
-    pub(in crate::render) along: PointIndex,
+pub struct PointGrid {
+    pub along: PointIndex,
     across: PointIndex,
     n_along: usize,
 }
 
 impl PointGrid {
     /// For so many points along and across.
-    pub(in crate::render) fn new([n_along, n_across]: [usize; 2]) -> Self {
+    pub fn new([n_along, n_across]: [usize; 2]) -> Self {
         Self {
             along: PointIndex::new(n_along),
             across: PointIndex::new(n_across),
@@ -69,24 +69,24 @@ impl PointGrid {
 
     /// The number of the point nearest to a place in mm.
     #[inline]
-    pub(in crate::render) fn nearest(self, along_mm: f64, across_mm: f64) -> usize {
+    pub fn nearest(self, along_mm: f64, across_mm: f64) -> usize {
         self.number(self.indices(along_mm, across_mm))
     }
 
     /// The point nearest to a place in mm: which along, which across.
     #[inline]
-    pub(in crate::render) fn indices(self, along_mm: f64, across_mm: f64) -> [usize; 2] {
+    pub fn indices(self, along_mm: f64, across_mm: f64) -> [usize; 2] {
         [self.along.nearest(along_mm), self.across.nearest(across_mm)]
     }
 
     /// Points along and across.
-    pub(in crate::render) fn n_points(self) -> [usize; 2] {
+    pub fn n_points(self) -> [usize; 2] {
         [self.along.n_points(), self.across.n_points()]
     }
 
     /// The number of a point: so many along, so many across.
     #[inline]
-    pub(in crate::render) fn number(self, [along, across]: [usize; 2]) -> usize {
+    pub fn number(self, [along, across]: [usize; 2]) -> usize {
         across * self.n_along + along
     }
 }
@@ -98,7 +98,7 @@ impl PointGrid {
     reason = "the low bits are what is wanted"
 )]
 #[inline]
-pub(in crate::render) fn whole_part(x: f64) -> u32 {
+pub fn whole_part(x: f64) -> u32 {
     const SHIFT: f64 = 4_503_599_627_370_496.0;
     let shifted = x + SHIFT;
     let is_rounded_up = shifted - SHIFT > x;

@@ -1,8 +1,8 @@
 //! Constant stimuli: every stimulus as often, in an order by chance.
 
 use super::{Procedure, Trial, over};
-use crate::numerics::Random;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
+use selvedge_foundation::numerics::Random;
 
 /// The method of constant stimuli.
 #[derive(Debug, Clone, PartialEq)]

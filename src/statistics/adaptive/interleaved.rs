@@ -1,8 +1,8 @@
 //! Several procedures at once, one trial of either by chance, so that nobody can follow them.
 
 use super::{Procedure, over};
-use crate::numerics::Random;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
+use selvedge_foundation::numerics::Random;
 
 /// Procedures taken in turn by chance among those that are not over.
 #[derive(Debug, Clone)]

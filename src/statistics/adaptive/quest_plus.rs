@@ -5,8 +5,8 @@
 //! over the grid a stimulus, from tables made once, and no logarithm in the loop.
 
 use super::{Procedure, Reached, Stop, Trial, over};
-use crate::statistics::psychometric::{Family, Guess, Psychometric, scaled};
-use crate::statistics::{Computed, Undefined};
+use crate::psychometric::{Family, Guess, Psychometric, scaled};
+use crate::{Computed, Undefined};
 
 /// Stimuli that tell this much more, in nats, than an earlier one are better than it; less is
 /// rounding.

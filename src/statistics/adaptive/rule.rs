@@ -1,7 +1,7 @@
 //! Rules of staircases and the shares right that they settle at.
 
-use crate::statistics::detection::inverted;
-use crate::statistics::{Computed, Undefined};
+use crate::detection::inverted;
+use crate::{Computed, Undefined};
 
 /// Ratios of step down to step up that let one-up-m-down staircases with clear steps settle where
 /// they should, for m = 1…4 (García-Pérez 1998); targets 0.7785, 0.8035, 0.8315, 0.8584.
@@ -94,7 +94,7 @@ impl Rule {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn equal_steps_settle_at_the_targets_of_the_table() -> Computed<()> {

@@ -1,8 +1,8 @@
 //! A staircase: steps down after right answers, up after wrong ones.
 
 use super::{Procedure, Reached, Rule, StepScale, Stop, Trial, over};
-use crate::statistics::summary::{centred, sum_of_squares};
-use crate::statistics::{Computed, Undefined};
+use crate::summary::{centred, sum_of_squares};
+use crate::{Computed, Undefined};
 
 /// Steps of one size, in the unit of the scale.
 #[derive(Debug, Clone, Copy, PartialEq)]

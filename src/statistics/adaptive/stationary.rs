@@ -2,7 +2,7 @@
 //! chain over stimulus, answers in a row and direction.
 
 use super::Rule;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// The long run of a staircase of whole steps on an even scale.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! When a procedure is over, as an expression.
 
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// When to stop: a condition, any of several, or all of several.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! One of m alternatives is right and the strongest is chosen, without bias to any.
 
 use super::{Choice, Correction, Relation, integral, inverted};
-use crate::statistics::distribution::{normal_density, normal_lower};
-use crate::statistics::{Computed, Undefined};
+use crate::distribution::{normal_density, normal_lower};
+use crate::{Computed, Undefined};
 
 /// Beyond these shares d′ has no digits that mean anything.
 const SHARES: [f64; 2] = [1e-9, 1.0 - 1e-9];
@@ -63,7 +63,7 @@ pub fn forced_choice(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
     use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
     #[test]
@@ -138,7 +138,7 @@ mod tests {
     fn two_alternatives_have_the_error_of_the_normal() -> Computed<()> {
         // d′ = √2 z(Pc): error √2 √(pq/n)/φ(z).
         let found = forced_choice(60, 80, 2, Correction::LogLinear)?;
-        let z = crate::statistics::normal_quantile(0.75)?;
+        let z = crate::normal_quantile(0.75)?;
         let error = SQRT_2 * (0.75_f64 * 0.25 / 80.0).sqrt() / normal_density(z);
         assert!((found.se? / error - 1.0).abs() < 1e-6, "{error}");
         Ok(())

@@ -1,7 +1,7 @@
 //! The receiver operating characteristic from ratings of confidence.
 
-use crate::statistics::distribution::normal_quantile;
-use crate::statistics::{Computed, Interval, Undefined};
+use crate::distribution::normal_quantile;
+use crate::{Computed, Interval, Undefined};
 
 /// Shares of signals and of others rated at least so high.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,8 +121,8 @@ fn weighted_mean(values: &[f64], counts: &[u64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
-    use crate::statistics::{Summary, normal_lower};
+    use crate::{Summary, normal_lower};
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn the_area_is_that_of_the_trapezia_and_of_all_pairs() -> Computed<()> {

@@ -1,8 +1,8 @@
 //! The triangle test: two alike and one odd, the odd one is to be found.
 
 use super::{Choice, Correction, Relation, inverted};
-use crate::statistics::distribution::{normal_density, normal_lower};
-use crate::statistics::{Computed, Undefined};
+use crate::distribution::{normal_density, normal_lower};
+use crate::{Computed, Undefined};
 
 const CHANCE: f64 = 1.0 / 3.0;
 
@@ -76,7 +76,7 @@ pub fn triangle(correct: u64, trials: u64, correction: Correction) -> Computed<C
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn without_a_difference_a_third_is_right_and_far_apart_all() -> Computed<()> {

@@ -1,8 +1,8 @@
 //! Yes/no trials: sensitivity and bias of one subject.
 
 use super::Correction;
-use crate::statistics::distribution::{normal_density, normal_quantile};
-use crate::statistics::{Computed, Interval, Undefined};
+use crate::distribution::{normal_density, normal_quantile};
+use crate::{Computed, Interval, Undefined};
 
 /// Counts of one subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,8 +97,8 @@ pub fn yes_no(answers: Answers, correction: Correction) -> Computed<YesNo> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
-    use crate::statistics::Summary;
+    use crate::Summary;
+    use selvedge_foundation::numerics::Random;
 
     fn answers(hits: u64, false_alarms: u64, n: u64) -> Answers {
         Answers {

@@ -1,8 +1,8 @@
 //! Maps of subjects drawn anew, with replacement: how much a map hangs on who took part.
 
 use super::{Dissimilarities, Mds};
-use crate::numerics::Random;
-use crate::progress::{Cancelled, Progress};
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// Maps of resampled subjects.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,10 @@ impl Mds {
                 .map(|_| &subjects[random.index(subjects.len())])
                 .collect();
             let values = mean_of(&drawn, names.len());
-            let mut own = Progress::new(&mut unheard_report, crate::progress::CancelFlag::new());
+            let mut own = Progress::new(
+                &mut unheard_report,
+                selvedge_foundation::progress::CancelFlag::new(),
+            );
             let map = Dissimilarities::new(names.to_vec(), &values)
                 .ok()
                 .map(|data| self.maps(&data, dims..=dims, &mut own))
@@ -73,8 +76,8 @@ fn mean_of(subjects: &[&Vec<Option<f64>>], n: usize) -> Vec<Option<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::unheard;
-    use crate::statistics::properties::bootstrap_ellipses;
+    use crate::properties::bootstrap_ellipses;
+    use selvedge_foundation::progress::unheard;
 
     /// Subjects who feel the same points of a plane, each with noise of their own.
     fn subjects(noise: f64) -> Vec<Vec<Option<f64>>> {

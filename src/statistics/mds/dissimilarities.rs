@@ -1,6 +1,6 @@
 //! What is mapped: how unlike every two of some objects are, and how much each pair counts.
 
-use crate::statistics::Undefined;
+use crate::Undefined;
 
 /// Dissimilarities that differ by less than this share of the largest are tied: means of ranks
 /// that are equal on paper differ by rounding.

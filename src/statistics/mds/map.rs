@@ -3,7 +3,7 @@
 use super::fit::{Fit, Loss, Problem};
 use super::orient::laid_down;
 use super::search::Lowest;
-use crate::statistics::Undefined;
+use crate::Undefined;
 
 /// A squared loss share below this is degenerate: nothing is left to fit.
 const NOTHING_LEFT: f64 = 1e-3;

@@ -30,9 +30,9 @@ pub use search::Descent;
 
 use std::ops::RangeInclusive;
 
-use crate::progress::{Cancelled, Progress};
 use fit::Problem;
 use search::{Plan, search};
+use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// The most dimensions of a map.
 pub const MOST_DIMENSIONS: usize = 5;
@@ -72,7 +72,7 @@ impl Default for Mds {
             n_starts_on_a_line: LEAST_STARTS_ON_A_LINE,
             n_exchanged: 6,
             seed: 1,
-            n_threads: crate::numerics::n_threads(),
+            n_threads: selvedge_foundation::numerics::n_threads(),
         }
     }
 }

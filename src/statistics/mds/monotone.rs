@@ -159,7 +159,7 @@ fn push(pools: &mut Vec<Pool>, mean: f64, weight: f64, end: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     fn fitted(ties: Ties, values: &[f64], blocks: &[Range<usize>]) -> Vec<f64> {
         let mut out = vec![0.0; values.len()];

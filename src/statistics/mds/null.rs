@@ -4,8 +4,8 @@
 use super::fit::Problem;
 use super::search::search;
 use super::{Dissimilarities, Loss, Mds};
-use crate::numerics::{Random, in_pieces, quantile};
-use crate::progress::{Cancelled, Progress, unheard};
+use selvedge_foundation::numerics::{Random, in_pieces, quantile};
+use selvedge_foundation::progress::{Cancelled, Progress, unheard};
 
 /// Which data have no structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use super::descend::{Until, descend, majorise};
 use super::fit::{Fit, Loss, Problem};
 use super::line::exchange;
 use super::start::{raised, thrown, torgerson};
-use crate::numerics::{Random, in_pieces};
-use crate::progress::{Cancelled, Progress};
+use selvedge_foundation::numerics::{Random, in_pieces};
+use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// How a start is followed downhill.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

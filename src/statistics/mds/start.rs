@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::fit::Problem;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// Classical scaling (Torgerson): the eigenvectors of the doubly centred squares. Missing pairs
 /// take the shortest way over others. n × k, row by row.

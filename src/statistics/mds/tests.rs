@@ -1,8 +1,8 @@
 //! Maps of known configurations, and of chance.
 
 use super::*;
-use crate::numerics::Random;
-use crate::progress::unheard;
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::progress::unheard;
 
 pub(super) fn named(n: usize) -> Vec<String> {
     (0..n).map(|i| format!("t{i}")).collect()
@@ -347,7 +347,7 @@ fn few_starts_do_for_data_without_structure() {
 
 #[test]
 fn a_raised_flag_stops_the_search() {
-    let flag = crate::progress::CancelFlag::new();
+    let flag = selvedge_foundation::progress::CancelFlag::new();
     flag.cancel();
     let mut report = |_: f64, _: &str| {};
     let mut progress = Progress::new(&mut report, flag);

@@ -1,7 +1,7 @@
 //! The method of adjustment: settings made from above and from below.
 
-use crate::statistics::summary::at_least;
-use crate::statistics::{Computed, Outcome, Summary, Undefined, two_sample_t};
+use crate::summary::at_least;
+use crate::{Computed, Outcome, Summary, Undefined, two_sample_t};
 
 /// How settings are averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Answers collected by stimulus.
 
 use super::Family;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// The answers to one stimulus.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Where two stimuli are felt as equal, and how much they must differ to be told apart.
 
 use super::{Fit, Psychometric, Resamples};
-use crate::statistics::{Computed, Interval, Undefined};
+use crate::{Computed, Interval, Undefined};
 
 /// A quantity of a fitted function with its intervals.
 #[derive(Debug, Clone, PartialEq)]

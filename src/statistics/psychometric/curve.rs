@@ -1,7 +1,7 @@
 //! A psychometric function: the probability of an answer at a stimulus.
 
 use super::Family;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// p(x) = g + (1 − g − l) F(x; m, w) (Wichmann & Hill 2001; Schütt et al. 2016).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,7 @@ impl Psychometric {
     }
 
     /// p and 1 − p at a place on the family's scale.
-    pub(in crate::statistics) fn at_place(&self, place: f64) -> [f64; 2] {
+    pub fn at_place(&self, place: f64) -> [f64; 2] {
         let z = (place - self.family.place(self.threshold)) / self.width;
         scaled(self.family.shares(z), self.guess, self.lapse)
     }
@@ -107,7 +107,7 @@ impl Psychometric {
 }
 
 /// F and 1 − F with guesses and lapses.
-pub(in crate::statistics) fn scaled([low, high]: [f64; 2], guess: f64, lapse: f64) -> [f64; 2] {
+pub fn scaled([low, high]: [f64; 2], guess: f64, lapse: f64) -> [f64; 2] {
     let span = 1.0 - guess - lapse;
     [guess + span * low, lapse + span * high]
 }

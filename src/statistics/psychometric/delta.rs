@@ -4,8 +4,8 @@ use nalgebra::DMatrix;
 
 use super::target::{Point, point};
 use super::{Fit, Psychometric};
-use crate::statistics::distribution::normal_quantile;
-use crate::statistics::{Computed, Interval, Undefined};
+use crate::distribution::normal_quantile;
+use crate::{Computed, Interval, Undefined};
 
 /// A lapse rate this near to an end of its range is held there.
 const NEAR_END: f64 = 1e-3;

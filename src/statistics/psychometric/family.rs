@@ -1,9 +1,7 @@
 //! The shapes of psychometric functions: how the share of answers rises with the stimulus.
 
-use crate::statistics::distribution::{
-    normal_density, normal_lower, normal_quantile, normal_upper,
-};
-use crate::statistics::{Computed, Undefined};
+use crate::distribution::{normal_density, normal_lower, normal_quantile, normal_upper};
+use crate::{Computed, Undefined};
 
 /// The shape F, which rises from 0 to 1: ½ at the threshold, 5 % and 95 % a width apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -44,7 +42,7 @@ impl Family {
     }
 
     /// Where a stimulus lies on the scale on which widths are measured.
-    pub(in crate::statistics) fn place(self, x: f64) -> f64 {
+    pub fn place(self, x: f64) -> f64 {
         match self {
             Self::Weibull => x.ln(),
             _ => x,
@@ -60,7 +58,7 @@ impl Family {
     }
 
     /// F and 1 − F, `z` widths above the threshold; each keeps its digits where it is small.
-    pub(in crate::statistics) fn shares(self, z: f64) -> [f64; 2] {
+    pub fn shares(self, z: f64) -> [f64; 2] {
         match self {
             Self::Logistic => {
                 let tail = (-(2.0 * LOGIT * z).abs()).exp();

@@ -4,8 +4,8 @@ use super::answers::{Block, checked};
 use super::prior::{Guess, Lapse, Priors};
 use super::target::{Point, Target, deviance, point};
 use super::{Family, Psychometric};
-use crate::numerics::lowest;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
+use selvedge_foundation::numerics::lowest;
 
 /// Thresholds, widths and lapse rates where a search may begin.
 const STARTS: [u32; 3] = [24, 12, 3];

@@ -2,7 +2,7 @@
 
 use super::target::{Point, Target, point};
 use super::{Fit, Psychometric};
-use crate::statistics::{Computed, Interval, Undefined};
+use crate::{Computed, Interval, Undefined};
 
 /// Cells along threshold, width and lapse rate.
 const CELLS: [usize; 3] = [40, 32, 9];

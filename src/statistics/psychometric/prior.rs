@@ -2,7 +2,7 @@
 
 use super::answers::Block;
 use super::{Family, Psychometric};
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// No lapse rate above this is believed unless the caller says so.
 pub const MOST_LAPSE: f64 = 0.06;
@@ -76,7 +76,7 @@ impl Lapse {
 
 impl Guess {
     /// The rate beside a lapse rate.
-    pub(in crate::statistics) fn rate(self, lapse: f64) -> f64 {
+    pub fn rate(self, lapse: f64) -> f64 {
         match self {
             Self::Share(share) => share,
             Self::EqualToLapse => lapse,

@@ -4,9 +4,9 @@
 use super::answers::Block;
 use super::target::deviance;
 use super::{Fit, Psychometric};
-use crate::numerics::{Random, quantile};
-use crate::statistics::summary::{centred, sum_of_squares};
-use crate::statistics::{Computed, Interval, Resampling, Undefined};
+use crate::summary::{centred, sum_of_squares};
+use crate::{Computed, Interval, Resampling, Undefined};
+use selvedge_foundation::numerics::{Random, quantile};
 
 /// Functions fitted to simulated answers at the same stimuli.
 ///

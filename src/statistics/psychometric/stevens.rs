@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::numerics::LineFit;
-use crate::statistics::distribution::t_quantile_upper;
-use crate::statistics::{Computed, Interval, Summary, Undefined};
+use crate::distribution::t_quantile_upper;
+use crate::{Computed, Interval, Summary, Undefined};
+use selvedge_foundation::numerics::LineFit;
 
 /// One answer: who gave which number to which stimulus.
 #[derive(Debug, Clone, PartialEq)]
@@ -192,7 +192,7 @@ fn r_squared(points: &[[f64; 2]], line: &LineFit) -> Computed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     fn estimates(exponents: &[f64], noise: f64, seed: u64) -> Vec<Estimate> {
         let mut random = Random::new(seed);

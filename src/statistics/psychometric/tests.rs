@@ -1,8 +1,8 @@
 //! Fits against known functions, brute force and simulation.
 
 use super::*;
-use crate::numerics::Random;
-use crate::statistics::{Computed, Resampling};
+use crate::{Computed, Resampling};
+use selvedge_foundation::numerics::Random;
 
 fn truth(family: Family) -> Psychometric {
     Psychometric {

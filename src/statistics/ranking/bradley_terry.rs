@@ -7,7 +7,7 @@ use super::deviance::{Deviance, deviance_of};
 use super::newton::{LogLikelihood as _, maximise};
 use super::preferences::Preferences;
 use super::scale::Scale;
-use crate::statistics::Computed;
+use crate::Computed;
 
 /// Abilities of items from paired comparisons.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::connection::Connection;
 use super::newton::LogLikelihood;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// What is known of worths before anything was compared.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,6 +1,6 @@
 //! Which items comparisons join, and which they leave apart or one above the other for good.
 
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// How the comparisons of some items hang together. Only where they are whole is there a most
 /// likely scale with finite values (Ford 1957; Hunter 2004, assumption 1).

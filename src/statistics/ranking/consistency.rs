@@ -1,7 +1,7 @@
 //! How consistent one subject's paired comparisons are (Kendall & Babington Smith 1940).
 
 use super::preferences::Preferences;
-use crate::statistics::{Computed, Undefined, chi_squared_upper};
+use crate::{Computed, Undefined, chi_squared_upper};
 
 /// Up to so many items every pattern of answers is counted: 2²¹.
 const MOST_EXACT: usize = 7;
@@ -159,7 +159,7 @@ fn p_by_chi_squared(k: u64, n_circular: u64) -> Computed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     fn answers(k: usize, is_first: impl FnMut(usize, usize) -> bool) -> Preferences {
         let mut is_first = is_first;

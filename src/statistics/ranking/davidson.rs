@@ -9,7 +9,7 @@ use super::deviance::{Deviance, deviance_of};
 use super::newton::{LogLikelihood, maximise};
 use super::preferences::{Compared, Preferences, span_of_pairs};
 use super::scale::{Estimate, Scale};
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// Abilities of items from paired comparisons with ties.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 //! ratio of its likelihood to that of a model with free probabilities for every pair.
 
 use super::choices::Prior;
-use crate::statistics::{Computed, Freedom, Named, Outcome, Sides, Undefined, chi_squared_upper};
+use crate::{Computed, Freedom, Named, Outcome, Sides, Undefined, chi_squared_upper};
 
 /// Deviances of a model and of items all alike.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 //! dissimilarities that follow.
 
 use super::preferences::check_distinct;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// One trial: alternatives ranked by likeness to a target that is one of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -147,7 +147,7 @@ impl MeanRanks {
     /// Dissimilarities, row by row as [`Dissimilarities::new`] takes them: the mean of the mean
     /// ranks both ways, or the one there is; `None` on the diagonal and for pairs that never met.
     ///
-    /// [`Dissimilarities::new`]: crate::statistics::mds::Dissimilarities::new
+    /// [`Dissimilarities::new`]: crate::mds::Dissimilarities::new
     pub fn dissimilarities(&self) -> Vec<Option<f64>> {
         let (n, means) = (self.n_items, self.means());
         let cell = |cell: usize| {
@@ -235,8 +235,8 @@ impl MeanRanks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
-    use crate::statistics::mds::Dissimilarities;
+    use crate::mds::Dissimilarities;
+    use selvedge_foundation::numerics::Random;
 
     fn trial(target: usize, alternatives: [usize; 4], ranks: [usize; 4]) -> RankTrial {
         RankTrial {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// Steps after which a search is given up; a dozen is usual.
 const MOST_STEPS: usize = 200;

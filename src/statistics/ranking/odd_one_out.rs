@@ -1,7 +1,7 @@
 //! Distances from triads of two alike and one odd: how easily each pair was told apart.
 
 use super::preferences::{check_distinct, check_items};
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// How hard a choice was, as the subject graded it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -168,7 +168,7 @@ impl OddOneOut {
     /// pairs that were never asked. Only comparable where every pair was asked as often
     /// ([`Self::is_balanced`]).
     ///
-    /// [`Dissimilarities::new`]: crate::statistics::mds::Dissimilarities::new
+    /// [`Dissimilarities::new`]: crate::mds::Dissimilarities::new
     pub fn distances(&self) -> Vec<Option<f64>> {
         self.table(|pair| pair.distance)
     }
@@ -213,7 +213,7 @@ impl GradeWeights {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     fn answer(pair: [usize; 2], is_correct: bool, grade: Grade) -> TriadAnswer {
         TriadAnswer {

@@ -10,7 +10,7 @@ use super::deviance::likelihood_ratio;
 use super::newton::{LogLikelihood as _, maximise};
 use super::preferences::check_rankings;
 use super::scale::Scale;
-use crate::statistics::{Bootstrap, Computed, Named, Outcome, Resampling, Undefined, bootstrap};
+use crate::{Bootstrap, Computed, Named, Outcome, Resampling, Undefined, bootstrap};
 
 /// Worths of items from rankings.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! How often each of some items was preferred to each other, or neither.
 
 use super::connection::Connection;
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// Counts of comparisons of two items.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::statistics::{Computed, Interval, Undefined, normal_quantile};
+use crate::{Computed, Interval, Undefined, normal_quantile};
 
 /// A number with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,8 +4,8 @@ mod known;
 mod refused;
 
 use super::*;
-use crate::numerics::Random;
-use crate::statistics::{Computed, Freedom};
+use crate::{Computed, Freedom};
+use selvedge_foundation::numerics::Random;
 
 /// A ranking of some items by Luce's rule, worths given by their logarithms: the order of
 /// exponential times at which items would come (Plackett 1975).
@@ -231,7 +231,7 @@ fn subjects_drawn_again_give_intervals_about_the_same_scale() -> Computed<()> {
     let mut random = Random::new(13);
     let subjects: Vec<Vec<Vec<usize>>> = (0..8).map(|_| fours(&SIX, 30, &mut random)).collect();
     let all = plackett_luce(6, &subjects.concat(), Prior::None)?;
-    let how = crate::statistics::Resampling {
+    let how = crate::Resampling {
         n_resamples: 400,
         seed: 5,
         level: 0.95,
@@ -250,7 +250,7 @@ fn subjects_drawn_again_give_intervals_about_the_same_scale() -> Computed<()> {
             let rankings: Vec<_> = drawn.iter().flat_map(|&s| subjects[s].clone()).collect();
             Ok(plackett_luce(6, &rankings, Prior::None)?.scale.values[i])
         };
-        crate::statistics::bootstrap(8, fit, how)
+        crate::bootstrap(8, fit, how)
     };
     let by_hand = item(2)?;
     assert!((by_hand.se - found[2].se).abs() < 1e-9, "one item alone");
@@ -263,9 +263,9 @@ fn subjects_drawn_again_give_intervals_about_the_same_scale() -> Computed<()> {
 fn sixteen_items_in_640_rankings_are_quick_and_settle_in_few_steps() -> Computed<()> {
     let truth: Vec<f64> = (0..16).map(|i| 0.2 * f64::from(i) - 1.5).collect();
     let rankings = fours(&truth, 640, &mut Random::new(2));
-    let start = crate::progress::thread_cpu_seconds();
+    let start = selvedge_foundation::progress::thread_cpu_seconds();
     let found = plackett_luce(16, &rankings, Prior::None)?;
-    let ms = 1000.0 * (crate::progress::thread_cpu_seconds() - start);
+    let ms = 1000.0 * (selvedge_foundation::progress::thread_cpu_seconds() - start);
     println!(
         "16 items, 640 rankings: {ms:.1} ms of CPU, {} steps",
         found.n_steps

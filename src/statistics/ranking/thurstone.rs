@@ -9,8 +9,8 @@ use super::deviance::{Deviance, deviance_of};
 use super::newton::{LogLikelihood, maximise};
 use super::preferences::{Compared, Preferences, span_of_pairs};
 use super::scale::Scale;
-use crate::statistics::detection::Correction;
-use crate::statistics::{
+use crate::detection::Correction;
+use crate::{
     Computed, Freedom, Named, Outcome, Sides, Undefined, chi_squared_upper, normal_density,
     normal_lower, normal_quantile,
 };

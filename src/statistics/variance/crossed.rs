@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::statistics::{Computed, Undefined};
+use crate::{Computed, Undefined};
 
 /// A factor and its levels.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! A row of an analysis of variance, and what its numbers say of each other.
 
-use crate::statistics::distribution::f_upper;
-use crate::statistics::{Computed, Undefined};
+use crate::distribution::f_upper;
+use crate::{Computed, Undefined};
 
 /// One effect against its own error.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! Ranks within subjects: Friedman's test and Kendall's W.
 
-use crate::statistics::distribution::chi_squared_upper;
-use crate::statistics::summary::at_least;
-use crate::statistics::{Computed, Freedom, Named, Outcome, Ranks, Sides, Undefined};
+use crate::distribution::chi_squared_upper;
+use crate::summary::at_least;
+use crate::{Computed, Freedom, Named, Outcome, Ranks, Sides, Undefined};
 
 /// Whether conditions differ in rank within subjects (Friedman 1937).
 ///
@@ -82,7 +82,7 @@ fn check(rows: &[Vec<f64>]) -> Computed<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn full_agreement_is_one_and_none_is_zero() -> Computed<()> {
@@ -101,7 +101,7 @@ mod tests {
         // in both alike the same.
         let (a, b) = (vec![1.0, 2.0, 2.0, 4.0, 5.0], vec![2.0, 1.0, 4.0, 4.0, 3.0]);
         let w = friedman(&[a.clone(), b.clone()])?.effect?.value;
-        let r = crate::statistics::spearman(&a, &b)?.estimate?.value;
+        let r = crate::spearman(&a, &b)?.estimate?.value;
         assert!((r - (2.0 * w - 1.0)).abs() < 1e-13, "{r} and {w}");
         Ok(())
     }

@@ -1,9 +1,9 @@
 //! Groups of different subjects: one-way analysis of variance, Welch's, and Kruskal–Wallis.
 
 use super::effect::{Effect, Sums};
-use crate::statistics::distribution::{chi_squared_upper, f_upper};
-use crate::statistics::summary::{at_least, centred, is_rounding, largest, sum_of_squares};
-use crate::statistics::{Computed, Freedom, Named, Outcome, Ranks, Sides, Summary, Undefined};
+use crate::distribution::{chi_squared_upper, f_upper};
+use crate::summary::{at_least, centred, is_rounding, largest, sum_of_squares};
+use crate::{Computed, Freedom, Named, Outcome, Ranks, Sides, Summary, Undefined};
 
 /// One-way analysis of variance between groups (Fisher 1925), sums about the mean in two passes.
 ///
@@ -156,8 +156,8 @@ fn joined(groups: &[Vec<f64>]) -> Computed<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
-    use crate::statistics::two_sample_t;
+    use crate::two_sample_t;
+    use selvedge_foundation::numerics::Random;
 
     fn groups() -> Vec<Vec<f64>> {
         vec![

@@ -1,6 +1,6 @@
 //! Many comparisons at once.
 
-use crate::statistics::{Computed, Outcome, Undefined, paired_t};
+use crate::{Computed, Outcome, Undefined, paired_t};
 
 /// Two conditions compared within subjects.
 #[derive(Debug, Clone, PartialEq)]

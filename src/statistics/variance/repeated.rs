@@ -9,8 +9,8 @@
 
 use super::crossed::{Crossed, Factor};
 use super::effect::{Effect, Sphericity, Sums};
-use crate::statistics::summary::{centred, is_rounding, largest, sum_of_squares};
-use crate::statistics::{Computed, Undefined};
+use crate::summary::{centred, is_rounding, largest, sum_of_squares};
+use crate::{Computed, Undefined};
 
 /// The analysis of a table of repeated measures.
 #[derive(Debug, Clone, PartialEq)]

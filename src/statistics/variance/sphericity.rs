@@ -1,8 +1,8 @@
 //! Sphericity of orthonormal contrasts between the levels of a within-subject effect.
 
 use super::effect::Sphericity;
-use crate::statistics::distribution::{chi_squared_upper, f_upper};
-use crate::statistics::{Computed, Undefined};
+use crate::distribution::{chi_squared_upper, f_upper};
+use crate::{Computed, Undefined};
 
 impl Sphericity {
     /// From the sums of products about their means of `p` orthonormal contrasts over `n` subjects

@@ -1,6 +1,6 @@
 //! The Hurst exponent of lines over a surface, by the structure function, and how sure it is.
 
-use crate::numerics::{LineFit, structure_function};
+use selvedge_foundation::numerics::{LineFit, structure_function};
 
 /// Lags, in samples, that the exponent is taken from.
 const LAGS: [usize; 5] = [1, 2, 4, 8, 16];
@@ -64,7 +64,7 @@ fn exponent(lines: &[&[f64]]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn a_slope_has_exponent_1_and_a_walk_a_half() {

@@ -21,8 +21,8 @@ use super::TextileError;
 use super::drawn::{Drawn, thinned};
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
-use crate::numerics::{Grid, Random};
 use crate::surface::{HeightMap, Probe, ProfileSet};
+use selvedge_foundation::numerics::{Grid, Random};
 
 /// Most points along a side: the embedding of 1000 takes half a gigabyte.
 const MOST_POINTS: f64 = 1000.0;
@@ -107,7 +107,7 @@ pub struct Brownian {
 profile_file_keys!(Brownian);
 
 /// The numbers of a Brownian surface that are always there, and its two amplitudes.
-pub(crate) const NUMBERS: &[Number<Brownian>] = numbers! { Brownian;
+pub const NUMBERS: &[Number<Brownian>] = numbers! { Brownian;
     hurst "Hurst exponent" 0.01..=0.99 "" "Low is jagged, high gently rolling";
     length_mm "Side" 5.0..=50.0 "mm" "Side of the patch";
     step_mm "Step" 0.005..=0.2 "mm" "Distance of its points: 1000 along a side are the most";
@@ -165,7 +165,7 @@ impl Brownian {
     }
 
     /// Refuses what is no Brownian surface.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         Number::check(NUMBERS, self, (checker, "source"))?;
         let n = self.length_mm / self.step_mm;
         if n > MOST_POINTS + 0.5 {
@@ -266,7 +266,7 @@ impl Brownian {
     }
 
     /// Four strokes over the surface, with the roughness asked for and the exponent found.
-    pub(crate) fn drawn(&self) -> Result<Drawn, TextileError> {
+    pub fn drawn(&self) -> Result<Drawn, TextileError> {
         let mut map = self.surface(self.rise_um.unwrap_or(1.0))?;
         let mut strokes = self.strokes(&map)?;
         if let Some(smd_um) = self.smd_um {

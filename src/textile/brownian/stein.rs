@@ -6,7 +6,7 @@
 //! `√(2c₂)(x N₁ + y N₂)`. (A widely copied program adds the product of two random ramps instead,
 //! which gives no such rise: its surfaces are too smooth at large distances.)
 
-use crate::numerics::{Grid, PlaneTransform, Random};
+use selvedge_foundation::numerics::{Grid, PlaneTransform, Random};
 
 /// Above this exponent 2H the covariance needs twice the reach to be one.
 const WIDE_FROM: f64 = 1.5;

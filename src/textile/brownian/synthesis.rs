@@ -4,7 +4,7 @@
 //! profile over it as `k^{−(2H+1)}`), cut off where the grid ends: at low H the rises over few
 //! samples are too small by what lies beyond, and the slope of the structure function is too large.
 
-use crate::numerics::{Complex, Grid, PlaneTransform, Random};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, Random};
 
 /// What a periodic surface is made of: lengths in sides of the patch.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::*;
-use crate::textile::Manifest;
+use crate::Manifest;
 
 fn small(hurst: f64, generator: Generator, seed: u32) -> Brownian {
     Brownian {
@@ -69,7 +69,7 @@ fn rise_and_smd_are_what_was_asked_for() {
         for seed in 0..40 {
             let map = small(0.4, generator, seed).surface(7.0).unwrap();
             for line in lines(&map) {
-                squares += crate::numerics::structure_function(&line, 20);
+                squares += selvedge_foundation::numerics::structure_function(&line, 20);
                 n += 1.0;
             }
         }

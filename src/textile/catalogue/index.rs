@@ -1,8 +1,8 @@
 //! The index of a catalogue: a line a textile, each with its sheet.
 
-use crate::quantity::fixed;
 use crate::tactile::{Filters, Levels};
-use crate::textile::{Library, Textile};
+use crate::{Library, Textile};
+use selvedge_foundation::quantity::fixed;
 
 const HEADER: &str = "| textile | name | construction | fibre | source | SMD, µm | A40, µm | \
     A320, µm | level, dB |\n|---|---|---|---|---|---:|---:|---:|---:|\n";

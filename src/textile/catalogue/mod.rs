@@ -12,9 +12,9 @@ use std::fs;
 use std::path::Path;
 
 use super::{Library, TextileError};
-use crate::figure::Figure;
-use crate::files::{FileError, encode_png_rgba, write_atomic};
-use crate::progress::Progress;
+use selvedge_chart::Figure;
+use selvedge_foundation::files::{FileError, encode_png_rgba, write_atomic};
+use selvedge_foundation::progress::Progress;
 
 /// Pixels across a PNG.
 const PNG_WIDTH: u32 = 1720;
@@ -60,8 +60,8 @@ pub fn write_figure(figure: &Figure, out: &Path, name: &str) -> Result<(), Texti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::ScratchFolder;
-    use crate::progress::{CancelFlag, unheard};
+    use selvedge_scratch::ScratchFolder;
+    use selvedge_foundation::progress::{CancelFlag, unheard};
 
     #[test]
     fn a_sheet_shows_everything_and_is_the_same_twice() {

@@ -1,14 +1,14 @@
 //! The sheet of a textile: picture, amplitudes against speed, four profiles, local spectra,
 //! friction; figures and provenance below.
 
-use crate::figure::{
-    Axis, ColourBar, Figure, Ink, Panel, Raster, Row, Series, Style, Upright, Weight, Words,
-};
-use crate::quantity::level_db;
+use crate::curve::corners;
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
 use crate::tactile::{Band, Filters, SpeedResponse};
-use crate::textile::curve::corners;
-use crate::textile::{Source, Textile, TextileError, measured_figures};
+use crate::{Source, Textile, TextileError, measured_figures};
+use selvedge_chart::{
+    Axis, ColourBar, Figure, Ink, Panel, Raster, Row, Series, Style, Upright, Weight, Words,
+};
+use selvedge_foundation::quantity::level_db;
 
 /// The side of the cloth that is shown, mm.
 const PICTURE_MM: f64 = 20.0;
@@ -335,7 +335,7 @@ fn about(textile: &Textile) -> Vec<(String, String)> {
         ("textile".to_owned(), textile.id().to_owned()),
         (
             "program".to_owned(),
-            format!("selvedge {}", env!("CARGO_PKG_VERSION")),
+            selvedge_foundation::PROGRAM.to_owned(),
         ),
     ];
     if let Source::Profiles(keys) = &textile.manifest().source

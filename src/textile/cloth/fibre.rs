@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::strand::{Cloth, Node, Strand};
 use super::variation::{Field, count};
 use super::yarn::Yarn;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// Straight pieces that an arched fibre is drawn with.
 const PIECES: u8 = 5;
@@ -13,7 +13,7 @@ const PIECES: u8 = 5;
 const CLUMP_MM: f64 = 2.5;
 
 /// Adds the loose fibres of `yarn` to a cloth, rooted in the strands with indices `from`….
-pub(crate) fn add_hairs(cloth: &mut Cloth, from: usize, yarn: &Yarn, random: &mut Random) {
+pub fn add_hairs(cloth: &mut Cloth, from: usize, yarn: &Yarn, random: &mut Random) {
     let area = cloth.size_mm[0] * cloth.size_mm[1];
     let n_hairs = count(yarn.hairs_per_mm2 * area);
     let n_roots = cloth.strands.len();

@@ -2,12 +2,12 @@
 
 use super::strand::{Cloth, Node, Strand};
 use super::variation::count;
-use crate::numerics::Grid;
 use crate::surface::{HeightMap, SurfaceError};
+use selvedge_foundation::numerics::Grid;
 
 /// Which way the columns of a window run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Axis {
+pub enum Axis {
     /// Columns along the warp (u), rows along the weft (w).
     Warp,
     /// Columns along the weft (w), rows along the warp (u).
@@ -16,23 +16,23 @@ pub(crate) enum Axis {
 
 /// Where a cloth is looked at: grid points `start + index · step`, columns along `axis`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Window {
-    pub(crate) axis: Axis,
+pub struct Window {
+    pub axis: Axis,
     /// Column and row of point (0, 0), mm.
-    pub(crate) start_mm: [f64; 2],
+    pub start_mm: [f64; 2],
     /// Between columns and between rows, mm.
-    pub(crate) step_mm: [f64; 2],
+    pub step_mm: [f64; 2],
     /// Columns and rows.
-    pub(crate) n: [usize; 2],
+    pub n: [usize; 2],
 }
 
 /// The upper surface within a window.
 #[derive(Debug, Clone)]
-pub(crate) struct Relief {
+pub struct Relief {
     /// Heights, µm.
-    pub(crate) height_um: Grid<f64>,
+    pub height_um: Grid<f64>,
     /// Index of the strand on top; `u32::MAX` where there is none.
-    pub(crate) top: Grid<u32>,
+    pub top: Grid<u32>,
 }
 
 /// How far beyond its ends a straight piece is drawn, in half widths: bends have no gaps then.
@@ -54,7 +54,7 @@ struct Piece<'a> {
 
 impl Relief {
     /// The upper surface of `cloth` within `window`.
-    pub(crate) fn of(cloth: &Cloth, window: &Window) -> Self {
+    pub fn of(cloth: &Cloth, window: &Window) -> Self {
         let [columns, rows] = window.n;
         let mut relief = Self {
             height_um: Grid::filled(columns, rows, cloth.floor_um),
@@ -96,7 +96,7 @@ impl Relief {
 ///
 /// # Errors
 /// A step that no height map may have.
-pub(crate) fn relief_map(cloth: &Cloth, step_mm: f64) -> Result<HeightMap, SurfaceError> {
+pub fn relief_map(cloth: &Cloth, step_mm: f64) -> Result<HeightMap, SurfaceError> {
     let n = cloth.size_mm.map(|mm| count((mm / step_mm).round()).max(1));
     let step_mm = [0, 1].map(|axis| cloth.size_mm[axis] / n[axis] as f64);
     let window = Window {

@@ -2,8 +2,8 @@
 
 use super::relief::{Axis, Relief, Window};
 use super::strand::Cloth;
-use crate::numerics::Random;
 use crate::surface::{Direction, Probe};
+use selvedge_foundation::numerics::Random;
 
 /// Samples of a stroke: 20 mm at 230 a millimetre.
 const N_SAMPLES: usize = 4600;
@@ -16,7 +16,7 @@ const N_TRACKS: usize = 80;
 ///
 /// Forward and reverse run over the same strip, as the instrument's do; the instrument is zeroed at
 /// the mean height of the strip.
-pub(crate) fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
+pub fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
     let mut heights: [Vec<f64>; 4] = Default::default();
     for (axis, pair) in [
         (Axis::Warp, [Direction::WarpForward, Direction::WarpReverse]),

@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::strand::{Node, Strand};
 use super::variation::{Drift, count};
-use crate::numerics::Random;
-use crate::textile::TextileError;
-use crate::textile::manifest::Checker;
-use crate::textile::parameter::{Number, numbers};
+use crate::TextileError;
+use crate::manifest::Checker;
+use crate::parameter::{Number, numbers};
+use selvedge_foundation::numerics::Random;
 
 /// A yarn: section, twist, irregularity, loose fibres, colour.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -76,7 +76,7 @@ pub struct Yarn {
 }
 
 /// The numbers of a yarn.
-pub(crate) const NUMBERS: &[Number<Yarn>] = numbers! { Yarn;
+pub const NUMBERS: &[Number<Yarn>] = numbers! { Yarn;
     width_um "Width" 10.0..=5000.0 "µm" "Width of the section as it lies in the cloth";
     thickness_um "Thickness" 10.0..=5000.0 "µm" "Thickness of the section as it lies in the cloth";
     flatness "Flatness" 0.0..=0.9 "" "Share of the width that is flat: 0 elliptic, 0.9 a tape";
@@ -126,7 +126,7 @@ fn default_hair_um() -> f64 {
 
 impl Yarn {
     /// Refuses figures that no yarn has.
-    pub(crate) fn check(&self, checker: &Checker<'_>, table: &str) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>, table: &str) -> Result<(), TextileError> {
         Number::check(NUMBERS, self, (checker, table))?;
         if parse_colour(&self.colour).is_none() {
             let what = format!("colour is \"{}\"", self.colour);
@@ -136,7 +136,7 @@ impl Yarn {
     }
 
     /// The colour of one yarn, red, green and blue 0…1.
-    pub(crate) fn colour_of_one(&self, random: &mut Random) -> [f64; 3] {
+    pub fn colour_of_one(&self, random: &mut Random) -> [f64; 3] {
         let lightness = (1.0 + self.colour_cv * random.normal()).clamp(0.3, 1.7);
         parse_colour(&self.colour)
             .unwrap_or([0.5; 3])
@@ -144,7 +144,7 @@ impl Yarn {
     }
 
     /// The bands that groups of yarns share, over an axis of the cloth.
-    pub(crate) fn bands(&self, size_mm: f64, random: &mut Random) -> Drift {
+    pub fn bands(&self, size_mm: f64, random: &mut Random) -> Drift {
         Drift::new(size_mm, self.band_mm, random)
     }
 }
@@ -159,7 +159,7 @@ fn parse_colour(text: &str) -> Option<[f64; 3]> {
 
 /// One length of yarn that closes on itself: how thick it is and how its ridges lie.
 #[derive(Debug)]
-pub(crate) struct YarnRun<'a> {
+pub struct YarnRun<'a> {
     yarn: &'a Yarn,
     length_mm: f64,
     level: f64,
@@ -172,7 +172,7 @@ pub(crate) struct YarnRun<'a> {
 
 impl<'a> YarnRun<'a> {
     /// A run of `length_mm`; `band` is the value of its band (see [`Yarn::bands`]).
-    pub(crate) fn new(yarn: &'a Yarn, length_mm: f64, band: f64, random: &mut Random) -> Self {
+    pub fn new(yarn: &'a Yarn, length_mm: f64, band: f64, random: &mut Random) -> Self {
         let level = yarn.count_cv * random.normal() + yarn.band_cv * band;
         let uneven = Drift::new(length_mm, yarn.uneven_mm, random);
         let expected = yarn.slubs_per_m * length_mm / 1000.0;
@@ -201,7 +201,7 @@ impl<'a> YarnRun<'a> {
     }
 
     /// Thickness over the yarn's mean thickness at a place along the run, mm.
-    pub(crate) fn thickness(&self, along_mm: f64) -> f64 {
+    pub fn thickness(&self, along_mm: f64) -> f64 {
         let own = 1.0 + self.level + self.yarn.uneven_cv * self.uneven.at(along_mm);
         let slub = |&(place, gain): &(f64, f64)| {
             let apart = (along_mm - place).rem_euclid(self.length_mm);
@@ -212,7 +212,7 @@ impl<'a> YarnRun<'a> {
     }
 
     /// A node of this run at a place in the cloth.
-    pub(crate) fn node(&self, place: [f64; 2], z_um: f64, along_mm: f64) -> Node {
+    pub fn node(&self, place: [f64; 2], z_um: f64, along_mm: f64) -> Node {
         let thick = self.thickness(along_mm);
         Node {
             u_mm: place[0],
@@ -225,7 +225,7 @@ impl<'a> YarnRun<'a> {
     }
 
     /// The strand of these nodes.
-    pub(crate) fn strand(&self, nodes: Vec<Node>) -> Strand {
+    pub fn strand(&self, nodes: Vec<Node>) -> Strand {
         let yarn = self.yarn;
         let colour = self.colour;
         Strand {

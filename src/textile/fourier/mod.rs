@@ -14,7 +14,7 @@ mod tests;
 pub use readings::{Imported, Readings, import};
 pub use series::FourierSeries;
 pub use template::FourierTemplate;
-pub(crate) use template::NUMBERS as TEMPLATE_NUMBERS;
+pub use template::NUMBERS as TEMPLATE_NUMBERS;
 
 use std::path::Path;
 
@@ -24,9 +24,9 @@ use super::TextileError;
 use super::drawn::Drawn;
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
-use crate::files::{FileError, keys_from_str, keys_to_string, line_of_key};
-use crate::numerics::Random;
 use crate::surface::HeightMap;
+use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, line_of_key};
+use selvedge_foundation::numerics::Random;
 
 /// The five templates that are part of the program: invented, see the file.
 const EXAMPLES: &str = include_str!("../../../textiles/fourier-templates.toml");
@@ -107,7 +107,7 @@ pub struct Fourier {
 profile_file_keys!(Fourier);
 
 /// The numbers of a surface from a template.
-pub(crate) const NUMBERS: &[Number<Fourier>] = numbers! { Fourier;
+pub const NUMBERS: &[Number<Fourier>] = numbers! { Fourier;
     length_mm "Mirrored beyond" 5.0..=100.0 "mm" "Beyond this the surface is mirrored";
     step_mm "Step" 0.004..=0.5 "mm" "Distance of the samples";
     lowest_per_m "From" 0.0..=1e5 "/m" "Harmonics below this are left out, cycles per metre";
@@ -159,7 +159,7 @@ impl Fourier {
     }
 
     /// Refuses what cannot be drawn.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
         Number::check(NUMBERS, self, (checker, "source"))?;
         within("highest_per_m", self.highest_per_m, self.lowest_per_m..=1e5)?;
@@ -192,7 +192,7 @@ impl Fourier {
     }
 
     /// Four strokes over the surface and back from its mirror image, and a patch of it.
-    pub(crate) fn drawn(&self) -> Result<Drawn, TextileError> {
+    pub fn drawn(&self) -> Result<Drawn, TextileError> {
         let random = Random::new(u64::from(self.seed));
         let how = (self.composition, self.reading);
         let plane = series::Plane::draw(self.templates(), self.band_per_m(), how, &random);

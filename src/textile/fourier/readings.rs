@@ -7,10 +7,10 @@
 
 use std::path::Path;
 
-use crate::files::{FileError, Table};
-use crate::numerics::without_line;
+use crate::TextileError;
 use crate::surface::Profile;
-use crate::textile::TextileError;
+use selvedge_foundation::files::{FileError, Table};
+use selvedge_foundation::numerics::without_line;
 
 /// Both instruments are resampled at this interval, s.
 const INTERVAL_S: f64 = 0.1;

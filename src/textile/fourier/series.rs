@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::template::FourierTemplate;
 use super::{Composition, Reading};
-use crate::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random};
 
 /// A harmonic that was drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]

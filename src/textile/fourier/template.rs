@@ -12,10 +12,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::RealTransform;
+use crate::TextileError;
+use crate::parameter::{Number, numbers};
 use crate::surface::Profile;
-use crate::textile::TextileError;
-use crate::textile::parameter::{Number, numbers};
+use selvedge_foundation::numerics::RealTransform;
 
 /// Most harmonics of a template.
 pub(super) const MOST_HARMONICS: usize = 2000;
@@ -42,7 +42,7 @@ pub struct FourierTemplate {
 }
 
 /// The numbers of a template beside its coefficients.
-pub(crate) const NUMBERS: &[Number<FourierTemplate>] = numbers! { FourierTemplate;
+pub const NUMBERS: &[Number<FourierTemplate>] = numbers! { FourierTemplate;
     fundamental_per_m "Harmonic 1" 0.1..=10_000.0 "/m" "Harmonic 1, cycles per metre";
 };
 
@@ -101,7 +101,7 @@ impl FourierTemplate {
     }
 
     /// What is wrong with it, if anything: the key, what, and how to mend it.
-    pub(crate) fn fault(&self) -> Option<(&'static str, String, String)> {
+    pub fn fault(&self) -> Option<(&'static str, String, String)> {
         let n = self.mean_cos_um.len();
         for number in NUMBERS {
             let (key, least, most) = (number.key, number.least, number.most);

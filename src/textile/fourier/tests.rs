@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use super::*;
+use crate::Manifest;
 use crate::surface::Profile;
-use crate::textile::Manifest;
 
 const BAND: [f64; 2] = [100.0, 1000.0];
 

@@ -1,9 +1,9 @@
 //! The picture of an import: every stroke with its marks, and the evaluated section on it.
 
 use super::{KesImport, KesStroke, MarkKind};
-use crate::figure::{At, Axis, Extent, Figure, Ink, Panel, Row, Rule, Series, Style, Weight};
-use crate::quantity::fixed;
-use crate::textile::curve::corners;
+use crate::curve::corners;
+use selvedge_chart::{At, Axis, Extent, Figure, Ink, Panel, Row, Rule, Series, Style, Weight};
+use selvedge_foundation::quantity::fixed;
 
 /// The height of a panel, px.
 const HEIGHT_PX: f64 = 120.0;

@@ -8,14 +8,14 @@ use super::marks::n_samples;
 use super::origin::{IMPORTER, KesOrigin};
 use super::section::{covered_mm, suggested};
 use super::{ClothAxis, KesAsk, KesReading, KesSection, KesStroke, asks};
+use crate::Provenance;
+use crate::loaded::MANIFEST;
 use crate::surface::{
     Direction, FrictionTrace, OFFICIAL_CUT_OFF_MM, WINDOW_LENGTH_MM, mean_deviation,
     without_long_waves,
 };
-use crate::textile::Provenance;
-use crate::textile::loaded::MANIFEST;
-use crate::textile::words::{Words, manifest_file};
-use crate::textile::{BuiltFile, Manifest, Profiles, Source, TextileError, profile_file};
+use crate::words::{Words, manifest_file};
+use crate::{BuiltFile, Manifest, Profiles, Source, TextileError, profile_file};
 
 /// The file of a trace of friction.
 const FRICTION: &str = "friction.csv";

@@ -5,8 +5,8 @@ use super::columns::{columns_of, headings};
 use super::dialect::{NoTable, RawTable, Separator, table_of};
 use super::text::text_of;
 use super::{ColumnRole, DecimalSign, KesFile, KesOptions};
-use crate::files::FileError;
-use crate::textile::TextileError;
+use crate::TextileError;
+use selvedge_foundation::files::FileError;
 
 /// Lines above the numbers that are shown: the last ones.
 const MOST_ABOVE: usize = 5;

@@ -9,8 +9,8 @@
 //! **Outliers** stand off the median of their neighbours (20 µm to either side, two to ten samples)
 //! by more than eight spreads of that difference, and by more than the spread of all heights.
 
-use crate::numerics::median;
 use crate::surface::{Direction, mean_deviation};
+use selvedge_foundation::numerics::median;
 
 /// The length of a piece, mm.
 const PIECE_MM: f64 = 1.0;

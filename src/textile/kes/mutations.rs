@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use super::{KesFile, KesImport, KesOptions, KesReading, ReturnOrder};
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// How many are tried if nothing is said.
 const N_MUTATIONS: usize = 3000;

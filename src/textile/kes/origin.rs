@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::textile::TextileError;
-use crate::textile::manifest::Checker;
+use crate::TextileError;
+use crate::manifest::Checker;
 
 /// The name of the importer in manifests.
-pub(crate) const IMPORTER: &str = "kes-f";
+pub const IMPORTER: &str = "kes-f";
 
 /// `[source.imported]`: which files, which section, what was taken off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ pub struct KesOrigin {
 }
 
 impl KesOrigin {
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let table = "source.imported";
         let wrong = |key, what: &str, mend: &str| Err(checker.wrong(table, key, what, mend));
         if self.importer != IMPORTER {

@@ -6,9 +6,9 @@ use super::marks::{Mark, marks_of};
 use super::section::covered_mm;
 use super::strokes::{RawStroke, Reader, name_of};
 use super::{ClothAxis, KesAsk, KesOptions, ReturnOrder, StrokeSide, asks, returns};
-use crate::files::{FileError, sha256_hex};
+use crate::TextileError;
 use crate::surface::{Direction, SurfaceError, WINDOW_LENGTH_MM};
-use crate::textile::TextileError;
+use selvedge_foundation::files::{FileError, sha256_hex};
 
 /// Heights that span more than this are in another unit than they say, µm.
 const MOST_SPAN_UM: f64 = 20_000.0;

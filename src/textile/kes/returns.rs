@@ -81,7 +81,7 @@ fn correlation(one: &[f64], other: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     fn cloth(n: usize) -> Vec<f64> {
         let mut random = Random::new(3);

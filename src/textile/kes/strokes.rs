@@ -7,8 +7,8 @@ use super::dialect::{NoTable, RawTable, table_of};
 use super::places::{Run, Uneven, run_of, step_of};
 use super::text::text_of;
 use super::{ClothAxis, ColumnRole, KesAsk, KesOptions, KesPlace, StrokeSide, asks};
-use crate::files::FileError;
-use crate::textile::TextileError;
+use crate::TextileError;
+use selvedge_foundation::files::FileError;
 
 /// Longer strokes than this are in another unit than they say, mm.
 const LONGEST_MM: f64 = 300.0;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::files::FileError;
+use selvedge_foundation::files::FileError;
 
 /// Larger files are refused before they are read as text.
 const MOST_BYTES: usize = 64 << 20;

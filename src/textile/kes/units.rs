@@ -3,8 +3,8 @@
 use super::columns::{Column, Unit, tokens};
 use super::strokes::Reader;
 use super::{ColumnRole, HeightUnit, KesAsk, PlaceUnit, asks};
-use crate::files::FileError;
-use crate::textile::TextileError;
+use crate::TextileError;
+use selvedge_foundation::files::FileError;
 
 impl Reader<'_> {
     /// What one unit of a column of places is, mm.

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::Knit;
 use super::structure::{Pile, Stitch};
-use crate::numerics::Random;
-use crate::textile::cloth::{Drift, Field, Node, Strand, YarnRun, count};
+use crate::cloth::{Drift, Field, Node, Strand, YarnRun, count};
+use selvedge_foundation::numerics::Random;
 
 /// The patch is at least this large, mm: the stroke of 20 mm and what the probe touches around it.
 const LEAST_SIZE_MM: f64 = 22.0;

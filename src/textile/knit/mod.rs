@@ -19,8 +19,8 @@ use super::TextileError;
 use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over, usual};
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
-use crate::numerics::Random;
 use crate::surface::Representation;
+use selvedge_foundation::numerics::Random;
 
 /// The recipe of a knitted cloth (`kind = "knit"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -31,16 +31,16 @@ pub struct Knit {
     /// Hash of the recipe that the profiles came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe_hash: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_reverse: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
     /// Whether it is felt along four strokes or at every point of its relief.
@@ -120,7 +120,7 @@ fn default_leg_spread() -> f64 {
 profile_file_keys!(Knit);
 
 /// The numbers of a knit.
-pub(crate) const NUMBERS: &[Number<Knit>] = numbers! { Knit;
+pub const NUMBERS: &[Number<Knit>] = numbers! { Knit;
     wales_per_cm "Wales" 1.0..=40.0 "/cm" "Columns of loops per centimetre";
     courses_per_cm "Courses" 1.0..=50.0 "/cm" "Rows of loops per centimetre";
     loop_height "Height of loops" 1.0..=3.0 ""
@@ -150,13 +150,13 @@ pub(crate) const NUMBERS: &[Number<Knit>] = numbers! { Knit;
 
 impl Knit {
     /// Refuses what cannot be knitted.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         Number::check(NUMBERS, self, (checker, "source"))?;
         self.yarn.check(checker, "source.yarn")
     }
 
     /// The cloth.
-    pub(crate) fn cloth(&self) -> Cloth {
+    pub fn cloth(&self) -> Cloth {
         let random = Random::new(u64::from(self.seed));
         let bed = course::Bed::new(self, &random);
         let mut strands = bed.courses(0.0, 1.0, &random.branch("front"));

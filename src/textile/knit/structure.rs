@@ -31,7 +31,7 @@ pub enum Structure {
 
 /// What stands out of the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Pile {
+pub enum Pile {
     /// Loops.
     Loops,
     /// Sheared loops.
@@ -40,15 +40,15 @@ pub(crate) enum Pile {
 
 /// One stitch of a repeat.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stitch {
+pub struct Stitch {
     /// +1: legs in front (face), −1: arcs in front (back).
-    pub(crate) face: f64,
+    pub face: f64,
     /// Height of the stitch, in units of the recipe's relief.
-    pub(crate) lift: f64,
+    pub lift: f64,
     /// Shift along the wale, in courses.
-    pub(crate) shift: f64,
+    pub shift: f64,
     /// Length of the loop, in units of the recipe's loop height.
-    pub(crate) length: f64,
+    pub length: f64,
 }
 
 const FACE: Stitch = Stitch {
@@ -61,7 +61,7 @@ const BACK: Stitch = Stitch { face: -1.0, ..FACE };
 
 impl Structure {
     /// Wales and courses in a repeat.
-    pub(crate) fn repeat(self) -> [usize; 2] {
+    pub fn repeat(self) -> [usize; 2] {
         match self {
             Self::Jersey | Self::ReverseJersey | Self::Terry | Self::Fleece | Self::Plush => [1, 1],
             Self::Rib11 | Self::Interlock => [2, 1],
@@ -71,7 +71,7 @@ impl Structure {
     }
 
     /// The stitch on a wale of a course.
-    pub(crate) fn stitch(self, wale: usize, course: usize) -> Stitch {
+    pub fn stitch(self, wale: usize, course: usize) -> Stitch {
         let rib = |is_face: bool| {
             if is_face {
                 Stitch { lift: 0.5, ..FACE }
@@ -109,12 +109,12 @@ impl Structure {
     }
 
     /// Whether a second bed of loops lies behind the first.
-    pub(crate) fn has_second_bed(self) -> bool {
+    pub fn has_second_bed(self) -> bool {
         matches!(self, Self::Interlock)
     }
 
     /// The pile that stands out of the ground, if any.
-    pub(crate) fn pile(self) -> Option<Pile> {
+    pub fn pile(self) -> Option<Pile> {
         match self {
             Self::Terry => Some(Pile::Loops),
             Self::Plush => Some(Pile::Cut),
@@ -123,7 +123,7 @@ impl Structure {
     }
 
     /// Whether its fibres were raised on the side that the recipe describes, and only there.
-    pub(crate) fn is_brushed(self) -> bool {
+    pub fn is_brushed(self) -> bool {
         matches!(self, Self::Fleece)
     }
 }

@@ -3,21 +3,21 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use crate::files::{FileError, line_of_key};
-use crate::textile::TextileError;
+use crate::TextileError;
+use selvedge_foundation::files::{FileError, line_of_key};
 
 /// The text of a manifest, to find lines in.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Checker<'a> {
-    pub(crate) text: &'a str,
-    pub(crate) path: &'a Path,
+pub struct Checker<'a> {
+    pub text: &'a str,
+    pub path: &'a Path,
     /// Which of several tables of a name is meant, from 0.
-    pub(crate) nth: usize,
+    pub nth: usize,
 }
 
 impl Checker<'_> {
     /// Refuses a value outside a range, and NaN.
-    pub(crate) fn within(
+    pub fn within(
         &self,
         table: &str,
         key: &str,
@@ -32,7 +32,7 @@ impl Checker<'_> {
     }
 
     /// What is wrong with a key of a table (`""`: the top of the file).
-    pub(crate) fn wrong(
+    pub fn wrong(
         &self,
         table: &str,
         key: &str,

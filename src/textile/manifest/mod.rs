@@ -7,7 +7,7 @@ mod checker;
 mod profiles;
 mod provenance;
 
-pub(crate) use checker::Checker;
+pub use checker::Checker;
 pub(crate) use profiles::profile_file_keys;
 pub use profiles::{ProfileFiles, Profiles};
 pub use provenance::{Parent, Provenance};
@@ -28,9 +28,9 @@ use super::metrology::Heightmap;
 use super::picture::PictureSource;
 use super::restoration::Restoration;
 use super::weave::Weave;
-use crate::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
 use crate::surface::{Direction, Representation};
 use crate::tactile::check_gain;
+use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
 
 /// A textile's manifest. `S` is the source: [`Source`], or one kind of it while reading.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -186,7 +186,7 @@ impl Source {
     }
 
     /// The file of heights that it is kept as, if it is, and how that is read.
-    pub(crate) fn kept_map(&self) -> Option<Cow<'_, Heightmap>> {
+    pub fn kept_map(&self) -> Option<Cow<'_, Heightmap>> {
         match self {
             Self::Heightmap(keys) => Some(Cow::Borrowed(keys)),
             Self::Picture(keys) => Some(Cow::Owned(keys.map())),
@@ -211,7 +211,7 @@ impl Source {
     }
 
     /// Names a model's profile files and the recipe that they came from.
-    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
+    pub fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
         match self {
             Self::Profiles(_) => {}
             Self::Weave(keys) => keys.set_files(files, recipe_hash),

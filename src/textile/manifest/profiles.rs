@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::kes::KesOrigin;
 use crate::surface::Direction;
-use crate::textile::kes::KesOrigin;
 
 /// Profiles as they were measured (`kind = "profiles"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,7 +48,7 @@ impl Default for Profiles {
 
 impl Profiles {
     /// The file of a direction, to be set.
-    pub(crate) fn file_mut(&mut self, direction: Direction) -> &mut Option<String> {
+    pub fn file_mut(&mut self, direction: Direction) -> &mut Option<String> {
         match direction {
             Direction::WarpForward => &mut self.warp_forward,
             Direction::WarpReverse => &mut self.warp_reverse,
@@ -79,8 +79,8 @@ macro_rules! profile_file_keys {
     ($keys:ty) => {
         impl $keys {
             /// The profile files that stand for the recipe, if it names them.
-            pub(crate) fn files(&self) -> crate::textile::manifest::ProfileFiles {
-                crate::textile::manifest::ProfileFiles([
+            pub fn files(&self) -> crate::manifest::ProfileFiles {
+                crate::manifest::ProfileFiles([
                     self.warp_forward.clone(),
                     self.warp_reverse.clone(),
                     self.weft_forward.clone(),
@@ -89,9 +89,9 @@ macro_rules! profile_file_keys {
             }
 
             /// Names the profile files, and the recipe that they came from.
-            pub(crate) fn set_files(
+            pub fn set_files(
                 &mut self,
-                files: crate::textile::manifest::ProfileFiles,
+                files: crate::manifest::ProfileFiles,
                 recipe_hash: Option<String>,
             ) {
                 [

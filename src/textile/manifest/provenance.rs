@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Checker;
-use crate::textile::TextileError;
+use crate::TextileError;
 
 /// Most parents of a textile.
 const MOST_PARENTS: usize = 16;
@@ -27,7 +27,7 @@ pub struct Provenance {
 pub struct Parent {
     /// Its id in its library.
     pub id: String,
-    /// SHA-256 of its content: see [`crate::textile::Textile::content_hash`].
+    /// SHA-256 of its content: see [`crate::Textile::content_hash`].
     pub hash: String,
 }
 
@@ -35,7 +35,7 @@ impl Provenance {
     /// Made by this program from these textiles.
     pub fn of(parents: Vec<Parent>) -> Self {
         Self {
-            made_by: concat!("selvedge ", env!("CARGO_PKG_VERSION")).to_owned(),
+            made_by: selvedge_foundation::PROGRAM.to_owned(),
             parents,
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::reading::Stated;
 use super::{Measured, Reading};
-use crate::files::FileError;
+use selvedge_foundation::files::FileError;
 
 /// Extents and units, as text; empty where not stated.
 #[derive(Debug, Default)]

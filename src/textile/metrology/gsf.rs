@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::field::{FieldKeys, field_reading};
 use super::{Measured, Reading, n_points};
-use crate::files::{ByteReader, FileError, Number};
+use selvedge_foundation::files::{ByteReader, FileError, Number};
 
 /// How such a file begins.
 pub(super) const MAGIC: &[u8] = b"Gwyddion Simple Field 1.0\n";

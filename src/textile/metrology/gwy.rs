@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::reading::Stated;
 use super::{Asked, Reading, n_points};
-use crate::files::{ByteReader, FileError, Number};
+use selvedge_foundation::files::{ByteReader, FileError, Number};
 
 /// Deepest nesting that is read.
 const MOST_DEEP: usize = 32;

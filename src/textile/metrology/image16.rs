@@ -6,11 +6,11 @@ use std::path::Path;
 use super::field::{FieldKeys, field_reading};
 use super::reading::Stated;
 use super::{Asked, LengthUnit, Measured, Reading};
-use crate::files::{
+use crate::surface::MOST_POINTS;
+use selvedge_foundation::files::{
     FileError, GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff,
     gray_values,
 };
-use crate::surface::MOST_POINTS;
 
 const PREFIX: &str = "Gwy::";
 

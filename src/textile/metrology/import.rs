@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 use super::made::{profile_files, shaded, smd_um};
 use super::source::{Heightmap, Laid};
 use super::{Asked, Measured};
-use crate::files::{encode_png_small, sha256_hex};
+use crate::TextileError;
+use crate::build::{BuiltFile, PICTURE};
+use crate::cloth::PX_PER_MM;
+use crate::loaded::MANIFEST;
+use crate::manifest::{AppearanceKeys, Manifest, ProfileFiles, Provenance, Source};
 use crate::surface::{Direction, HeightMap, ProfileSet, Representation};
-use crate::textile::TextileError;
-use crate::textile::build::{BuiltFile, PICTURE};
-use crate::textile::cloth::PX_PER_MM;
-use crate::textile::loaded::MANIFEST;
-use crate::textile::manifest::{AppearanceKeys, Manifest, ProfileFiles, Provenance, Source};
-use crate::textile::words::{Words, manifest_file};
+use crate::words::{Words, manifest_file};
+use selvedge_foundation::files::{encode_png_small, sha256_hex};
 
 /// How measured heights are read.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -4,15 +4,15 @@
 use std::path::Path;
 
 use super::Measured;
-use crate::files::Rgb8Image;
-use crate::numerics::Grid;
+use crate::build::BuiltFile;
+use crate::cloth::PX_PER_MM;
 use crate::surface::{Direction, HeightMap, Profile, ProfileSet, SurfaceError};
-use crate::textile::build::BuiltFile;
-use crate::textile::cloth::PX_PER_MM;
-use crate::textile::{TextileError, profile_file};
+use crate::{TextileError, profile_file};
+use selvedge_foundation::files::Rgb8Image;
+use selvedge_foundation::numerics::Grid;
 
 /// The strokes as profile files, those that are there.
-pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
+pub fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
     let mut files = Vec::new();
     for direction in Direction::ALL {
         if let Some(profile) = &profiles[direction.index()] {
@@ -27,7 +27,7 @@ pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, Tex
 }
 
 /// The mean roughness SMD of strokes, µm.
-pub(crate) fn smd_um(profiles: &ProfileSet) -> f64 {
+pub fn smd_um(profiles: &ProfileSet) -> f64 {
     let smd_um: Vec<f64> = profiles.iter().flatten().map(Profile::smd_um).collect();
     smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
 }
@@ -41,7 +41,7 @@ const MISSING_GREY: u8 = 40;
 const MOST_PIXELS: f64 = 2000.0;
 
 /// The map lit from the upper left, from the top row on; what is mostly missing is plain and dark.
-pub(crate) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
+pub fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
     let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm)?;
     let holes = map.heights_um().values().iter();
     let holes = holes.map(|height| f64::from(u8::from(height.is_nan())));

@@ -13,7 +13,7 @@ mod gsf;
 mod gwy;
 mod image16;
 mod import;
-pub(crate) mod made;
+pub mod made;
 mod npy;
 mod reading;
 mod source;
@@ -40,9 +40,9 @@ pub use x3p::{Coding, write as write_x3p};
 use std::path::Path;
 
 use super::TextileError;
-use crate::files::{FileError, NPY_MAGIC};
 use crate::surface::MOST_POINTS;
 use reading::Reading;
+use selvedge_foundation::files::{FileError, NPY_MAGIC};
 
 /// What a file may leave open, and what is known better than the file does.
 #[derive(Debug, Clone, Default, PartialEq)]

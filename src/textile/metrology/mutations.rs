@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::open;
 use super::samples::all;
-use crate::numerics::Random;
 use crate::surface::MOST_POINTS;
+use selvedge_foundation::numerics::Random;
 
 /// Inputs made of each sample; the environment variable `SELVEDGE_MUTATIONS` sets another number.
 const N_EACH: usize = 200;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{Measured, Reading};
-use crate::files::{FileError, NumberArray, decode_npy, encode_npy};
 use crate::surface::MOST_POINTS;
+use selvedge_foundation::files::{FileError, NumberArray, decode_npy, encode_npy};
 
 /// Reads an array; neither unit nor step is in it.
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {

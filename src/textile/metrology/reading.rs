@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::{Asked, LengthUnit};
-use crate::files::FileError;
-use crate::numerics::Grid;
+use crate::TextileError;
 use crate::surface::{HeightMap, SurfaceError};
-use crate::textile::TextileError;
+use selvedge_foundation::files::FileError;
+use selvedge_foundation::numerics::Grid;
 
 /// What a file says about itself.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! Small files of every format, made byte by byte for tests.
 
 use super::{Asked, Coding, LengthUnit, Measured, frt, gsf, image16, npy, tmd, x3p};
-use crate::files::{Number, deflate, pack};
-use crate::numerics::Grid;
-use crate::textile::metrology::About;
+use crate::metrology::About;
+use selvedge_foundation::files::{Number, deflate, pack};
+use selvedge_foundation::numerics::Grid;
 use std::path::Path;
 
 /// A map of 12 × 7 points, µm, with `n_missing` missing points in its first row.

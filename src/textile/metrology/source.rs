@@ -6,14 +6,14 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{Asked, LengthUnit, Measured, open};
-use crate::files::{FileError, sha256_hex};
-use crate::numerics::{Grid, Random};
+use crate::TextileError;
+use crate::manifest::{Checker, profile_file_keys};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
     WINDOW_LENGTH_MM,
 };
-use crate::textile::TextileError;
-use crate::textile::manifest::{Checker, profile_file_keys};
+use selvedge_foundation::files::{FileError, sha256_hex};
+use selvedge_foundation::numerics::{Grid, Random};
 
 /// Measured heights (`kind = "heightmap"`, or `"x3p"` for a file of that format).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,16 +24,16 @@ pub struct Heightmap {
     /// Hash of the recipe that the profiles came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe_hash: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_reverse: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
     /// Whether it is felt along four strokes or at every point of its relief.
@@ -88,7 +88,7 @@ profile_file_keys!(Heightmap);
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
-    pub(crate) fn new(file: String, asked: &Asked) -> Self {
+    pub fn new(file: String, asked: &Asked) -> Self {
         Self {
             kind: "heightmap".to_owned(),
             recipe_hash: None,
@@ -113,7 +113,7 @@ impl Heightmap {
     }
 
     /// Refuses values out of range.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let numbers = [
             ("step_mm", self.step_mm, 0.0005..=0.5),
             ("range_um", self.range_um, 1e-6..=1e6),
@@ -157,21 +157,17 @@ impl Heightmap {
     }
 
     /// The strokes over the file, by [`Direction::index`].
-    pub(crate) fn profiles(&self, bytes: &[u8], path: &Path) -> Result<ProfileSet, TextileError> {
+    pub fn profiles(&self, bytes: &[u8], path: &Path) -> Result<ProfileSet, TextileError> {
         self.strokes(&self.open(bytes, path)?, path)
     }
 
     /// The strokes over measured heights, by [`Direction::index`].
-    pub(crate) fn strokes(
-        &self,
-        measured: &Measured,
-        path: &Path,
-    ) -> Result<ProfileSet, TextileError> {
+    pub fn strokes(&self, measured: &Measured, path: &Path) -> Result<ProfileSet, TextileError> {
         self.strokes_at(&self.laid(measured, path)?, self.place_mm, path)
     }
 
     /// The heights of the file as a map, level unless it repeats; missing points stay missing.
-    pub(crate) fn height_map(&self, bytes: &[u8], path: &Path) -> Result<HeightMap, TextileError> {
+    pub fn height_map(&self, bytes: &[u8], path: &Path) -> Result<HeightMap, TextileError> {
         self.level(&self.open(bytes, path)?, path)
     }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::reading::{About, Stated};
 use super::{Reading, n_points};
-use crate::files::{ByteReader, FileError, Number, inflate, latin1};
+use selvedge_foundation::files::{ByteReader, FileError, Number, inflate, latin1};
 
 /// What the header says that matters here.
 struct Header {

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::files::Number;
-use crate::textile::TextileError;
-use crate::textile::metrology::samples::{all, map, sur};
+use crate::TextileError;
+use crate::metrology::samples::{all, map, sur};
+use selvedge_foundation::files::Number;
 
 /// Heights alike to `um`, missing in the same places.
 fn assert_alike(read: &Measured, given: &Measured, um: f64, what: &str) {
@@ -113,7 +113,7 @@ fn x3p_comes_back_from_every_number_type_binary_and_listed() {
 
 #[test]
 fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
-    use crate::files::{Archive, pack};
+    use selvedge_foundation::files::{Archive, pack};
     let path = Path::new("a.x3p");
     let bytes = write_x3p(&map(0), Coding::default(), path).unwrap();
     let mut archive = Archive::open(&bytes, path).unwrap();

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::reading::{Stated, UNEVEN_MEND, even_step};
 use super::text_layout::{Columns, Layout, MatrixKeys, decoded};
 use super::{Asked, LengthUnit, Reading};
-use crate::files::FileError;
+use selvedge_foundation::files::FileError;
 
 /// Reads a profile or a map.
 pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {

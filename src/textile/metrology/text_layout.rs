@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::reading::{About, Stated};
 use super::{LengthUnit, n_points};
-use crate::files::{FileError, latin1};
+use selvedge_foundation::files::{FileError, latin1};
 
 /// Lines of numbers in a row that make data: shorter runs stand in headers.
 const RUN: usize = 3;

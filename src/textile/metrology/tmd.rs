@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::reading::Stated;
 use super::{LengthUnit, Reading, n_points};
-use crate::files::{ByteReader, FileError, Number};
+use selvedge_foundation::files::{ByteReader, FileError, Number};
 
 /// How such a file begins.
 pub(super) const MAGIC: &[u8] = b"Binary TrueMap Data File v2.0";

@@ -3,13 +3,11 @@
 use std::path::Path;
 
 use super::{ParameterKind, Place, groups};
-use crate::files::{
+use crate::manifest::{Construction, Manifest, Source};
+use crate::restoration::{Reduced, Restoration, Rule};
+use crate::{Brownian, Fourier, Generator, Library, Textile, TextileError, example_templates};
+use selvedge_foundation::files::{
     FileError, KeyValue, Keys, keys_from_str, keys_to_string, line_of_key, set_value, value_at,
-};
-use crate::textile::manifest::{Construction, Manifest, Source};
-use crate::textile::restoration::{Reduced, Restoration, Rule};
-use crate::textile::{
-    Brownian, Fourier, Generator, Library, Textile, TextileError, example_templates,
 };
 
 /// What a draft is called where an error names a file.

@@ -1,8 +1,8 @@
 //! The parameters of every kind of recipe, in the groups in which they are shown.
 
 use super::{Number, Parameter, ParameterKind, Place};
-use crate::textile::cloth::YARN_NUMBERS;
-use crate::textile::{brownian, fourier, knit, restoration, weave};
+use crate::cloth::YARN_NUMBERS;
+use crate::{brownian, fourier, knit, restoration, weave};
 
 /// Parameters that belong together.
 #[derive(Debug, Clone, PartialEq)]

@@ -25,26 +25,26 @@ pub const RECIPES: [(&str, &str); 5] = [
 
 /// A number of a recipe: what the reader checks and a window offers.
 #[derive(Debug)]
-pub(crate) struct Number<R: 'static> {
+pub struct Number<R: 'static> {
     /// The key in its table.
-    pub(crate) key: &'static str,
+    pub key: &'static str,
     /// What people call it.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Its unit; empty for plain numbers.
-    pub(crate) unit: &'static str,
+    pub unit: &'static str,
     /// The smallest that is taken.
-    pub(crate) least: f64,
+    pub least: f64,
     /// The largest that is taken.
-    pub(crate) most: f64,
+    pub most: f64,
     /// What it does, in a few words.
-    pub(crate) what: &'static str,
+    pub what: &'static str,
     /// Its value in a recipe; `None` where it is left out.
-    pub(crate) get: fn(&R) -> Option<f64>,
+    pub get: fn(&R) -> Option<f64>,
 }
 
 impl<R> Number<R> {
     /// Refuses the first number of a recipe that is out of its bounds; `table` is where they stand.
-    pub(crate) fn check(
+    pub fn check(
         numbers: &[Self],
         recipe: &R,
         (checker, table): (&Checker<'_>, &str),
@@ -63,21 +63,21 @@ macro_rules! numbers {
     ($recipe:ty;
         $($key:ident $name:literal $least:literal ..= $most:literal $unit:literal $what:literal;)+
     ) => {
-        &[$(crate::textile::parameter::Number::<$recipe> {
+        &[$(crate::parameter::Number::<$recipe> {
             key: stringify!($key),
             name: $name,
             unit: $unit,
             least: $least,
             most: $most,
             what: $what,
-            get: |recipe| crate::textile::parameter::Figure::figure(&recipe.$key),
+            get: |recipe| crate::parameter::Figure::figure(&recipe.$key),
         }),+]
     };
 }
 pub(crate) use numbers;
 
 /// What a key of a recipe may hold a number as.
-pub(crate) trait Figure {
+pub trait Figure {
     /// The number; `None` if it is left out.
     fn figure(&self) -> Option<f64>;
 }

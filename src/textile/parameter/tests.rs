@@ -1,7 +1,7 @@
 //! Drafts and tables against the reader of manifests.
 
 use super::*;
-use crate::files::KeyValue;
+use selvedge_foundation::files::KeyValue;
 
 fn draft(kind: &str) -> Draft {
     Draft::of(&example(kind).unwrap()).unwrap()

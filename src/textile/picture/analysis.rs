@@ -14,8 +14,8 @@ use super::refine::refine;
 use super::significant::SignificantMaxima;
 use super::source::Picture;
 use super::tile::Tile;
-use crate::numerics::Grid;
-use crate::progress::{Cancelled, Progress};
+use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// What an analysis may be told.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,8 @@
 //! over their middle.
 
 use super::basis::{Place, whole};
-use crate::files::{GrayImage, gray_values};
-use crate::numerics::{Grid, overlap_autocorrelation};
+use selvedge_foundation::files::{GrayImage, gray_values};
+use selvedge_foundation::numerics::{Grid, overlap_autocorrelation};
 
 /// Pixels that are correlated at most; of a larger picture the middle.
 const MOST_PIXELS: usize = 1 << 24;

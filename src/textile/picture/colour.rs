@@ -3,7 +3,7 @@
 use super::basis::Basis;
 use super::light::mean_and_variance;
 use super::tile::Tile;
-use crate::numerics::Grid;
+use selvedge_foundation::numerics::Grid;
 
 /// Colour varies with the period if it does at least this much of what brightness does.
 const LEAST_SHARE: f64 = 0.5;

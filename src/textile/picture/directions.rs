@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use super::basis::{Basis, Place, length, mix};
 use super::significant::SignificantMaxima;
-use crate::numerics::median;
+use selvedge_foundation::numerics::median;
 
 /// Directions tried over half a turn.
 const N_DIRECTIONS: usize = 720;
@@ -238,7 +238,7 @@ fn first_peak(values: &[f64], width: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::Random;
+    use selvedge_foundation::numerics::Random;
 
     #[test]
     fn mean_concentration_is_the_double_sum() {

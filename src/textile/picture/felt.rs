@@ -14,11 +14,11 @@ use super::shading::{
     rows_turned_over, shape_from_shading, to_textile,
 };
 use super::tile::Tile;
-use crate::numerics::Grid;
-use crate::progress::Progress;
+use crate::TextileError;
+use crate::build::BuiltFile;
 use crate::surface::WINDOW_LENGTH_MM;
-use crate::textile::TextileError;
-use crate::textile::build::BuiltFile;
+use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::progress::Progress;
 
 /// Windows that synthesized cloth holds, along and across, at least.
 const N_WINDOWS: f64 = 1.5;
@@ -191,8 +191,8 @@ mod tests {
 
     use super::super::{AnalysisOptions, DirectionOptions, EvenLight, Picture, analyse};
     use super::*;
-    use crate::numerics::Random;
-    use crate::progress::unheard;
+    use selvedge_foundation::numerics::Random;
+    use selvedge_foundation::progress::unheard;
 
     /// Of the picture, px.
     const SIDE: usize = 300;

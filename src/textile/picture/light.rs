@@ -1,6 +1,6 @@
 //! Uneven light: what varies over the whole picture is divided out.
 
-use crate::numerics::Grid;
+use selvedge_foundation::numerics::Grid;
 
 /// The smooth part is taken over this share of the shorter side unless a radius is said.
 const SHARE_OF_SIDE: f64 = 0.125;

@@ -6,7 +6,7 @@
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Place, length, whole};
-use crate::numerics::quadratic_peak;
+use selvedge_foundation::numerics::quadratic_peak;
 
 /// A local maximum of the autocorrelation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,7 +187,7 @@ impl Buckets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::{Grid, Random};
+    use selvedge_foundation::numerics::{Grid, Random};
 
     #[test]
     fn the_nearest_point_is_found_wherever_it_lies() {

@@ -49,8 +49,8 @@ pub use significant::{Significant, SignificantMaxima};
 pub use source::{Picture, load};
 pub use tile::{Rectangle, Tile};
 
-use crate::files::FileError;
-use crate::progress::Cancelled;
+use selvedge_foundation::files::FileError;
+use selvedge_foundation::progress::Cancelled;
 
 /// What can be wrong with a picture of a cloth, or with what is asked of it.
 #[derive(Debug, thiserror::Error)]

@@ -10,10 +10,10 @@ use super::basis::{Place, length};
 use super::lattice::Lattice;
 use super::overlay::{overlay, range};
 use super::relief::{Relief, ReliefReport};
-use crate::files::{
+use selvedge_foundation::files::{
     FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string,
 };
-use crate::numerics::Grid;
+use selvedge_foundation::numerics::Grid;
 
 /// Rows of the table of maxima at most.
 const MOST_ROWS: usize = 5000;

@@ -1,8 +1,8 @@
 //! The lattice drawn over the picture.
 
 use super::basis::{Basis, Place, length, whole};
-use crate::files::Rgb8Image;
-use crate::numerics::Grid;
+use selvedge_foundation::files::Rgb8Image;
+use selvedge_foundation::numerics::Grid;
 
 /// Pictures are enlarged by a whole factor until a cell measures this.
 const CELL_PX: f64 = 30.0;

@@ -3,7 +3,7 @@
 use super::basis::Basis;
 use super::refine::refine;
 use super::tile::Tile;
-use crate::numerics::Grid;
+use selvedge_foundation::numerics::Grid;
 
 /// Sides of a part, as shares of the picture's, largest first.
 const SHARES: [usize; 3] = [2, 4, 8];

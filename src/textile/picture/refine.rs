@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use super::basis::{Basis, Place, length};
 use super::light::mean_and_variance;
 use super::tile::Tile;
-use crate::numerics::{Complex, Grid, PlaneTransform, in_pieces};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, in_pieces};
 
 /// Harmonics that are followed.
 const N_HARMONICS: usize = 12;

@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::felt::{Brightness, Extent, brightness_of, shape_of};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
-use crate::files::{FileError, GrayImage, encode_gray_png, gray_values};
-use crate::progress::Progress;
+use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png, gray_values};
+use selvedge_foundation::progress::Progress;
 
 /// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
 /// have it.

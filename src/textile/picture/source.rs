@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::PictureError;
 use super::basis::{Place, length, mix};
-use crate::files::{FileError, decode_picture};
-use crate::numerics::Grid;
+use selvedge_foundation::files::{FileError, decode_picture};
+use selvedge_foundation::numerics::Grid;
 
 /// Channels that differ by more than this share of white are coloured.
 const COLOURED: f64 = 0.02;

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::numerics::{Grid, Random};
-use crate::progress::{CancelFlag, Progress, unheard};
+use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::progress::{CancelFlag, Progress, unheard};
 
 const WIDTH: usize = 360;
 const HEIGHT: usize = 320;

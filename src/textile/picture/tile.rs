@@ -5,7 +5,7 @@
 
 use super::basis::{Basis, Place, dot, greatest_divisor, length, whole};
 use super::light::mean_and_variance;
-use crate::numerics::{Grid, in_pieces};
+use selvedge_foundation::numerics::{Grid, in_pieces};
 
 /// Samples of a tile at most.
 const MOST_SAMPLES: f64 = 1_048_576.0;

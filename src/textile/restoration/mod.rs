@@ -11,7 +11,7 @@ mod reduced;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use reduced::NUMBERS as REDUCED_NUMBERS;
+pub use reduced::NUMBERS as REDUCED_NUMBERS;
 pub use reduced::Reduced;
 
 use serde::{Deserialize, Serialize};
@@ -20,8 +20,8 @@ use super::TextileError;
 use super::drawn::Drawn;
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
-use crate::numerics::{Grid, Random};
 use crate::surface::HeightMap;
+use selvedge_foundation::numerics::{Grid, Random};
 
 /// Distance of the picture's points, mm.
 const PICTURE_STEP_MM: f64 = 0.1;
@@ -91,7 +91,7 @@ pub struct Restoration {
 profile_file_keys!(Restoration);
 
 /// The numbers of a restored surface beside those of its profiles.
-pub(crate) const NUMBERS: &[Number<Restoration>] = numbers! { Restoration;
+pub const NUMBERS: &[Number<Restoration>] = numbers! { Restoration;
     length_mm "Side" 5.0..=100.0 "mm" "Side of the patch";
     step_mm "Step" 0.002..=0.1 "mm" "Distance of the samples";
 };
@@ -132,7 +132,7 @@ impl Restoration {
     }
 
     /// Refuses what cannot be restored.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         Number::check(NUMBERS, self, (checker, "source"))?;
         for (is_weft, table) in [(false, "source.warp"), (true, "source.weft")] {
             if let Some((key, what, mend)) = self.of_axis(is_weft).fault() {
@@ -167,7 +167,7 @@ impl Restoration {
     }
 
     /// Four strokes over the composed surface, and a patch of it.
-    pub(crate) fn drawn(&self) -> Result<Drawn, TextileError> {
+    pub fn drawn(&self) -> Result<Drawn, TextileError> {
         let [warp, weft] = self.profiles_um();
         let n = self.n_samples();
         let all: Vec<usize> = (0..n).collect();

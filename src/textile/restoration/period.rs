@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::numerics::{Complex, LineFit, autocorrelation};
+use selvedge_foundation::numerics::{Complex, LineFit, autocorrelation};
 
 /// The first maximum that reaches this share of the largest is the period, not its multiple.
 const SHARE_OF_LARGEST: f64 = 0.85;

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::period::{line, period};
-use crate::numerics::{Complex, Random, RealTransform, without_line};
+use crate::TextileError;
+use crate::parameter::{Number, numbers};
 use crate::surface::Profile;
-use crate::textile::TextileError;
-use crate::textile::parameter::{Number, numbers};
+use selvedge_foundation::numerics::{Complex, Random, RealTransform, without_line};
 
 /// Bands an octave of the residual.
 const BANDS_PER_OCTAVE: f64 = 3.0;
@@ -45,7 +45,7 @@ pub struct Reduced {
 }
 
 /// The numbers of a reduced profile.
-pub(crate) const NUMBERS: &[Number<Reduced>] = numbers! { Reduced;
+pub const NUMBERS: &[Number<Reduced>] = numbers! { Reduced;
     smd_um "Roughness SMD" 0.0..=1e5 "µm" "What the restored profile is brought to";
     period_mm "Period" 1e-3..=1e3 "mm" "The period of its harmonics";
     residual_from_per_mm "Residual from" 1e-4..=1e3 "/mm"
@@ -125,7 +125,7 @@ impl Reduced {
     }
 
     /// What is wrong with it, if anything: the key, what, and how to mend it.
-    pub(crate) fn fault(&self) -> Option<(&'static str, String, String)> {
+    pub fn fault(&self) -> Option<(&'static str, String, String)> {
         let n = self.harmonics.len();
         for (key, found) in [
             ("amplitude_um", self.amplitude_um.len()),

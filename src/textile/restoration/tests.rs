@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use super::*;
+use crate::Manifest;
 use crate::surface::Profile;
-use crate::textile::Manifest;
 
 const STEP_MM: f64 = 1.0 / 230.0;
 
@@ -71,7 +71,7 @@ fn the_restored_profile_is_as_rough_as_the_measured() {
         for seed in 0..5 {
             let profile = measured(0.617, snr_db, seed);
             let recipe = restored(&profile, Rule::Additive);
-            let flat = crate::numerics::without_line(profile.heights_um());
+            let flat = selvedge_foundation::numerics::without_line(profile.heights_um());
             let truth = reduced::smd_um(&flat);
             for restored in recipe.profiles_um() {
                 let ratio = reduced::smd_um(&restored) / truth;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::files::ScratchFolder;
 use crate::surface::{AREAL_WIRE_MM, Direction, Probe, Representation, Surface};
 use crate::tactile::{Filters, Levels, Tuning};
-use crate::textile::*;
+use crate::*;
+use selvedge_scratch::ScratchFolder;
 
 /// A twill with its profiles named, as the shipped ones have them, but for `keys` of its source.
 fn twill(keys: &str) -> Manifest {
@@ -68,7 +68,7 @@ fn the_levels_of_both_agree_where_the_wire_is_the_same() {
         ..Probe::ideal()
     };
     let middle_mm = map.size_mm().map(|mm| 0.5 * mm);
-    let random = crate::numerics::Random::new(1);
+    let random = selvedge_foundation::numerics::Random::new(1);
     let [warp, _, weft, _] = map.strokes(&wire, middle_mm, &random).unwrap();
     let economical = Surface::from_profiles([warp, None, weft, None], 0.0).unwrap();
     let areal = Surface::areal(&map, 0.0).unwrap();

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::textile::build::{build, build_library, index_of};
-use crate::textile::{Hurst, Library, Source};
+use crate::build::{build, build_library, index_of};
+use crate::{Hurst, Library, Source};
 
 fn library() -> Library {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("textiles/brownian");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../textiles/brownian");
     Library::open(&folder).unwrap()
 }
 
@@ -68,14 +68,15 @@ fn rebuild_the_brownian_library() {
         .unwrap();
     let library = library();
     let tuning = library.index().unwrap().tuning;
-    let index =
-        crate::progress::unheard(|progress| build_library(&library, &out, tuning, 2, progress));
+    let index = selvedge_foundation::progress::unheard(|progress| {
+        build_library(&library, &out, tuning, 2, progress)
+    });
     assert_eq!(index.unwrap().textiles.len(), 5);
 }
 
 #[test]
 fn the_scene_of_five_names_the_five() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes");
     let text = std::fs::read_to_string(folder.join("five-brownian.scene.toml")).unwrap();
     for id in library().ids() {
         assert!(text.contains(&format!("id = \"{id}\"")), "{id} is missing");

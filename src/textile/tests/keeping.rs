@@ -3,9 +3,10 @@
 use std::fs;
 
 use super::super::*;
-use crate::files::{ScratchFolder, sha256_hex};
-use crate::progress::unheard;
 use crate::surface::Direction;
+use selvedge_foundation::files::sha256_hex;
+use selvedge_scratch::ScratchFolder;
+use selvedge_foundation::progress::unheard;
 
 fn brownian(hurst: f64) -> Vec<BuiltFile> {
     let text = format!(

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use crate::files::ScratchFolder;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, Surface};
 use crate::tactile::{Filters, Levels};
-use crate::textile::*;
+use crate::*;
+use selvedge_scratch::ScratchFolder;
 
 /// A cloth with little irregularity; `keys` go to the source, `yarn` to every yarn.
 fn weave(interlacing: &str, per_cm: [f64; 2], keys: &str, yarn: &str) -> String {
@@ -71,7 +71,7 @@ fn rise_db(powers: &[f64], per_mm: f64) -> f64 {
         .filter(|k| k.abs_diff(centre) > 1 && *k > 0)
         .map(at)
         .collect();
-    10.0 * (peak / crate::numerics::median(&mut around)).log10()
+    10.0 * (peak / selvedge_foundation::numerics::median(&mut around)).log10()
 }
 
 #[test]

@@ -6,11 +6,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::files::{ScratchFolder, sha256_hex};
-use crate::progress::unheard;
+use crate::build::index_of;
 use crate::tactile::{Filters, Levels};
-use crate::textile::build::index_of;
-use crate::textile::*;
+use crate::*;
+use selvedge_foundation::files::sha256_hex;
+use selvedge_scratch::ScratchFolder;
+use selvedge_foundation::progress::unheard;
 
 fn seventy_four() -> Library {
     Library::named(Path::new(SEVENTY_FOUR), None).unwrap()

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::numerics::median;
+use crate::build::index_of;
 use crate::tactile::{Filters, Levels};
-use crate::textile::build::index_of;
-use crate::textile::*;
+use crate::*;
+use selvedge_foundation::numerics::median;
 
 /// The shipped textiles with their levels.
 fn shipped() -> Vec<(std::sync::Arc<Textile>, Levels)> {
@@ -200,7 +200,8 @@ fn rebuild_the_shipped_library() {
         .unwrap();
     let library = Library::shipped().unwrap();
     let tuning = library.index().unwrap().tuning;
-    let index =
-        crate::progress::unheard(|progress| build_library(&library, &out, tuning, 2, progress));
+    let index = selvedge_foundation::progress::unheard(|progress| {
+        build_library(&library, &out, tuning, 2, progress)
+    });
     assert_eq!(index.unwrap().textiles.len(), 16);
 }

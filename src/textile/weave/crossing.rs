@@ -2,8 +2,8 @@
 
 use super::Weave;
 use super::interlacing::Repeat;
-use crate::numerics::{Grid, Random};
-use crate::textile::cloth::{Drift, Field, Strand, Yarn, YarnRun, count};
+use crate::cloth::{Drift, Field, Strand, Yarn, YarnRun, count};
+use selvedge_foundation::numerics::{Grid, Random};
 
 /// The patch is at least this large, mm: the stroke of 20 mm and what the probe touches around it.
 const LEAST_SIZE_MM: f64 = 22.0;

@@ -63,13 +63,13 @@ pub const NAMES: [(&str, &[&str]); 15] = [
 
 /// A repeat of crossings: whether the warp lies on top, by pick and end.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Repeat {
+pub struct Repeat {
     rows: Vec<Vec<bool>>,
 }
 
 impl Interlacing {
     /// The repeat, or why there is none.
-    pub(crate) fn repeat(&self) -> Result<Repeat, String> {
+    pub fn repeat(&self) -> Result<Repeat, String> {
         match self {
             Self::Named(name) => {
                 let known = NAMES.iter().find(|(known, _)| known == name);
@@ -113,17 +113,17 @@ impl Repeat {
     }
 
     /// Picks in a repeat.
-    pub(crate) fn n_picks(&self) -> usize {
+    pub fn n_picks(&self) -> usize {
         self.rows.len()
     }
 
     /// Ends in a repeat.
-    pub(crate) fn n_ends(&self) -> usize {
+    pub fn n_ends(&self) -> usize {
         self.rows[0].len()
     }
 
     /// Whether the warp lies on top where an end crosses a pick.
-    pub(crate) fn is_warp_on_top(&self, end: usize, pick: usize) -> bool {
+    pub fn is_warp_on_top(&self, end: usize, pick: usize) -> bool {
         self.rows[pick % self.n_picks()][end % self.n_ends()]
     }
 }

@@ -19,8 +19,8 @@ use super::TextileError;
 use super::cloth::{Cloth, Side, Yarn, add_hairs, turn_over, usual};
 use super::manifest::{Checker, profile_file_keys};
 use super::parameter::{Number, numbers};
-use crate::numerics::Random;
 use crate::surface::Representation;
+use selvedge_foundation::numerics::Random;
 
 /// The recipe of a woven cloth (`kind = "weave"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -31,16 +31,16 @@ pub struct Weave {
     /// Hash of the recipe that the profiles came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe_hash: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_reverse: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
     /// Whether it is felt along four strokes or at every point of its relief.
@@ -103,7 +103,7 @@ fn default_compaction() -> f64 {
 profile_file_keys!(Weave);
 
 /// The numbers of a weave.
-pub(crate) const NUMBERS: &[Number<Weave>] = numbers! { Weave;
+pub const NUMBERS: &[Number<Weave>] = numbers! { Weave;
     warp_per_cm "Ends" 2.0..=100.0 "/cm" "Ends per centimetre";
     weft_per_cm "Picks" 2.0..=100.0 "/cm" "Picks per centimetre";
     crimp_share "Crimp of the warp" 0.0..=1.0 "" "Share of the crimp that the warp takes";
@@ -124,7 +124,7 @@ pub(crate) const NUMBERS: &[Number<Weave>] = numbers! { Weave;
 
 impl Weave {
     /// Refuses what cannot be woven.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         Number::check(NUMBERS, self, (checker, "source"))?;
         if let Err(what) = self.interlacing.repeat() {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
@@ -136,7 +136,7 @@ impl Weave {
     }
 
     /// The cloth. Empty if the interlacing is none: [`Weave::check`] refuses that.
-    pub(crate) fn cloth(&self) -> Cloth {
+    pub fn cloth(&self) -> Cloth {
         let random = Random::new(u64::from(self.seed));
         let thickness = self.warp.thickness_um + self.weft.thickness_um;
         let floor_um = -thickness;

@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use selvedge::bridge::{
+use selvedge_device::{
     ArrayProfile, Bridge, BridgeEvent, BridgeState, DeviceState, SelfTestReport, Status, StopHow,
     Target, self_test,
 };

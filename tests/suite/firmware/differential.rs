@@ -1,6 +1,6 @@
 //! The core in C against our own device: the same bytes at the same times, the same answers.
 
-use selvedge::bridge::{Caps, DeviceModel, Packet, kind};
+use selvedge_device::{Caps, DeviceModel, Packet, kind};
 
 use super::reference::{CCore, Obedient as _, OurCore, hex};
 use super::script::Script;

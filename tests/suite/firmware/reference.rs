@@ -5,7 +5,7 @@ use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use selvedge::bridge::{DeviceCore, DeviceModel};
+use selvedge_device::{DeviceCore, DeviceModel};
 
 /// Something that answers each line with one line, as `hbp_host` does.
 pub(crate) trait Obedient {

@@ -1,6 +1,6 @@
 //! Random scripts for a device: a host that mostly knows what it does, on a link that mostly works.
 
-use selvedge::bridge::{Packet, kind};
+use selvedge_device::{Packet, kind};
 
 use super::reference::hex;
 

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use selvedge::bridge::DeviceModel;
+use selvedge_device::DeviceModel;
 
 use super::reference::{Obedient as _, OurCore, bytes, hex};
 use super::{tools, vectors};

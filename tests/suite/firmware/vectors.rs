@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use selvedge::bridge::{
+use selvedge_device::{
     Arm, Clear, Config, Decoder, DeviceMessage, Hello, Ident, Message, Packet, Ping, Received,
     Stop, frame, kind,
 };

@@ -3,8 +3,8 @@
 use eframe::egui::OutputCommand;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
-use selvedge::experiment::analysis::{Analysis, Options, analyse_folder};
-use selvedge::progress::{CancelFlag, Progress};
+use selvedge_experiment::analysis::{Analysis, Options, analyse_folder};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 use super::*;
 use crate::program::Lab;

@@ -4,7 +4,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use selvedge::app::Workbench;
+use selvedge_workbench::Workbench;
 
 use super::{Folder, loudest_um, on_cloth, press, stroke, window};
 

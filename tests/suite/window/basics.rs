@@ -6,7 +6,7 @@ use std::time::Duration;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use selvedge::app::{Picture, Screenshot, Theme, Workbench, screenshot};
+use selvedge_workbench::{Picture, Screenshot, Theme, Workbench, screenshot};
 
 use super::*;
 

@@ -5,8 +5,8 @@ use std::time::Instant;
 use eframe::egui::accesskit::{Role, Toggled};
 use eframe::egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use selvedge::tactile::{Filters, Levels};
-use selvedge::textile::Library;
+use selvedge_textile::Library;
+use selvedge_textile::tactile::{Filters, Levels};
 
 use super::*;
 

@@ -3,7 +3,7 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use selvedge::textile::{Library, Manifest, build};
+use selvedge_textile::{Library, Manifest, build};
 
 use super::*;
 

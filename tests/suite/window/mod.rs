@@ -30,7 +30,7 @@ use eframe::egui::{
 };
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, TestRenderer};
-use selvedge::app::{Drive, Rasteriser, Workbench};
+use selvedge_workbench::{Drive, Rasteriser, Workbench};
 
 use crate::program::Lab;
 

@@ -82,7 +82,7 @@ fn a_picture_a_scale_and_a_height_are_enough_to_feel_a_cloth() {
     ] {
         assert!(manifest.contains(part), "{part} in {manifest}");
     }
-    let library = selvedge::textile::Library::open(&folder.path("library")).unwrap();
+    let library = selvedge_textile::Library::open(&folder.path("library")).unwrap();
     library.load("blue-twill").unwrap();
     let scene = harness.state().scene();
     let is_placed = scene.textiles.iter().any(|one| one.id == "blue-twill");

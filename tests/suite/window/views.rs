@@ -4,7 +4,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use selvedge::app::{Screenshot, Theme, Workbench, screenshot};
+use selvedge_workbench::{Screenshot, Theme, Workbench, screenshot};
 
 use super::*;
 

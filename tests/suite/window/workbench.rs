@@ -6,7 +6,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use selvedge::app::Workbench;
+use selvedge_workbench::Workbench;
 
 use super::*;
 
@@ -311,7 +311,7 @@ fn filters_are_chosen_and_felt() {
         .get_by_role_and_label(Role::Slider, "Width")
         .set_value_accesskit(4.0);
     harness.run_steps(4);
-    let wide = selvedge::tactile::Filters::LogGaussian { octaves: 4.0 };
+    let wide = selvedge_textile::tactile::Filters::LogGaussian { octaves: 4.0 };
     assert_eq!(harness.state().scene().filters, wide);
     let after = harness.state().amplitudes_um();
     assert!(after[9][0] > before[9][0], "wider filters take in more");

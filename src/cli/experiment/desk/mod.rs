@@ -5,10 +5,10 @@
 use std::io::{self, BufRead, Write};
 use std::time::SystemTime;
 
-use crate::experiment::by_hand::{form, to_present, typed_answer};
-use crate::experiment::design::{Familiarisation, Movement};
-use crate::experiment::session::{Circumstances, Session};
-use crate::experiment::{Answer, Apparatus, ExperimentError, Step, Timing, Trial};
+use selvedge_experiment::by_hand::{form, to_present, typed_answer};
+use selvedge_experiment::design::{Familiarisation, Movement};
+use selvedge_experiment::session::{Circumstances, Session};
+use selvedge_experiment::{Answer, Apparatus, ExperimentError, Step, Timing, Trial};
 
 /// What a session needs from the world.
 pub(super) trait Bench {

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
 use super::*;
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::session::Found;
-use crate::experiment::{Grade, Outcome};
-use crate::files::ScratchFolder as Folder;
+use selvedge_experiment::design::{Design, Subject};
+use selvedge_experiment::session::Found;
+use selvedge_experiment::{Grade, Outcome};
+use selvedge_scratch::ScratchFolder as Folder;
 
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
     textiles = [\"a\", \"b\", \"c\"]\n[odd_one_out]\n[course]\npractice_trials = 1\n\
@@ -62,7 +62,7 @@ fn session(folder: &Folder, text: &str) -> Session {
     Session::create(&folder.0, design, subject, "none").unwrap()
 }
 
-fn records(session: &Session) -> Vec<crate::experiment::Record> {
+fn records(session: &Session) -> Vec<selvedge_experiment::Record> {
     Found::read(session.log()).unwrap().records
 }
 

@@ -8,7 +8,7 @@
 use std::str::FromStr;
 
 use super::super::InputError;
-use crate::geometry::Point;
+use selvedge_foundation::geometry::Point;
 
 /// What a driver tells of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

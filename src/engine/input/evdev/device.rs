@@ -18,7 +18,7 @@ use super::super::feed::{FeedItem, FeedSender, feed};
 use super::super::{InputError, PointerInput};
 use super::decode::{Contact, Decoder, EVENT_BYTES, Event, MOST_SLOTS, Report, Slot, State, code};
 use super::{Area, AxisRange, InputDevice};
-use crate::engine::{PointerSample, SourceKind};
+use crate::{PointerSample, SourceKind};
 
 const FOLDER: &str = "/dev/input";
 /// `CLOCK_MONOTONIC`, which the engine's clock is.

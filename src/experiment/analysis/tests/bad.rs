@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::experiment::session::{Circumstances, Session, find};
-use crate::experiment::simulate::simulated_subject;
-use crate::files::ScratchFolder as Scratch;
-use crate::progress::{CancelFlag, Progress};
+use crate::session::{Circumstances, Session, find};
+use crate::simulate::simulated_subject;
+use selvedge_scratch::ScratchFolder as Scratch;
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
     title = \"Odd cloth\"\ntextiles = [\"a\", \"b\", \"c\", \"d\", \"e\"]\n[odd_one_out]\n";

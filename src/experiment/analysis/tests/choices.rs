@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::*;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 #[test]
 fn triads_that_are_always_easy_are_all_at_the_ceiling_and_give_no_map() {
@@ -93,7 +93,7 @@ fn sensitivity_of_judgements_is_that_of_their_counts() {
         value(subjects, 0, "false_alarm_rate"),
     ];
     assert_eq!(rates, [8.5 / 17.0, 0.5 / 17.0]);
-    let d_prime = -crate::statistics::normal_quantile(0.5 / 17.0).unwrap();
+    let d_prime = -selvedge_statistics::normal_quantile(0.5 / 17.0).unwrap();
     assert!(
         (value(subjects, 0, "d_prime") - d_prime).abs() < 1e-12,
         "{subjects:?}"

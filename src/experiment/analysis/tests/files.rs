@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
-use crate::experiment::session::tests::any_answer;
-use crate::files::ScratchFolder as Scratch;
-use crate::numerics::Random;
+use crate::session::tests::any_answer;
+use selvedge_scratch::ScratchFolder as Scratch;
+use selvedge_foundation::numerics::Random;
 
 fn files_of(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap();

@@ -11,11 +11,9 @@ mod speeds;
 use std::path::PathBuf;
 
 use super::*;
-use crate::experiment::design::{Design, Subject};
-use crate::experiment::{
-    Answer, Apparatus, Course, Grade, Outcome, Record, Step, Task, Timing, Trial,
-};
-use crate::progress::unheard;
+use crate::design::{Design, Subject};
+use crate::{Answer, Apparatus, Course, Grade, Outcome, Record, Step, Task, Timing, Trial};
+use selvedge_foundation::progress::unheard;
 
 /// Few of everything: these tests are of numbers that do not hang on it.
 fn few() -> Options {

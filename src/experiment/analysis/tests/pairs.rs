@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::*;
-use crate::experiment::Task;
-use crate::statistics::detection::triangle_d_prime;
-use crate::statistics::normal_quantile;
+use crate::Task;
+use selvedge_statistics::detection::triangle_d_prime;
+use selvedge_statistics::normal_quantile;
 
 fn pair_design() -> Design {
     let text = Design::shipped_text("real-or-generated").unwrap();
@@ -123,7 +123,7 @@ fn an_order_without_exception_has_no_finite_scale_no_circle_and_much_agreement()
 fn bradley_and_terry_of_pairs_stands_beside_plackett_and_luce_with_errors_over_subjects() {
     let mut design = Design::shipped("ranking-virtual-target").unwrap();
     design.library = Some("nowhere".into());
-    let mut random = crate::numerics::Random::new(4);
+    let mut random = selvedge_foundation::numerics::Random::new(4);
     let found: Vec<Found> = (0..4)
         .map(|nth| {
             held(&design, (nth, 1), |task, _| {

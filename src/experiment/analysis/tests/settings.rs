@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use super::*;
-use crate::experiment::design::{Levels, Source, Track};
-use crate::quantity::factor_of_gain;
-use crate::statistics::adaptive::{Procedure as _, Staircase};
+use crate::design::{Levels, Source, Track};
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_statistics::adaptive::{Procedure as _, Staircase};
 
 /// Trials of a staircase whose observer is right from 5 dB on and wrong below.
 fn staircase_session(design: &Design, nth: usize) -> Found {
@@ -64,11 +64,11 @@ fn levels_of(levels: &Levels, series: usize) -> Staircase {
 #[test]
 fn matched_gains_on_a_line_are_a_compression() {
     let design = Design::shipped("gain-matching").unwrap();
-    let library = crate::textile::Library::shipped().unwrap();
+    let library = selvedge_textile::Library::shipped().unwrap();
     let level = |id: &str| {
         let textile = library.load(id).unwrap();
-        let filters = crate::tactile::Filters::default();
-        crate::tactile::Levels::of(textile.surface(), &filters)
+        let filters = selvedge_textile::tactile::Filters::default();
+        selvedge_textile::tactile::Levels::of(textile.surface(), &filters)
             .level_db()
             .unwrap()
     };

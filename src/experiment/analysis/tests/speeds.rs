@@ -1,14 +1,14 @@
 //! Measures at the speeds that subjects moved at.
 
 use super::*;
-use crate::experiment::session::path_file;
-use crate::files::ScratchFolder as Scratch;
-use crate::geometry::Point;
-use crate::quantity::level_db;
-use crate::scene::{ExplorationPath, PathRow};
-use crate::statistics::pearson_r;
-use crate::tactile::{Filters, Levels};
-use crate::textile::Library;
+use crate::session::path_file;
+use selvedge_scratch::ScratchFolder as Scratch;
+use selvedge_foundation::geometry::Point;
+use selvedge_foundation::quantity::level_db;
+use selvedge_render::scene::{ExplorationPath, PathRow};
+use selvedge_statistics::pearson_r;
+use selvedge_textile::Library;
+use selvedge_textile::tactile::{Filters, Levels};
 
 /// Seven steps of a tenth below and above 100 mm/s.
 const SLOW_MM_PER_S: f64 = 51.315_811_823_070_7;

@@ -5,8 +5,8 @@
 //! of interpolating `H²` itself over log frequency. That depends on the filter and on the distance
 //! of the nodes only, and is known before any spectrum is.
 
-use crate::surface::BIN_SPACING_PER_MM;
-use crate::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
+use selvedge_textile::surface::BIN_SPACING_PER_MM;
+use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
 /// Nodes an octave to choose from.
 const DENSITIES: [u32; 8] = [24, 32, 48, 64, 96, 128, 192, 384];
@@ -19,14 +19,14 @@ const ROUNDING_DB: f64 = 2e-6;
 
 /// Nodes an octave, and the level error that they keep to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::render::array) struct Density {
-    pub(in crate::render::array) per_octave: u32,
-    pub(in crate::render::array) level_db: f64,
+pub(in crate::array) struct Density {
+    pub(in crate::array) per_octave: u32,
+    pub(in crate::array) level_db: f64,
 }
 
 impl Density {
     /// The fewest nodes an octave that keep within a budget, else the most there can be.
-    pub(in crate::render::array) fn within(filters: &Filters, budget_db: f64) -> Self {
+    pub(in crate::array) fn within(filters: &Filters, budget_db: f64) -> Self {
         let samples = Band::ALL.map(|band| sampled(filters, band));
         let at = |per_octave: u32| {
             let of_band = |gains: &Vec<f64>| error_db(gains, per_octave);

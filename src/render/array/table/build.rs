@@ -4,10 +4,10 @@
 //! filter's gains at a few nodes serve every point of every textile before they are forgotten.
 
 use super::segments::Node;
-use crate::render::array::reference::bin_frequency_hz;
-use crate::render::single;
-use crate::surface::LocalSpectra;
-use crate::tactile::{Band, Filters};
+use crate::array::reference::bin_frequency_hz;
+use crate::single;
+use selvedge_textile::surface::LocalSpectra;
+use selvedge_textile::tactile::{Band, Filters};
 
 /// Points that are summed together.
 const POINTS: usize = 4;

@@ -11,19 +11,19 @@ use std::sync::Arc;
 use super::build::NodeGains;
 use super::segments::Segments;
 use super::{Density, MAX_TABLE_BYTES, Table, build, units_um2};
-use crate::render::RenderScene;
-use crate::render::array::{Accuracy, Method, auto};
-use crate::render::plan::ScenePlan;
-use crate::surface::LocalSpectra;
-use crate::tactile::Filters;
+use crate::RenderScene;
+use crate::array::{Accuracy, Method, auto};
+use crate::plan::ScenePlan;
+use selvedge_textile::surface::LocalSpectra;
+use selvedge_textile::tactile::Filters;
 
 /// Filters and budgets whose nodes are kept.
 const MAX_GRIDS: usize = 8;
 
 /// The nodes of tables for filters and an error budget, and the error that they keep to.
 #[derive(Debug, Clone)]
-pub(in crate::render::array) struct Grid {
-    pub(in crate::render::array) density: Density,
+pub(in crate::array) struct Grid {
+    pub(in crate::array) density: Density,
     pub(super) segments: Arc<Segments>,
 }
 
@@ -119,7 +119,7 @@ impl TableCache {
     }
 
     /// The nodes of tables for these filters within this budget.
-    pub(in crate::render::array) fn grid(&mut self, filters: &Filters, budget_db: f64) -> Grid {
+    pub(in crate::array) fn grid(&mut self, filters: &Filters, budget_db: f64) -> Grid {
         if let Some(grid) = self.known_grid(filters, budget_db) {
             return grid.clone();
         }

@@ -18,12 +18,12 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use super::ErrorBound;
-use crate::render::plan::{
+use crate::plan::{
     Axis, Component, Contacts, Counters, Feel, Motion, PointIndex, Rule, ScenePlan, TextilePlan,
 };
-use crate::render::{RenderError, RenderScene, single};
-use crate::surface::Direction;
+use crate::{RenderError, RenderScene, single};
 use segments::{Segments, Spot};
+use selvedge_textile::surface::Direction;
 use touched::{Heard, TouchedTables, touched_bytes};
 
 /// Most bytes that the tables of a scene may take.

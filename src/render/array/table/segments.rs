@@ -5,9 +5,9 @@
 //! smooth; at the ends they jump, so both segments keep a value of their own there. Segments
 //! longer than 1/n octave are cut into equal parts.
 
-use crate::render::plan::whole_part;
-use crate::surface::{BIN_SPACING_PER_MM, N_BINS};
-use crate::tactile::{MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
+use crate::plan::whole_part;
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, N_BINS};
+use selvedge_textile::tactile::{MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
 /// The segment in which k bins sound.
 #[derive(Debug, Clone, Copy, Default)]
@@ -90,7 +90,7 @@ impl Segments {
         let share = (at - f64::from(part)).clamp(0.0, 1.0);
         Spot {
             node: (segment.first_node + part) as usize,
-            share: crate::render::single(share),
+            share: crate::single(share),
         }
     }
 }
@@ -119,7 +119,7 @@ fn n_parts(octaves: f64, per_octave: u32) -> u32 {
     (octaves * f64::from(per_octave) - 1e-9).ceil().max(1.0) as u32
 }
 
-/// How many bins sound at a speed that is felt: [`crate::tactile::n_audible_bins`] without a loop.
+/// How many bins sound at a speed that is felt: [`selvedge_textile::tactile::n_audible_bins`] without a loop.
 #[inline]
 fn n_audible(speed_mm_per_s: f64) -> usize {
     let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
@@ -155,13 +155,13 @@ pub(super) fn log2(x: f64) -> f64 {
 /// Whether a speed is one that a table covers.
 #[cfg(test)]
 fn is_felt(speed_mm_per_s: f64) -> bool {
-    (MIN_SPEED_MM_PER_S..crate::tactile::MAX_SPEED_MM_PER_S).contains(&speed_mm_per_s)
+    (MIN_SPEED_MM_PER_S..selvedge_textile::tactile::MAX_SPEED_MM_PER_S).contains(&speed_mm_per_s)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tactile::n_audible_bins;
+    use selvedge_textile::tactile::n_audible_bins;
 
     fn speeds_around_every_end() -> Vec<f64> {
         let ends = (1..=N_BINS).map(speed_at_1_khz).chain([MIN_SPEED_MM_PER_S]);

@@ -14,8 +14,8 @@ use std::sync::Arc;
 use super::Grid;
 use super::build::{NodeGains, normal};
 use super::segments::Spot;
-use crate::render::plan::{Contacts, Counters, PointGrid, ScenePlan};
-use crate::surface::LocalSpectra;
+use crate::plan::{Contacts, Counters, PointGrid, ScenePlan};
+use selvedge_textile::surface::LocalSpectra;
 
 /// No row holds this point's nodes; or a row holds no point's.
 const NONE: u32 = u32::MAX;
@@ -344,12 +344,12 @@ fn number(index: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Frame;
-    use crate::numerics::{Grid as Heights, Random};
-    use crate::render::array::TableCache;
-    use crate::render::{PlacedLevel, PlacedSurface, RenderScene};
-    use crate::surface::{HeightMap, Surface};
-    use crate::tactile::Filters;
+    use crate::array::TableCache;
+    use crate::{PlacedLevel, PlacedSurface, RenderScene};
+    use selvedge_foundation::geometry::Frame;
+    use selvedge_foundation::numerics::{Grid as Heights, Random};
+    use selvedge_textile::surface::{HeightMap, Surface};
+    use selvedge_textile::tactile::Filters;
 
     /// An areal scene, and what its tables are made with.
     fn prepared() -> (ScenePlan, Vec<f64>, Arc<NodeGains>, Grid) {

@@ -5,16 +5,16 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 
 use super::*;
-use crate::tactile::{Filters, MAX_SPEED_MM_PER_S};
+use selvedge_textile::tactile::{Filters, MAX_SPEED_MM_PER_S};
 
 /// The largest unfiltered amplitude √(2 Σ P) of both directions together, µm.
 fn unfiltered_um(surface: &Surface) -> f64 {
-    let most = |d: crate::surface::Direction| {
+    let most = |d: selvedge_textile::surface::Direction| {
         let spectra = surface.spectra(d);
         let total = |point| spectra.powers_um2(point).iter().sum::<f64>();
         (0..spectra.n_points()).map(total).fold(0.0, f64::max)
     };
-    let [a, b, c, d] = crate::surface::Direction::ALL.map(most);
+    let [a, b, c, d] = selvedge_textile::surface::Direction::ALL.map(most);
     (2.0 * (a.max(b) + c.max(d))).sqrt()
 }
 

@@ -3,8 +3,8 @@
 use std::f64::consts::LN_2;
 
 use super::*;
-use crate::numerics::Random;
-use crate::surface::{Direction, Probe};
+use selvedge_foundation::numerics::Random;
+use selvedge_textile::surface::{Direction, Probe};
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 

@@ -1,9 +1,9 @@
 //! Tables that are kept give the amplitudes of tables that are computed.
 
 use super::*;
-use crate::render::array::TableCache;
+use crate::array::TableCache;
 use crate::scene::LoadedScene;
-use crate::tactile::Filters;
+use selvedge_textile::tactile::Filters;
 
 fn shipped() -> RenderScene {
     RenderScene::of(&LoadedScene::shipped().unwrap())

@@ -1,7 +1,7 @@
 //! Surfaces whose amplitudes are known beforehand.
 
 use super::*;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 fn at_speed(surface: &Arc<Surface>, speed_mm_per_s: f64) -> [f64; 2] {
     let mut reference = renderer(&alone(surface), Method::Reference);

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::numerics::{Grid, Random};
-use crate::surface::{BIN_SPACING_PER_MM, HeightMap, Profile, ProfileSet, Surface};
+use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, HeightMap, Profile, ProfileSet, Surface};
 
 pub(super) const STEP_MM: f64 = 1.0 / 230.0;
 

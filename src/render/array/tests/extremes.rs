@@ -1,8 +1,8 @@
 //! Extreme cases: nothing panics, and no NaN comes out.
 
 use super::*;
-use crate::numerics::Random;
-use crate::render::{RenderError, Replay, replay};
+use crate::{RenderError, Replay, replay};
+use selvedge_foundation::numerics::Random;
 use std::ops::ControlFlow;
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
@@ -90,7 +90,7 @@ fn flat_tiny_and_huge_heights_are_silent_or_computed() {
     for scale in [0.0, 1e-12, 1e12] {
         let heights = cloth::weave(&mut Random::new(1), 1500);
         let heights = heights.heights_um().iter().map(|z| z * scale).collect();
-        let profile = crate::surface::Profile::new(cloth::STEP_MM, heights).unwrap();
+        let profile = selvedge_textile::surface::Profile::new(cloth::STEP_MM, heights).unwrap();
         let scene = alone(&cloth::uniform(profile));
         for method in METHODS {
             let found = amplitudes(&mut renderer(&scene, method), &at)[0];

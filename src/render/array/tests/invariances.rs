@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 fn two_cloths() -> RenderScene {
     let mut random = Random::new(3);

@@ -14,9 +14,9 @@ mod response;
 mod rules;
 
 use super::*;
-use crate::geometry::{Displacement, Frame, Point, Rotation, Velocity};
-use crate::render::{ContactorArray, PlacedSurface};
-use crate::surface::Surface;
+use crate::{ContactorArray, PlacedSurface};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
+use selvedge_textile::surface::Surface;
 use std::sync::Arc;
 
 /// A surface of 120 × 120 mm at an origin, turned.

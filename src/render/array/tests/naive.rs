@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::cloth::{self, STEP_MM};
 use super::*;
-use crate::numerics::Random;
-use crate::surface::Profile;
+use selvedge_foundation::numerics::Random;
+use selvedge_textile::surface::Profile;
 
 struct Naive<'a> {
     scene: &'a RenderScene,

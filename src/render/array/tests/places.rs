@@ -1,9 +1,9 @@
 //! Which textile and which point a contactor feels, and how a display moves over them.
 
 use super::*;
-use crate::numerics::Random;
-use crate::render::array::{ContactInspector, ContactTrace, VibrationBin};
-use crate::tactile::Band;
+use crate::array::{ContactInspector, ContactTrace, VibrationBin};
+use selvedge_foundation::numerics::Random;
+use selvedge_textile::tactile::Band;
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 

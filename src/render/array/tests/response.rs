@@ -1,7 +1,7 @@
 //! Maps, curves and readings of the inspector against what the reference renders.
 
 use super::*;
-use crate::tactile::Filters;
+use selvedge_textile::tactile::Filters;
 
 /// Two cloths, the upper one turned by 90° and by an odd angle, with gains that differ.
 fn two_cloths() -> RenderScene {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 
 use super::*;
-use crate::numerics::Random;
-use crate::render::{Rule, Rules};
+use crate::{Rule, Rules};
+use selvedge_foundation::numerics::Random;
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 

@@ -4,8 +4,8 @@ mod quest_plus;
 mod staircases;
 
 use super::*;
-use crate::numerics::Random;
-use crate::statistics::psychometric::{Family, Psychometric};
+use crate::psychometric::{Family, Psychometric};
+use selvedge_foundation::numerics::Random;
 
 fn observer() -> Psychometric {
     Psychometric {

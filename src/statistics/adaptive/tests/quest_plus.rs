@@ -1,7 +1,7 @@
 //! QUEST+ against Bayes' rule written out.
 
 use super::*;
-use crate::statistics::psychometric::Guess;
+use crate::psychometric::Guess;
 
 fn small_grid() -> QuestGrid {
     QuestGrid {

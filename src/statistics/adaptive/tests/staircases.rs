@@ -1,7 +1,7 @@
 //! Staircases against their Markov chains; constant stimuli; turns.
 
 use super::*;
-use crate::statistics::psychometric::{Lapse, Model};
+use crate::psychometric::{Lapse, Model};
 
 fn endless(rule: Rule, steps: [f64; 2], n: u32) -> StaircasePlan {
     StaircasePlan {

@@ -2,7 +2,7 @@
 
 use super::super::*;
 use super::assert_close;
-use crate::statistics::{Computed, Freedom, normal_density, normal_lower, normal_quantile};
+use crate::{Computed, Freedom, normal_density, normal_lower, normal_quantile};
 
 fn pair(wins: u64, losses: u64) -> Preferences {
     Preferences::of_wins(&[vec![0, wins], vec![losses, 0]]).unwrap()

@@ -2,8 +2,8 @@
 
 use super::super::*;
 use super::{SIX, assert_close, drawn};
-use crate::numerics::Random;
-use crate::statistics::Computed;
+use crate::Computed;
+use selvedge_foundation::numerics::Random;
 
 fn reason<T: std::fmt::Debug>(found: Computed<T>) -> String {
     found.map_err(|e| e.reason).unwrap_err()
@@ -81,7 +81,7 @@ fn one_item_and_no_comparisons_are_refused() {
         reason(davidson(&empty, Prior::Gamma(1.0))),
         "no comparisons"
     );
-    let how = crate::statistics::Resampling {
+    let how = crate::Resampling {
         n_resamples: 100,
         seed: 1,
         level: 0.95,
@@ -204,7 +204,7 @@ fn a_draw_of_subjects_that_falls_into_groups_is_counted_and_not_made_up() -> Com
         .map(|_| (0..4).map(|_| drawn(&SIX, &[0, 1], &mut random)).collect())
         .collect();
     subjects.push(vec![vec![0, 1], vec![1, 0], vec![1, 2], vec![2, 1]]);
-    let how = crate::statistics::Resampling {
+    let how = crate::Resampling {
         n_resamples: 300,
         seed: 1,
         level: 0.95,

@@ -1,8 +1,8 @@
 //! Repeated measures against published data, whole-number sums, and t tests.
 
 use super::*;
-use crate::numerics::Random;
-use crate::statistics::{Summary, one_sample_t, paired_t};
+use crate::{Summary, one_sample_t, paired_t};
+use selvedge_foundation::numerics::Random;
 
 /// Maxwell & Delaney, Designing Experiments and Analyzing Data, table 12.1: reaction times in ms
 /// of ten subjects, noise absent and then present, at 0, 4 and 8 degrees each.

@@ -8,8 +8,8 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::*;
-use crate::numerics::Random;
 use crate::surface::Direction;
+use selvedge_foundation::numerics::Random;
 
 /// Distance of samples, mm.
 const STEP_MM: f64 = 0.02;

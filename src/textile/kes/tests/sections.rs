@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use super::*;
-use crate::files::ScratchFolder;
-use crate::textile::{Construction, Library, Words};
+use crate::{Construction, Library, Words};
+use selvedge_scratch::ScratchFolder;
 
 #[test]
 fn run_in_turn_round_and_outliers_are_marked_and_stay() {
@@ -139,7 +139,7 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
         ..Words::of("Twill")
     };
     let folder = ScratchFolder::new("kes");
-    crate::textile::write(&import.files(&words).unwrap(), &folder.join("twill")).unwrap();
+    crate::write(&import.files(&words).unwrap(), &folder.join("twill")).unwrap();
     let textile = Library::open(&folder).unwrap().load("twill").unwrap();
     drop(folder);
     let trace = textile.friction();
@@ -155,7 +155,7 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
     let measured = &textile.manifest().measured;
     assert!((measured["miu"] - 0.2).abs() < 2e-3, "{measured:?}");
     assert!((measured["mmd"] - 0.1 / PI).abs() < 2e-3, "{measured:?}");
-    let crate::textile::Source::Profiles(profiles) = &textile.manifest().source else {
+    let crate::Source::Profiles(profiles) = &textile.manifest().source else {
         panic!("profiles")
     };
     let origin = profiles.imported.as_ref().unwrap();

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::files::{FileError, Number, visit_elements};
-use crate::textile::metrology::About;
+use crate::metrology::About;
+use selvedge_foundation::files::{FileError, Number, visit_elements};
 
 /// One axis.
 #[derive(Debug)]

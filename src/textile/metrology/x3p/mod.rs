@@ -13,9 +13,9 @@ use std::path::Path;
 
 use super::reading::{Stated, UNEVEN_MEND, even_step};
 use super::{LengthUnit, Reading, n_points};
-use crate::files::{Archive, FileError, Number, md5_hex};
 use crate::surface::MOST_POINTS;
 use header::{Axis, Header};
+use selvedge_foundation::files::{Archive, FileError, Number, md5_hex};
 
 /// Largest `main.xml`, bytes: a list of about a million points.
 const MOST_XML: usize = 64 << 20;

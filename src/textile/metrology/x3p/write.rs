@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::files::{FileError, Number, md5_hex, pack, push_number, xml_text};
-use crate::textile::metrology::Measured;
+use crate::metrology::Measured;
+use selvedge_foundation::files::{FileError, Number, md5_hex, pack, push_number, xml_text};
 
 /// How heights are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

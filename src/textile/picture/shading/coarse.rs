@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::numerics::{Complex, Grid, PlaneTransform};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 
 /// Tiles whose halves are shorter than this are not halved, px.
 const LEAST_SIDE: usize = 32;

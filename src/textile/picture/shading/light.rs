@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{ShadingError, mean};
-use crate::numerics::Grid;
+use selvedge_foundation::numerics::Grid;
 
 use super::reflectance::{across, along};
 

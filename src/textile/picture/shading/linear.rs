@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::reflectance::{Lambert, residual};
 use super::{Found, Light, ShadingOptions, mean};
-use crate::numerics::{Complex, Grid, PlaneTransform};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 
 /// The regulariser unless stated.
 const REGULARISER: f64 = 0.1;

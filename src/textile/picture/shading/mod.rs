@@ -31,15 +31,15 @@ pub use light::{Light, LightEstimate, estimate_light};
 pub use linear::Blind;
 pub use reflectance::picture_of;
 pub use scale::HeightScale;
-pub(crate) use scale::{mean_smd_um, scaled};
+pub use scale::{mean_smd_um, scaled};
 pub use source::PictureSource;
 pub use textile::{PictureTextile, relief_um_of, to_textile};
 pub use tsai_shah::Edges;
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::Grid;
-use crate::progress::{Cancelled, Progress};
+use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// Most points of a tile: 4096 × 4096.
 pub const MOST_POINTS: usize = 1 << 24;

@@ -1,6 +1,6 @@
 //! How bright a matt slope is, and the slopes of a tile that repeats.
 
-use crate::numerics::Grid;
+use selvedge_foundation::numerics::Grid;
 
 use super::Light;
 

@@ -1,9 +1,9 @@
 //! From heights in pixels to heights in µm.
 
 use super::{ShadingError, Shape};
-use crate::numerics::Grid;
+use crate::TextileError;
 use crate::surface::{HeightMap, Profile, ProfileSet, SurfaceError};
-use crate::textile::TextileError;
+use selvedge_foundation::numerics::Grid;
 
 /// What is known of the height of a relief.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,17 +25,17 @@ const NEAR: f64 = 1e-3;
 const MOST_RELIEF_UM: f64 = 1e5;
 
 /// A relief in µm, and how its height was found.
-pub(crate) struct Scaled {
+pub struct Scaled {
     /// The relief of one repeat.
-    pub(crate) map: HeightMap,
+    pub map: HeightMap,
     /// From its lowest to its highest height.
-    pub(crate) relief_um: f64,
+    pub relief_um: f64,
     /// The SMD that was asked for.
-    pub(crate) smd_um: Option<f64>,
+    pub smd_um: Option<f64>,
 }
 
 /// Gives a shape its heights; `strokes` draws the tester over a map.
-pub(crate) fn scaled(
+pub fn scaled(
     shape: &Shape,
     step_mm: [f64; 2],
     scale: HeightScale,
@@ -119,7 +119,7 @@ fn relief_for(
     .into())
 }
 
-pub(crate) fn mean_smd_um(strokes: &ProfileSet) -> f64 {
+pub fn mean_smd_um(strokes: &ProfileSet) -> f64 {
     let smd_um: Vec<f64> = strokes.iter().flatten().map(Profile::smd_um).collect();
     smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
 }

@@ -4,10 +4,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Light, Method};
+use crate::TextileError;
+use crate::manifest::{Checker, ProfileFiles, profile_file_keys};
+use crate::metrology::{Asked, Heightmap};
 use crate::surface::{Probe, Representation};
-use crate::textile::TextileError;
-use crate::textile::manifest::{Checker, ProfileFiles, profile_file_keys};
-use crate::textile::metrology::{Asked, Heightmap};
 
 /// Heights found on a picture (`kind = "picture"`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -18,16 +18,16 @@ pub struct PictureSource {
     /// Hash of the recipe that the profiles came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe_hash: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub warp_reverse: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_forward: Option<String>,
-    /// See [`crate::textile::ProfileFiles`].
+    /// See [`crate::ProfileFiles`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weft_reverse: Option<String>,
     /// Whether it is felt along four strokes or at every point of its relief.
@@ -89,7 +89,7 @@ profile_file_keys!(PictureSource);
 
 impl PictureSource {
     /// Refuses values out of range.
-    pub(crate) fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
+    pub fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
         within("px_per_mm", self.px_per_mm, 2.0..=2000.0)?;
         within("relief_um", self.relief_um, 1e-6..=1e5)?;
@@ -126,7 +126,7 @@ impl PictureSource {
     }
 
     /// Its map as a file of heights that repeats: what reads and strokes it.
-    pub(crate) fn map(&self) -> Heightmap {
+    pub fn map(&self) -> Heightmap {
         let mut map = Heightmap::new(self.file.clone(), &Asked::default());
         map.sha256.clone_from(&self.sha256);
         map.representation = self.representation;

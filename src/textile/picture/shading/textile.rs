@@ -6,15 +6,15 @@ use std::path::Path;
 use super::scale::{Scaled, no_surface, scaled};
 use super::source::PictureSource;
 use super::{HeightScale, ShadingError, Shape};
-use crate::files::{Rgb8Image, encode_png_small, sha256_hex};
+use crate::build::{BuiltFile, PICTURE};
+use crate::cloth::PX_PER_MM;
+use crate::loaded::MANIFEST;
+use crate::manifest::{AppearanceKeys, Construction, Manifest, Provenance, Source};
+use crate::metrology::{self, Asked, Measured};
 use crate::surface::{HeightMap, Probe, Representation};
-use crate::textile::build::{BuiltFile, PICTURE};
-use crate::textile::cloth::PX_PER_MM;
-use crate::textile::loaded::MANIFEST;
-use crate::textile::manifest::{AppearanceKeys, Construction, Manifest, Provenance, Source};
-use crate::textile::metrology::{self, Asked, Measured};
-use crate::textile::words::manifest_file;
-use crate::textile::{TextileError, metrology::made};
+use crate::words::manifest_file;
+use crate::{TextileError, metrology::made};
+use selvedge_foundation::files::{Rgb8Image, encode_png_small, sha256_hex};
 
 /// The name of the map in the textile's folder.
 const MAP: &str = "heights.png";

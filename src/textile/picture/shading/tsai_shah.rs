@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::reflectance::before;
 use super::{Found, Light, ShadingError, ShadingOptions};
-use crate::numerics::Grid;
-use crate::progress::Progress;
+use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::progress::Progress;
 
 /// The published noise W and first variance S.
 const W: f64 = 1e-8;

@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use super::coarse::{resampled, sizes};
 use super::reflectance::{Lambert, across, along, laplacian, residual};
 use super::{Found, Light, ShadingError, ShadingOptions, linear};
-use crate::numerics::{Grid, PlaneTransform};
-use crate::progress::Progress;
+use selvedge_foundation::numerics::{Grid, PlaneTransform};
+use selvedge_foundation::progress::Progress;
 
 /// Weight of squared curvature unless stated, and at first.
 const SMOOTHNESS: f64 = 1e-3;

@@ -8,7 +8,7 @@ mod truths;
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::progress::unheard;
+use selvedge_foundation::progress::unheard;
 
 /// Points of a fine relief to a pixel's side.
 const FINE: usize = 4;

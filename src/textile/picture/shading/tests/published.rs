@@ -2,7 +2,7 @@
 
 use super::super::tsai_shah::State;
 use super::*;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 /// The scheme as published, line by line, on lists of rows; `is_tile`: differences go round.
 fn transcript(e: &[Vec<f64>], ps: f64, qs: f64, n: usize, is_tile: bool) -> Vec<Vec<f64>> {

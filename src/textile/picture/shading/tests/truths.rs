@@ -1,7 +1,7 @@
 //! Reliefs that are known: how near the methods come.
 
 use super::*;
-use crate::numerics::Random;
+use selvedge_foundation::numerics::Random;
 
 fn reached(truth: &Truth, from: Light, method: Method) -> f64 {
     let e = truth.picture(from.slant_deg, from.tilt_deg);

@@ -1,0 +1,183 @@
+//! How ticks are labelled: `10 µs`, `0.05`, `−3`, `2e−7`.
+//!
+//! Axes in seconds, hertz or bytes take their prefix into the ticks and lose the unit in the title.
+
+use super::Scale;
+use super::ticks::Ruler;
+use selvedge_foundation::quantity::{fixed, with_unit};
+
+/// Units that take prefixes.
+const PREFIXED: [&str; 3] = ["s", "Hz", "B"];
+/// Prefixes with their factors, smallest first.
+const PREFIXES: [(f64, &str); 9] = [
+    (1e-15, "f"),
+    (1e-12, "p"),
+    (1e-9, "n"),
+    (1e-6, "µ"),
+    (1e-3, "m"),
+    (1.0, ""),
+    (1e3, "k"),
+    (1e6, "M"),
+    (1e9, "G"),
+];
+
+/// What an axis is called and how its ticks are labelled.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Labels {
+    /// The title of the axis.
+    pub(super) title: String,
+    /// One label for each labelled tick.
+    pub(super) ticks: Vec<String>,
+}
+
+impl Labels {
+    /// The labels of a ruler whose axis is called `label`.
+    pub(super) fn of(ruler: &Ruler, label: &str) -> Self {
+        let prefixed = label.rsplit_once(", ").and_then(|(what, unit)| {
+            let unit = PREFIXED.into_iter().find(|known| *known == unit)?;
+            Some((what, unit))
+        });
+        let numbers = ruler.labelled.iter().copied();
+        let (title, ticks) = match (prefixed, ruler.scale()) {
+            (Some((what, unit)), Scale::Log) => (
+                what,
+                numbers.map(|value| with_prefix(value, unit)).collect(),
+            ),
+            (Some((what, unit)), Scale::Linear | Scale::Whole) => {
+                (what, with_one_prefix(ruler, unit))
+            }
+            (None, Scale::Log) => (label, numbers.map(plain).collect()),
+            (None, Scale::Linear | Scale::Whole) => (
+                label,
+                numbers.map(|value| stepped(value, ruler.step)).collect(),
+            ),
+        };
+        Self {
+            title: title.to_owned(),
+            ticks,
+        }
+    }
+}
+
+/// A 1, 2 or 5 of any decade with the prefix that leaves 1 to 500.
+fn with_prefix(value: f64, unit: &str) -> String {
+    let fits = |(factor, _): &&(f64, &str)| value >= factor * (1.0 - 1e-9);
+    match PREFIXES.iter().rev().find(fits) {
+        Some((factor, prefix)) if value < 999.5 * factor => {
+            format!("{} {prefix}{unit}", plain(value / factor))
+        }
+        _ => format!("{} {unit}", plain(value)),
+    }
+}
+
+/// Evenly spaced values, all with the prefix of the largest.
+fn with_one_prefix(ruler: &Ruler, unit: &str) -> Vec<String> {
+    let [low, high] = ruler.ends();
+    let largest = low.abs().max(high.abs());
+    let fits = |(factor, _): &&(f64, &str)| largest >= *factor;
+    let (factor, prefix) = PREFIXES
+        .iter()
+        .rev()
+        .find(fits)
+        .copied()
+        .unwrap_or((1.0, ""));
+    let step = ruler.step / factor;
+    let label = |value: &f64| {
+        with_unit(
+            value / factor,
+            decimals_of(step),
+            &format!("{prefix}{unit}"),
+        )
+    };
+    ruler.labelled.iter().map(label).collect()
+}
+
+/// A value between which and its neighbours lies `step`.
+fn stepped(value: f64, step: f64) -> String {
+    if !(1e-6..1e6).contains(&step) {
+        return if value.abs() < 0.5 * step {
+            fixed(0.0, 0)
+        } else {
+            plain(value)
+        };
+    }
+    fixed(value, decimals_of(step))
+}
+
+/// Decimals that tell multiples of a step apart.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "between 0 and 12"
+)]
+fn decimals_of(step: f64) -> usize {
+    (-(step.log10() + 1e-9).floor()).clamp(0.0, 12.0) as usize
+}
+
+/// A number with the digits that it has: `0.05`, `200`, and `2e−7` far from 1.
+fn plain(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude > 0.0 && !(1e-4..1e5).contains(&magnitude) {
+        let text = format!("{value:.1e}").replace(".0e", "e").replace('-', "−");
+        return text;
+    }
+    let text = fixed(value, 6);
+    match text.split_once('.') {
+        Some((whole, part)) => {
+            let part = part.trim_end_matches('0');
+            if part.is_empty() {
+                whole.to_owned()
+            } else {
+                format!("{whole}.{part}")
+            }
+        }
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Axis;
+
+    fn labels(label: &str, scale: Scale, values: &[f64]) -> Labels {
+        let axis = Axis {
+            label: label.to_owned(),
+            scale,
+            range: None,
+        };
+        Labels::of(&Ruler::of(&axis, values.iter().copied()), label)
+    }
+
+    #[test]
+    fn seconds_take_their_prefix_into_the_ticks() {
+        let found = labels("time a tick, s", Scale::Log, &[2e-7, 1e-5]);
+        assert_eq!(found.title, "time a tick");
+        assert_eq!(
+            found.ticks,
+            ["200 ns", "500 ns", "1 µs", "2 µs", "5 µs", "10 µs"]
+        );
+        let found = labels("time, s", Scale::Linear, &[0.0, 0.004]);
+        assert_eq!(found.ticks, ["0 ms", "1 ms", "2 ms", "3 ms", "4 ms"]);
+    }
+
+    #[test]
+    fn other_axes_keep_their_unit_and_have_plain_numbers() {
+        let found = labels("level error, dB", Scale::Log, &[0.01, 0.05]);
+        assert_eq!(found.title, "level error, dB");
+        assert_eq!(found.ticks, ["0.01", "0.02", "0.05"]);
+        let found = labels("gain, dB", Scale::Linear, &[-0.4, 0.6]);
+        assert_eq!(found.ticks, ["−0.4", "−0.2", "0.0", "0.2", "0.4", "0.6"]);
+    }
+
+    #[test]
+    fn numbers_far_from_one_are_written_by_their_power() {
+        assert_eq!(plain(2e-7), "2e−7");
+        assert_eq!(plain(1e6), "1e6");
+        assert_eq!(plain(-0.05), "−0.05");
+        assert_eq!(plain(200.0), "200");
+        assert_eq!(plain(0.0), "0");
+        assert_eq!(with_prefix(2e4, "Hz"), "20 kHz");
+        assert_eq!(with_prefix(1e-20, "s"), "1e−20 s");
+    }
+}

@@ -1,0 +1,144 @@
+//! The command line: the same work without a window, and the way into the workbench.
+//!
+//! Results go to standard output or `--out`, notices and progress to stderr. Exit codes: 0 done, 2
+//! bad usage or bad input, 1 the work itself failed; with one line that says what, where and how to
+//! mend it.
+//!
+//! # Invariants
+//! - the one home of `clap` and `signal-hook`
+//! - commands are thin: what they do is done by the floors below, for the window likewise
+//! - a result file appears when it is whole, or not at all
+//! - a reader that closes our output is no failure
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+mod array;
+mod bridge;
+mod bridge_abilities;
+mod bridge_faults;
+mod bridge_kit;
+mod bridge_show;
+mod experiment;
+mod failure;
+mod identify;
+mod input;
+mod mds;
+mod mds_json;
+mod method;
+mod output;
+mod picture;
+mod picture_relief;
+mod play;
+mod play_audio;
+mod play_log;
+mod play_report;
+mod play_source;
+mod render;
+mod render_out;
+mod report;
+mod screenshot;
+mod signals;
+mod terminal;
+mod textile;
+mod textile_catalogue;
+mod textile_import;
+mod textile_kes;
+mod textile_levels;
+mod textile_make;
+mod textile_models;
+mod textile_words;
+mod usage;
+mod workbench;
+
+pub use failure::CliError;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Virtual textiles, felt through a fingertip array of vibrating contactors.
+///
+/// Without a command: the workbench, on SCENE or on the shipped scene of four textiles.
+#[derive(Debug, Parser)]
+#[command(
+    name = "selvedge",
+    bin_name = "selvedge",
+    version,
+    args_conflicts_with_subcommands = true
+)]
+#[command(disable_help_subcommand = true)]
+struct Cli {
+    /// Scene file to open in the workbench
+    scene: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Replay an exploration: the amplitudes of every contactor at every tick
+    Render(render::RenderArgs),
+    /// Play an exploration in real time on a device
+    Play(play::PlayArgs),
+    /// The library of textiles
+    #[command(subcommand)]
+    Textile(textile::TextileCommand),
+    /// The repeats of a cloth from a picture, and the cell that repeats
+    Picture(picture::PictureArgs),
+    /// Tablets and touch frames
+    #[command(subcommand)]
+    Input(input::InputCommand),
+    /// A map from dissimilarities: non-metric multidimensional scaling
+    Mds(mds::MdsArgs),
+    /// Experiments on people
+    #[command(subcommand)]
+    Experiment(experiment::ExperimentCommand),
+    /// Serial ports and devices
+    #[command(subcommand)]
+    Bridge(bridge::BridgeCommand),
+    /// Error against run time, stability, what is left out: tables and plots
+    Report(report::ReportArgs),
+    /// The workbench as a picture, no display needed
+    Screenshot(screenshot::ScreenshotArgs),
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage::answer(&error),
+    };
+    match run(cli) {
+        Ok(()) | Err(CliError::OutputClosed) => ExitCode::SUCCESS,
+        Err(error) => {
+            let code = error.exit_code();
+            if code != 0 {
+                terminal::notice(&one_line(&error.to_string()));
+            }
+            ExitCode::from(code)
+        }
+    }
+}
+
+fn run(cli: Cli) -> Result<(), CliError> {
+    match cli.command {
+        None => workbench::open(cli.scene.as_deref()),
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Play(args)) => play::run(&args),
+        Some(Command::Textile(command)) => textile::run(&command),
+        Some(Command::Picture(args)) => picture::run(&args),
+        Some(Command::Input(command)) => input::run(&command),
+        Some(Command::Mds(args)) => mds::run(&args),
+        Some(Command::Experiment(command)) => experiment::run(&command),
+        Some(Command::Bridge(command)) => bridge::run(&command),
+        Some(Command::Report(args)) => report::run(&args),
+        Some(Command::Screenshot(args)) => screenshot::run(&args),
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

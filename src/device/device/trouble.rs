@@ -1,0 +1,153 @@
+//! What happens to a device from outside its protocol: its sensors show something, something in it
+//! breaks, its cable is pulled.
+
+use super::{DeviceCore, DeviceSink};
+use crate::message::{DeviceState, Fault, fault_bit};
+
+/// What a device's sensors show, as STATUS tells it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sense {
+    /// Temperature in 0.01 °C.
+    pub temp_cdeg: i16,
+    /// Supply current in mA.
+    pub i_ma: u16,
+    /// High voltage in thousandths of what was asked for.
+    pub hv_per_mille: u16,
+}
+
+impl Default for Sense {
+    /// 25 °C, no current, full voltage.
+    fn default() -> Self {
+        Self {
+            temp_cdeg: 2500,
+            i_ma: 0,
+            hv_per_mille: 1000,
+        }
+    }
+}
+
+/// What amplifiers and contactors take, to be measured: a current in proportion to each code.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Root mean square of a contactor's current for each code, `[40 Hz, 320 Hz]`, mA.
+    pub ma_per_code: [f64; 2],
+}
+
+impl Load {
+    /// The current of channels with these codes: their root mean squares over a tick added, mA.
+    pub fn ma(&self, codes: impl Iterator<Item = [u16; 2]>) -> f64 {
+        let of_channel = |code: [u16; 2]| {
+            let [low, high] = [0, 1].map(|band| self.ma_per_code[band] * f64::from(code[band]));
+            low.hypot(high)
+        };
+        codes.map(of_channel).sum()
+    }
+}
+
+impl DeviceCore {
+    /// Measures the current of amplifiers with this load from now on.
+    pub fn set_load(&mut self, load: Load) {
+        self.model.load = Some(load);
+    }
+
+    /// The supply current that STATUS tells, mA: what amplifiers take for the codes of this moment,
+    /// 0 where the model has none, and in mode B, where it is not measured.
+    pub(super) fn measured_ma(&self) -> u16 {
+        let is_playing = self.state.is_live() && !self.plays_samples();
+        let load = self.model.load.filter(|_| is_playing);
+        let taken = load.map_or(0.0, |load| {
+            let dead = &self.model.wiring.dead;
+            let channels = (0..self.model.n_channels()).zip(0_u16..);
+            let alive = channels.filter(|(_, channel)| !dead.contains(channel));
+            load.ma(alive.map(|(at, _)| self.output.code(at)))
+        });
+        whole(taken).saturating_add(self.sense.i_ma)
+    }
+
+    /// Trips where the amplifiers take more than the model's supply gives. Output is off at once,
+    /// so that the cause is gone.
+    pub(super) fn check_current(&mut self, sink: &mut impl DeviceSink) {
+        let Some(most_ma) = self.model.over_current_ma else {
+            return;
+        };
+        let ma = self.measured_ma();
+        if self.state.is_live() && ma > most_ma {
+            self.raise_fault(fault_bit::OVER_CURRENT, u16::MAX, i32::from(ma), sink);
+            self.end_fault_cause(fault_bit::OVER_CURRENT);
+        }
+    }
+
+    /// What the sensors show from now on.
+    pub fn set_sense(&mut self, sense: Sense) {
+        self.sense = sense;
+    }
+
+    /// The high voltage that STATUS tells, 0.1 V.
+    pub(super) fn measured_hv_dv(&self) -> u16 {
+        if !self.state.is_live() {
+            return 0;
+        }
+        let wanted = u32::from(self.config.hv_dv);
+        let measured = wanted * u32::from(self.sense.hv_per_mille) / 1000;
+        u16::try_from(measured).unwrap_or(u16::MAX)
+    }
+
+    /// Something in the device broke: output zero and high voltage off at once, latched until
+    /// cleared.
+    pub fn raise_fault(&mut self, bits: u16, channel: u16, value: i32, sink: &mut impl DeviceSink) {
+        self.faults |= bits;
+        self.fault_causes |= bits;
+        self.fault = Fault {
+            faults: self.faults,
+            channel,
+            value,
+            tick: self.tick(),
+        };
+        self.silence(DeviceState::Fault);
+        self.send_fault(sink);
+        self.report_change(sink);
+    }
+
+    /// The cause of these fault bits is gone; the faults stay latched until CLEAR.
+    pub fn end_fault_cause(&mut self, bits: u16) {
+        self.fault_causes &= !bits;
+    }
+
+    /// The host's end of the cable is gone (DTR dropped, USB suspended): running output ramps down
+    /// from the next ms on, then the session ends.
+    pub fn hang_up(&mut self, sink: &mut impl DeviceSink) {
+        match self.state {
+            DeviceState::Run | DeviceState::Hold | DeviceState::Ramp => {
+                self.descent = Some(DeviceState::Idle);
+                self.queue.clear();
+                self.state = DeviceState::Ramp;
+            }
+            DeviceState::Fault => self.session = None,
+            _ => self.silence(DeviceState::Idle),
+        }
+        self.report_change(sink);
+    }
+
+    /// Age of the last accepted frame in µs if it is above `above_us` and there is still output;
+    /// for those who watch that it ends in time.
+    pub fn loud_age_us(&self, above_us: u64) -> Option<u64> {
+        self.age_us()
+            .filter(|age_us| *age_us > above_us && self.amp_sum() > 0)
+    }
+
+    /// How much it holds room for: text, waiting frames, codes.
+    #[cfg(test)]
+    pub fn held(&self) -> usize {
+        self.decoder.capacity() + self.queue.held() + self.scratch.capacity()
+    }
+}
+
+/// Rounded half up.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a current is not negative; `as` saturates"
+)]
+fn whole(ma: f64) -> u16 {
+    (ma + 0.5).floor() as u16
+}

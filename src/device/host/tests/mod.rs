@@ -1,0 +1,37 @@
+//! The session in virtual time: alone against scripted messages, and end to end against the device.
+
+mod alone;
+mod array;
+mod latched;
+mod together;
+
+use super::frames::soft_start_gain;
+use super::*;
+use crate::device::DeviceModel;
+use crate::message::{Ack, AckCode, DeviceMessage, DeviceState, Fault, fault_bit, frame};
+use crate::wire::{Faults, LaneFaults, Simulation};
+
+const NONCE: u32 = 0x1234_5678;
+
+fn session() -> HostSession {
+    HostSession::new(NONCE, ArrayProfile::default(), 24, Sequence::default())
+}
+
+/// Session and device on one virtual clock.
+type Pair = Simulation;
+
+/// Brings a session alone to `Ready`, emptying its queues.
+fn ready_alone(now: Instant) -> HostSession {
+    let mut host = session();
+    host.opened(now);
+    host.on_message(
+        now,
+        &DeviceMessage::Caps(DeviceModel::default().caps(NONCE, 1)),
+    );
+    let config = host.wish();
+    host.on_message(now, &DeviceMessage::Cfg(config));
+    assert_eq!(host.state(), BridgeState::Ready);
+    while host.next_packet().is_some() {}
+    while host.next_event().is_some() {}
+    host
+}

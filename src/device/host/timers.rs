@@ -1,0 +1,122 @@
+//! What time does to a session: requests are repeated or given up, a quiet host pings, a silent
+//! device is lost.
+
+use std::time::{Duration, Instant};
+
+use super::pending::Verdict;
+use super::{BridgeState, DisarmedBy, HostSession};
+use crate::message::{StopHow, kind};
+
+/// A host that has nothing to send for this long sends a PING: below a quarter of the lease of 1 s.
+const PING_EVERY: Duration = Duration::from_millis(200);
+/// PINGs that measure the clock soon after connecting, and the pauses between them then and later.
+const FIRST_PINGS: u64 = 8;
+const FIRST_PAUSE: Duration = Duration::from_millis(40);
+const PAUSE: Duration = Duration::from_secs(1);
+/// STATUS missing for this long while armed means that the link is lost.
+const SILENCE_ARMED: Duration = Duration::from_millis(500);
+/// The same while nothing moves; longer, since nothing is at stake.
+const SILENCE_IDLE: Duration = Duration::from_secs(2);
+/// A caller that was away longer than this cannot blame the device for the silence.
+const LONGEST_STEP: Duration = Duration::from_millis(100);
+
+impl HostSession {
+    /// Lets time pass: repeats, pings, and the patience with a silent device. Call at least every
+    /// 100 ms.
+    pub fn on_time(&mut self, now: Instant) {
+        let step = self
+            .last_time
+            .map_or(Duration::ZERO, |last| now.saturating_duration_since(last));
+        self.last_time = Some(now);
+        if !self.state.is_open() || self.state == BridgeState::Opening {
+            return;
+        }
+        self.check_request(now);
+        self.check_stop(now);
+        self.check_ident(now);
+        self.check_silence(step.min(LONGEST_STEP));
+        let quiet = self
+            .last_sent
+            .is_none_or(|sent| now.duration_since(sent) >= PING_EVERY);
+        if self.state.is_open() && self.caps.is_some() && (quiet || self.wants_time(now)) {
+            self.ping(now);
+        }
+    }
+
+    /// Whether the device's clock is to be asked for: often at first, then once a second.
+    fn wants_time(&self, now: Instant) -> bool {
+        let is_new = self.clock.fit_view().n_answers < FIRST_PINGS;
+        // One that is under way would not be recognised any more.
+        let pause = if is_new && self.ping.is_none() {
+            FIRST_PAUSE
+        } else {
+            PAUSE
+        };
+        self.last_ping
+            .is_none_or(|last| now.saturating_duration_since(last) >= pause)
+    }
+
+    fn check_request(&mut self, now: Instant) {
+        let Some(mut request) = self.request else {
+            return;
+        };
+        match request.verdict(now) {
+            Verdict::Wait => return,
+            Verdict::Repeat => {
+                self.send_request(&mut request, now);
+                self.request = Some(request);
+                return;
+            }
+            Verdict::GiveUp => self.request = None,
+        }
+        match request.kind() {
+            kind::HELLO => self.lose(String::from(
+                "no answer within 5 s: check that the bridge is powered and that this is its port",
+            )),
+            kind::ARM => {
+                self.stop(now, StopHow::Now);
+                self.stop_ends_output = false;
+                self.disarmed(
+                    DisarmedBy::Device,
+                    String::from("the device did not answer ARM"),
+                );
+            }
+            kind::CONFIG => self.lose(String::from("the device did not answer CONFIG")),
+            _ => {}
+        }
+    }
+
+    fn check_stop(&mut self, now: Instant) {
+        let Some(mut stopping) = self.stopping else {
+            return;
+        };
+        match stopping.verdict(now) {
+            Verdict::Wait => {}
+            Verdict::Repeat => {
+                self.send_stop(&mut stopping, now);
+                self.stopping = Some(stopping);
+            }
+            Verdict::GiveUp => self.lose(String::from("the device did not acknowledge STOP")),
+        }
+    }
+
+    /// Silence is counted in steps of the caller's own presence: a program that was suspended
+    /// starts afresh.
+    fn check_silence(&mut self, step: Duration) {
+        if self.caps.is_none() {
+            return;
+        }
+        self.silent_for += step;
+        let patience = if self.state.is_live() {
+            SILENCE_ARMED
+        } else {
+            SILENCE_IDLE
+        };
+        if self.silent_for >= patience && self.state.is_open() {
+            self.lose(format!(
+                "no STATUS for {} ms: check the cable and that the bridge is powered",
+                patience.as_millis()
+            ));
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The serial bridge to a tactile array: protocol, safety, array profiles, device emulators, and
+//! files for other programs.
+//!
+//! Amplitudes in µm come in; a device that synthesizes its own carriers hears of them once per 25
+//! ms tick. The device paces: it emits STATUS at every tick, the host answers with one FRAME for a
+//! coming tick. Every FRAME is the full state, so a loss needs no repair: the device holds, then
+//! ramps to silence within 100 ms by its own clock.
+//!
+//! ```text
+//! amplitudes ─ codes ─ host ─ message ─ framing ─ port     (µm → u16, then the session)
+//!                                                  ║       (serial, pty or in process)
+//! output ─ device ─ message ─ framing ─────────── port     (hold, ramp, STOP)
+//!      └── plant                                            (what contactors would do)
+//! ```
+//!
+//! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in
+//! virtual time. `Bridge` puts a reader and a writer thread around the former, the emulators put a
+//! clock around the latter, and `wire` seeded faults between both.
+//!
+//! # Invariants
+//! - No textile, no scene, no rendering: this floor knows amplitudes per contactor and nothing of
+//!   where they come from.
+//! - Drive codes are made in `codes` and nowhere else; no NaN reaches a device.
+//! - Nothing here arms without a command, and nothing re-arms.
+//! - Memory is bounded whatever arrives; no bytes make anything panic.
+//! - Callers never wait for a port: opening, reading and writing happen on named threads.
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+mod array;
+mod codes;
+mod device;
+mod emulator;
+mod error;
+mod fields;
+mod frames;
+pub mod framing;
+mod handle;
+mod hjif;
+mod host;
+mod link;
+pub mod message;
+mod plant;
+mod port;
+mod self_test;
+mod session_log;
+mod sink;
+mod wav;
+mod wav_parts;
+mod wire;
+
+pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
+pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
+pub use device::{
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
+    SampleCount, SampledTick, Sense,
+};
+#[cfg(unix)]
+pub use emulator::PtyEmulator;
+pub use emulator::{DeviceLog, EmulatorThread};
+pub use error::BridgeError;
+pub use frames::FrameTable;
+pub use framing::{Decoder, Packet, Received};
+pub use handle::{Bridge, SampleStream, Target};
+pub use hjif::{HjifSpec, HjifWriter};
+pub use host::{
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, CutSamples, DeviceCounters,
+    DisarmedBy, HostSession, SOFT_START_TICKS, SentFrame, Sequence, Waveform,
+};
+pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
+pub use message::{
+    Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
+    Ident, LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US,
+    Unreadable, fault_bit, frame, kind, samples,
+};
+pub use plant::{
+    Amplifier, Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantFeed,
+    PlantReading, PlantWatch, SAMPLES_PER_S, SAMPLES_PER_TICK, Skin, plant_watch,
+};
+pub use port::{
+    FoundPort, PairPort, Port, PortEntry, PortIdentity, RecognisedBy, SerialLink, UDEV_RULE,
+    UsbIdentity, list_ports, pair,
+};
+pub use self_test::{SelfTestReport, SelfTestStep, self_test};
+pub use session_log::{LogBound, LogFeed, SessionLog};
+pub use sink::SinkError;
+pub use wav::{SampleFormat, WavSpec, WavWriter};
+pub use wav_parts::WavParts;
+pub use wire::Simulation;
+pub use wire::{
+    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, Injection, InjectionKind,
+    LaneFaults, Latency, OneOff, OneOffKind, WiredDevice,
+};

@@ -1,0 +1,111 @@
+//! The reader's thread: opens the port, starts the writer, then turns bytes into messages as they
+//! come.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::thread::Builder;
+use std::time::{Duration, Instant};
+
+use rtrb::Producer;
+
+use super::{Incoming, Opener, Running, Shared, Writer};
+use crate::framing::{Decoder, LARGEST_BODY};
+use crate::message::{DeviceMessage, Unreadable};
+use crate::port::Port;
+
+/// How long a read waits before it looks whether to end.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// What the reading thread owns.
+pub(super) struct Reader {
+    shared: Arc<Shared>,
+    to_owner: Producer<Incoming>,
+    n_channels: usize,
+    decoder: Decoder,
+}
+
+impl Reader {
+    pub(super) fn new(
+        shared: Arc<Shared>,
+        to_owner: Producer<Incoming>,
+        n_channels: usize,
+    ) -> Self {
+        Self {
+            shared,
+            to_owner,
+            n_channels,
+            decoder: Decoder::new(LARGEST_BODY),
+        }
+    }
+
+    pub(super) fn run(mut self, opener: Opener, writer: Writer) {
+        let (port, writing) = match opener() {
+            Ok(ends) => ends,
+            Err(error) => return self.tell(Incoming::Gone(error.without_port())),
+        };
+        let running = Running::new(&self.shared);
+        let spawned = Builder::new()
+            .name(String::from("bridge-writer"))
+            .spawn(move || {
+                let _running = running;
+                writer.run(writing);
+            });
+        match spawned {
+            Ok(handle) => {
+                // Set once: this is the only place.
+                self.shared.writer.get_or_init(|| handle.thread().clone());
+                self.tell(Incoming::Opened);
+                self.read(port);
+            }
+            Err(error) => self.tell(Incoming::Gone(format!("cannot start a thread: {error}"))),
+        }
+    }
+
+    fn read(mut self, mut port: Box<dyn Port>) {
+        let mut buffer = [0; 1024];
+        while !self.shared.has_quit() {
+            match port.read(&mut buffer, PATIENCE) {
+                Ok(0) => {}
+                Ok(count) => self.take(buffer.get(..count).unwrap_or(&[]), Instant::now()),
+                Err(error) => {
+                    let reason = format!("the device is gone ({error}): check the cable");
+                    return self.tell(Incoming::Gone(reason));
+                }
+            }
+        }
+    }
+
+    fn take(&mut self, bytes: &[u8], received: Instant) {
+        let mut found = false;
+        for &byte in bytes {
+            let Some(packet) = self.decoder.push(byte) else {
+                continue;
+            };
+            match DeviceMessage::decode(&packet, self.n_channels) {
+                Ok(message) => {
+                    found = true;
+                    let incoming = Incoming::Message { message, received };
+                    if self.to_owner.push(incoming).is_err() {
+                        self.shared.events_dropped.fetch_add(1, Ordering::Relaxed);
+                    }
+                }
+                // A later version may send what this one does not know.
+                Err(Unreadable::UnknownKind) => {}
+                Err(Unreadable::Short) => self.decoder.count_bad(),
+            }
+        }
+        self.shared
+            .bad_received
+            .store(self.decoder.bad(), Ordering::Relaxed);
+        if found {
+            (self.shared.waker)();
+        }
+    }
+
+    fn tell(&mut self, incoming: Incoming) {
+        if self.to_owner.push(incoming).is_err() {
+            self.shared.events_dropped.fetch_add(1, Ordering::Relaxed);
+        }
+        (self.shared.waker)();
+    }
+}

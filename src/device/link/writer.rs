@@ -1,0 +1,210 @@
+//! The writer's thread: STOP first, then control packets, then the newest frame or the next
+//! samples; one packet a write.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use rtrb::{Consumer, Producer};
+
+use super::{QueuedFrame, QueuedSamples, Shared};
+use crate::framing::Packet;
+use crate::port::Port;
+
+/// How long a port may take for one packet.
+const PATIENCE: Duration = Duration::from_millis(50);
+/// How long the thread sleeps when nobody wakes it.
+const NAP: Duration = Duration::from_millis(100);
+
+/// What became of a write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Written {
+    Yes,
+    TimedOut,
+    /// The second time-out in a row, or the port is gone: the owner has been told.
+    Gone,
+}
+
+/// What waits for the port, most urgent first.
+pub(super) struct Outgoing {
+    controls: Consumer<Packet>,
+    frames: Consumer<QueuedFrame>,
+    samples: Option<Consumer<QueuedSamples>>,
+    rings: Consumer<Consumer<QueuedSamples>>,
+}
+
+impl Outgoing {
+    pub(super) fn new(
+        controls: Consumer<Packet>,
+        frames: Consumer<QueuedFrame>,
+        rings: Consumer<Consumer<QueuedSamples>>,
+    ) -> Self {
+        Self {
+            controls,
+            frames,
+            samples: None,
+            rings,
+        }
+    }
+
+    fn next_samples(&mut self) -> Option<QueuedSamples> {
+        while let Ok(ring) = self.rings.pop() {
+            self.samples = Some(ring);
+        }
+        self.samples.as_mut()?.pop().ok()
+    }
+}
+
+/// What the writing thread owns.
+pub(super) struct Writer {
+    shared: Arc<Shared>,
+    outgoing: Outgoing,
+    failed: Producer<String>,
+    timed_out: bool,
+    /// When the last frame was written, since the last STOP.
+    last_frame: Option<Instant>,
+}
+
+impl Writer {
+    pub(super) fn new(shared: Arc<Shared>, outgoing: Outgoing, failed: Producer<String>) -> Self {
+        Self {
+            shared,
+            outgoing,
+            failed,
+            timed_out: false,
+            last_frame: None,
+        }
+    }
+
+    pub(super) fn run(mut self, mut port: Box<dyn Port>) {
+        loop {
+            match self.step(port.as_mut()) {
+                Some(Written::Gone) => return,
+                Some(_) => {}
+                None if self.shared.has_quit() => return,
+                None => std::thread::park_timeout(NAP),
+            }
+        }
+    }
+
+    /// Writes the most urgent packet; `None` when there is none.
+    pub(super) fn step(&mut self, port: &mut dyn Port) -> Option<Written> {
+        if let Some((stop, asked)) = self.shared.take_stop() {
+            self.discard();
+            let written = self.write(port, &stop);
+            match written {
+                Written::Yes => self.shared.stops_written.store(asked, Ordering::Release),
+                Written::TimedOut => self.shared.put_stop(&stop),
+                Written::Gone => {}
+            }
+            return Some(written);
+        }
+        if let Ok(packet) = self.outgoing.controls.pop() {
+            return Some(self.write(port, &packet));
+        }
+        if let Some(samples) = self.timely_samples() {
+            return Some(self.write_samples(port, &samples));
+        }
+        let frame = self.newest_frame()?;
+        let written = self.write(port, &frame.packet);
+        if written == Written::Yes {
+            self.record(&frame, Instant::now());
+        }
+        Some(written)
+    }
+
+    /// Nothing queued before a STOP may follow it: an ARM would undo it.
+    fn discard(&mut self) {
+        self.last_frame = None;
+        while self.outgoing.controls.pop().is_ok() {}
+        while let Some(samples) = self.outgoing.next_samples() {
+            self.supersede(&samples);
+        }
+        if self.newest_frame().is_some() {
+            self.shared
+                .frames_superseded
+                .fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    fn newest_frame(&mut self) -> Option<QueuedFrame> {
+        let mut newest = self.outgoing.frames.pop().ok()?;
+        while let Ok(newer) = self.outgoing.frames.pop() {
+            self.shared
+                .frames_superseded
+                .fetch_add(1, Ordering::Relaxed);
+            newest = newer;
+        }
+        Some(newest)
+    }
+
+    /// The next samples whose tick is not over yet: a port that was stuck gets no old ones.
+    fn timely_samples(&mut self) -> Option<QueuedSamples> {
+        loop {
+            let samples = self.outgoing.next_samples()?;
+            if Instant::now() < samples.until {
+                return Some(samples);
+            }
+            self.supersede(&samples);
+        }
+    }
+
+    fn write_samples(&mut self, port: &mut dyn Port, samples: &QueuedSamples) -> Written {
+        let written = self.write(port, &samples.frame.packet);
+        if written == Written::Yes {
+            self.shared.samples_sent.fetch_add(1, Ordering::Relaxed);
+            if samples.ends_tick {
+                self.record(&samples.frame, Instant::now());
+            }
+        }
+        written
+    }
+
+    /// Samples that are not written: a tick of them counts as one frame.
+    fn supersede(&self, samples: &QueuedSamples) {
+        let n_frames = u64::from(samples.ends_tick);
+        self.shared
+            .frames_superseded
+            .fetch_add(n_frames, Ordering::Relaxed);
+    }
+
+    fn record(&mut self, frame: &QueuedFrame, written: Instant) {
+        self.shared.frames_sent.fetch_add(1, Ordering::Relaxed);
+        if let Some(last) = self.last_frame.replace(written) {
+            let interval = written.saturating_duration_since(last);
+            self.shared.frame_interval.record(interval);
+        }
+        if let Some(due) = frame.due {
+            self.shared
+                .due_to_write
+                .record(written.saturating_duration_since(due));
+        }
+        if let Some(stamp) = frame.stamp {
+            self.shared
+                .stamp_to_write
+                .record(written.saturating_duration_since(stamp));
+        }
+    }
+
+    fn write(&mut self, port: &mut dyn Port, packet: &Packet) -> Written {
+        let reason = match port.write(packet.as_bytes(), PATIENCE) {
+            Ok(()) => {
+                self.timed_out = false;
+                return Written::Yes;
+            }
+            Err(error) if error.kind() == io::ErrorKind::TimedOut => {
+                self.shared.write_timeouts.fetch_add(1, Ordering::Relaxed);
+                if !std::mem::replace(&mut self.timed_out, true) {
+                    return Written::TimedOut;
+                }
+                String::from("the device stopped taking data: check that it runs")
+            }
+            Err(error) => format!("the device is gone ({error}): check the cable"),
+        };
+        // The ring has room for as many reasons as anyone will read.
+        drop(self.failed.push(reason));
+        (self.shared.waker)();
+        Written::Gone
+    }
+}

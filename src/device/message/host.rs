@@ -1,0 +1,273 @@
+//! What the host sends: HELLO, ARM, FRAME, STOP, PING, CLEAR, SAMPLES, IDENT (CONFIG has its own
+//! file, being two messages).
+
+use super::{FieldReader, FieldWriter, MAGIC, kind, message};
+
+/// XOR-ed with the session to make the ARM key, so that no stray bytes arm a device.
+pub const ARM_KEY: u32 = 0xa5c3_0f96;
+/// The apply tick that means "the next one".
+pub const NEXT_TICK: u32 = u32::MAX;
+
+/// Opens a session; from any state it stops, empties the queue and disarms.
+///
+/// ```text
+/// 0 "HBP1" | 4 session u32 | 8 ver_min u8 | 9 ver_max u8 | 10 host_flags u16
+/// 12 lease_ms u16 | 14 reserved u16
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hello {
+    /// The first four bytes; anything but `HBP1` is not for us.
+    pub magic: [u8; 4],
+    /// Random, non-zero; CAPS echoes it.
+    pub session: u32,
+    /// Lowest version the host speaks.
+    pub ver_min: u8,
+    /// Highest version the host speaks.
+    pub ver_max: u8,
+    /// Bit 0: wants STATUS; bit 1: wants LOG.
+    pub host_flags: u16,
+    /// Silence after which the device ends the session, in ms; 0 means 1000.
+    pub lease_ms: u16,
+}
+
+message!(
+    Hello,
+    kind::HELLO,
+    |f| {
+        let hello = Self {
+            magic: f.bytes(),
+            session: f.u32(),
+            ver_min: f.u8(),
+            ver_max: f.u8(),
+            host_flags: f.u16(),
+            lease_ms: f.u16(),
+        };
+        f.u16();
+        hello
+    },
+    |m, f| {
+        f.bytes(&m.magic).u32(m.session).u8(m.ver_min).u8(m.ver_max);
+        f.u16(m.host_flags).u16(m.lease_ms).u16(0);
+    }
+);
+
+impl Hello {
+    /// Bit of `host_flags` that asks for STATUS at every tick.
+    pub const WANT_STATUS: u16 = 1;
+    /// Bit of `host_flags` that asks for LOG.
+    pub const WANT_LOG: u16 = 1 << 1;
+
+    /// A version 1 HELLO that wants STATUS and keeps the default lease.
+    pub fn new(session: u32) -> Self {
+        Self {
+            magic: MAGIC,
+            session,
+            ver_min: super::VERSION,
+            ver_max: super::VERSION,
+            host_flags: Self::WANT_STATUS,
+            lease_ms: 0,
+        }
+    }
+}
+
+/// Enables output. Only a host that knows the session can make the key.
+///
+/// ```text
+/// 0 session u32 | 4 key u32 = session XOR A5C30F96
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Arm {
+    /// The session of HELLO.
+    pub session: u32,
+    /// The session XOR [`ARM_KEY`].
+    pub key: u32,
+}
+
+message!(
+    Arm,
+    kind::ARM,
+    |f| Self {
+        session: f.u32(),
+        key: f.u32()
+    },
+    |m, f| {
+        f.u32(m.session).u32(m.key);
+    }
+);
+
+impl Arm {
+    /// The one ARM that `session` accepts.
+    pub fn new(session: u32) -> Self {
+        Self {
+            session,
+            key: session ^ ARM_KEY,
+        }
+    }
+}
+
+/// How output ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopHow {
+    /// Over the configured ramp.
+    Ramp,
+    /// At once, high voltage off.
+    Now,
+}
+
+/// Ends output in every state, without a session check.
+///
+/// ```text
+/// 0 reason u8 | 1 how u8 (0 ramp, else zero now)
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop {
+    /// Free for logs.
+    pub reason: u8,
+    /// Ramp or at once.
+    pub how: StopHow,
+}
+
+message!(
+    Stop,
+    kind::STOP,
+    |f| Self {
+        reason: f.u8(),
+        how: if f.u8() == 0 {
+            StopHow::Ramp
+        } else {
+            StopHow::Now
+        },
+    },
+    |m, f| {
+        f.u8(m.reason).u8(u8::from(m.how == StopHow::Now));
+    }
+);
+
+/// Asks for a PONG; renews the lease.
+///
+/// ```text
+/// 0 token u32
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ping {
+    /// Comes back in the PONG.
+    pub token: u32,
+}
+
+message!(Ping, kind::PING, |f| Self { token: f.u32() }, |m, f| {
+    f.u32(m.token);
+});
+
+/// Clears latched faults whose cause is gone.
+///
+/// ```text
+/// 0 bits u16
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clear {
+    /// Fault bits to clear.
+    pub bits: u16,
+}
+
+message!(Clear, kind::CLEAR, |f| Self { bits: f.u16() }, |m, f| {
+    f.u16(m.bits);
+});
+
+/// Drives one contactor at 320 Hz, for wiring checks.
+///
+/// ```text
+/// 0 channel u16 | 2 ms u16 | 4 amp u16
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ident {
+    /// Contactor index.
+    pub channel: u16,
+    /// Duration in ms, at most 1000.
+    pub ms: u16,
+    /// Amplitude code.
+    pub amp: u16,
+}
+
+message!(
+    Ident,
+    kind::IDENT,
+    |f| Self {
+        channel: f.u16(),
+        ms: f.u16(),
+        amp: f.u16()
+    },
+    |m, f| {
+        f.u16(m.channel).u16(m.ms).u16(m.amp);
+    }
+);
+
+/// FRAME: the full state of the array for one tick. Free functions, because its length depends on
+/// the device.
+///
+/// ```text
+/// 0 apply_tick u32 (FFFFFFFF = next) | 4 per channel: A40 u16, A320 u16
+/// ```
+pub mod frame {
+    use super::{FieldReader, FieldWriter, kind};
+    use crate::framing::Packet;
+
+    /// Payload bytes for `n_channels` channels.
+    pub fn payload_len(n_channels: usize) -> usize {
+        4 + 4 * n_channels
+    }
+
+    /// The framed packet; `None` beyond the largest body (253 channels).
+    pub fn packet(seq: u16, apply_tick: u32, codes: &[[u16; 2]]) -> Option<Packet> {
+        let mut fields = FieldWriter::new();
+        fields.u32(apply_tick);
+        for [code_40, code_320] in codes {
+            fields.u16(*code_40).u16(*code_320);
+        }
+        Packet::encode(kind::FRAME, seq, fields.finish()?)
+    }
+
+    /// Reads a payload of exactly the right length into `codes` and gives the apply tick.
+    pub fn decode_into(payload: &[u8], codes: &mut [[u16; 2]]) -> Option<u32> {
+        if payload.len() != payload_len(codes.len()) {
+            return None;
+        }
+        let mut fields = FieldReader::new(payload);
+        let apply_tick = fields.u32();
+        for code in codes {
+            *code = [fields.u16(), fields.u16()];
+        }
+        Some(apply_tick)
+    }
+}
+
+/// SAMPLES: values of all channels that the host made (mode B). Free functions, because its length
+/// depends on the device.
+///
+/// ```text
+/// 0 first_sample u32 | 4 n u8 | 5 format u8 (0 = i16) | 6 reserved u16
+/// 8 interleaved i16, channel 0, 1, … of the first sample, then of the next
+/// ```
+pub mod samples {
+    use super::{FieldWriter, kind};
+    use crate::framing::{CRC_LEN, HEADER_LEN, Packet};
+
+    /// Samples for each channel that a packet holds at most, when its body may have so many bytes.
+    pub fn most(max_body: u16, n_channels: usize) -> usize {
+        let room = usize::from(max_body).saturating_sub(HEADER_LEN + 8 + CRC_LEN);
+        (room / (2 * n_channels.max(1))).min(usize::from(u8::MAX))
+    }
+
+    /// The framed packet; `None` when it holds no whole samples or more than a packet may.
+    pub fn packet(seq: u16, first: u32, n_channels: usize, values: &[i16]) -> Option<Packet> {
+        if n_channels == 0 || !values.len().is_multiple_of(n_channels) {
+            return None;
+        }
+        let n = u8::try_from(values.len() / n_channels).ok()?;
+        let mut fields = FieldWriter::new();
+        fields.u32(first).u8(n).u8(0).u16(0);
+        for value in values {
+            fields.i16(*value);
+        }
+        Packet::encode(kind::SAMPLES, seq, fields.finish()?)
+    }
+}

@@ -1,0 +1,92 @@
+//! Devices that are not what they say: refused with a line, and never armed.
+
+use super::*;
+use crate::device::{Lie, Miswiring};
+use crate::message::{Ident, Message as _};
+
+fn liar(lies: &[Lie]) -> Simulation {
+    let faults = Faults {
+        lies: lies.to_vec(),
+        ..Faults::default()
+    };
+    let mut trial = Simulation::of(DeviceModel::default(), &faults);
+    trial.run(1000);
+    assert!(!trial.host.arm(trial.now()));
+    trial.run(6000);
+    assert_eq!(trial.arms_written, 0);
+    assert!(trial.is_at_rest());
+    trial
+}
+
+#[test]
+fn every_lie_is_refused_with_its_reason() {
+    for (lie, words) in [
+        (Lie::Version(0), "version"),
+        (Lie::Version(2), "version"),
+        (Lie::Rows(5), "5 rows"),
+        (Lie::Columns(5), "5 columns"),
+        (Lie::Channels(25), "25 channels"),
+        (Lie::Components(1), "components"),
+        (Lie::TickUs(20_000), "20000 µs"),
+        (Lie::LowMhz(50_000), "50"),
+        (Lie::HighMhz(250_000), "250"),
+        (Lie::MaxBody(107), "107 bytes"),
+    ] {
+        let trial = liar(&[lie]);
+        let reason = trial.refused().unwrap_or_default();
+        assert!(reason.contains(words), "{lie:?}: {reason}");
+        assert!(!reason.contains('\n'));
+        assert_eq!(trial.host.state(), BridgeState::Refused, "{lie:?}");
+    }
+}
+
+#[test]
+fn a_device_of_another_shape_that_agrees_with_itself_is_refused_too() {
+    let trial = liar(&[Lie::Rows(5), Lie::Columns(5), Lie::Channels(25)]);
+    assert!(trial.refused().unwrap().contains("24 contactors"));
+}
+
+#[test]
+fn caps_that_are_cut_short_at_any_byte_are_no_answer() {
+    for length in (0..78).step_by(13) {
+        let trial = liar(&[Lie::Cut(length)]);
+        assert_eq!(trial.host.state(), BridgeState::Lost, "{length}");
+        assert!(trial.lost().unwrap().contains("no answer"), "{length}");
+        assert!(trial.bad_texts_received() >= 19, "one for each HELLO");
+    }
+    let trial = Simulation::streaming_over(
+        &Faults {
+            lies: vec![Lie::Cut(78), Lie::Cut(1000)],
+            ..Faults::default()
+        },
+        500,
+    );
+    assert_eq!(trial.host.state(), BridgeState::Streaming, "78 is all");
+}
+
+#[test]
+fn a_dead_channel_moves_nothing_and_swapped_ones_move_each_other() {
+    let faults = Faults {
+        wiring: Miswiring {
+            dead: vec![3],
+            swapped: vec![[5, 6]],
+        },
+        ..Faults::default()
+    };
+    let mut trial = Simulation::of(DeviceModel::default(), &faults);
+    trial.run(100);
+    assert!(trial.host.arm(trial.now()));
+    trial.run(2);
+    for (channel, moves) in [(3, None), (5, Some(6)), (6, Some(5)), (7, Some(7))] {
+        let ident = Ident {
+            channel,
+            ms: 5,
+            amp: 9000,
+        };
+        trial.host_writes(&ident.packet(900 + channel).unwrap());
+        let output = trial.device.output();
+        let moving = output.iter().position(|codes| *codes != [0; 2]);
+        assert_eq!(moving, moves, "channel {channel}");
+        trial.run(1);
+    }
+}

@@ -1,0 +1,87 @@
+//! The real-time thread: pointer in, amplitudes out, forty times a second.
+//!
+//! At every tick of 25 ms the engine takes what the pointer did, estimates its velocity (or takes
+//! it from a path), renders, hands the amplitudes to the bridge and publishes a [`Snapshot`].
+//! [`EngineCore`] is that work without thread, clock or device; [`Engine`] is the handle on a named
+//! thread that adds all three.
+//!
+//! ```text
+//! Command ─▶ Engine::send ─ring─▶ thread ─▶ EngineCore::tick ─▶ amplitudes ─▶ bridge
+//! PointerSender ─ring─▶ PointerInput ┘             └─▶ Snapshot ─triple buffer─▶ Engine::snapshot
+//! ```
+//!
+//! # Invariants
+//! - a tick neither allocates, locks, logs nor fails; what a command needs is made before it is
+//!   sent, and what it replaces rides back to be dropped by whoever owns the [`Engine`]
+//! - nothing here waits for the window; a full ring loses something that is counted
+//! - STOP overtakes every queue ([`StopSwitch`]) and a thread that panics stops the device
+//! - no GUI, no files in the thread: recordings are handed over as data, and `clip` writes what
+//!   others render of them
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+mod audio;
+mod clip;
+mod command;
+mod engine_core;
+mod error;
+mod gist;
+mod glimpse;
+mod handle;
+mod input;
+mod link;
+mod meters;
+mod order;
+mod pacer;
+mod prepared;
+mod programs;
+mod recording;
+mod runner;
+mod sample;
+mod snapshot;
+mod stop;
+mod synth;
+mod tap;
+mod track;
+mod velocity;
+mod vibration;
+
+pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
+pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
+pub use command::{Command, InputSource, Notice, VelocityMethod};
+pub use engine_core::EngineCore;
+pub use error::EngineError;
+pub use glimpse::Glimpse;
+pub use handle::{Engine, EngineConfig};
+pub use input::{
+    Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, PointerInput,
+    PointerSender, Reading, list_input_devices, open_input_device,
+};
+pub use meters::{DurationBucket, DurationHistogram};
+pub use pacer::{Due, PATIENCE, Pacer};
+pub use prepared::{PreparedScene, array_of};
+pub use programs::{ProgramCounts, ProgramLink, loopback};
+pub use recording::{RecordedSample, RecordedTick, Recording};
+pub use sample::{PointerSample, SampleCounters};
+pub use snapshot::{
+    ClockView, ContactorView, DisplayView, EngineCounters, LinkView, Playback, PointerView,
+    RecordingView, Snapshot, SourceKind,
+};
+pub use stop::StopSwitch;
+pub use synth::{DeviceWaveform, SampleSynth};
+pub use tap::Tap;
+pub use velocity::{Estimate, REST, VelocityEstimator};
+pub use vibration::VibrationStep;
+
+use std::time::Duration;
+
+/// The time between two ticks: 25 ms.
+pub const TICK: Duration = Duration::from_millis(25);
+
+/// Ticks per second.
+pub const TICKS_PER_S: f64 = selvedge_render::scene::TICKS_PER_S;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,44 @@
+//! Experiments on people: schedules, procedures, logs that lose nothing, and their analysis.
+//!
+//! ```text
+//! design, seed, subject ─▶ schedule ─▶ procedure ─▶ log ─▶ analysis
+//!                                       │    ▲
+//!                                     trial  answer
+//!                                       ▼    │
+//!                                 participant, or simulated observer
+//! ```
+//!
+//! # Invariants
+//! - a schedule is a pure function of design, seed and subject, and a procedure of these and the
+//!   answers: what was not yet answered can always be found again
+//! - no window here, and no clock that a caller does not hand in
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+pub mod analysis;
+pub mod by_hand;
+mod course;
+pub mod design;
+mod error;
+pub mod layout;
+mod noise;
+pub mod observer;
+mod participants;
+mod procedure;
+mod record;
+pub mod replication;
+pub mod schedule;
+pub mod session;
+mod simulate;
+mod trial;
+
+pub use course::{Course, Step};
+pub use error::ExperimentError;
+pub use noise::{Colour, LONGEST_FADE_S, MOST_NOISE_MINUTES, MaskingNoise, NOISE_RATE_HZ};
+pub use participants::{HANDS, Participant, Participants, Particulars, SEXES};
+pub use procedure::Procedure;
+pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
+pub use simulate::{SIMULATED, Simulation, simulated_subject};
+pub use trial::{Adjustment, Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task, Trial};

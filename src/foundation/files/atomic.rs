@@ -1,0 +1,94 @@
+//! Reading whole files, and writing them so that a crash leaves the old one or the new one.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::{FileError, line_at};
+
+/// The bytes of a file.
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    fs::read(path).map_err(|source| FileError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// The text of a file, without a byte-order mark.
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let text = String::from_utf8(read(path)?).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = line_at(error.as_bytes(), valid);
+        FileError::content(
+            path,
+            line,
+            "this is not UTF-8 text",
+            "save the file as UTF-8",
+        )
+    })?;
+    Ok(match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    })
+}
+
+/// Writes `bytes` to a new file beside `path` and then moves it there, on disk before it returns.
+pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let failed = |source| FileError::Write {
+        path: path.to_owned(),
+        source,
+    };
+    let staged = staged_path(path);
+    let write = || -> io::Result<()> {
+        let mut file = File::create(&staged)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        fs::rename(&staged, path)
+    };
+    write().map_err(|error| {
+        // The staged file is of no use to anybody; if it cannot go, the first error matters more.
+        drop(fs::remove_file(&staged));
+        failed(error)
+    })
+}
+
+/// Creates (or empties) a file for a stream of rows.
+pub fn create(path: &Path) -> Result<BufWriter<File>, FileError> {
+    let file = File::create(path);
+    Ok(BufWriter::new(file.map_err(|source| FileError::Write {
+        path: path.to_owned(),
+        source,
+    })?))
+}
+
+/// A name that no other process and no other thread of this one stages under.
+pub(super) fn staged_path(path: &Path) -> PathBuf {
+    static STAGED: AtomicU64 = AtomicU64::new(0);
+    let nth = STAGED.fetch_add(1, Ordering::Relaxed);
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}-{nth}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_is_left_beside_it() {
+        let folder = ScratchFolder::made("atomic");
+        let path = folder.join("a.txt");
+        write_atomic(&path, b"one").unwrap();
+        write_atomic(&path, "\u{feff}two".as_bytes()).unwrap();
+        assert_eq!(read_text(&path).unwrap(), "two");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_missing_file_is_named() {
+        let error = read(Path::new("/nowhere/a.csv")).unwrap_err().to_string();
+        assert!(error.contains("/nowhere/a.csv"), "{error}");
+    }
+}

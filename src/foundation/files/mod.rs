@@ -1,0 +1,145 @@
+//! Files in the formats everybody shares: CSV, TOML, XML, ZIP, PNG, TIFF, NPY, hashes, and writing
+//! that never leaves half a file behind.
+//!
+//! Knows how a table or a key is spelt, not what it means. Every error is one line that says what
+//! is wrong, where (path and line), and how to mend it.
+//!
+//! # Invariants
+//! - the one home of `csv`, `toml`, `serde_json`, `quick-xml`, `zip`, `flate2`, `image`, `png`,
+//!   `tiff`, `sha2` and `md-5`
+//! - sizes are checked before anything of that size is held
+//! - the path is given only to name it in errors: content comes in as bytes or text
+//! - numbers are written with the shortest digits that read back the same
+
+mod archive;
+mod atomic;
+mod bytes;
+mod digits;
+mod flaw;
+mod gray16;
+mod hash;
+mod inflate;
+mod journal;
+mod json;
+mod keys;
+mod matrix;
+mod npy;
+mod picture;
+mod rgb16;
+mod staged;
+mod table;
+mod xml;
+
+pub use archive::{Archive, pack};
+pub use atomic::{create, read, read_text, write_atomic};
+pub use bytes::{ByteReader, Number, latin1};
+pub use digits::push_number;
+pub use flaw::{Flaw, Place};
+pub use gray16::{
+    GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff, gray_values,
+};
+pub use hash::{md5_hex, sha256_hex};
+pub use inflate::{deflate, inflate};
+pub use journal::{Journal, Reopened};
+pub use json::{from_json_str, to_json_string};
+pub use keys::{
+    KeyValue, Keys, keys_from_str, keys_to_string, lay_over, line_of_key, set_value, take_text,
+    value_at,
+};
+pub use matrix::NamedMatrix;
+pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
+pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
+pub use rgb16::{Rgb16Image, decode_picture};
+pub use staged::Staged;
+pub use table::{Table, TableWriter};
+pub use xml::{visit_elements, xml_text};
+
+use std::path::{Path, PathBuf};
+
+/// What can be wrong with a file.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// A file that would be written anew is there.
+    #[error("{} exists and is not overwritten; give another name, or continue it", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another process writes it.
+    #[error("{} is being written by another session; end that first", path.display())]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It cannot be read.
+    #[error("cannot read {}: {source}; check the path", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// It cannot be written.
+    #[error("cannot write {}: {source}; check the folder", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Its content is wrong.
+    #[error("{}:{line}: {what}; {mend}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+        /// What to do about it.
+        mend: String,
+    },
+    /// Its content is wrong, and it has no lines to name.
+    #[error("{}: {what}; {mend}", path.display())]
+    Whole {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+        /// What to do about it.
+        mend: String,
+    },
+}
+
+impl FileError {
+    /// Wrong content at a line (from 1) of a file.
+    pub fn content(
+        path: &Path,
+        line: usize,
+        what: impl Into<String>,
+        mend: impl Into<String>,
+    ) -> Self {
+        Self::Content {
+            path: path.to_owned(),
+            line,
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+
+    /// Wrong content of a file that has no lines.
+    pub fn whole(path: &Path, what: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self::Whole {
+            path: path.to_owned(),
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+}
+
+/// The line, from 1, that holds the byte at `offset`.
+fn line_at(bytes: &[u8], offset: usize) -> usize {
+    bytes[..offset.min(bytes.len())]
+        .split(|&byte| byte == b'\n')
+        .count()
+}

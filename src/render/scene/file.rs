@@ -1,0 +1,306 @@
+//! The scene file: which textiles lie where, which displays feel them, how they are tuned.
+//!
+//! Reads and writes the text; what makes a value wrong is said in `check.rs`. Loads no textile.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::check::scene_flaw;
+use super::{ArrayLayout, Geometry, SceneError};
+use selvedge_foundation::files::{self, Flaw};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
+use selvedge_textile::is_of_the_program;
+use selvedge_textile::tactile::{Filters, Tuning};
+
+/// How far outside its left and lower edge a textile is still felt, and how far inside its right
+/// and upper edge no longer, mm.
+const EDGE_MM: f64 = 1e-6;
+
+/// A scene: a workspace of textiles, the displays that explore it, filters and tuning.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scene {
+    /// What people call it.
+    pub name: String,
+    /// The library's folder or file of recipes, relative to the scene's file, or the name of one
+    /// that is part of the program; `None` is the library shipped in the program.
+    pub library: Option<PathBuf>,
+    /// Width and height of the workspace, mm.
+    pub size_mm: [f64; 2],
+    /// The textiles in order; where they overlap the last one is on top.
+    pub textiles: Vec<PlacedTextile>,
+    /// One display per finger, at least one; the first is the default.
+    pub displays: Vec<Display>,
+    /// The filters of the two channels.
+    pub filters: Filters,
+    /// Gains and compression; `None` takes the library's default tuning.
+    pub tuning: Option<Tuning>,
+}
+
+/// A textile of the library and where it lies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlacedTextile {
+    /// The textile's id in the library.
+    pub id: String,
+    /// Its lower-left corner before turning, in the workspace.
+    pub origin_mm: Point,
+    /// Its extent along warp and weft, mm.
+    pub size_mm: [f64; 2],
+    /// Counter-clockwise turn about its origin, degrees.
+    #[serde(default)]
+    pub rotation_deg: f64,
+    /// Gain on top of the textile's own, dB; −∞ silences it.
+    #[serde(default)]
+    pub gain_db: f64,
+    /// What the screen calls it.
+    #[serde(default)]
+    pub label: String,
+}
+
+/// A tactile display.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Display {
+    /// Where its contactors sit.
+    pub geometry: Geometry,
+    /// How it is turned on the finger, degrees counter-clockwise; a path's angle is added.
+    pub rotation_deg: f64,
+}
+
+/// The scene as its file spells it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneKeys {
+    name: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    library: Option<PathBuf>,
+    size_mm: [f64; 2],
+    #[serde(default, rename = "textile", skip_serializing_if = "Vec::is_empty")]
+    textiles: Vec<PlacedTextile>,
+    #[serde(default, rename = "display")]
+    displays: Vec<DisplayKeys>,
+    #[serde(default)]
+    filters: Option<FilterKeys>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tuning: Option<Tuning>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DisplayKeys {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    geometry: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contactors_mm: Option<Vec<Displacement>>,
+    #[serde(default)]
+    rotation_deg: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FilterKeys {
+    kind: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    octaves: Option<f64>,
+}
+
+impl PlacedTextile {
+    /// The textile's own axes, seen from the workspace: x along its warp, y along its weft.
+    pub fn workspace_from_textile(&self) -> Frame {
+        Frame {
+            origin: self.origin_mm,
+            rotation: Rotation::from_degrees(self.rotation_deg),
+        }
+    }
+
+    /// Whether a point of the textile's own axes (u along the warp, w along the weft) is on it.
+    pub fn contains(&self, textile_point: Point) -> bool {
+        let [width_mm, height_mm] = self.size_mm;
+        is_within(textile_point.x_mm, width_mm) && is_within(textile_point.y_mm, height_mm)
+    }
+}
+
+fn is_within(place_mm: f64, extent_mm: f64) -> bool {
+    -EDGE_MM <= place_mm && place_mm < extent_mm - EDGE_MM
+}
+
+impl Scene {
+    /// Reads a scene file.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        Self::from_toml(&files::read_text(path)?, path)
+    }
+
+    /// Reads the text of a scene file. `path` only names it in errors.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, SceneError> {
+        let keys: SceneKeys = files::keys_from_str(text, path)?;
+        let scene = Self::from_keys(keys).map_err(|flaw| flaw.in_file(text, path))?;
+        match scene_flaw(&scene) {
+            Some(flaw) => Err(flaw.in_file(text, path).into()),
+            None => Ok(scene),
+        }
+    }
+
+    /// The text of its file. Reading it gives the same scene again.
+    pub fn to_toml(&self) -> Result<String, SceneError> {
+        self.check()?;
+        Ok(files::keys_to_string(&self.keys(), Path::new("scene"))?)
+    }
+
+    /// Whether every value is one that a file may hold.
+    pub fn check(&self) -> Result<(), SceneError> {
+        scene_flaw(self).map_or(Ok(()), |flaw| Err(flaw.into()))
+    }
+
+    /// Writes a scene file; a crash leaves the old one or the new one.
+    pub fn write(&self, path: &Path) -> Result<(), SceneError> {
+        Ok(files::write_atomic(path, self.to_toml()?.as_bytes())?)
+    }
+
+    /// The topmost textile under a point of the workspace: its place in the list.
+    pub fn textile_at(&self, point: Point) -> Option<usize> {
+        self.textiles
+            .iter()
+            .rposition(|t| t.contains(t.workspace_from_textile().into_point(point)))
+    }
+
+    /// The library's folder as seen from where the program runs, for a scene file at `path`. A
+    /// library of the program keeps its name.
+    pub fn library_folder(&self, path: &Path) -> Option<PathBuf> {
+        let folder = self.library.as_ref()?;
+        if is_of_the_program(folder) {
+            return Some(folder.clone());
+        }
+        Some(
+            path.parent()
+                .map_or_else(|| folder.clone(), |beside| beside.join(folder)),
+        )
+    }
+
+    fn from_keys(keys: SceneKeys) -> Result<Self, Flaw> {
+        let mut displays = Vec::with_capacity(keys.displays.len().max(1));
+        for (index, display) in keys.displays.into_iter().enumerate() {
+            displays.push(Display::from_keys(display, index)?);
+        }
+        if displays.is_empty() {
+            displays.push(Display::default());
+        }
+        Ok(Self {
+            name: keys.name,
+            library: keys.library,
+            size_mm: keys.size_mm,
+            textiles: keys.textiles,
+            displays,
+            filters: (keys.filters.as_ref())
+                .map_or_else(|| Ok(Filters::default()), filters_from_keys)?,
+            tuning: keys.tuning,
+        })
+    }
+
+    fn keys(&self) -> SceneKeys {
+        SceneKeys {
+            name: self.name.clone(),
+            library: self.library.clone(),
+            size_mm: self.size_mm,
+            textiles: self.textiles.clone(),
+            displays: self.displays.iter().map(Display::keys).collect(),
+            filters: Some(filter_keys(self.filters)),
+            tuning: self.tuning,
+        }
+    }
+}
+
+impl Display {
+    /// The display with contactors turned as on the finger at a path's `angle_deg`.
+    pub fn turn(&self, angle_deg: f64) -> Rotation {
+        Rotation::from_degrees(self.rotation_deg + angle_deg)
+    }
+
+    fn from_keys(keys: DisplayKeys, index: usize) -> Result<Self, Flaw> {
+        let geometry = match (keys.geometry, keys.contactors_mm) {
+            (Some(name), None) => {
+                ArrayLayout::named(&name)
+                    .map(Geometry::Array)
+                    .ok_or_else(|| {
+                        let what = format!("unknown geometry \"{name}\"");
+                        Flaw::new(("display", index, "geometry"), what, geometry_choices())
+                    })?
+            }
+            (None, Some(offsets)) => Geometry::Contactors(offsets),
+            (Some(_), Some(_)) => {
+                let what = "geometry and contactors_mm are both given";
+                return Err(Flaw::new(
+                    ("display", index, "contactors_mm"),
+                    what,
+                    "keep one",
+                ));
+            }
+            (None, None) => {
+                let what = "the display has no geometry";
+                return Err(Flaw::new(("display", index, ""), what, geometry_choices()));
+            }
+        };
+        Ok(Self {
+            geometry,
+            rotation_deg: keys.rotation_deg,
+        })
+    }
+
+    fn keys(&self) -> DisplayKeys {
+        let (geometry, contactors_mm) = match &self.geometry {
+            Geometry::Array(layout) => (Some(layout.name().to_owned()), None),
+            Geometry::Contactors(offsets) => (None, Some(offsets.clone())),
+        };
+        DisplayKeys {
+            geometry,
+            contactors_mm,
+            rotation_deg: self.rotation_deg,
+        }
+    }
+}
+
+fn filters_from_keys(keys: &FilterKeys) -> Result<Filters, Flaw> {
+    match (keys.kind.as_str(), keys.octaves) {
+        ("log-gaussian", octaves) => {
+            Ok(octaves.map_or_else(Filters::default, |octaves| Filters::LogGaussian { octaves }))
+        }
+        ("receptor", None) => Ok(Filters::Receptor),
+        ("receptor", Some(_)) => {
+            let what = "receptor filters have no octaves";
+            Err(Flaw::new(("filters", 0, "octaves"), what, "remove the key"))
+        }
+        (kind, _) => {
+            let what = format!("unknown filters \"{kind}\"");
+            let mend = "give kind = \"log-gaussian\" or \"receptor\"";
+            Err(Flaw::new(("filters", 0, "kind"), what, mend))
+        }
+    }
+}
+
+fn filter_keys(filters: Filters) -> FilterKeys {
+    match filters {
+        Filters::LogGaussian { octaves } => FilterKeys {
+            kind: "log-gaussian".to_owned(),
+            octaves: Some(octaves),
+        },
+        Filters::Receptor => FilterKeys {
+            kind: "receptor".to_owned(),
+            octaves: None,
+        },
+    }
+}
+
+fn geometry_choices() -> String {
+    let names = ArrayLayout::ALL
+        .map(|layout| format!("\"{}\"", layout.name()))
+        .join(", ");
+    format!("give geometry = {names}, or contactors_mm = [[x, y], …]")
+}
+
+impl From<Flaw> for SceneError {
+    fn from(flaw: Flaw) -> Self {
+        Self::Value {
+            what: flaw.what,
+            mend: flaw.mend,
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! A scene together with the textiles that it places.
+//!
+//! Each textile is loaded once, however often it is placed, and none that is not. Levels are
+//! computed from the surfaces themselves: at the one speed of the definition that takes some ten
+//! microseconds a textile, less than it would take to find out whether stored ones still hold.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{PlacedTextile, Scene, SceneError};
+use selvedge_foundation::files::{self, FileError};
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::tactile::{Filters, Levels, Tuning};
+use selvedge_textile::{BuildCache, Library, Textile, TextileError, is_of_the_program};
+
+/// The scene of four textiles that is part of the program.
+const SHIPPED: &str = include_str!("../../../assets/scenes/four-alternatives.scene.toml");
+const SHIPPED_PATH: &str = "four-alternatives.scene.toml";
+
+/// A scene whose textiles are loaded. Cheap to clone: textiles and library are shared.
+#[derive(Debug, Clone)]
+pub struct LoadedScene {
+    scene: Scene,
+    library: Arc<Library>,
+    textiles: Vec<Arc<Textile>>,
+    levels_db: Vec<Option<f64>>,
+}
+
+impl LoadedScene {
+    /// The scene of four textiles that is part of the program.
+    pub fn shipped() -> Result<Self, SceneError> {
+        Self::from_toml(SHIPPED, Path::new(SHIPPED_PATH))
+    }
+
+    /// Reads a scene file and loads what it places. Textiles that are built for it are kept in
+    /// `cache`.
+    pub fn read(path: &Path, cache: Option<&BuildCache>) -> Result<Self, SceneError> {
+        Self::from_text(&files::read_text(path)?, path, cache)
+    }
+
+    /// Reads the text of a scene file and loads what it places. The library's folder is relative
+    /// to `path`.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, SceneError> {
+        Self::from_text(text, path, None)
+    }
+
+    fn from_text(text: &str, path: &Path, cache: Option<&BuildCache>) -> Result<Self, SceneError> {
+        let scene = Scene::from_toml(text, path)?;
+        let wrong = |(table, nth, key), what: String, mend: &str| {
+            let line = files::line_of_key(text, table, nth, key);
+            SceneError::from(FileError::content(path, line, what, mend))
+        };
+        let library = match scene.library_folder(path) {
+            None => Library::shipped()?,
+            Some(folder) if !is_of_the_program(&folder) && !folder.exists() => {
+                let what = format!("there is no library in {}", folder.display());
+                return Err(wrong(("", 0, "library"), what, "name a folder of textiles"));
+            }
+            Some(folder) => Library::named(&folder, cache)?,
+        };
+        let unknown = scene.textiles.iter().enumerate().find_map(|(nth, placed)| {
+            let error = library.manifest(&placed.id).err()?;
+            matches!(error, TextileError::Unknown { .. }).then_some((nth, error))
+        });
+        if let Some((nth, error)) = unknown {
+            let mend = "place a textile that is there";
+            return Err(wrong(("textile", nth, "id"), error.to_string(), mend));
+        }
+        Self::load(scene, Arc::new(library))
+    }
+
+    /// Loads what a scene places from this library, whatever library the scene itself names.
+    pub fn load(scene: Scene, library: Arc<Library>) -> Result<Self, SceneError> {
+        let nothing = Self {
+            scene: Scene::default(),
+            library,
+            textiles: Vec::new(),
+            levels_db: Vec::new(),
+        };
+        nothing.with_scene(scene)
+    }
+
+    /// Another scene over the same library: textiles that are loaded already are kept.
+    pub fn with_scene(&self, scene: Scene) -> Result<Self, SceneError> {
+        scene.check()?;
+        let mut fresh: Vec<String> = Vec::new();
+        for PlacedTextile { id, .. } in &scene.textiles {
+            let is_known = self.textiles.iter().any(|textile| textile.id() == id);
+            if !is_known && !fresh.contains(id) {
+                fresh.push(id.clone());
+            }
+        }
+        let fresh = unheard(|progress| self.library.load_all(&fresh, progress))?;
+        let find = |placed: &PlacedTextile| {
+            let mut known = self.textiles.iter().chain(&fresh);
+            known
+                .find(|textile| textile.id() == placed.id)
+                .map(Arc::clone)
+        };
+        let textiles: Vec<_> = scene.textiles.iter().filter_map(find).collect();
+        let levels_db = levels_db(&textiles, &scene.filters);
+        Ok(Self {
+            scene,
+            library: Arc::clone(&self.library),
+            textiles,
+            levels_db,
+        })
+    }
+
+    /// Takes textiles that are placed from now on from another library, which must have those that
+    /// are placed already.
+    pub fn use_library(&mut self, library: &Arc<Library>) {
+        self.library = Arc::clone(library);
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Where its textiles come from.
+    pub fn library(&self) -> &Arc<Library> {
+        &self.library
+    }
+
+    /// The textiles in order of placement; one that is placed twice is there twice.
+    pub fn textiles(&self) -> &[Arc<Textile>] {
+        &self.textiles
+    }
+
+    /// The levels of the textiles placed, dB re 1 µm, with the scene's filters and no gain; `None`
+    /// for a textile that is silent in a band.
+    pub fn levels_db(&self) -> &[Option<f64>] {
+        &self.levels_db
+    }
+
+    /// The tuning to begin with: the scene's own, else the library's default.
+    pub fn tuning(&self) -> Tuning {
+        self.scene
+            .tuning
+            .unwrap_or_else(|| self.library.default_tuning())
+    }
+
+    /// The level that compression leaves alone when the tuning states none, dB re 1 µm: the
+    /// library's. Without it the mean level of the textiles placed stands in.
+    pub fn library_reference_db(&self) -> Option<f64> {
+        self.library.default_tuning().compression_reference_db
+    }
+}
+
+/// Levels in order of placement, each textile's computed once.
+fn levels_db(textiles: &[Arc<Textile>], filters: &Filters) -> Vec<Option<f64>> {
+    let mut levels_db: Vec<Option<f64>> = Vec::with_capacity(textiles.len());
+    for (index, textile) in textiles.iter().enumerate() {
+        let first = textiles[..index]
+            .iter()
+            .position(|other| Arc::ptr_eq(other, textile));
+        levels_db.push(match first {
+            Some(first) => levels_db[first],
+            None => Levels::of(textile.surface(), filters).level_db(),
+        });
+    }
+    levels_db
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_foundation::geometry::Point;
+
+    fn placed(id: &str) -> PlacedTextile {
+        PlacedTextile {
+            id: id.to_owned(),
+            origin_mm: Point::default(),
+            size_mm: [50.0; 2],
+            rotation_deg: 0.0,
+            gain_db: 0.0,
+            label: String::new(),
+        }
+    }
+
+    fn with(ids: &[&str]) -> Scene {
+        let shipped = LoadedScene::shipped().unwrap().scene;
+        Scene {
+            textiles: ids.iter().map(|id| placed(id)).collect(),
+            ..shipped
+        }
+    }
+
+    #[test]
+    fn the_shipped_scene_has_four_textiles_and_the_librarys_tuning() {
+        let loaded = LoadedScene::shipped().unwrap();
+        let labels: Vec<&str> = loaded
+            .scene
+            .textiles
+            .iter()
+            .map(|t| t.label.as_str())
+            .collect();
+        assert_eq!(labels, ["1", "2", "3", "4"]);
+        assert_eq!(loaded.tuning(), loaded.library().default_tuning());
+        assert_eq!(
+            loaded.library_reference_db(),
+            loaded.tuning().compression_reference_db
+        );
+        let stored = loaded.library().index().unwrap();
+        for (textile, level_db) in loaded.textiles().iter().zip(loaded.levels_db()) {
+            let expected_db = stored.entry(textile.id()).unwrap().level_db().unwrap();
+            // The library keeps six digits.
+            assert!(
+                (level_db.unwrap() - expected_db).abs() < 1e-4,
+                "{}",
+                textile.id()
+            );
+        }
+    }
+
+    #[test]
+    fn a_textile_is_loaded_once_however_often_it_is_placed() {
+        let library = Arc::new(Library::shipped().unwrap());
+        let loaded = LoadedScene::load(with(&["denim", "silk-crepe", "denim"]), library).unwrap();
+        assert!(
+            Arc::ptr_eq(&loaded.textiles()[0], &loaded.textiles()[2]),
+            "one denim"
+        );
+        let moved = loaded.with_scene(with(&["jute-plain", "denim"])).unwrap();
+        assert!(
+            Arc::ptr_eq(&loaded.textiles()[0], &moved.textiles()[1]),
+            "still the same"
+        );
+        assert_eq!(moved.levels_db()[1], loaded.levels_db()[2]);
+    }
+
+    #[test]
+    fn a_scene_names_a_library_of_the_program_and_builds_what_it_places() {
+        let text = "name = \"A\"\nlibrary = \"seventy-four\"\nsize_mm = [60, 60]\n[[textile]]\n\
+                    id = \"silk-charmeuse-back\"\norigin_mm = [0, 0]\nsize_mm = [50, 50]\n";
+        let loaded = LoadedScene::from_toml(text, Path::new("/nowhere/a.toml")).unwrap();
+        assert_eq!(loaded.library().ids().len(), 74);
+        let [textile] = loaded.textiles() else {
+            panic!("{:?}", loaded.textiles());
+        };
+        assert_eq!(textile.manifest().name, "Silk charmeuse, back");
+        let stored = loaded.library().index().unwrap().entry(textile.id());
+        let apart_db = loaded.levels_db()[0].unwrap() - stored.unwrap().level_db().unwrap();
+        assert!(apart_db.abs() < 1e-4, "{apart_db} dB");
+        let again = Scene::from_toml(&loaded.scene().to_toml().unwrap(), Path::new("b.toml"));
+        assert_eq!(again.unwrap().library, Some("seventy-four".into()));
+        let moved = text.replace("seventy-four", "./seventy-four");
+        let error = LoadedScene::from_toml(&moved, Path::new("/nowhere/a.toml")).unwrap_err();
+        let expected = "/nowhere/a.toml:2: there is no library in";
+        assert!(error.to_string().starts_with(expected), "{error}");
+    }
+
+    #[test]
+    fn a_textile_that_is_not_there_is_refused_with_its_line() {
+        let text = "name = \"A\"\nsize_mm = [1, 1]\n[[textile]]\norigin_mm = [0, 0]\n\
+                    size_mm = [1, 1]\nid = \"felt\"\n";
+        let error = LoadedScene::from_toml(text, Path::new("a.toml"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.starts_with("a.toml:6: no textile \"felt\" in "),
+            "{error}"
+        );
+        let library = Arc::new(Library::shipped().unwrap());
+        assert!(LoadedScene::load(with(&["felt"]), library).is_err());
+    }
+
+    #[test]
+    fn a_stated_tuning_goes_before_the_librarys() {
+        let library = Arc::new(Library::shipped().unwrap());
+        let tuning = Tuning {
+            gain_db: -6.0,
+            ..Tuning::default()
+        };
+        let scene = Scene {
+            tuning: Some(tuning),
+            ..with(&[])
+        };
+        let loaded = LoadedScene::load(scene, library).unwrap();
+        assert_eq!(loaded.tuning(), tuning);
+        assert!(
+            loaded.library_reference_db().is_some(),
+            "compression still has a reference"
+        );
+    }
+}

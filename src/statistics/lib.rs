@@ -1,0 +1,73 @@
+//! Statistics of experiments on people: tests, scales and maps of what was felt.
+//!
+//! Plain numbers in, plain numbers out: nothing here knows of textiles, files or clocks. What
+//! cannot be computed is [`Undefined`] with its reason, never a number that stands for nothing.
+//!
+//! # Invariants
+//! - no I/O, no clock, no word of textiles
+//! - the one home of the distributions crate
+//! - sums of squares about the mean; tails computed as tails; same input, same seed, same bytes
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+mod binomial;
+mod bootstrap;
+mod correlation;
+pub mod detection;
+mod distribution;
+mod equivalence;
+mod interval;
+mod outcome;
+mod permutation;
+mod rank;
+mod summary;
+mod t_test;
+pub mod variance;
+mod wilcoxon;
+
+pub use binomial::exact_binomial;
+pub use bootstrap::{Bootstrap, Resampling, bootstrap, bootstrap_errors, jackknife_errors};
+pub use correlation::{pearson, pearson_r, spearman};
+pub use distribution::{
+    binomial_at_least, binomial_at_most, binomial_mass, chi_squared_upper, f_upper, normal_density,
+    normal_lower, normal_quantile, normal_upper, t_quantile_upper, t_two_sided, t_upper,
+};
+pub use equivalence::{Equivalence, power_of_t, power_of_tost, tost};
+pub use interval::{fisher_z, wilson};
+pub use outcome::{Freedom, Interval, Named, Outcome, Sides};
+pub use permutation::sign_flip;
+pub use rank::Ranks;
+pub use summary::{Summary, mean};
+pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
+pub use wilcoxon::{wilcoxon_pairs, wilcoxon_signed_rank};
+
+pub mod adaptive;
+pub mod mds;
+pub mod procrustes;
+pub mod properties;
+pub mod psychometric;
+pub mod ranking;
+
+use thiserror::Error;
+
+/// A number, or why there is none.
+pub type Computed<T = f64> = Result<T, Undefined>;
+
+/// Why a number cannot be computed, in words that stand in a report: `one subject alone`.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("not computable: {reason}")]
+pub struct Undefined {
+    /// What is missing or wrong.
+    pub reason: String,
+}
+
+impl Undefined {
+    /// With this reason.
+    pub fn because(reason: impl Into<String>) -> Self {
+        Self {
+            reason: reason.into(),
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! What the engine leaves out where nobody listens: glimpses that nobody asked for, and frames that
+//! no armed device would play.
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::saving::SavingRule;
+use super::{ALL, NONE, largest_difference, row_of};
+use crate::{Bench, ReportError, Row};
+use selvedge_device::{BridgeEvent, Target};
+use selvedge_engine::{Command, Engine, EngineConfig, InputSource, Notice, PreparedScene};
+use selvedge_foundation::geometry::Point;
+use selvedge_render::array::{Accuracy, Method};
+use selvedge_render::scene::{LoadedScene, Stroke};
+
+/// What these rows are called.
+const CASE: &str = "the engine on four alternatives";
+/// Ticks after which amplitudes are compared.
+const N_COMPARED: u64 = 100;
+/// How long the emulated device may take to be ready and armed.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Who listens to the engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Listeners {
+    /// Somebody draws what is felt over time.
+    window: bool,
+    /// A device is armed.
+    device: bool,
+}
+
+impl Listeners {
+    const NOBODY: Self = Self {
+        window: false,
+        device: false,
+    };
+    const BOTH: Self = Self {
+        window: true,
+        device: true,
+    };
+}
+
+/// A saving of the engine with its count.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unheard {
+    name: &'static str,
+    what: &'static str,
+    unit: &'static str,
+    n: u64,
+}
+
+impl Unheard {
+    /// Glimpses that nobody asked for.
+    pub(super) const fn glimpses(n: u64) -> Self {
+        Self {
+            name: "unasked glimpses",
+            what: "A tick leaves no glimpse for plots over time unless somebody asked for them.",
+            unit: "glimpses",
+            n,
+        }
+    }
+
+    /// Frames that nobody would play.
+    pub(super) const fn frames(n: u64) -> Self {
+        Self {
+            name: "unheard frames",
+            what: "Drive codes are not made unless an armed device listens.",
+            unit: "frames",
+            n,
+        }
+    }
+}
+
+impl SavingRule for Unheard {
+    fn floor(&self) -> &'static str {
+        "engine"
+    }
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn what(&self) -> &'static str {
+        self.what
+    }
+
+    fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    fn left_out(&self) -> u64 {
+        self.n
+    }
+}
+
+/// What a tick of the engine costs when nobody listens, when everybody does, and in between.
+pub(super) fn rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
+    let (mut quiet, expected) = engine(Listeners::NOBODY)?;
+    let unheard = Unheard::frames(quiet.snapshot().counters.frames_unheard);
+    let unasked = Unheard::glimpses(quiet.snapshot().tick);
+    let window_alone = Listeners {
+        window: true,
+        device: false,
+    };
+    let device_alone = Listeners {
+        window: false,
+        device: true,
+    };
+    let settings = [
+        (ALL.to_owned(), None, Listeners::NOBODY),
+        (NONE.to_owned(), None, Listeners::BOTH),
+        (only(unheard), Some(unheard), window_alone),
+        (only(unasked), Some(unasked), device_alone),
+    ];
+    let mut rows = Vec::new();
+    for (setting, saving, listeners) in settings {
+        let (mut engine, felt) = engine(listeners)?;
+        let n_ticks = bench.effort.pick(50, 400);
+        let cost = bench.time(n_ticks, || advance(&mut engine, n_ticks as u64));
+        let row = saving.map_or_else(Row::default, |saving| row_of(&saving));
+        rows.push(Row {
+            method: "engine".to_owned(),
+            setting,
+            case: CASE.to_owned(),
+            error: Some(largest_difference(&felt, &expected)),
+            promised: Some(0.0),
+            cost: Some(cost),
+            ..row
+        });
+    }
+    Ok(rows)
+}
+
+/// The setting in which nothing else is left out.
+fn only(saving: Unheard) -> String {
+    format!("only {}", saving.name)
+}
+
+/// An engine that follows a circle over the shipped scene, and its amplitudes after
+/// [`N_COMPARED`] ticks, µm.
+fn engine(listeners: Listeners) -> Result<(Engine, Vec<[f64; 2]>), ReportError> {
+    let scene =
+        PreparedScene::prepare(&LoadedScene::shipped()?, Method::Auto, &Accuracy::default())?;
+    let config = EngineConfig {
+        scene,
+        on_news: None,
+    };
+    let mut engine = Engine::without_thread(config, Instant::now())?;
+    engine.send(Command::Glimpses(listeners.window))?;
+    if listeners.device {
+        arm(&mut engine)?;
+    }
+    let circle = Stroke::Circle {
+        centre: Point::new(130.0, 130.0),
+        radius_mm: 70.0,
+        speed_mm_per_s: 150.0,
+    };
+    engine.send(Command::SetSource(InputSource::Stroke(circle)))?;
+    engine.send(Command::Play)?;
+    advance(&mut engine, N_COMPARED);
+    let felt = engine.snapshot().displays.iter().flat_map(|display| {
+        let contactors = display.contactors.iter();
+        contactors.map(|contactor| contactor.amplitude_um.map(f64::from))
+    });
+    let felt = felt.collect();
+    Ok((engine, felt))
+}
+
+/// Arms an emulated device in this process, which lives in real time.
+fn arm(engine: &mut Engine) -> Result<(), ReportError> {
+    engine.send(Command::Connect(Target::Emulator))?;
+    wait_for(engine, |event| matches!(event, BridgeEvent::Ready(_)))?;
+    engine.send(Command::Arm)?;
+    wait_for(engine, |event| matches!(event, BridgeEvent::Armed))
+}
+
+fn wait_for(engine: &mut Engine, is_it: impl Fn(&BridgeEvent) -> bool) -> Result<(), ReportError> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        engine.advance(Instant::now());
+        while let Some(notice) = engine.next_notice() {
+            if matches!(&notice, Notice::Bridge(event) if is_it(event)) {
+                return Ok(());
+            }
+        }
+        thread::sleep(Duration::from_millis(1));
+    }
+    Err(ReportError::Device)
+}
+
+/// Lets so many ticks pass, however many of the device's came in between.
+fn advance(engine: &mut Engine, n_ticks: u64) {
+    let end = engine.snapshot().tick + n_ticks;
+    while engine.snapshot().tick < end {
+        engine.advance_ticks(1);
+        while engine.next_glimpse().is_some() {}
+        while engine.next_notice().is_some() {}
+    }
+}

@@ -1,0 +1,38 @@
+//! The study runs, repeats and finds what is known.
+
+use super::*;
+use crate::tests::quick;
+
+#[test]
+fn the_study_repeats_and_keeps_its_promises() {
+    let (first, second) = (quick(&MdsStudy, 3), quick(&MdsStudy, 3));
+    assert_eq!(
+        first.n_broken(),
+        0,
+        "{:?}",
+        first.broken().collect::<Vec<_>>()
+    );
+    assert!(
+        first.rows.iter().any(|row| row.promised.is_some()),
+        "nothing promised"
+    );
+    for (a, b) in first.rows.iter().zip(&second.rows) {
+        assert_eq!((a.error, &a.more), (b.error, &b.more), "{a:?}");
+    }
+    let error = |method: &str| {
+        let row = first.rows.iter().find(|row| row.method == method);
+        row.and_then(|row| row.error).unwrap()
+    };
+    assert!(error("Torgerson") > error("SMACOF"), "{:?}", first.rows);
+    assert_eq!(first.plots.len(), 1);
+}
+
+#[test]
+fn a_map_without_noise_comes_back_and_noise_takes_from_it() {
+    let clean = recovery::lost(16, 0.0, 3, 1).0;
+    let noisy = recovery::lost(16, 0.4, 3, 1).0;
+    assert!(
+        clean < 0.01 && noisy > clean && noisy < 0.5,
+        "{clean}, {noisy}"
+    );
+}

@@ -1,0 +1,122 @@
+//! Model cloths whose relief is known, from fine to coarse, and their pictures.
+
+use crate::{Effort, ReportError};
+use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_textile::picture::shading::{Light, picture_of};
+use selvedge_textile::surface::{HeightMap, SurfaceError};
+use selvedge_textile::{Library, Source, TextileError, Weave};
+
+/// Where the light comes from: along neither yarn.
+pub(super) const LIGHT: Light = Light {
+    slant_deg: 45.0,
+    tilt_deg: 30.0,
+};
+/// Share of white that faces the light, and noise of the camera.
+const ALBEDO: f64 = 0.8;
+const NOISE: f64 = 0.01;
+
+/// The fine cloth that has a double.
+const FINE: &str = "polyamide-taffeta";
+/// Models of the shipped library beside it, fine to coarse.
+const IDS: [&str; 11] = [
+    "denim",
+    "jute-plain",
+    "polyester-satin",
+    "silk-crepe",
+    "polyester-interlock",
+    "polyester-panama",
+    "wool-twill",
+    "polyamide-jersey",
+    "polyamide-rib",
+    "polyester-honeycomb",
+    "wool-rib",
+];
+
+/// The corner of a relief that quick mode looks at: 10 mm, points 0.02 mm apart.
+const CORNER: [usize; 4] = [0, 0, 500, 500];
+
+/// A cloth with its relief.
+pub(super) struct Cloth {
+    pub(super) name: String,
+    pub(super) map: HeightMap,
+    /// Whether it is nearly the first cloth.
+    pub(super) is_double: bool,
+}
+
+/// The fine cloth first, then its doubles, then the others.
+pub(super) fn cloths(effort: Effort) -> Result<Vec<Cloth>, ReportError> {
+    let library = Library::shipped()?;
+    let mut cloths = Vec::new();
+    if let Source::Weave(weave) = library.manifest(FINE)?.source {
+        cloths.push(of(FINE, &Source::Weave(weave.clone()), effort)?);
+        for number in 1..=effort.pick(1, 4) {
+            let double = Weave {
+                weft_per_cm: 1.03 * weave.weft_per_cm,
+                seed: weave.seed + 1000 * number,
+                ..weave.as_ref().clone()
+            };
+            let name = format!("its double {number}, picks 3 % closer");
+            let double = of(&name, &Source::Weave(Box::new(double)), effort)?;
+            cloths.push(Cloth {
+                is_double: true,
+                ..double
+            });
+        }
+    }
+    for id in IDS.iter().take(effort.pick(1, IDS.len())) {
+        cloths.push(of(id, &library.manifest(id)?.source, effort)?);
+    }
+    Ok(cloths)
+}
+
+/// The relief of a model, in quick mode a corner of it.
+fn of(name: &str, source: &Source, effort: Effort) -> Result<Cloth, ReportError> {
+    let map = source.height_map().unwrap_or(Err(SurfaceError::AllMissing));
+    let cut = |map: HeightMap| match (effort, map.heights_um().part(CORNER)) {
+        (Effort::Quick, Some(corner)) => HeightMap::new(corner, map.step_mm()),
+        _ => Ok(map),
+    };
+    let map = map.and_then(cut).map_err(|source| TextileError::Surface {
+        path: name.into(),
+        source,
+    })?;
+    Ok(Cloth {
+        name: name.to_owned(),
+        map,
+        is_double: false,
+    })
+}
+
+/// A picture of a part of a cloth, rows as heights have them, and the size of its pixels, mm.
+pub(super) struct Photograph {
+    pub(super) luminance: Grid<f64>,
+    pub(super) px_mm: [f64; 2],
+}
+
+impl Cloth {
+    /// Its picture under [`LIGHT`]: `side_px` pixels a side at most, each the mean of
+    /// `points_a_px` points of the relief each way, with the camera's noise.
+    pub(super) fn photograph(&self, side_px: usize, points_a_px: usize, seed: u64) -> Photograph {
+        let step_mm = self.map.step_mm();
+        let mut height_px = self.map.heights_um().clone();
+        let um = 1000.0 * step_mm[0];
+        height_px.values_mut().iter_mut().for_each(|z| *z /= um);
+        let fine = picture_of(&height_px, LIGHT);
+        let sides = [fine.width(), fine.height()].map(|n| (n / points_a_px).min(side_px));
+        let mut random = Random::new(seed).branch("camera").branch(&self.name);
+        let mut luminance = Grid::filled(sides[0], sides[1], 0.0);
+        for row in 0..sides[1] {
+            for (column, value) in luminance.row_mut(row).iter_mut().enumerate() {
+                let columns = column * points_a_px..(column + 1) * points_a_px;
+                let rows = row * points_a_px..(row + 1) * points_a_px;
+                let sums = rows.map(|row| fine.row(row)[columns.clone()].iter().sum::<f64>());
+                let mean = sums.sum::<f64>() / (points_a_px * points_a_px) as f64;
+                *value = (ALBEDO * mean + NOISE * random.normal()).clamp(0.0, 1.0);
+            }
+        }
+        Photograph {
+            luminance,
+            px_mm: step_mm.map(|mm| mm * points_a_px as f64),
+        }
+    }
+}

@@ -1,0 +1,419 @@
+//! Rows, plots and sentences of what the routes came to.
+
+use super::felt::{Felt, rank_correlation};
+use super::ways::{Subject, Way};
+use crate::{Bench, Findings, Row, Timing};
+use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_foundation::numerics::median;
+use selvedge_textile::surface::BIN_SPACING_PER_MM;
+
+/// Cloths whose levels differ by less than this are hardly told apart, dB.
+const HARDLY_DB: f64 = 1.5;
+/// Waves longer than this many cycles a mm are in the plot of spectra.
+const MOST_PER_MM: f64 = 8.0;
+
+/// A cloth, what is felt of it in truth and by every route, and what that took.
+pub(super) struct Tried {
+    name: String,
+    is_double: bool,
+    truth: Felt,
+    by_way: Vec<(Way, Result<Felt, String>, Option<Timing>)>,
+}
+
+impl Tried {
+    /// Tries every route on a cloth.
+    pub(super) fn of(subject: &Subject, is_timed: bool, bench: &mut Bench<'_>) -> Self {
+        let by_way = Way::ALL.map(|way| {
+            let felt = subject.felt_by(way);
+            let cost = (is_timed && felt.is_ok()).then(|| {
+                bench.time_repeated(1, 1, || {
+                    if way.is_picture() {
+                        subject.relief(way).is_ok()
+                    } else {
+                        subject.felt_by(way).is_ok()
+                    }
+                })
+            });
+            (way, felt, cost)
+        });
+        Self {
+            name: subject.cloth.name.clone(),
+            is_double: subject.cloth.is_double,
+            truth: subject.truth.clone(),
+            by_way: by_way.into(),
+        }
+    }
+
+    fn felt_by(&self, way: Way) -> Option<&Felt> {
+        let found = self.by_way.iter().find(|(other, _, _)| *other == way)?;
+        found.1.as_ref().ok()
+    }
+}
+
+/// Adds the rows of all cloths, those of all together, notes, and plots if asked for.
+pub(super) fn told(results: &[Tried], setting: &str, is_drawn: bool, findings: &mut Findings) {
+    for tried in results {
+        for (way, felt, cost) in &tried.by_way {
+            if is_drawn || way.is_picture() {
+                let row = row(tried, *way, felt, *cost);
+                findings.rows.push(with_setting(row, *way, setting));
+            }
+        }
+    }
+    for way in Way::ALL {
+        if is_drawn || way.is_picture() {
+            let summary = Summary::of(results, way);
+            let row = with_setting(summary.row(way), way, setting);
+            findings.notes.push(summary.note(&row));
+            findings.rows.push(row);
+        }
+    }
+    if is_drawn {
+        findings.notes.push(claim(results));
+        for (band, name) in [(0, "40"), (1, "320")] {
+            findings
+                .plots
+                .push((format!("levels-{name}"), levels(results, band, name)));
+        }
+        if let Some(fine) = results.first() {
+            findings.plots.push(("spectrum".to_owned(), spectra(fine)));
+        }
+    }
+}
+
+fn with_setting(mut row: Row, way: Way, setting: &str) -> Row {
+    if way.is_picture() {
+        row.setting = format!(
+            "{setting}{}{}",
+            if row.setting.is_empty() { "" } else { ": " },
+            row.setting
+        );
+    }
+    row
+}
+
+fn number(x: f64) -> String {
+    if x.is_finite() {
+        format!("{x:.3}")
+    } else {
+        String::new()
+    }
+}
+
+fn row(tried: &Tried, way: Way, felt: &Result<Felt, String>, cost: Option<Timing>) -> Row {
+    let row = Row {
+        method: way.name(),
+        case: tried.name.clone(),
+        ..Row::default()
+    };
+    let felt = match felt {
+        Ok(felt) => felt,
+        Err(reason) => {
+            return Row {
+                setting: reason.clone(),
+                ..row
+            };
+        }
+    };
+    let truth = &tried.truth;
+    let apart_db = felt.apart_db(truth);
+    Row {
+        error: Some(apart_db[0].abs().max(apart_db[1].abs())),
+        cost,
+        more: vec![
+            ("true_a40_db", number(truth.levels_db[0])),
+            ("true_a320_db", number(truth.levels_db[1])),
+            ("a40_db", number(felt.levels_db[0])),
+            ("a320_db", number(felt.levels_db[1])),
+            ("a40_error_db", number(apart_db[0])),
+            ("a320_error_db", number(apart_db[1])),
+            ("true_smd_um", number(truth.smd_um)),
+            (
+                "smd_error_percent",
+                number(100.0 * (felt.smd_um / truth.smd_um - 1.0)),
+            ),
+            (
+                "spectrum_error_percent",
+                number(felt.spectrum_off_percent(truth)),
+            ),
+        ],
+        ..row
+    }
+}
+
+/// A route over all cloths.
+#[derive(Debug, Clone, PartialEq)]
+struct Summary {
+    n: usize,
+    n_cloths: usize,
+    median_db: f64,
+    median_spectrum_percent: f64,
+    median_smd_percent: f64,
+    /// Rank correlations of SMD, A40 and A320.
+    ranks: [f64; 3],
+    /// Distance of the fine cloth from its doubles: in truth, by the route, dB.
+    pair_db: [f64; 2],
+}
+
+/// How far the levels of two cloths are apart, both bands together, dB.
+fn distance_db(a: &Felt, b: &Felt) -> f64 {
+    let [low, high] = a.apart_db(b);
+    low.hypot(high)
+}
+
+/// Mean distance of the first cloth from its doubles, dB: in truth, and by a route.
+fn doubles_db(results: &[Tried], way: Way) -> [f64; 2] {
+    let doubles = || results.iter().filter(|tried| tried.is_double);
+    let mean = |distance: &dyn Fn(&Tried, &Tried) -> Option<f64>| {
+        let first = results.first();
+        let all = doubles().map(|double| distance(first?, double).filter(|db| db.is_finite()));
+        let all: Option<Vec<f64>> = all.collect();
+        all.map_or(f64::NAN, |all| all.iter().sum::<f64>() / all.len() as f64)
+    };
+    [
+        mean(&|a, b| Some(distance_db(&a.truth, &b.truth))),
+        mean(&|a, b| Some(distance_db(a.felt_by(way)?, b.felt_by(way)?))),
+    ]
+}
+
+impl Summary {
+    fn of(results: &[Tried], way: Way) -> Self {
+        // Doubles would crowd the ranks.
+        let single = || results.iter().filter(|tried| !tried.is_double);
+        let pairs: Vec<[&Felt; 2]> = single()
+            .filter_map(|tried| Some([&tried.truth, tried.felt_by(way)?]))
+            .collect();
+        let of_pairs = |f: &dyn Fn(&Felt, &Felt) -> f64| {
+            let mut all: Vec<f64> = pairs.iter().map(|[truth, felt]| f(truth, felt)).collect();
+            median(&mut all)
+        };
+        let ranks = |f: &dyn Fn(&Felt) -> f64| {
+            let both: Vec<[f64; 2]> = pairs.iter().map(|pair| pair.map(f)).collect();
+            rank_correlation(&both)
+        };
+        let larger = |[low, high]: [f64; 2]| low.abs().max(high.abs());
+        Self {
+            n: pairs.len(),
+            n_cloths: single().count(),
+            median_db: of_pairs(&|truth, felt| larger(felt.apart_db(truth))),
+            median_spectrum_percent: of_pairs(&|truth, felt| felt.spectrum_off_percent(truth)),
+            median_smd_percent: of_pairs(&|t, f| 100.0 * (f.smd_um / t.smd_um - 1.0).abs()),
+            ranks: [
+                ranks(&|felt| felt.smd_um),
+                ranks(&|felt| felt.levels_db[0]),
+                ranks(&|felt| felt.levels_db[1]),
+            ],
+            pair_db: doubles_db(results, way),
+        }
+    }
+
+    fn row(&self, way: Way) -> Row {
+        Row {
+            method: way.name(),
+            case: format!("{} of {} cloths", self.n, self.n_cloths),
+            error: self.median_db.is_finite().then_some(self.median_db),
+            more: vec![
+                (
+                    "spectrum_error_percent",
+                    number(self.median_spectrum_percent),
+                ),
+                ("smd_error_percent", number(self.median_smd_percent)),
+                ("spearman_smd", number(self.ranks[0])),
+                ("spearman_a40", number(self.ranks[1])),
+                ("spearman_a320", number(self.ranks[2])),
+                ("true_doubles_db", number(self.pair_db[0])),
+                ("doubles_db", number(self.pair_db[1])),
+            ],
+            ..Row::default()
+        }
+    }
+
+    fn note(&self, row: &Row) -> String {
+        let name = if row.setting.is_empty() {
+            row.method.clone()
+        } else {
+            format!("{} at {}", row.method, row.setting)
+        };
+        let said = |x: f64, decimals: usize| {
+            if x.is_finite() {
+                selvedge_foundation::quantity::fixed(x, decimals)
+            } else {
+                "unknown".to_owned()
+            }
+        };
+        format!(
+            "{name}: {} of {} cloths; median level error {} dB, median spectrum error {} %, rank \
+             correlation of SMD {}, of A40 {}, of A320 {}; the fine cloth is {} dB from its \
+             doubles, in truth \
+             {} dB.",
+            self.n,
+            self.n_cloths,
+            said(self.median_db, 1),
+            said(self.median_spectrum_percent, 0),
+            said(self.ranks[0], 2),
+            said(self.ranks[1], 2),
+            said(self.ranks[2], 2),
+            said(self.pair_db[1], 1),
+            said(self.pair_db[0], 1),
+        )
+    }
+}
+
+/// Whether fine cloths that are alike become distinct, and by which route.
+fn claim(results: &[Tried]) -> String {
+    let by_way = Way::ALL.map(|way| (way, Summary::of(results, way)));
+    let distinct: Vec<String> = by_way
+        .iter()
+        .filter(|(_, summary)| summary.pair_db[1] - summary.pair_db[0] > HARDLY_DB)
+        .map(|(way, _)| way.name())
+        .collect();
+    let which = if distinct.is_empty() {
+        "none of the routes does so here".to_owned()
+    } else {
+        format!("falsely distinct they become by: {}", distinct.join(", "))
+    };
+    let best = by_way
+        .iter()
+        .filter(|(_, summary)| summary.n * 2 > summary.n_cloths)
+        .min_by(|a, b| a.1.median_db.total_cmp(&b.1.median_db));
+    let nearest = best.map_or_else(
+        || "No route ends for more than half of the cloths.".to_owned(),
+        |(way, summary)| {
+            format!(
+                "Nearest to the truth in levels is: {} ({:.1} dB in the median).",
+                way.name(),
+                summary.median_db
+            )
+        },
+    );
+    format!(
+        "The claim, that restoring a profile makes very fine cloths distinct that are alike and \
+         that a picture does not: {which} (more than {HARDLY_DB} dB farther apart than \
+         in truth). {nearest}"
+    )
+}
+
+fn levels(results: &[Tried], band: usize, name: &str) -> Plot {
+    let truth = |tried: &Tried| tried.truth.levels_db[band];
+    let of_way = |way: Way| Series {
+        name: way.name(),
+        points: results
+            .iter()
+            .filter_map(|tried| Some([truth(tried), tried.felt_by(way)?.levels_db[band]]))
+            .collect(),
+        ..Series::default()
+    };
+    let mut series: Vec<Series> = Way::ALL.map(of_way).into();
+    let ends = results
+        .iter()
+        .map(truth)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+            [a.min(x), b.max(x)]
+        });
+    series.push(Series {
+        name: "as in truth".to_owned(),
+        points: ends.map(|x| [x, x]).into(),
+        style: Style::Dashed,
+        ..Series::default()
+    });
+    Plot {
+        title: format!("Level at {name} Hz by every route against the relief's own"),
+        x: Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
+        y: Axis::linear(format!("A{name} by the route, dB re 1 µm")),
+        series,
+        footnote: "100 mm/s; a dot a cloth and route. Above the line a cloth feels stronger than \
+                   it is."
+            .to_owned(),
+    }
+}
+
+fn spectra(fine: &Tried) -> Plot {
+    let points = |felt: &Felt| -> Vec<[f64; 2]> {
+        let half = felt.spectrum_um.len() / 2;
+        let bins = felt.spectrum_um.iter().take(half).enumerate();
+        bins.map(|(k, um)| [(k + 1) as f64 * BIN_SPACING_PER_MM, *um])
+            .filter(|[per_mm, _]| *per_mm <= MOST_PER_MM)
+            .collect()
+    };
+    let series = |name: String, felt: &Felt, style: Style| Series {
+        name,
+        points: points(felt),
+        style,
+        ..Series::default()
+    };
+    let mut all = vec![series(
+        "the relief's own".to_owned(),
+        &fine.truth,
+        Style::Dashed,
+    )];
+    for way in Way::ALL {
+        all.extend(
+            fine.felt_by(way)
+                .map(|felt| series(way.name(), felt, Style::Line)),
+        );
+    }
+    Plot {
+        title: format!("Spectrum along the warp of {}", fine.name),
+        x: Axis::linear("wavenumber, cycles/mm"),
+        y: Axis::log("amplitude a bin, µm"),
+        series: all,
+        footnote: "Rms over all places of the stroke.".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn felt(low_db: f64) -> Felt {
+        Felt {
+            smd_um: 10.0_f64.powf(low_db / 20.0),
+            levels_db: [low_db, low_db - 1.0],
+            spectrum_um: vec![low_db.abs() + 1.0, 1.0],
+        }
+    }
+
+    /// Four cloths that one route has right and one upside down.
+    fn made_up() -> Vec<Tried> {
+        let tried = |low_db: f64| Tried {
+            name: format!("cloth {low_db}"),
+            is_double: low_db > 1.5 && low_db < 2.5,
+            truth: felt(low_db),
+            by_way: vec![
+                (Way::ALL[0], Ok(felt(low_db)), None),
+                (Way::ALL[1], Ok(felt(20.0 - 3.0 * low_db)), None),
+                (Way::ALL[2], Err("no lattice".to_owned()), None),
+            ],
+        };
+        [1.0, 2.0, 5.0, 9.0].map(tried).into()
+    }
+
+    #[test]
+    fn a_route_that_is_upside_down_shows_up_as_wrong() {
+        let mut findings = Findings::default();
+        told(&made_up(), "25 px/mm", true, &mut findings);
+        let right = Summary::of(&made_up(), Way::ALL[0]);
+        let wrong = Summary::of(&made_up(), Way::ALL[1]);
+        assert!(
+            right.median_db.abs() < 1e-9 && wrong.median_db > 5.0,
+            "{wrong:?}"
+        );
+        assert!((right.ranks[1] - 1.0).abs() < 1e-9 && (wrong.ranks[1] + 1.0).abs() < 1e-9);
+        assert!(
+            (wrong.pair_db[1] / wrong.pair_db[0] - 3.0).abs() < 1e-9,
+            "{wrong:?}"
+        );
+        assert!(
+            findings
+                .notes
+                .iter()
+                .any(|note| note.contains("KES, restored.")
+                    || note.contains("distinct they become by: KES, restored"))
+        );
+        let lost = findings
+            .rows
+            .iter()
+            .find(|row| row.setting.contains("no lattice"));
+        assert!(lost.is_some_and(|row| row.error.is_none()));
+    }
+}

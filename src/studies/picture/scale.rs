@@ -1,0 +1,153 @@
+//! How small a picture may be before the lattice of the cloth is lost.
+
+use super::drawings::{BINDINGS, Binding};
+use super::spoilt::Spoilt;
+use super::{RIGHT, analysed, share_off};
+use crate::{Bench, Findings, ReportError, Row, Study};
+use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_foundation::numerics::Random;
+
+/// Periods that a side of the picture holds, however small it is.
+const N_PERIODS: f64 = 22.0;
+
+/// Lattices of pictures that are reduced until nothing is left of the threads.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PictureScaleStudy;
+
+impl Study for PictureScaleStudy {
+    fn name(&self) -> &'static str {
+        "picture-scale"
+    }
+
+    fn question(&self) -> &'static str {
+        "How far may the picture of a cloth be reduced before its lattice is lost?"
+    }
+
+    fn reference(&self) -> &'static str {
+        "The two vectors that the picture was drawn by, whichever pair spans the same lattice."
+    }
+
+    fn error_measure(&self) -> (&'static str, &'static str) {
+        ("lattice error", "% of a period")
+    }
+
+    fn cost_of(&self) -> &'static str {
+        "picture"
+    }
+
+    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+        let periods_px = bench.effort.pick(
+            vec![9.5, 4.0, 1.5],
+            vec![
+                20.0, 14.0, 10.0, 7.0, 5.0, 4.0, 3.5, 3.0, 2.7, 2.4, 2.2, 2.0, 1.8, 1.5,
+            ],
+        );
+        let weaves = &BINDINGS[..bench.effort.pick(2, BINDINGS.len())];
+        let mut findings = Findings::default();
+        let mut series = Vec::new();
+        for (done, &weave) in weaves.iter().enumerate() {
+            bench.step(done as f64 / weaves.len() as f64, weave.name)?;
+            let mut points = Vec::new();
+            for &period_px in &periods_px {
+                let row = row(weave, period_px, bench, &mut points);
+                findings.rows.push(row);
+            }
+            findings.notes.push(least(weave.name, &points));
+            series.push(Series {
+                name: weave.name.to_owned(),
+                points,
+                style: Style::LineAndDots,
+                ..Series::default()
+            });
+        }
+        findings.notes.push(
+            "The period is the shorter lattice vector, from a crossing to the next one like it; \
+             threads lie nearer together by √2 (plain, twills), √5 (satin of 5) and √8 or so \
+             (satin of 8). Every picture holds 22 periods a side, 20 dB over the noise, pixels \
+             as means of what they cover, threads turned anyhow. Below about two pixels no \
+             lattice is reported, on purpose."
+                .to_owned(),
+        );
+        findings.plots.push(("right".to_owned(), plot(series)));
+        Ok(findings)
+    }
+}
+
+fn row(weave: Binding, period_px: f64, bench: &mut Bench<'_>, points: &mut Vec<[f64; 2]>) -> Row {
+    let n_trials: u8 = bench.effort.pick(2, 4);
+    let pitch_px = period_px / weave.period_threads();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few hundred pixels"
+    )]
+    let n_px = (N_PERIODS * period_px).ceil() as usize;
+    let spoilt = Spoilt {
+        snr_db: 20.0,
+        blur_px: 0.0,
+        bend_px: 0.0,
+        light_ratio: 1.0,
+        ..Spoilt::usual(n_px)
+    };
+    let random = Random::new(bench.seed).branch(weave.name);
+    let (mut sum, mut n_right) = (0.0, 0.0);
+    let mut first = None;
+    for number in 0..n_trials {
+        let mut random = random.branch(&format!("trial {number}"));
+        let turn = random.uniform_in(0.0, std::f64::consts::PI);
+        let uneven = random.uniform_in(0.95, 1.05);
+        let drawing = weave.drawing([pitch_px, pitch_px * uneven], turn);
+        let picture = spoilt.taken(&drawing, &mut random);
+        let found = analysed(&picture).and_then(|a| Some(a.found.ok()?.lattice.basis()));
+        let off = share_off(&drawing.lattice(), found);
+        sum += off;
+        n_right += if off <= RIGHT { 1.0 } else { 0.0 };
+        first.get_or_insert(picture);
+    }
+    let share = 100.0 * n_right / f64::from(n_trials);
+    points.push([period_px, share]);
+    let n_repeats = bench.effort.pick(1, 3);
+    let cost = first.map(|picture| bench.time_repeated(n_repeats, 1, || analysed(&picture)));
+    Row {
+        method: "whole pipeline".to_owned(),
+        setting: format!("{period_px} px a period"),
+        case: weave.name.to_owned(),
+        size: Some((n_px * n_px) as f64),
+        error: Some(100.0 * sum / f64::from(n_trials)),
+        cost,
+        more: vec![
+            ("period_px", period_px.to_string()),
+            ("thread_px", format!("{pitch_px:.3}")),
+            ("right_percent", format!("{share:.1}")),
+        ],
+        ..Row::default()
+    }
+}
+
+/// The shortest period down to which every picture was right.
+fn least(name: &str, points: &[[f64; 2]]) -> String {
+    let right = points.iter().take_while(|point| point[1] >= 99.9);
+    right.last().map_or_else(
+        || {
+            format!(
+                "{name}: not right at {:.1} px a period either.",
+                points[0][0]
+            )
+        },
+        |[period_px, _]| format!("{name}: every picture is right down to {period_px} px a period."),
+    )
+}
+
+fn plot(series: Vec<Series>) -> Plot {
+    Plot {
+        title: "Pictures reduced: share whose lattice is right".to_owned(),
+        x: Axis::log("shorter lattice vector, px"),
+        y: Axis::linear("right, %").within([0.0, 100.0]),
+        series,
+        footnote: format!(
+            "{N_PERIODS} periods a side, 20 dB over the noise. Right: within {:.0} % of the \
+             shorter vector.",
+            100.0 * RIGHT
+        ),
+    }
+}

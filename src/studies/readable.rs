@@ -1,0 +1,128 @@
+//! Numbers of a report as people read them: three digits that count, times with their prefix.
+
+use selvedge_foundation::quantity::{fixed, time_span, with_unit};
+
+/// A number with three digits that count: `0.0123`, `4.50`, `230`, `1.2e−9`.
+pub(super) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 {
+        return "0".to_owned();
+    }
+    if !magnitude.is_finite() || (100.0..1e6).contains(&magnitude) {
+        return fixed(value, 0);
+    }
+    if !(1e-4..1e6).contains(&magnitude) {
+        return format!("{value:.1e}").replace('-', "−");
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and 6"
+    )]
+    let decimals = (2.0 - magnitude.log10().floor()).clamp(0.0, 6.0) as usize;
+    fixed(value, decimals)
+}
+
+/// A time: `6.3 ns`, `250 ns`, `1.20 µs`.
+pub(super) fn time(seconds: f64) -> String {
+    if seconds.abs() < 1e-7 {
+        with_unit(seconds * 1e9, 1, "ns")
+    } else {
+        time_span(seconds)
+    }
+}
+
+/// An amount of memory: `640 B`, `12.3 kB`, `1.50 MB`.
+pub(super) fn bytes(n: u64) -> String {
+    let n = n as f64;
+    if n < 1e3 {
+        with_unit(n, 0, "B")
+    } else if n < 1e6 {
+        with_unit(n / 1e3, 1, "kB")
+    } else {
+        with_unit(n / 1e6, 2, "MB")
+    }
+}
+
+/// Units that names of columns end with, and how they are written.
+const UNITS: [(&str, &str); 9] = [
+    ("db", "dB"),
+    ("percent", "%"),
+    ("um", "µm"),
+    ("mm", "mm"),
+    ("px", "px"),
+    ("hz", "Hz"),
+    ("ms", "ms"),
+    ("us", "µs"),
+    ("s", "s"),
+];
+
+/// The name of a column as a heading: `mean_offset_db` is `mean offset, dB`.
+pub(super) fn heading(name: &str) -> String {
+    let (stem, last) = name.rsplit_once('_').unwrap_or(("", name));
+    let unit = UNITS
+        .iter()
+        .find(|(key, _)| *key == last && !stem.is_empty());
+    match unit {
+        Some((_, unit)) => format!("{}, {unit}", stem.replace('_', " ")),
+        None => name.replace('_', " "),
+    }
+}
+
+/// A cell as it stands in the CSV, as people read it: long numbers with three digits that count.
+pub(super) fn cell(text: &str) -> String {
+    match text {
+        "true" => return "yes".to_owned(),
+        "false" => return "no".to_owned(),
+        _ => {}
+    }
+    match text.parse::<f64>() {
+        Ok(value) if value.is_infinite() => if value > 0.0 { "∞" } else { "−∞" }.to_owned(),
+        Ok(value) if text.len() > 7 || text.contains('e') => number(value),
+        Ok(_) => text.replace('-', "−"),
+        Err(_) => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_columns_and_cells_of_the_table_become_readable() {
+        let names = ["mean_offset_db", "right_percent", "points", "bound_db", "s"].map(heading);
+        assert_eq!(
+            names,
+            ["mean offset, dB", "right, %", "points", "bound, dB", "s"]
+        );
+        let cells = [
+            "2.204e-7",
+            "1.3000000000000001",
+            "-1.5",
+            "4794",
+            "inf",
+            "true",
+            "2026-11",
+            "wool",
+        ];
+        let said = cells.map(cell);
+        assert_eq!(
+            said,
+            [
+                "2.2e−7", "1.30", "−1.5", "4794", "∞", "yes", "2026-11", "wool"
+            ]
+        );
+    }
+
+    #[test]
+    fn numbers_have_three_digits_that_count() {
+        let said = [0.0, 0.012_34, -4.5, 230.4, 1.234e-9, f64::NAN, 2e9].map(number);
+        assert_eq!(
+            said,
+            ["0", "0.0123", "−4.50", "230", "1.2e−9", "none", "2.0e9"]
+        );
+        assert_eq!(time(6.3e-9), "6.3 ns");
+        assert_eq!(time(2.5e-7), "250 ns");
+        assert_eq!(bytes(1_500_000), "1.50 MB");
+    }
+}

@@ -1,0 +1,318 @@
+//! Tables as they might have been: other densities, interpolations and digits, for the study alone.
+//!
+//! The product renders with [`selvedge_render::array::Method::Table`]. These share its spectra, its
+//! filters and its definition of a segment, and nothing else: one textile that lies at the origin
+//! and is not turned, one display that is not turned either.
+
+use std::ops::{Add, Mul};
+use std::sync::Arc;
+
+use selvedge_foundation::geometry::Displacement;
+use selvedge_render::RenderScene;
+use selvedge_render::scene::Pose;
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, LocalSpectra, N_BINS};
+use selvedge_textile::tactile::{
+    Filters, MAX_FREQUENCY_HZ, MAX_SPEED_MM_PER_S, MIN_SPEED_MM_PER_S, SpeedResponse,
+    n_audible_bins,
+};
+
+/// A number as a table holds it.
+pub(super) trait Digits: Copy + Add<Output = Self> + Mul<Output = Self> {
+    /// What it is called.
+    const NAME: &'static str;
+    /// The nearest to a number.
+    fn of(x: f64) -> Self;
+    /// With all its digits.
+    fn wide(self) -> f64;
+}
+
+impl Digits for f32 {
+    const NAME: &'static str = "f32";
+
+    #[expect(clippy::cast_possible_truncation, reason = "that is the question")]
+    fn of(x: f64) -> Self {
+        x as Self
+    }
+
+    fn wide(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+impl Digits for f64 {
+    const NAME: &'static str = "f64";
+
+    fn of(x: f64) -> Self {
+        x
+    }
+
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+/// How a table is read between its nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reading {
+    /// From the two nodes around.
+    Linear,
+    /// From the four nodes around, within the segment; from fewer where it has no four.
+    Cubic,
+}
+
+impl Reading {
+    /// Both.
+    pub(super) const BOTH: [Self; 2] = [Self::Linear, Self::Cubic];
+
+    /// What it is called.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Cubic => "cubic",
+        }
+    }
+
+    fn n_nodes(self) -> usize {
+        match self {
+            Self::Linear => 2,
+            Self::Cubic => 4,
+        }
+    }
+}
+
+/// Nodes from one speed to another, evenly over its logarithm.
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    start: f64,
+    parts_per_octave: f64,
+    n_parts: usize,
+    first_node: usize,
+}
+
+/// Where nodes are: in segments by the number of bins that sound, or in one segment for all.
+#[derive(Debug, Clone)]
+pub(super) struct Nodes {
+    segments: Vec<Segment>,
+    /// Speed, and how many bins count there.
+    places: Vec<(f64, usize)>,
+    is_cut: bool,
+}
+
+impl Nodes {
+    /// Nodes at most 1/`per_octave` octave apart. Cut, segments end where a bin crosses 1 kHz; else
+    /// there is one from the lowest speed to the highest.
+    pub(super) fn new(per_octave: usize, is_cut: bool) -> Self {
+        let mut found = Self {
+            segments: Vec::new(),
+            places: Vec::new(),
+            is_cut,
+        };
+        if is_cut {
+            let at_1_khz = |k: usize| MAX_FREQUENCY_HZ / (BIN_SPACING_PER_MM * k as f64);
+            for n_bins in 1..=N_BINS {
+                let lowest = if n_bins == N_BINS {
+                    MIN_SPEED_MM_PER_S
+                } else {
+                    at_1_khz(n_bins + 1)
+                };
+                found.add([lowest, at_1_khz(n_bins)], per_octave, Some(n_bins));
+            }
+        } else {
+            let ends = [MIN_SPEED_MM_PER_S, MAX_SPEED_MM_PER_S.next_down()];
+            found.add(ends, per_octave, None);
+        }
+        found
+    }
+
+    fn add(&mut self, [low, high]: [f64; 2], per_octave: usize, n_bins: Option<usize>) {
+        let octaves = (high / low).log2();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "twenty octaves at most"
+        )]
+        let n_parts = (octaves * per_octave as f64 - 1e-9).ceil().max(1.0) as usize;
+        self.segments.push(Segment {
+            start: low.log2(),
+            parts_per_octave: n_parts as f64 / octaves,
+            n_parts,
+            first_node: self.places.len(),
+        });
+        for part in 0..=n_parts {
+            let speed = low * (octaves * part as f64 / n_parts as f64).exp2();
+            let counted = n_bins.unwrap_or_else(|| n_audible_bins(speed.min(high)));
+            self.places.push((speed, counted));
+        }
+    }
+
+    /// The first node to read at a speed, and the weights of it and those that follow.
+    fn find<T: Digits>(&self, speed_mm_per_s: f64, reading: Reading) -> (usize, [T; 4]) {
+        let place = if self.is_cut {
+            n_audible_bins(speed_mm_per_s).max(1) - 1
+        } else {
+            0
+        };
+        let segment = &self.segments[place];
+        let at = (speed_mm_per_s.log2() - segment.start) * segment.parts_per_octave;
+        let n_nodes = reading.n_nodes().min(segment.n_parts + 1);
+        let before = at.clamp(0.0, segment.n_parts as f64) - (n_nodes as f64 / 2.0 - 1.0);
+        let last = segment.n_parts + 1 - n_nodes;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative, and below the number of nodes"
+        )]
+        let first = (before.max(0.0) as usize).min(last);
+        let mut weights = [T::of(0.0); 4];
+        for (i, weight) in weights.iter_mut().enumerate().take(n_nodes) {
+            let others = (0..n_nodes).filter(|&j| j != i);
+            let factor = |j: usize| (at - (first + j) as f64) / (i as f64 - j as f64);
+            *weight = T::of(others.map(factor).product());
+        }
+        (segment.first_node + first, weights)
+    }
+}
+
+/// The tables of one textile's four directions.
+#[derive(Debug, Clone)]
+pub(super) struct StudyTable<T> {
+    nodes: Arc<Nodes>,
+    reading: Reading,
+    offsets: Vec<Displacement>,
+    /// Which table each direction reads.
+    of_direction: [usize; 4],
+    /// Points, and node by node a row of them: `2 Σ P H²` for both bands.
+    tables: Vec<(usize, Vec<[T; 2]>)>,
+}
+
+impl StudyTable<f64> {
+    /// Tables for the first textile and the first display of a scene.
+    pub(super) fn new(scene: &RenderScene, nodes: Nodes, reading: Reading) -> Self {
+        let mut spectra: Vec<&Arc<LocalSpectra>> = Vec::new();
+        let mut of_direction = [0; 4];
+        for surface in scene.textiles.iter().take(1).map(|placed| &placed.surface) {
+            of_direction = Direction::ALL.map(|d| {
+                let own = surface.spectra(d);
+                let known = spectra.iter().position(|other| Arc::ptr_eq(other, own));
+                known.unwrap_or_else(|| {
+                    spectra.push(own);
+                    spectra.len() - 1
+                })
+            });
+        }
+        let tables = spectra
+            .into_iter()
+            .map(|own| (own.n_points(), powers_at(&nodes, own, &scene.filters)));
+        Self {
+            tables: tables.collect(),
+            nodes: Arc::new(nodes),
+            reading,
+            offsets: scene
+                .displays
+                .iter()
+                .flat_map(|d| d.offsets.clone())
+                .collect(),
+            of_direction,
+        }
+    }
+}
+
+/// A squared amplitude of every point at every node, for both bands, µm².
+fn powers_at(nodes: &Nodes, spectra: &LocalSpectra, filters: &Filters) -> Vec<[f64; 2]> {
+    let mut powers = Vec::with_capacity(nodes.places.len() * spectra.n_points());
+    for &(speed_mm_per_s, n_bins) in &nodes.places {
+        // One bin more sounds just below a segment's end than at it.
+        let just_below = speed_mm_per_s.min(MAX_SPEED_MM_PER_S) * (1.0 - 1e-12);
+        let response = SpeedResponse::at(just_below.max(MIN_SPEED_MM_PER_S), filters);
+        let gains = response.power_gains();
+        let gains = &gains[..n_bins.min(gains.len())];
+        for point in 0..spectra.n_points() {
+            let mut sums = [0.0; 2];
+            for (power, gain) in spectra.powers_um2(point).iter().zip(gains) {
+                sums[0] += power * gain[0];
+                sums[1] += power * gain[1];
+            }
+            powers.push(sums.map(|sum| 2.0 * sum));
+        }
+    }
+    powers
+}
+
+impl<T: Digits> StudyTable<T> {
+    /// The same tables read in another way, with other digits.
+    pub(super) fn as_read<U: Digits>(&self, reading: Reading) -> StudyTable<U> {
+        let digits = |rows: &Vec<[T; 2]>| rows.iter().map(|p| p.map(|x| U::of(x.wide()))).collect();
+        StudyTable {
+            nodes: Arc::clone(&self.nodes),
+            reading,
+            offsets: self.offsets.clone(),
+            of_direction: self.of_direction,
+            tables: self
+                .tables
+                .iter()
+                .map(|(n, rows)| (*n, digits(rows)))
+                .collect(),
+        }
+    }
+
+    /// What it is called.
+    pub(super) fn name(&self) -> String {
+        let uncut = if self.nodes.is_cut { "" } else { ", uncut" };
+        format!("{} {}{uncut}", self.reading.name(), T::NAME)
+    }
+
+    /// Bytes of the tables.
+    pub(super) fn n_bytes(&self) -> usize {
+        self.tables
+            .iter()
+            .map(|(_, rows)| size_of_val(&rows[..]))
+            .sum()
+    }
+
+    /// Amplitudes of all contactors at a pose, µm.
+    pub(super) fn tick(&self, pose: &Pose, amplitudes_um: &mut [[f64; 2]]) {
+        let mut powers = [[T::of(0.0); 2]; MAX_CONTACTORS];
+        let powers = &mut powers[..self.offsets.len().min(MAX_CONTACTORS)];
+        let velocity = [pose.velocity.x_mm_per_s, pose.velocity.y_mm_per_s];
+        for (axis, component) in velocity.into_iter().enumerate() {
+            let speed_mm_per_s = component.abs();
+            if !(MIN_SPEED_MM_PER_S..MAX_SPEED_MM_PER_S).contains(&speed_mm_per_s) {
+                continue;
+            }
+            let table = self.of_direction[2 * axis + usize::from(component < 0.0)];
+            let (n_points, rows) = &self.tables[table];
+            let (first, weights) = self.nodes.find::<T>(speed_mm_per_s, self.reading);
+            for (power, offset) in powers.iter_mut().zip(&self.offsets) {
+                let place_mm = match axis {
+                    0 => pose.position.x_mm + offset.x_mm,
+                    _ => pose.position.y_mm + offset.y_mm,
+                };
+                let point = nearest(place_mm, *n_points);
+                for (node, weight) in weights.iter().take(self.reading.n_nodes()).enumerate() {
+                    let Some(stored) = rows.get((first + node) * n_points + point) else {
+                        continue;
+                    };
+                    power[0] = power[0] + stored[0] * *weight;
+                    power[1] = power[1] + stored[1] * *weight;
+                }
+            }
+        }
+        for (out, power) in amplitudes_um.iter_mut().zip(powers) {
+            // A cubic may swing below nothing.
+            *out = power.map(|power| power.wide().max(0.0).sqrt());
+        }
+    }
+}
+
+/// Most contactors of a study's display.
+const MAX_CONTACTORS: usize = 24;
+
+/// The nearest point of a profile.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "places on the textile"
+)]
+fn nearest(place_mm: f64, n_points: usize) -> usize {
+    (place_mm + 0.5 + 1e-6).floor().max(0.0) as usize % n_points.max(1)
+}

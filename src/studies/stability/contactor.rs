@@ -1,0 +1,138 @@
+//! Contactors that are sharp, stiffly held, driven to the full, or no contactors at all.
+
+use super::{Case, Verdict, failed, refused, verdict};
+use selvedge_device::{Bimorph, ContactorModel, MOST_QUALITY, Plant, SAMPLES_PER_S, Skin};
+use selvedge_foundation::numerics::Complex;
+use selvedge_foundation::numerics::ode::StepMethod;
+
+/// Drive codes of an array at its loudest.
+const LOUDEST: [[u16; 2]; 24] = [[u16::MAX; 2]; 24];
+/// A distance that no energy of this drive reaches, µm.
+const TOO_FAR_UM: f64 = 1e5;
+
+/// Stiffness, sharpness and drive.
+pub(super) fn cases() -> Vec<Case> {
+    let case = |tried: &str, should, run: fn() -> Verdict| {
+        Case::new("contactor", tried.to_owned(), should, run)
+    };
+    vec![
+        case(
+            "a bimorph with Q = 1000 against stiff skin",
+            "exact method within 1e-9 of the closed form",
+            sharp_and_stiff,
+        ),
+        case(
+            "contact stiffness 0 … 1e9 N/m, steps 1 µs … 1 s",
+            "finite, and nothing grows",
+            every_stiffness,
+        ),
+        case(
+            "full drive against skin of 1e9 N/m that lifts off",
+            "finite and bounded",
+            lifts_off,
+        ),
+        case(
+            "skin of NaN, −1, ∞ and 1e10 N/m",
+            "refused, with the range",
+            || no_skin([f64::NAN, -1.0, f64::INFINITY, 1e10]),
+        ),
+        case("a bimorph of 0 mm", "refused, with the range", || {
+            let bimorph = Bimorph {
+                length_mm: 0.0,
+                ..Bimorph::default()
+            };
+            refused(bimorph.check(), &["length", "give 1 to 200 mm"])
+        }),
+        case("a bimorph with Q = 2000", "refused, with the range", || {
+            let model = ContactorModel {
+                quality: 2000.0,
+                ..ContactorModel::default()
+            };
+            refused(Plant::new(&model, 24), &["quality", "1000"])
+        }),
+    ]
+}
+
+fn loaded(skin: Skin, quality: f64) -> ContactorModel {
+    ContactorModel {
+        quality,
+        skin,
+        ..ContactorModel::default()
+    }
+}
+
+/// A held sine of 40 and 320 Hz at the samples, against its line and images through |H|.
+fn sharp_and_stiff() -> Verdict {
+    let model = loaded(Skin::bonded(1e5, 0.0), MOST_QUALITY);
+    let sample_s = 1.0 / f64::from(SAMPLES_PER_S);
+    let step = model
+        .system()
+        .propagator::<7>(StepMethod::ExactHold, sample_s);
+    let step = step.ok_or_else(|| failed("no step"))?;
+    let mut worst = 0.0_f64;
+    for frequency_hz in [40.0, 320.0] {
+        let angle = std::f64::consts::TAU * frequency_hz * sample_s;
+        let found = step.response(angle).ok_or_else(|| failed("a pole"))?;
+        let images = (-4000..=4000).map(|image| {
+            let image_hz = frequency_hz + f64::from(image) / sample_s;
+            let half_turn = std::f64::consts::PI * image_hz * sample_s;
+            let hold = Complex::from_polar(half_turn.sin() / half_turn, -half_turn);
+            model.response_um_per_v(image_hz) * hold
+        });
+        let closed: Complex = images.sum();
+        let off = (1e6 * found[ContactorModel::PIN][0] - closed).norm() / closed.norm();
+        worst = worst.max(off);
+    }
+    verdict(worst <= 1e-9, format!("{worst:.1e} off"))
+}
+
+fn every_stiffness() -> Verdict {
+    let (mut worst, mut n_steps) = (0.0_f64, 0);
+    for stiffness in [0.0, 1.0, 1e3, 1e6, 1e9] {
+        for step_s in [1e-6, 1e-4, 1e-2, 1.0] {
+            let model = loaded(Skin::bonded(stiffness, 0.0), MOST_QUALITY);
+            let step = model
+                .system()
+                .propagator::<7>(StepMethod::ExactHold, step_s);
+            let Some(step) = step.filter(selvedge_foundation::numerics::ode::Propagator::is_finite)
+            else {
+                return Err(format!("no finite step of {step_s} s at {stiffness} N/m"));
+            };
+            worst = worst.max(step.growth() - 1.0);
+            n_steps += 1;
+        }
+    }
+    verdict(
+        worst < 1e-9,
+        format!("{n_steps} steps, growth at most 1 + {:.1e}", worst.max(0.0)),
+    )
+}
+
+fn lifts_off() -> Verdict {
+    let skin = Skin {
+        preload_um: Some(1.0),
+        ..Skin::bonded(1e9, 0.0)
+    };
+    let mut plant = Plant::new(&loaded(skin, MOST_QUALITY), LOUDEST.len()).map_err(failed)?;
+    let mut most_um = 0.0_f64;
+    for _ in 0..20 {
+        for one in &plant.tick(&LOUDEST, 60.0).contactors {
+            if !(one.peak_um.is_finite() && one.current_rms_ma.is_finite()) {
+                return Err(format!("not finite: {one:?}"));
+            }
+            most_um = most_um.max(one.peak_um);
+        }
+    }
+    verdict(most_um < TOO_FAR_UM, format!("at most {most_um:.0} µm"))
+}
+
+fn no_skin(stiffnesses: [f64; 4]) -> Verdict {
+    let mut last = Err("none was tried".to_owned());
+    for stiffness in stiffnesses {
+        last = Ok(refused(
+            Skin::bonded(stiffness, 0.0).check(),
+            &["stiffness", "give 0 to"],
+        )?);
+    }
+    last
+}

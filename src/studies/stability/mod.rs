@@ -1,0 +1,182 @@
+//! Stability: what comes back when something extreme goes in, against what is promised.
+//!
+//! Every case runs for real on the library's own functions, on a thread of its own: one that
+//! panics or never ends is told as such and harms no other. None of them may panic, hang, or give
+//! a number that is not finite to a device.
+#![expect(
+    clippy::float_cmp,
+    reason = "silence is exactly 0, and what must not change must not change by a bit"
+)]
+
+mod cloth;
+mod contactor;
+#[cfg(test)]
+mod tests;
+
+mod device;
+mod input;
+mod link_faults;
+mod motion;
+mod picture;
+mod pointer;
+mod shading;
+mod tuning;
+
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+use super::runner::words_of;
+use super::{Bench, Findings, ReportError, Row, Study};
+use selvedge_foundation::quantity::time_span;
+
+/// A case that says nothing for longer hangs.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// The study.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stability;
+
+/// What came back: as promised, or otherwise.
+type Verdict = Result<String, String>;
+
+/// An extreme case.
+struct Case {
+    /// What it belongs to: `speed`, `files`.
+    area: &'static str,
+    /// What goes in.
+    tried: String,
+    /// What should come back.
+    should: &'static str,
+    /// Tries it.
+    run: Box<dyn FnOnce() -> Verdict + Send>,
+}
+
+impl Case {
+    /// A case of an area: what goes in, what should come back, and the trial.
+    fn new(
+        area: &'static str,
+        tried: impl Into<String>,
+        should: &'static str,
+        run: impl FnOnce() -> Verdict + Send + 'static,
+    ) -> Self {
+        Self {
+            area,
+            tried: tried.into(),
+            should,
+            run: Box::new(run),
+        }
+    }
+}
+
+impl Study for Stability {
+    fn name(&self) -> &'static str {
+        "stability"
+    }
+
+    fn question(&self) -> &'static str {
+        "What comes back when something extreme goes in?"
+    }
+
+    fn reference(&self) -> &'static str {
+        "what is promised for each case."
+    }
+
+    fn error_measure(&self) -> (&'static str, &'static str) {
+        ("cases that came out otherwise", "cases")
+    }
+
+    fn cost_of(&self) -> &'static str {
+        "case"
+    }
+
+    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+        let cases = [
+            motion::cases(),
+            tuning::cases(),
+            input::cases(),
+            pointer::cases(),
+            picture::cases(),
+            shading::cases(),
+            device::cases(),
+            contactor::cases(),
+            link_faults::cases(),
+        ];
+        try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)
+    }
+}
+
+/// Tries every case and tells what came back.
+fn try_all(
+    cases: Vec<Case>,
+    patience: Duration,
+    bench: &mut Bench<'_>,
+) -> Result<Findings, ReportError> {
+    let n_cases = cases.len();
+    let mut findings = Findings::default();
+    for (nth, case) in cases.into_iter().enumerate() {
+        bench.step(nth as f64 / n_cases as f64, &case.tried)?;
+        let verdict = alone(case.run, patience);
+        let is_otherwise = verdict.is_err();
+        let came_back = verdict.unwrap_or_else(|otherwise| otherwise);
+        findings.rows.push(Row {
+            method: case.area.to_owned(),
+            case: case.tried,
+            error: Some(f64::from(u8::from(is_otherwise))),
+            promised: Some(0.0),
+            more: vec![("came_back", came_back), ("should", case.should.to_owned())],
+            ..Row::default()
+        });
+    }
+    let n_broken = findings.n_broken();
+    findings.notes = vec![format!(
+        "{n_cases} cases, each on a thread of its own; {n_broken} came out otherwise than promised."
+    )];
+    Ok(findings)
+}
+
+/// Runs a case on a thread of its own: what panics or hangs there is told here.
+fn alone(run: Box<dyn FnOnce() -> Verdict + Send>, patience: Duration) -> Verdict {
+    let (tell, told) = sync_channel(1);
+    let thread = thread::Builder::new()
+        .name("extreme case".to_owned())
+        .spawn(move || drop(tell.send(run())))
+        .map_err(|error| format!("no thread for it: {error}"))?;
+    match told.recv_timeout(patience) {
+        Ok(verdict) => verdict,
+        Err(RecvTimeoutError::Timeout) => {
+            let waited = time_span(patience.as_secs_f64());
+            Err(format!("nothing came back within {waited}"))
+        }
+        Err(RecvTimeoutError::Disconnected) => match thread.join() {
+            Err(panic) => Err(format!("it panicked: {}", words_of(panic.as_ref()))),
+            Ok(()) => Err("nothing came back".to_owned()),
+        },
+    }
+}
+
+/// As promised or otherwise, with what came back.
+fn verdict(is_as_promised: bool, came_back: String) -> Verdict {
+    if is_as_promised {
+        Ok(came_back)
+    } else {
+        Err(came_back)
+    }
+}
+
+/// What should be refused: as promised if it was, with all of these words in the reason.
+fn refused<T>(result: Result<T, impl std::fmt::Display>, words: &[&str]) -> Verdict {
+    match result {
+        Ok(_) => Err("it was taken".to_owned()),
+        Err(error) => {
+            let line = error.to_string();
+            let has_all = words.iter().all(|word| line.contains(word)) && !line.contains('\n');
+            verdict(has_all, format!("refused: {line}"))
+        }
+    }
+}
+
+/// An error in words, for trials that need something to work before they can begin.
+fn failed(error: impl std::fmt::Display) -> String {
+    format!("the trial itself failed: {error}")
+}

@@ -1,0 +1,146 @@
+//! Pictures from which no lattice follows.
+
+use std::path::Path;
+
+use super::{Case, Verdict, failed, refused, verdict};
+use selvedge_foundation::files::{FileError, Rgb8Image, encode_png};
+use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::picture::{
+    AnalysisOptions, DirectionOptions, EvenLight, NoLattice, Picture, analyse, load,
+};
+
+/// A side of the pictures, px.
+const N: usize = 96;
+
+pub(super) fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    let mut add = |tried: &str, should, run: fn() -> Verdict| {
+        cases.push(Case::new("cloth from a picture", tried, should, run));
+    };
+    add("a picture of 1 × 1", "no lattice: too small", || {
+        none(&Grid::filled(1, 1, 0.4), |why| {
+            matches!(why, NoLattice::TooSmall(..))
+        })
+    });
+    add("a picture of one colour", "no lattice: one colour", || {
+        none(&Grid::filled(N, N, 0.4), |why| {
+            matches!(why, NoLattice::OneColour)
+        })
+    });
+    add(
+        "a picture of 20,000 × 20,000",
+        "refused by its header",
+        || refused(loaded(&bitmap(20_000)), &["64 million"]),
+    );
+    add("a picture that is cut off", "refused", cut_off);
+    add("a text for a picture", "refused", || {
+        refused(loaded(b"row,height\n1,2\n"), &["no picture"])
+    });
+    add("stripes", "no lattice, with a reason", || {
+        none(&waves([[7.0, 2.0], [0.0, 0.0]]), |_| true)
+    });
+    add(
+        "waves 1° apart",
+        "no lattice, or one that is no line",
+        nearly_parallel,
+    );
+    add("one repeat and a half", "no lattice, with a reason", || {
+        none(&waves([[64.0, 0.0], [0.0, 64.0]]), |_| true)
+    });
+    add("less than a period", "no lattice, with a reason", || {
+        none(&waves([[400.0, 0.0], [0.0, 300.0]]), |_| true)
+    });
+    add("noise", "no lattice, with a reason", || {
+        let mut random = selvedge_foundation::numerics::Random::new(7);
+        let values = (0..N * N).map(|_| random.uniform()).collect();
+        let noise = Grid::from_rows(N, values).unwrap_or_else(|| Grid::filled(1, 1, 0.0));
+        none(&noise, |_| true)
+    });
+    add(
+        "brightness that is no number",
+        "no lattice, with a reason",
+        || none(&Grid::filled(N, N, f64::NAN), |_| true),
+    );
+    cases
+}
+
+/// Waves of these periods (px along x and y; 0: none along it).
+fn waves(periods: [[f64; 2]; 2]) -> Grid<f64> {
+    let mut grid = Grid::filled(N, N, 0.5);
+    for row in 0..N {
+        for (column, value) in grid.row_mut(row).iter_mut().enumerate() {
+            for [x, y] in periods {
+                let turns = |at: usize, period: f64| {
+                    if period > 0.0 {
+                        at as f64 / period
+                    } else {
+                        0.0
+                    }
+                };
+                let turn = turns(column, x) + turns(row, y);
+                *value += 0.2 * (std::f64::consts::TAU * turn).cos();
+            }
+        }
+    }
+    grid
+}
+
+type Answer = Result<[[f64; 2]; 2], NoLattice>;
+
+fn answer(luminance: &Grid<f64>) -> Result<Answer, String> {
+    let options = AnalysisOptions {
+        light: EvenLight::Auto,
+        directions: DirectionOptions::default(),
+        n_threads: 1,
+    };
+    let picture = Picture::grey(luminance.clone());
+    let found = unheard(|progress| analyse(&picture, &options, progress)).map_err(failed)?;
+    Ok(found
+        .found
+        .map(|found| [found.lattice.p1_px, found.lattice.p2_px]))
+}
+
+fn none(luminance: &Grid<f64>, is_it: fn(&NoLattice) -> bool) -> Verdict {
+    match answer(luminance)? {
+        Ok([p1, p2]) => Err(format!("repeats by {p1:?} and {p2:?}")),
+        Err(why) => verdict(is_it(&why), format!("no lattice: {why}")),
+    }
+}
+
+fn nearly_parallel() -> Verdict {
+    match answer(&waves([[9.0, 0.0], [9.0, 515.0]]))? {
+        Err(why) => Ok(format!("no lattice: {why}")),
+        Ok([a, b]) => {
+            let area_px = (a[0] * b[1] - a[1] * b[0]).abs();
+            let text = format!("repeats by {a:?} and {b:?}");
+            verdict(area_px.is_finite() && area_px > 9.0, text)
+        }
+    }
+}
+
+fn loaded(bytes: &[u8]) -> Result<Picture, FileError> {
+    load(bytes, Path::new("a picture"))
+}
+
+/// A bitmap that only says how large it is.
+fn bitmap(side: u32) -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    let header = [58, 0, 54, 40, side, side, 0x0018_0001, 0, 4, 0, 0, 0, 0, 0];
+    bytes.extend(header.iter().flat_map(|number: &u32| number.to_le_bytes()));
+    bytes
+}
+
+fn cut_off() -> Verdict {
+    let picture = Rgb8Image {
+        width: N,
+        height: N,
+        pixels: (0..=u8::MAX)
+            .cycle()
+            .take(N * N)
+            .map(|i| [i, u8::MAX - i, i / 3])
+            .collect(),
+    };
+    let bytes = encode_png(&picture, Path::new("a.png")).map_err(failed)?;
+    refused(loaded(&bytes[..bytes.len() / 2]), &["cannot be read"])
+}

@@ -1,0 +1,46 @@
+//! Every case comes out as promised, and one that does not is told.
+
+use super::*;
+use crate::Effort;
+use crate::tests::quick;
+use selvedge_foundation::progress::unheard;
+
+#[test]
+fn every_extreme_case_comes_out_as_promised() {
+    let findings = quick(&Stability, 1);
+    assert!(findings.rows.len() > 40, "{} cases", findings.rows.len());
+    let broken: Vec<&Row> = findings.broken().collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+#[test]
+fn what_comes_out_otherwise_or_panics_is_broken_and_harms_no_other() {
+    let cases = vec![
+        Case::new("a", "wrong", "silent", || Err("4 µm".to_owned())),
+        Case::new("a", "panics", "silent", || panic!("at {}", 7)),
+        Case::new("a", "right", "silent", || Ok("0 µm".to_owned())),
+    ];
+    let run = |bench: &mut Bench<'_>| try_all(cases, PATIENCE, bench);
+    let findings = unheard(|progress| run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap();
+    let kept: Vec<Option<bool>> = findings.rows.iter().map(Row::is_kept).collect();
+    assert_eq!(kept, [Some(false), Some(false), Some(true)]);
+    let told: Vec<&str> = findings
+        .rows
+        .iter()
+        .map(|row| row.more[0].1.as_str())
+        .collect();
+    assert_eq!(told, ["4 µm", "it panicked: at 7", "0 µm"]);
+    assert_eq!(findings.n_broken(), 2);
+}
+
+#[test]
+fn what_hangs_is_given_up() {
+    let (end, ended) = sync_channel::<()>(0);
+    let hangs = move || {
+        let is_over = ended.recv().is_err();
+        Ok(format!("over: {is_over}"))
+    };
+    let told = alone(Box::new(hangs), Duration::from_millis(20)).unwrap_err();
+    assert_eq!(told, "nothing came back within 20.00 ms");
+    drop(end);
+}

@@ -1,0 +1,147 @@
+//! Gains and compression that make no sense: in files, and live.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::cloth::{METHODS, extent_um, moving, renderer, told_um, wavy_scene};
+use super::{Case, Verdict, failed, refused, verdict};
+use selvedge_device::{ArrayProfile, Coder};
+use selvedge_engine::{Command, Engine, EngineConfig, Notice, PreparedScene};
+use selvedge_foundation::geometry::Point;
+use selvedge_render::array::{Accuracy, Method};
+use selvedge_render::scene::Scene;
+use selvedge_textile::tactile::Tuning;
+
+/// Gains and compression.
+pub(super) fn cases() -> Vec<Case> {
+    let gain = |gain_db| Tuning {
+        gain_db,
+        ..Tuning::default()
+    };
+    let compressed = |compression| Tuning {
+        compression,
+        ..Tuning::default()
+    };
+    let mut cases = vec![
+        Case::new("gain", "−∞ dB, live", "silent", || {
+            silent_with_gain(f64::NEG_INFINITY)
+        }),
+        Case::new("gain", "−∞ dB, in a file", "taken", || {
+            let read = in_file("gain_db = -inf").map_err(|error| error.to_string())?;
+            let gain_db = read.tuning.map(|tuning| tuning.gain_db);
+            verdict(
+                gain_db == Some(f64::NEG_INFINITY),
+                "taken as silence".to_owned(),
+            )
+        }),
+        Case::new("gain", "1e308 dB, live", "finite", || {
+            finite_with_gain(1e308)
+        }),
+    ];
+    for (value, spelt) in [(f64::INFINITY, "inf"), (f64::NAN, "nan")] {
+        let tried = format!("{value} dB, in a file");
+        let file = move || refused(in_file(&format!("gain_db = {spelt}")), &["a.toml:4", "; "]);
+        cases.push(Case::new("gain", tried, "refused with file and line", file));
+        let live = move || ignored_live(gain(value));
+        let tried = format!("{value} dB, live");
+        cases.push(Case::new("gain", tried, "ignored with a notice", live));
+    }
+    for (value, spelt) in [(-0.1, "-0.1"), (1.1, "1.1"), (f64::NAN, "nan")] {
+        let tried = format!("{value}, in a file");
+        let line = format!("compression = {spelt}");
+        let file = move || refused(in_file(&line), &["a.toml:4", "; "]);
+        cases.push(Case::new(
+            "compression",
+            tried,
+            "refused with file and line",
+            file,
+        ));
+        let live = move || ignored_live(compressed(value));
+        let tried = format!("{value}, live");
+        cases.push(Case::new(
+            "compression",
+            tried,
+            "refused with a notice",
+            live,
+        ));
+    }
+    cases
+}
+
+/// A scene file with this line in its tuning, the fourth.
+fn in_file(line: &str) -> Result<Scene, impl std::fmt::Display + use<>> {
+    let text = format!("name = \"a\"\nsize_mm = [100.0, 100.0]\n[tuning]\n{line}\n");
+    Scene::from_toml(&text, Path::new("a.toml"))
+}
+
+fn silent_with_gain(gain_db: f64) -> Verdict {
+    let heard = heard_with_gain(gain_db)?;
+    let is_silent = heard.iter().all(|extent| *extent == [0.0; 2]);
+    verdict(is_silent, told_um(heard[0]))
+}
+
+fn finite_with_gain(gain_db: f64) -> Verdict {
+    let heard = heard_with_gain(gain_db)?;
+    let profile = ArrayProfile::default();
+    let mut coder = Coder::new(&profile, 1);
+    let mut codes = Vec::new();
+    for [low, high] in &heard {
+        codes.extend(coder.encode(&[[*low, *high]], 1.0));
+    }
+    let is_bounded = codes
+        .iter()
+        .all(|[low, high]| u32::from(*low) + u32::from(*high) <= 65_535);
+    let is_number = heard.iter().flatten().all(|um| !um.is_nan());
+    verdict(
+        is_bounded && is_number,
+        format!("{}, codes within full drive", told_um(heard[0])),
+    )
+}
+
+/// What every method gives at 100 mm/s with a gain.
+fn heard_with_gain(gain_db: f64) -> Result<Vec<[f32; 2]>, String> {
+    let scene = wavy_scene()?;
+    let mut heard = Vec::new();
+    for method in METHODS {
+        let mut renderer = renderer(&scene, method)?;
+        let tuning = Tuning {
+            gain_db,
+            ..Tuning::default()
+        };
+        renderer.set_tuning(&tuning).map_err(failed)?;
+        heard.push(extent_um(&renderer.tick(&[moving(100.0)])[0]));
+    }
+    Ok(heard)
+}
+
+/// An engine that is given a senseless tuning says so and keeps the last one.
+fn ignored_live(tuning: Tuning) -> Verdict {
+    let mut renderer = renderer(&wavy_scene()?, Method::Reference)?;
+    let before = extent_um(&renderer.tick(&[moving(100.0)])[0]);
+    let is_refused = renderer.set_tuning(&tuning).is_err();
+    let after = extent_um(&renderer.tick(&[moving(100.0)])[0]);
+    let (mut engine, _) = engine()?;
+    engine.send(Command::SetTuning(tuning)).map_err(failed)?;
+    engine.advance_ticks(1);
+    match engine.next_notice() {
+        Some(Notice::GainIgnored(error)) => {
+            let is_kept = is_refused && before == after;
+            verdict(is_kept, format!("ignored: {error}"))
+        }
+        other => Err(format!("no such notice: {other:?}")),
+    }
+}
+
+/// An engine in told time on a scene of one textile, and that time.
+pub(super) fn engine() -> Result<(Engine, Instant), String> {
+    let start = Instant::now();
+    let (profile, accuracy) = (ArrayProfile::default(), Accuracy::default());
+    let method = (Method::Reference, &accuracy);
+    let scene = PreparedScene::from_parts(&wavy_scene()?, profile, Point::new(50.0, 50.0), method);
+    let config = EngineConfig {
+        scene: scene.map_err(failed)?,
+        on_news: None,
+    };
+    let engine = Engine::without_thread(config, start).map_err(failed)?;
+    Ok((engine, start))
+}

@@ -1,0 +1,209 @@
+//! Ways to find a threshold: which stimuli, and what is made of the answers.
+
+use super::Run;
+use super::observers::{ASSUMED_WIDTH_DB, GUESS, Observer};
+use selvedge_foundation::numerics::Random;
+use selvedge_statistics::adaptive::{
+    ConstantStimuli, Procedure, QuestGrid, QuestPlus, Rule, Stage, Staircase, StaircasePlan,
+    StepScale, Stop,
+};
+use selvedge_statistics::psychometric::{Family, Guess, Model, Psychometric};
+use selvedge_statistics::{Computed, Undefined};
+
+/// A way to find a threshold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    TwoDownReversals,
+    TwoDownFit,
+    WeightedReversals,
+    WeightedFit,
+    QuestSlopeFree,
+    QuestSlopeAssumed,
+    ConstantFit,
+}
+
+/// A procedure, whichever it is.
+#[derive(Debug, Clone)]
+pub(super) enum Session {
+    Staircase(Staircase),
+    Quest(Box<QuestPlus>),
+    Constant(ConstantStimuli),
+}
+
+impl Session {
+    fn procedure(&mut self) -> &mut dyn Procedure {
+        match self {
+            Self::Staircase(staircase) => staircase,
+            Self::Quest(quest) => quest.as_mut(),
+            Self::Constant(constant) => constant,
+        }
+    }
+}
+
+impl Way {
+    pub(super) const ALL: [Self; 7] = [
+        Self::TwoDownReversals,
+        Self::TwoDownFit,
+        Self::WeightedReversals,
+        Self::WeightedFit,
+        Self::QuestSlopeFree,
+        Self::QuestSlopeAssumed,
+        Self::ConstantFit,
+    ];
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::TwoDownReversals => "1 up 2 down, reversals",
+            Self::TwoDownFit => "1 up 2 down, fit",
+            Self::WeightedReversals => "weighted 3 : 1, reversals",
+            Self::WeightedFit => "weighted 3 : 1, fit",
+            Self::QuestSlopeFree => "QUEST+",
+            Self::QuestSlopeAssumed => "QUEST+, slope assumed",
+            Self::ConstantFit => "constant stimuli, fit",
+        }
+    }
+
+    /// A session before its first trial, in decibels about where the threshold may be.
+    pub(super) fn session(self, (seed, run): (u64, usize), n_trials: u32) -> Computed<Session> {
+        let stage = |up, down, n_reversals| Stage {
+            up,
+            down,
+            n_reversals,
+        };
+        let staircase = |rule, stages| {
+            let plan = StaircasePlan {
+                stages,
+                limits: [-60.0, 30.0],
+                stop: Stop::Trials(n_trials),
+                ..StaircasePlan::steady(rule, StepScale::Linear, 20.0, [1.0, 1.0])
+            };
+            Staircase::new(plan).map(Session::Staircase)
+        };
+        let quest = |widths: Vec<f64>| {
+            let quest = QuestPlus::new(grid(widths), Stop::Trials(n_trials))?;
+            Ok(Session::Quest(Box::new(quest)))
+        };
+        match self {
+            Self::TwoDownReversals | Self::TwoDownFit => staircase(
+                Rule::one_up(2),
+                vec![stage(4.0, 4.0, 2), stage(2.0, 2.0, 0)],
+            ),
+            Self::WeightedReversals | Self::WeightedFit => staircase(
+                Rule::one_up(1),
+                vec![stage(6.0, 2.0, 2), stage(3.0, 1.0, 0)],
+            ),
+            Self::QuestSlopeFree => quest(vec![5.0, 7.0, 10.0, 14.0, 20.0, 28.0]),
+            Self::QuestSlopeAssumed => quest(vec![ASSUMED_WIDTH_DB]),
+            Self::ConstantFit => {
+                let stimuli = [-12.0, -6.0, 0.0, 6.0, 12.0];
+                let n_rounds = n_trials.div_ceil(5) as usize;
+                let run = u64::try_from(run).unwrap_or(u64::MAX);
+                let constant = ConstantStimuli::new(&stimuli, n_rounds, seed.wrapping_add(run))?;
+                Ok(Session::Constant(constant))
+            }
+        }
+    }
+
+    /// The threshold that a session came to, with the share right that it is the threshold of;
+    /// `None` for F = ½.
+    pub(super) fn threshold_db(self, session: &Session) -> Computed<(f64, Option<f64>)> {
+        match (self, session) {
+            (Self::TwoDownReversals | Self::WeightedReversals, Session::Staircase(staircase)) => {
+                let mean = staircase.reversal_mean(staircase.reversals().len())?;
+                Ok((mean.threshold, Some(mean.target)))
+            }
+            (_, Session::Staircase(staircase)) => fitted(staircase),
+            (_, Session::Constant(constant)) => fitted(constant),
+            (_, Session::Quest(quest)) => Ok((quest.summary().threshold.mean, None)),
+        }
+    }
+
+    /// The errors of one run after so many trials, dB.
+    pub(super) fn errors_db(self, observer: &Observer, at: &[u32], run: (u64, usize)) -> Run {
+        let n_trials = at.iter().copied().max().unwrap_or(0);
+        let mut random = random_of(run);
+        let curve = observer.curve(random.uniform_in(-3.0, 3.0));
+        let Ok(mut session) = self.session(run, n_trials) else {
+            return vec![None; at.len()];
+        };
+        let mut errors = Vec::with_capacity(at.len());
+        for &n_trials in at {
+            let went = continued(session.procedure(), &curve, n_trials, &mut random);
+            let error = went.and_then(|()| {
+                let (found_db, target) = self.threshold_db(&session)?;
+                let true_db = target.map_or(Ok(curve.threshold), |p| curve.stimulus_at(p))?;
+                Ok(found_db - true_db)
+            });
+            errors.push(error.ok());
+        }
+        errors
+    }
+
+    /// One session of so many trials.
+    pub(super) fn run(self, observer: &Observer, n: u32, run: (u64, usize)) -> Computed<Session> {
+        let mut session = self.session(run, n)?;
+        answer(session.procedure(), observer, 0.0, (n as usize, run.0))?;
+        Ok(session)
+    }
+}
+
+fn random_of((seed, run): (u64, usize)) -> Random {
+    Random::new(seed).branch(&format!("observer of run {run}"))
+}
+
+/// Answers so many trials of an observer with this threshold.
+pub(super) fn answer(
+    procedure: &mut dyn Procedure,
+    observer: &Observer,
+    threshold_db: f64,
+    (n_trials, seed): (usize, u64),
+) -> Computed<()> {
+    let n_trials = u32::try_from(n_trials).unwrap_or(u32::MAX);
+    let curve = observer.curve(threshold_db);
+    continued(procedure, &curve, n_trials, &mut random_of((seed, 0)))
+}
+
+fn continued(
+    procedure: &mut dyn Procedure,
+    curve: &Psychometric,
+    n_trials: u32,
+    random: &mut Random,
+) -> Computed<()> {
+    while procedure.trials().len() < n_trials as usize {
+        let stimulus = procedure.stimulus();
+        let stimulus = stimulus.ok_or_else(|| Undefined::because("over before its time"))?;
+        procedure.answer(stimulus, random.uniform() < curve.at(stimulus))?;
+    }
+    Ok(())
+}
+
+fn fitted(procedure: &impl Procedure) -> Computed<(f64, Option<f64>)> {
+    let fit = Model::alternatives(Family::Gumbel, 3).fit(&procedure.blocks())?;
+    Ok((fit.curve.threshold, None))
+}
+
+fn grid(widths: Vec<f64>) -> QuestGrid {
+    QuestGrid {
+        family: Family::Gumbel,
+        guess: Guess::Share(GUESS),
+        stimuli: (-15..=15).map(|i| 2.0 * f64::from(i)).collect(),
+        thresholds: (-25..=25).map(|i| 0.8 * f64::from(i)).collect(),
+        widths,
+        lapses: vec![0.0, 0.02, 0.04],
+    }
+}
+
+/// QUEST+ on a grid of 100 × 50 × 50 × 6.
+pub(super) fn large_quest() -> Computed<QuestPlus> {
+    let along = |n: u32, [from, to]: [f64; 2]| -> Vec<f64> {
+        let step = (to - from) / f64::from(n - 1);
+        (0..n).map(|i| from + step * f64::from(i)).collect()
+    };
+    let large = QuestGrid {
+        stimuli: along(100, [-30.0, 30.0]),
+        thresholds: along(50, [-20.0, 20.0]),
+        lapses: along(6, [0.0, 0.05]),
+        ..grid(along(50, [2.0, 30.0]))
+    };
+    QuestPlus::new(large, Stop::Trials(1000))
+}

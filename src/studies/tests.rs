@@ -1,0 +1,333 @@
+//! The runner on studies made up for it: right, wrong, failing, panicking, endless.
+
+use std::path::Path;
+
+use super::pareto::tests::row;
+use super::*;
+use selvedge_chart::{Plot, Series};
+use selvedge_foundation::files::Table;
+use selvedge_scratch::ScratchFolder;
+use selvedge_foundation::progress::{CancelFlag, unheard};
+
+/// What a study finds in quick mode.
+pub(super) fn quick(study: &dyn Study, seed: u64) -> Findings {
+    unheard(|progress| study.run(&mut Bench::new(Effort::Quick, seed, progress))).unwrap()
+}
+
+/// Two runs found the same, and no row lacks an error or a cost.
+pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
+    assert_eq!(first.rows.len(), second.rows.len());
+    for (a, b) in first.rows.iter().zip(&second.rows) {
+        assert_eq!(
+            (a.error, a.error_p99, &a.more),
+            (b.error, b.error_p99, &b.more)
+        );
+        assert!(
+            a.error.is_some_and(f64::is_finite) && a.cost.is_some(),
+            "{a:?}"
+        );
+    }
+}
+
+/// A study that does what it is told.
+struct Told {
+    name: &'static str,
+    run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
+}
+
+impl Study for Told {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn question(&self) -> &'static str {
+        "Which way is best?"
+    }
+
+    fn reference(&self) -> &'static str {
+        "a closed form."
+    }
+
+    fn error_measure(&self) -> (&'static str, &'static str) {
+        ("level error", "dB")
+    }
+
+    fn cost_of(&self) -> &'static str {
+        "tick"
+    }
+
+    fn is_long(&self) -> bool {
+        self.name == "endless"
+    }
+
+    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+        (self.run)(bench)
+    }
+}
+
+fn told(
+    name: &'static str,
+    run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
+) -> Box<dyn Study> {
+    Box::new(Told { name, run })
+}
+
+/// A method that keeps its promise, one that is cheaper and wrong, and the reference.
+fn one_is_wrong(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    bench.step(0.0, "weaving")?;
+    let with = |method: &str, error, cpu_s, promised| Row {
+        method: method.to_owned(),
+        setting: "f32, \"fast\"".to_owned(),
+        promised,
+        more: vec![("nodes_per_octave", "24".to_owned())],
+        ..row("silk|crêpe", error, cpu_s)
+    };
+    Ok(Findings {
+        rows: vec![
+            with("right", 0.04, 2e-7, Some(0.05)),
+            with("wrong", 3.0, 1e-7, Some(0.05)),
+            with("reference", 0.0, 4e-5, None),
+            with("right", 0.01, 4e-7, Some(0.05)),
+        ],
+        plots: vec![(
+            "further".to_owned(),
+            Plot {
+                series: vec![Series::default()],
+                ..Plot::default()
+            },
+        )],
+        notes: vec!["A note.".to_owned()],
+    })
+}
+
+fn run_in(folder: &Path, studies: &[Box<dyn Study>], cancel: &CancelFlag) -> (Report, Vec<f64>) {
+    let options = Options {
+        out: folder.to_owned(),
+        effort: Effort::Quick,
+        seed: 7,
+        is_long: false,
+        command: "selvedge report --out x --quick --seed 7".to_owned(),
+    };
+    let mut shares = Vec::new();
+    let report = run(studies, &options, cancel, &mut |standing| {
+        shares.push(standing.share);
+    });
+    (report.unwrap(), shares)
+}
+
+const COLUMNS: [&str; 16] = [
+    "method",
+    "setting",
+    "case",
+    "size",
+    "error_db",
+    "error_p99_db",
+    "promised_db",
+    "kept",
+    "cpu_s",
+    "cpu_q25_s",
+    "cpu_q75_s",
+    "wall_s",
+    "n_repeats",
+    "bytes",
+    "pareto",
+    "nodes_per_octave",
+];
+
+#[test]
+fn a_wrong_method_shows_up_as_wrong() {
+    let folder = ScratchFolder::made("runner");
+    let studies = [told("made-up", one_is_wrong)];
+    let (report, _) = run_in(&folder, &studies, &CancelFlag::new());
+    assert_eq!(report.n_broken(), 1);
+    let table = Table::read(
+        &folder.read("made-up.csv"),
+        Path::new("t.csv"),
+        &COLUMNS,
+        &[],
+    )
+    .unwrap();
+    assert_eq!(
+        table.text("method").unwrap(),
+        ["right", "wrong", "reference", "right"]
+    );
+    assert_eq!(table.text("kept").unwrap(), ["true", "false", "", "true"]);
+    assert_eq!(
+        table.text("pareto").unwrap(),
+        ["true", "false", "true", "true"]
+    );
+    assert_eq!(table.text("setting").unwrap()[0], "f32, \"fast\"");
+    let index = folder.read("index.md");
+    let broken = "## Broken promises: made-up\n\n\
+                  - wrong, f32, \"fast\", silk\\|crêpe: 3.00 dB where \
+                  0.0500 dB is promised";
+    assert!(index.contains(broken), "{index}");
+    let (top, rest) = index.split_once("## Made up").unwrap();
+    assert!(
+        top.contains("Broken promises"),
+        "broken promises are on top"
+    );
+    assert!(
+        rest.contains("| wrong | f32, \"fast\" | silk\\|crêpe | 3.00 |"),
+        "{rest}"
+    );
+    assert!(rest.contains("| **no** |"), "{rest}");
+}
+
+#[test]
+fn the_table_holds_what_the_plot_shows() {
+    let folder = ScratchFolder::made("runner");
+    let studies = [told("made-up", one_is_wrong)];
+    run_in(&folder, &studies, &CancelFlag::new());
+    let table = Table::read(
+        &folder.read("made-up.csv"),
+        Path::new("t.csv"),
+        &COLUMNS,
+        &[],
+    )
+    .unwrap();
+    let findings = unheard(|progress| studies[0].run(&mut Bench::new(Effort::Quick, 7, progress)));
+    let plot = chart::error_against_time(studies[0].as_ref(), &findings.unwrap()).unwrap();
+    let (methods, fronts) = (table.text("method").unwrap(), table.text("pareto").unwrap());
+    let errors = table.required_numbers("error_db").unwrap();
+    let costs_s = table.required_numbers("cpu_s").unwrap();
+    let rows =
+        (0..table.n_rows()).map(|i| (methods[i], [costs_s[i], errors[i]], fronts[i] == "true"));
+    for series in plot
+        .series
+        .iter()
+        .filter(|series| !series.name.starts_with("promised"))
+    {
+        let of_method = rows.clone().filter(|(method, ..)| *method == series.name);
+        let (points, marks): (Vec<_>, Vec<_>) = of_method.map(|(_, at, front)| (at, front)).unzip();
+        assert_eq!(series.points, points, "{}", series.name);
+        let marked: Vec<usize> = (0..marks.len()).filter(|i| marks[*i]).collect();
+        assert_eq!(series.marked, marked, "{}", series.name);
+    }
+    assert_eq!(plot.series.len(), 4, "three methods and a promise");
+    assert_eq!(folder.read("made-up.svg"), plot.to_svg());
+    for name in ["made-up.png", "made-up-further.svg", "made-up-further.png"] {
+        assert!(folder.join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn the_index_says_where_how_and_how_to_repeat_it() {
+    let folder = ScratchFolder::made("runner");
+    run_in(
+        &folder,
+        &[told("made-up", one_is_wrong)],
+        &CancelFlag::new(),
+    );
+    let (index, machine) = (folder.read("index.md"), Machine::here());
+    for text in [
+        &format!("{} cores", machine.n_cores),
+        &machine.program,
+        "| seed | 7 |",
+        "quick",
+        "`selvedge report --out x --quick --seed 7`",
+        "Which way is best?",
+        "Reference: a closed form.",
+        "(made-up.csv)",
+        "(made-up.png)",
+        "(made-up-further.svg)",
+        "- A note.",
+        "CPU a tick",
+        "200 ns",
+        " UTC |",
+    ] {
+        assert!(index.contains(text), "{text}: {index}");
+    }
+}
+
+#[test]
+fn a_study_that_fails_or_panics_harms_no_other() {
+    let folder = ScratchFolder::made("runner");
+    let fails = |_: &mut Bench<'_>| {
+        Err(ReportError::Unknown {
+            name: "x".to_owned(),
+            known: "y".to_owned(),
+        })
+    };
+    let studies = [
+        told("fails", fails),
+        told("panics", |_| panic!("out of cloth")),
+        told("endless", |_| panic!("it ran without being asked for")),
+        told("made-up", one_is_wrong),
+    ];
+    let (report, shares) = run_in(&folder, &studies, &CancelFlag::new());
+    let failures: Vec<(&str, &str)> = report.failures().collect();
+    assert_eq!(failures.len(), 2);
+    assert_eq!(failures[1], ("panics", "it panicked: out of cloth"));
+    assert!(!report.is_cancelled && folder.join("made-up.csv").is_file());
+    let index = folder.read("index.md");
+    for text in [
+        "**fails failed**: no study",
+        "**panics failed**",
+        "Not run without `--long`: endless",
+    ] {
+        assert!(index.contains(text), "{text}: {index}");
+    }
+    assert!(
+        shares.is_sorted() && shares.iter().all(|share| (0.0..=1.0).contains(share)),
+        "{shares:?}"
+    );
+}
+
+#[test]
+fn a_cancelled_report_keeps_what_is_finished() {
+    let folder = ScratchFolder::made("runner");
+    let cancel = CancelFlag::new();
+    let cancels = |bench: &mut Bench<'_>| {
+        bench.step(0.5, "halfway")?;
+        Ok(Findings::default())
+    };
+    let studies = [
+        told("made-up", one_is_wrong),
+        told("cancels", cancels),
+        told("never", cancels),
+    ];
+    let options = Options {
+        out: folder.to_owned(),
+        effort: Effort::Full,
+        seed: 1,
+        is_long: false,
+        command: String::new(),
+    };
+    let report = run(&studies, &options, &cancel, &mut |standing| {
+        if standing.doing == "halfway" {
+            cancel.cancel();
+        }
+    })
+    .unwrap();
+    assert!(report.is_cancelled && matches!(report.outcomes[1].1, Outcome::Stopped));
+    assert!(folder.join("made-up.csv").is_file() && !folder.join("cancels.csv").exists());
+    let index = folder.read("index.md");
+    assert!(index.contains("**Stopped before it was done.**"), "{index}");
+    assert!(index.contains("Not finished: cancels, never."), "{index}");
+}
+
+#[test]
+fn studies_are_chosen_by_name_and_nonsense_is_refused() {
+    let all = || vec![told("a", one_is_wrong), told("b", one_is_wrong)];
+    let names = |only: &[&str]| {
+        let only: Vec<String> = only.iter().map(|name| (*name).to_owned()).collect();
+        choose(all(), &only).map(|studies| studies.iter().map(|s| s.name()).collect::<Vec<_>>())
+    };
+    assert_eq!(names(&[]).unwrap(), ["a", "b"]);
+    assert_eq!(names(&["b"]).unwrap(), ["b"]);
+    let error = names(&["b", "c"]).unwrap_err().to_string();
+    assert_eq!(error, "no study is called \"c\"; choose from a, b");
+}
+
+#[test]
+fn names_of_studies_are_distinct_and_fit_files() {
+    let names: Vec<&str> = studies().iter().map(|study| study.name()).collect();
+    for (nth, name) in names.iter().enumerate() {
+        assert!(!names[..nth].contains(name), "{name} twice");
+        assert!(
+            name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-'),
+            "{name}"
+        );
+    }
+}

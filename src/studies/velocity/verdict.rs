@@ -1,0 +1,161 @@
+//! What follows from the velocity study: error against delay, and which method to begin with.
+
+use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_engine::VelocityMethod;
+use selvedge_foundation::quantity::{fixed, time_span, with_unit};
+
+use super::Outcome;
+use super::candidates::Candidate;
+use super::pointers::Pointer;
+use super::tally::Tally;
+
+/// A candidate over every pointer.
+struct Overall<'a> {
+    candidate: &'a Candidate,
+    tally: Tally,
+    cost_s: f64,
+    /// 99th percentile of the level error of the steady stroke, dB: the worst pointer's.
+    steady_db: f64,
+}
+
+/// A steady stroke should stay within this at the 99th percentile, dB: about what is just noticed.
+const STEADY_DB: f64 = 1.0;
+/// Methods that break are not drawn: beyond this the axis would show nothing else, mm/s.
+const DRAWN_MM_PER_S: f64 = 1000.0;
+
+/// Error against delay, over all pointers and for each.
+pub(super) fn plots(results: &[Outcome], pointers: &[Pointer]) -> Vec<(String, Plot)> {
+    let overall = overall(results);
+    let dots = overall
+        .iter()
+        .map(|all| (all.candidate, &all.tally))
+        .collect();
+    let mut plots = vec![("delay".to_owned(), plot("all pointers", dots))];
+    for (index, pointer) in pointers.iter().enumerate() {
+        let of_pointer = results.iter().filter(|result| result.pointer == *pointer);
+        let dots = of_pointer
+            .map(|result| (&result.candidate, &result.tally))
+            .collect();
+        plots.push((format!("delay-{}", index + 1), plot(pointer.label, dots)));
+    }
+    plots
+}
+
+fn plot(what: &str, dots: Vec<(&Candidate, &Tally)>) -> Plot {
+    let mut series: Vec<Series> = Vec::new();
+    let is_drawn = |tally: &Tally| tally.rms_mm_per_s() <= DRAWN_MM_PER_S;
+    for (candidate, tally) in dots.into_iter().filter(|dot| is_drawn(dot.1)) {
+        let name = candidate.method.label();
+        let at = series.iter().position(|series| series.name == name);
+        let at = at.unwrap_or_else(|| {
+            series.push(Series {
+                name: name.to_owned(),
+                style: Style::Dots,
+                ..Series::default()
+            });
+            series.len() - 1
+        });
+        if candidate.method == VelocityMethod::default() {
+            let index = series[at].points.len();
+            series[at].marked.push(index);
+        }
+        series[at]
+            .points
+            .push([1e3 * tally.delay_s(), tally.rms_mm_per_s()]);
+    }
+    Plot {
+        title: format!("Velocity error against delay, {what}"),
+        x: Axis::linear("delay on strokes that vary, ms"),
+        y: Axis::log("rms velocity error, mm/s"),
+        series,
+        footnote: "one dot a setting; marked: the default; settings beyond 1000 mm/s left out"
+            .to_owned(),
+    }
+}
+
+fn overall(results: &[Outcome]) -> Vec<Overall<'_>> {
+    let mut all: Vec<Overall<'_>> = Vec::new();
+    for result in results {
+        // Bursts break the rhythm of the steady stroke itself; they count in the error.
+        let is_counted = !result.pointer.is_bursty();
+        let steady_db = if is_counted { result.steady_db } else { 0.0 };
+        let known = all
+            .iter_mut()
+            .find(|known| *known.candidate == result.candidate);
+        if let Some(known) = known {
+            known.tally.add(&result.tally);
+            known.cost_s = known.cost_s.max(result.cost.cpu_s);
+            known.steady_db = known.steady_db.max(steady_db);
+        } else {
+            all.push(Overall {
+                candidate: &result.candidate,
+                tally: result.tally.clone(),
+                cost_s: result.cost.cpu_s,
+                steady_db,
+            });
+        }
+    }
+    all
+}
+
+/// The numbers that the default was chosen by, a sentence each.
+pub(super) fn notes(results: &[Outcome]) -> Vec<String> {
+    let mut overall = overall(results);
+    overall.sort_by(|a, b| a.tally.rms_mm_per_s().total_cmp(&b.tally.rms_mm_per_s()));
+    let mut notes = Vec::new();
+    if let Some(best) = overall.first() {
+        notes.push(format!(
+            "Least rms error over all strokes and pointers: {}.",
+            told(best)
+        ));
+    }
+    let steady = overall.iter().find(|all| all.steady_db <= STEADY_DB);
+    if let Some(steady) = steady {
+        let within = with_unit(STEADY_DB, 0, "dB");
+        notes.push(format!(
+            "Least of those within {within} on a steady stroke: {}.",
+            told(steady)
+        ));
+    }
+    let default = overall
+        .iter()
+        .find(|all| all.candidate.method == VelocityMethod::default());
+    if let Some(default) = default {
+        notes.push(format!("The default: {}.", told(default)));
+    }
+    let mut seen: Vec<&str> = Vec::new();
+    for all in &overall {
+        let label = all.candidate.method.label();
+        if !seen.contains(&label) {
+            seen.push(label);
+            notes.push(format!("Best setting of its kind: {}.", told(all)));
+        }
+    }
+    notes.push(
+        "The error is taken at the tick that asks, so a delay counts as error; the delay holds \
+         the age of the samples too. Levels are compared from 10 mm/s up."
+            .to_owned(),
+    );
+    notes
+}
+
+fn told(all: &Overall<'_>) -> String {
+    let Overall {
+        candidate,
+        tally,
+        cost_s,
+        steady_db,
+    } = all;
+    let name = [candidate.method.label(), candidate.setting.as_str()].join(" ");
+    format!(
+        "{} has {} rms ({} at the 99th percentile), {} rms of level, {} on a steady \
+         stroke at the 99th percentile, a delay of {} and costs {} a sample",
+        name.trim_end(),
+        with_unit(tally.rms_mm_per_s(), 2, "mm/s"),
+        fixed(tally.p99_mm_per_s(), 1),
+        with_unit(tally.rms_db(), 2, "dB"),
+        with_unit(*steady_db, 2, "dB"),
+        with_unit(1e3 * tally.delay_s(), 1, "ms"),
+        time_span(*cost_s),
+    )
+}

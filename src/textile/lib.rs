@@ -1,0 +1,168 @@
+//! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
+//!
+//! A textile is a folder with a manifest; its source is measured profiles, a measured height map, a
+//! seeded model of a woven or knitted cloth that a virtual probe was drawn over, or of a surface
+//! known by its harmonics, its Hurst exponent or what repeats in it. Knows nothing of scenes or of
+//! rendering.
+//!
+//! # Invariants
+//! - loading is lazy: a library reads a textile's profiles only when it is asked for that textile
+//! - a model is a function of its recipe: same recipe, same bytes
+//! - every error is one line: what, where, how to mend it
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+mod brought;
+mod brownian;
+mod build;
+mod cache;
+mod catalogue;
+mod cloth;
+mod curve;
+mod drawn;
+mod fourier;
+mod index;
+mod keeping;
+mod kes;
+mod knit;
+mod library;
+mod loaded;
+mod manifest;
+mod measured;
+pub mod metrology;
+mod model;
+mod parameter;
+pub mod picture;
+mod profile_file;
+mod recipes;
+mod restoration;
+mod selection;
+mod shipped;
+pub mod surface;
+pub mod tactile;
+mod trial;
+mod weave;
+mod words;
+mod workers;
+
+pub use brought::{Measurement, read_measurement};
+pub use brownian::{Brownian, Generator, Hurst, Tip};
+pub use build::{BuiltFile, build, build_library, make, write};
+pub use cache::BuildCache;
+pub use catalogue::{sheet, write_catalogue, write_figure};
+pub use cloth::{Side, Yarn};
+pub use drawn::lit;
+pub use fourier::{
+    Composition, Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings,
+    example_templates, import, templates_from_toml, templates_to_toml,
+};
+pub use index::{Index, IndexEntry};
+pub use kes::{
+    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesColumn, KesFigures,
+    KesFile, KesFriction, KesImport, KesKnown, KesLine, KesLook, KesOptions, KesOrigin, KesPlace,
+    KesReading, KesSection, KesStroke, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
+};
+pub use knit::{Knit, Structure};
+pub use library::{Library, is_of_the_program};
+pub use loaded::{Appearance, Textile};
+pub use manifest::{
+    AppearanceKeys, Construction, Manifest, Parent, ProfileFiles, Profiles, Provenance, Source,
+};
+pub use measured::{
+    Figure as MeasuredFigure, KnownFigure, all_known as known_figures, figures as measured_figures,
+};
+pub use parameter::{
+    Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
+};
+pub use profile_file::read as read_profile;
+pub use recipes::SEVENTY_FOUR;
+pub use restoration::{Reduced, Restoration, Rule};
+pub use selection::{kind_of, most_typical};
+pub use trial::Trial;
+pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
+pub use words::{Words, id_of, nth_id};
+pub use workers::n_threads;
+
+use std::path::PathBuf;
+
+use crate::surface::SurfaceError;
+use selvedge_chart::FigureError;
+use selvedge_foundation::files::FileError;
+use selvedge_foundation::progress::Cancelled;
+
+/// What can be wrong with a textile or a library.
+#[derive(Debug, thiserror::Error)]
+pub enum TextileError {
+    /// A file cannot be read or written, or its content is wrong.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Heights that are no surface.
+    #[error("{}: {source}", path.display())]
+    Surface {
+        /// The file they come from.
+        path: PathBuf,
+        /// What is wrong.
+        source: SurfaceError,
+    },
+    /// No such textile.
+    #[error("no textile \"{id}\" in {library}; it has {known}")]
+    Unknown {
+        /// What was asked for.
+        id: String,
+        /// The library.
+        library: String,
+        /// What it has.
+        known: String,
+    },
+    /// A textile that is no model has nothing to be built from.
+    #[error(
+        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\", \"knit\", \
+         \"fourier\", \"brownian\" or \"restoration\"",
+        path.display()
+    )]
+    NoRecipe {
+        /// The manifest.
+        path: PathBuf,
+        /// The kind it has.
+        kind: &'static str,
+    },
+    /// Measurements that no model can be made from: what, and how to mend it.
+    #[error("{0}")]
+    Model(String),
+    /// Files of the surface tester that do not say enough.
+    #[error("{}:{line}: {what}; {ask}", path.display())]
+    Kes {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+        /// What must be said.
+        ask: KesAsk,
+    },
+    /// A picture that shows no shape.
+    #[error(transparent)]
+    Shading(#[from] picture::ShadingError),
+    /// A picture that cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// Nothing was measured on the textiles of a library.
+    #[error(
+        "{}: no levels were measured; build it with \"selvedge textile build\", which writes a \
+         library.toml",
+        library.display()
+    )]
+    NoIndex {
+        /// The library.
+        library: PathBuf,
+    },
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! Changes of the scene: what can be undone, and which of them join into one step.
+
+use selvedge_foundation::geometry::Point;
+use selvedge_textile::tactile::{Band, Filters};
+
+/// A change of the scene: undoable, saved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Edit {
+    /// Gain of everything, dB.
+    MasterGain(f64),
+    /// Gain of a band, dB.
+    BandGain(Band, f64),
+    /// Compression κ, 0…1.
+    Compression(f64),
+    /// Gain of the textile at this place in the scene's list, dB.
+    TextileGain(usize, f64),
+    /// Kind and width of the filters.
+    Filters(Filters),
+    /// Moves the textile at this place: its origin, mm.
+    MoveCloth(usize, Point),
+    /// Turns the textile at this place about its middle to this angle, degrees counter-clockwise.
+    TurnCloth(usize, f64),
+    /// Extent of the textile at this place along warp and weft, mm.
+    ResizeCloth(usize, [f64; 2]),
+    /// Places a textile of the library with its middle here.
+    AddCloth(String, Point),
+    /// Places textiles of the library side by side where there is room.
+    AddCloths(Vec<String>),
+    /// Takes the textile at this place away.
+    RemoveCloth(usize),
+    /// Lays the textile at this place on top of the others.
+    RaiseCloth(usize),
+    /// What the scene calls the textile at this place.
+    Label(usize, String),
+}
+
+/// What an edit turns: edits of the same target in one gesture are one step of undo.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// Gain of everything.
+    MasterGain,
+    /// Gain of a band.
+    BandGain(Band),
+    /// Compression.
+    Compression,
+    /// Gain of the textile at this place.
+    TextileGain(usize),
+    /// The filters.
+    Filters,
+    /// Where a textile lies.
+    Place(usize),
+    /// How a textile is turned.
+    Turn(usize),
+    /// How large a textile is.
+    Size(usize),
+    /// Which textiles there are; such edits are never joined.
+    Add,
+    /// The same, several at once.
+    AddSeveral,
+    /// The same.
+    Remove,
+    /// Which textile is on top.
+    Order,
+    /// What a textile is called.
+    Label(usize),
+}
+
+impl Edit {
+    /// What it turns.
+    pub fn target(&self) -> Target {
+        match *self {
+            Self::MasterGain(_) => Target::MasterGain,
+            Self::BandGain(band, _) => Target::BandGain(band),
+            Self::Compression(_) => Target::Compression,
+            Self::TextileGain(index, _) => Target::TextileGain(index),
+            Self::Filters(_) => Target::Filters,
+            Self::MoveCloth(index, _) => Target::Place(index),
+            Self::TurnCloth(index, _) => Target::Turn(index),
+            Self::ResizeCloth(index, _) => Target::Size(index),
+            Self::AddCloth(..) => Target::Add,
+            Self::AddCloths(_) => Target::AddSeveral,
+            Self::RemoveCloth(_) => Target::Remove,
+            Self::RaiseCloth(_) => Target::Order,
+            Self::Label(index, _) => Target::Label(index),
+        }
+    }
+}
+
+impl Target {
+    /// Its name in the undo list.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::MasterGain => "master gain",
+            Self::BandGain(Band::Low) => "40 Hz gain",
+            Self::BandGain(Band::High) => "320 Hz gain",
+            Self::Compression => "compression",
+            Self::TextileGain(_) => "textile gain",
+            Self::Filters => "filters",
+            Self::Place(_) => "moved textile",
+            Self::Turn(_) => "turned textile",
+            Self::Size(_) => "resized textile",
+            Self::Add => "added textile",
+            Self::AddSeveral => "added textiles",
+            Self::Remove => "removed textile",
+            Self::Order => "raised textile",
+            Self::Label(_) => "label",
+        }
+    }
+
+    /// Whether further edits of the same target may join the step.
+    pub fn joins(self) -> bool {
+        !matches!(
+            self,
+            Self::Add | Self::AddSeveral | Self::Remove | Self::Order
+        )
+    }
+}

@@ -1,0 +1,234 @@
+//! What is compared: the choices of the user, and the two scenes and methods that come of them.
+
+use std::sync::Arc;
+
+use selvedge_render::array::Method;
+use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Scene, Stroke, TICKS_PER_S};
+use selvedge_textile::tactile::{Filters, Tuning};
+
+/// Places of a path at which is looked to find the textile under it.
+const N_LOOKS: u64 = 128;
+
+/// What differs between A and B.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum What {
+    /// Gains, compression, filters.
+    #[default]
+    Tunings,
+    /// One textile in the place of another.
+    Textiles,
+    /// How amplitudes are computed.
+    Methods,
+}
+
+/// A tuning to compare.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TuningChoice {
+    /// The one in force.
+    Live,
+    /// The one that was held.
+    Held,
+    /// The one that the library comes with.
+    Library,
+}
+
+/// What the user chose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// What differs.
+    pub what: What,
+    /// The tunings of A and B.
+    pub tunings: [TuningChoice; 2],
+    /// The place in the scene's list whose textile is exchanged; `None`: where the path mostly is.
+    pub place: Option<usize>,
+    /// The textiles that lie there in A and B; `None`: the one of the scene.
+    pub textiles: [Option<String>; 2],
+    /// The methods of A and B.
+    pub methods: [Method; 2],
+}
+
+impl Default for Choice {
+    fn default() -> Self {
+        Self {
+            what: What::default(),
+            tunings: [TuningChoice::Library, TuningChoice::Live],
+            place: None,
+            textiles: [None, None],
+            methods: [Method::Reference, Method::Table],
+        }
+    }
+}
+
+/// Everything that the pane of gains turns, as it was once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldTuning {
+    tuning: Tuning,
+    filters: Filters,
+    /// Each textile's id and gain, in the order of the scene, dB.
+    gains_db: Vec<(String, f64)>,
+}
+
+impl HeldTuning {
+    /// As it is now.
+    pub fn of(scene: &Scene, tuning: Tuning) -> Self {
+        let gains = scene.textiles.iter();
+        Self {
+            tuning,
+            filters: scene.filters,
+            gains_db: gains
+                .map(|cloth| (cloth.id.clone(), cloth.gain_db))
+                .collect(),
+        }
+    }
+
+    /// Puts it into a scene. Textiles that are new at their place keep their gains.
+    fn put_into(&self, scene: &mut Scene) {
+        scene.tuning = Some(self.tuning);
+        scene.filters = self.filters;
+        for (cloth, (id, gain_db)) in scene.textiles.iter_mut().zip(&self.gains_db) {
+            if cloth.id == *id {
+                cloth.gain_db = *gain_db;
+            }
+        }
+    }
+}
+
+/// The path that both follow.
+#[derive(Debug, Clone)]
+pub enum Route {
+    /// A recorded exploration.
+    Take(Arc<ExplorationPath>),
+    /// A generated stroke through the scene, this many ticks long.
+    Stroke(Stroke, u64),
+}
+
+impl PartialEq for Route {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Take(one), Self::Take(other)) => Arc::ptr_eq(one, other),
+            (Self::Stroke(one, n), Self::Stroke(other, m)) => one == other && n == m,
+            _ => false,
+        }
+    }
+}
+
+impl Route {
+    /// Its ticks.
+    pub fn n_ticks(&self) -> u64 {
+        match self {
+            Self::Take(path) => path.n_ticks(),
+            Self::Stroke(_, n_ticks) => *n_ticks,
+        }
+    }
+
+    /// Every tick with its pose.
+    pub fn ticks(&self) -> Box<dyn Iterator<Item = (u64, Pose)> + '_> {
+        match self {
+            Self::Take(path) => Box::new(path.ticks()),
+            Self::Stroke(stroke, n_ticks) => {
+                Box::new((0..*n_ticks).map(|tick| (tick, pose_of(stroke, tick))))
+            }
+        }
+    }
+
+    fn pose_at(&self, tick: u64) -> Option<Pose> {
+        match self {
+            Self::Take(path) => PathCursor::at(path, tick).step(path).map(|(_, pose)| pose),
+            Self::Stroke(stroke, _) => Some(pose_of(stroke, tick)),
+        }
+    }
+
+    /// The place in the scene's list of the textile that the path is on mostly; of equals the one
+    /// on top. `None` when it is on none.
+    pub fn mostly_on(&self, scene: &Scene) -> Option<usize> {
+        let n_ticks = self.n_ticks();
+        let n_looks = n_ticks.min(N_LOOKS);
+        let mut n_on = vec![0_u64; scene.textiles.len()];
+        for look in 0..n_looks {
+            let pose = self.pose_at(look * n_ticks / n_looks);
+            let on = pose.and_then(|pose| scene.textile_at(pose.position));
+            if let Some(n) = on.and_then(|index| n_on.get_mut(index)) {
+                *n += 1;
+            }
+        }
+        let most = (0..n_on.len()).max_by_key(|&index| n_on[index])?;
+        (n_on[most] > 0).then_some(most)
+    }
+}
+
+fn pose_of(stroke: &Stroke, tick: u64) -> Pose {
+    stroke.pose_at(tick as f64 / TICKS_PER_S)
+}
+
+/// One of the two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Side {
+    /// The scene, with its tuning.
+    pub scene: Scene,
+    /// The method.
+    pub method: Method,
+}
+
+/// Everything that a comparison depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inputs {
+    /// A and B.
+    pub sides: [Side; 2],
+    /// The path that both follow.
+    pub route: Route,
+}
+
+impl Inputs {
+    /// What comes of a choice in a scene whose tuning is `live` and whose library's is `library`.
+    ///
+    /// # Errors
+    /// A sentence that says what is missing and what to do.
+    pub fn of(
+        choice: &Choice,
+        held: Option<&HeldTuning>,
+        scene: &Scene,
+        [live, library]: [Tuning; 2],
+        route: Route,
+    ) -> Result<Self, &'static str> {
+        if scene.textiles.is_empty() {
+            return Err("Place a textile first: there is nothing to feel in this scene");
+        }
+        let place = choice.place_in(scene, &route);
+        let mut sides = [0, 1].map(|_| Side {
+            scene: Scene {
+                tuning: Some(live),
+                ..scene.clone()
+            },
+            method: Method::Auto,
+        });
+        for (index, side) in sides.iter_mut().enumerate() {
+            match choice.what {
+                What::Tunings => match (choice.tunings[index], held) {
+                    (TuningChoice::Live, _) => {}
+                    (TuningChoice::Library, _) => side.scene.tuning = Some(library),
+                    (TuningChoice::Held, Some(held)) => held.put_into(&mut side.scene),
+                    (TuningChoice::Held, None) => {
+                        return Err("No tuning is held: press “hold A” to keep the present one");
+                    }
+                },
+                What::Textiles => {
+                    let id = choice.textiles[index].as_ref();
+                    let cloth = side.scene.textiles.get_mut(place);
+                    if let (Some(id), Some(cloth)) = (id, cloth) {
+                        cloth.id.clone_from(id);
+                    }
+                }
+                What::Methods => side.method = choice.methods[index],
+            }
+        }
+        Ok(Self { sides, route })
+    }
+}
+
+impl Choice {
+    /// The place whose textile is exchanged.
+    pub fn place_in(&self, scene: &Scene, route: &Route) -> usize {
+        let chosen = self.place.filter(|place| *place < scene.textiles.len());
+        chosen.or_else(|| route.mostly_on(scene)).unwrap_or(0)
+    }
+}

@@ -1,0 +1,189 @@
+//! What comes of a choice, and how a comparison begins, ends and goes stale.
+
+use super::*;
+use selvedge_foundation::geometry::Point;
+use selvedge_render::array::Method;
+use selvedge_render::scene::{ExplorationPath, PathRow, Scene, Stroke};
+use selvedge_textile::tactile::Tuning;
+
+fn tunings() -> [Tuning; 2] {
+    let loud = Tuning {
+        gain_db: 6.0,
+        ..Tuning::default()
+    };
+    [loud, Tuning::default()]
+}
+
+/// Along the warp of the textile at this place of the shipped scene, for ever.
+fn route(x_mm: f64, y_mm: f64, n_ticks: u64) -> Route {
+    let stroke = Stroke::Line {
+        start: Point::new(x_mm, y_mm),
+        end: Point::new(x_mm + 60.0, y_mm),
+        speed_mm_per_s: 80.0,
+    };
+    Route::Stroke(stroke, n_ticks)
+}
+
+fn asked(choice: &Choice, scene: &Scene, route: Route) -> Inputs {
+    let held = HeldTuning::of(scene, Tuning::default());
+    Inputs::of(choice, Some(&held), scene, tunings(), route).unwrap()
+}
+
+fn ended(comparison: &mut Comparison) {
+    while comparison.running.is_some() {
+        comparison.poll();
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn each_kind_of_choice_changes_that_and_nothing_else() {
+    let loaded = LoadedScene::shipped().unwrap();
+    let (scene, path) = (loaded.scene(), || route(160.0, 190.0, 40));
+    let mut choice = Choice::default();
+    let [a, b] = asked(&choice, scene, path()).sides;
+    assert_eq!(a.scene.tuning, Some(Tuning::default()), "the library’s");
+    assert_eq!(b.scene.tuning, Some(tunings()[0]), "the one in force");
+    assert_eq!((a.method, b.method), (Method::Auto, Method::Auto));
+    assert_eq!(a.scene.textiles, b.scene.textiles);
+
+    choice.what = What::Methods;
+    let [a, b] = asked(&choice, scene, path()).sides;
+    assert_eq!((a.method, b.method), (Method::Reference, Method::Table));
+    assert_eq!(a.scene, b.scene);
+
+    choice.what = What::Textiles;
+    choice.textiles[1] = Some("denim".to_owned());
+    let [a, b] = asked(&choice, scene, path()).sides;
+    assert_eq!(a.scene.textiles, scene.textiles);
+    let ids: Vec<&str> = b
+        .scene
+        .textiles
+        .iter()
+        .map(|cloth| cloth.id.as_str())
+        .collect();
+    assert_eq!(ids[1], "denim", "the path is on the second: {ids:?}");
+    assert_eq!(b.scene.textiles[0], a.scene.textiles[0]);
+    choice.place = Some(3);
+    let [_, b] = asked(&choice, scene, path()).sides;
+    assert_eq!(b.scene.textiles[3].id, "denim", "as chosen");
+}
+
+#[test]
+fn a_held_tuning_keeps_gains_and_filters_as_they_were() {
+    let loaded = LoadedScene::shipped().unwrap();
+    let mut scene = loaded.scene().clone();
+    scene.textiles[0].gain_db = -4.0;
+    let held = HeldTuning::of(&scene, Tuning::default());
+    scene.textiles[0].gain_db = 2.0;
+    scene.textiles[1].id = "denim".to_owned();
+    scene.textiles[1].gain_db = 5.0;
+    scene.filters = selvedge_textile::tactile::Filters::Receptor;
+    let choice = Choice {
+        tunings: [TuningChoice::Held, TuningChoice::Live],
+        ..Choice::default()
+    };
+    let path = route(40.0, 40.0, 40);
+    let inputs = Inputs::of(&choice, Some(&held), &scene, tunings(), path.clone()).unwrap();
+    let [a, b] = inputs.sides;
+    assert_eq!(a.scene.textiles[0].gain_db, -4.0);
+    assert_eq!(
+        a.scene.textiles[1].gain_db, 5.0,
+        "another textile lies there"
+    );
+    assert_eq!(a.scene.filters, loaded.scene().filters);
+    assert_eq!(b.scene.filters, scene.filters);
+    let none = Inputs::of(&choice, None, &scene, tunings(), path.clone());
+    assert!(none.unwrap_err().contains("hold A"));
+    scene.textiles.clear();
+    let none = Inputs::of(&choice, Some(&held), &scene, tunings(), path);
+    assert!(none.unwrap_err().contains("Place a textile"));
+}
+
+#[test]
+fn a_comparison_is_fresh_until_something_changes() {
+    let ctx = egui::Context::default();
+    let loaded = LoadedScene::shipped().unwrap();
+    let mut comparison = Comparison::default();
+    let inputs = asked(&comparison.choice, loaded.scene(), route(40.0, 40.0, 40));
+    assert_eq!(comparison.standing(&Ok(inputs.clone())), Standing::None);
+    comparison.begin(inputs.clone(), &loaded, &ctx, false);
+    ended(&mut comparison);
+    assert_eq!(comparison.standing(&Ok(inputs.clone())), Standing::Fresh);
+    let found = comparison.found().unwrap();
+    assert_eq!(found.n_ticks, 40);
+    let mean_db = found.in_all[0].mean_db().unwrap();
+    assert!((mean_db - 6.0).abs() < 1e-4, "{mean_db} dB of master gain");
+    assert_eq!(comparison.columns(8).len(), 8);
+    assert_eq!(comparison.columns(900).len(), 40, "an entry each");
+    let mut other = inputs.clone();
+    other.sides[1].method = Method::Banded;
+    assert_eq!(comparison.standing(&Ok(other)), Standing::Stale);
+    comparison.leave_scene();
+    assert!(comparison.found().is_none() && comparison.n_begun() == 1);
+}
+
+#[test]
+fn a_long_comparison_is_stopped_and_does_not_begin_again_by_itself() {
+    let ctx = egui::Context::default();
+    let loaded = LoadedScene::shipped().unwrap();
+    let mut comparison = Comparison::default();
+    comparison.choice.what = What::Methods;
+    let inputs = asked(
+        &comparison.choice,
+        loaded.scene(),
+        route(40.0, 40.0, 1 << 40),
+    );
+    comparison.begin(inputs.clone(), &loaded, &ctx, false);
+    let standing = comparison.standing(&Ok(inputs.clone()));
+    assert!(matches!(standing, Standing::Running(_)), "{standing:?}");
+    comparison.cancel();
+    ended(&mut comparison);
+    assert_eq!(comparison.standing(&Ok(inputs)), Standing::Cancelled);
+    assert!(comparison.found().is_none(), "half of it is nothing");
+}
+
+#[test]
+fn a_textile_that_is_not_there_is_a_sentence() {
+    let ctx = egui::Context::default();
+    let loaded = LoadedScene::shipped().unwrap();
+    let mut comparison = Comparison::default();
+    comparison.choice.what = What::Textiles;
+    comparison.choice.textiles[0] = Some("felt-hat".to_owned());
+    let inputs = asked(&comparison.choice, loaded.scene(), route(40.0, 40.0, 40));
+    comparison.begin(inputs.clone(), &loaded, &ctx, true);
+    match comparison.standing(&Ok(inputs)) {
+        Standing::Impossible(words) => assert!(words.contains("felt-hat"), "{words}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
+    let loaded = LoadedScene::shipped().unwrap();
+    let scene = loaded.scene();
+    assert_eq!(route(160.0, 190.0, 40).mostly_on(scene), Some(1));
+    assert_eq!(route(-900.0, 0.0, 40).mostly_on(scene), None);
+    let row = |t_s, x_mm| PathRow {
+        t_s,
+        position: Point::new(x_mm, 70.0),
+        ..PathRow::default()
+    };
+    let rows = vec![row(0.0, 100.0), row(1.0, 110.0), row(5.0, 230.0)];
+    let path = Arc::new(ExplorationPath::new(rows).unwrap());
+    let take = Route::Take(Arc::clone(&path));
+    assert_eq!(take.mostly_on(scene), Some(3), "lower right");
+    assert_eq!(take, Route::Take(path));
+    assert_eq!(take.ticks().count() as u64, take.n_ticks());
+    assert_eq!(
+        Route::Take(take_of(&take)).mostly_on(&Scene::default()),
+        None
+    );
+}
+
+fn take_of(route: &Route) -> Arc<ExplorationPath> {
+    match route {
+        Route::Take(path) => Arc::clone(path),
+        Route::Stroke(..) => panic!("it is a recording"),
+    }
+}

@@ -1,0 +1,31 @@
+//! What is imported. Neither saved nor undone.
+
+use eframe::egui;
+
+use crate::arrangement::{self, Pane};
+use crate::importing::{ImportCommand, Importing};
+use crate::window::Workbench;
+
+impl Workbench {
+    pub(super) fn dispatch_import(&mut self, ctx: &egui::Context, command: ImportCommand) {
+        let importing = &mut self.transient.importing;
+        match command {
+            ImportCommand::Add(paths) => {
+                if let Err(line) = importing.add(paths) {
+                    self.transient.notices.give(line);
+                }
+                if !arrangement::is_shown(&self.tree, Pane::Import) {
+                    arrangement::toggle(&mut self.tree, Pane::Import);
+                }
+            }
+            ImportCommand::Draft(draft) => importing.take_draft(*draft),
+            ImportCommand::ReadAgain => importing.read_again(),
+            ImportCommand::Cancel => importing.cancel(),
+            ImportCommand::Clear => {
+                importing.cancel();
+                *importing = Importing::default();
+            }
+            ImportCommand::Keep { is_felt } => self.keep_import(ctx, is_felt),
+        }
+    }
+}

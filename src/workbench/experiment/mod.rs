@@ -1,0 +1,159 @@
+//! An experiment that is run in the window: one session, seen by participant and experimenter.
+//!
+//! ```text
+//! form ─▶ materials, session ─▶ held ─┬▶ participant's view: numbers of places alone
+//!                               │  ▲  └▶ experimenter's view: progress and device
+//!                 trial's scene ▼  └ marks, answers ─▶ row on disk ─▶ next trial
+//!                            engine
+//! ```
+//!
+//! # Invariants
+//! - the document never learns of a session; when one ends, the user's scene is felt again
+//! - the next trial begins only once the row of the last one is on disk
+//! - what participants and experimenters see does not depend on what is right
+
+mod command;
+mod draft;
+mod form;
+mod guide;
+mod held;
+mod materials;
+mod noise;
+mod now;
+mod view;
+mod who;
+
+pub use command::{ExperimentCommand, WindowAct};
+pub use draft::{Draft, Mark, Sure};
+pub use form::{Chosen, Form, Row, list, title_of};
+pub use guide::{HALF_MM, RADIUS_MM};
+pub use held::Held;
+pub use materials::Materials;
+pub use noise::{NoiseView, write_noise};
+pub use now::{Began, Now, Pause};
+pub use view::{Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView};
+pub use who::Who;
+
+use super::command::{Command, FileCommand, Purpose, ShowCommand};
+use super::task::Task;
+use selvedge_experiment::session::Session;
+
+/// The window that shows a participant's view and nothing else.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ParticipantsWindow {
+    /// Whether it is open: the workbench shows no participant's view then.
+    pub is_open: bool,
+    /// Whether it is to fill its screen.
+    pub fills_screen: bool,
+    /// Since when neither window has had the keyboard, s.
+    left_since_s: Option<f64>,
+}
+
+/// The keyboard may be on its way from one window to the other for so long, s.
+const PASSING_S: f64 = 0.25;
+
+impl ParticipantsWindow {
+    /// What becomes of it.
+    pub fn act(&mut self, act: WindowAct) {
+        match act {
+            WindowAct::Open => self.is_open = true,
+            WindowAct::Close => *self = Self::default(),
+            WindowAct::FillScreen(fills) => self.fills_screen = fills && self.is_open,
+        }
+    }
+
+    /// How long the windows must still be without the keyboard until another program is sure to
+    /// have it, s; `None` while one of them has it.
+    pub fn left_alone_s(&mut self, now_s: f64, has_keyboard: bool) -> Option<f64> {
+        if has_keyboard {
+            self.left_since_s = None;
+            return None;
+        }
+        let since_s = *self.left_since_s.get_or_insert(now_s);
+        Some((since_s + PASSING_S - now_s).max(0.0))
+    }
+}
+
+/// Experiments, as the window knows them: neither saved nor undoable.
+#[derive(Debug, Default)]
+pub struct Experiment {
+    /// What the next session is to be.
+    pub form: Form,
+    /// A session on its way.
+    pub beginning: Option<Task<Begun>>,
+    /// The session that is held.
+    pub held: Option<Box<Held>>,
+    /// A masking noise on its way to its file.
+    pub noise: Option<Task<()>>,
+    /// A window of the participant's own.
+    pub window: ParticipantsWindow,
+    /// Whether the participant sees nothing while a trial waits.
+    pub is_blank: bool,
+    /// Whether the next recording that ends is of a trial that nobody answered.
+    pub lets_recording_go: bool,
+}
+
+/// A session that is ready to be held.
+#[derive(Debug)]
+pub struct Begun {
+    /// The session.
+    pub session: Session,
+    /// What it presents.
+    pub materials: Materials,
+}
+
+impl Experiment {
+    /// Whether a session is held.
+    pub fn is_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Width and height of what lies before the participant, mm.
+    pub fn size_mm(&self) -> Option<[f64; 2]> {
+        self.held.as_ref().map(|held| held.layout.size_mm)
+    }
+
+    /// How it stands with a masking noise, where the design asks for one.
+    pub fn noise(&self) -> Option<NoiseView> {
+        let form = &self.form;
+        let is_asked = match &self.held {
+            Some(held) => held.design.course.masking_noise,
+            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
+        };
+        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
+        is_asked.then(view)
+    }
+
+    /// Whether a command leaves what is felt to the session.
+    pub fn allows(&self, command: &Command) -> bool {
+        if !self.is_held() {
+            return true;
+        }
+        match command {
+            Command::AllOff
+            | Command::Device(_)
+            | Command::Experiment(_)
+            | Command::Analysis(_)
+            | Command::Dismiss
+            | Command::DismissNotice(_) => true,
+            Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
+                matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
+            }
+            Command::Show(command) => matches!(
+                command,
+                ShowCommand::Theme(_)
+                    | ShowCommand::ColourMap(_)
+                    | ShowCommand::Zoom(_)
+                    | ShowCommand::Pane(_)
+                    | ShowCommand::Perspective(_)
+                    | ShowCommand::DefaultArrangement
+                    | ShowCommand::Hover(_)
+                    | ShowCommand::Help
+            ),
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+//! How a textile is called that is kept: what is typed, and what is wrong with it.
+
+use selvedge_textile::id_of;
+
+/// What is typed.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct KeepFields {
+    /// What people call it.
+    pub name: String,
+    /// What scenes call it: the name of its folder.
+    pub id: String,
+    /// One line of description.
+    pub notes: String,
+    /// Whether the id was typed, and no longer follows the name.
+    pub has_own_id: bool,
+}
+
+impl KeepFields {
+    /// For a recipe of this name, or a copy of it.
+    pub fn of(name: &str, is_copy: bool) -> Self {
+        let name = if is_copy {
+            format!("{name}, changed")
+        } else {
+            name.to_owned()
+        };
+        let mut fields = Self {
+            name,
+            ..Self::default()
+        };
+        fields.follow_name();
+        fields
+    }
+
+    /// The id follows the name until it is typed.
+    pub fn follow_name(&mut self) {
+        if !self.has_own_id {
+            self.id = id_of(&self.name);
+        }
+    }
+
+    /// Why no textile can be kept under this name and id in a library with these ids.
+    pub fn refusal(&self, known: &[String]) -> Option<String> {
+        let id = self.id.trim();
+        if self.name.trim().is_empty() {
+            return Some("The name is empty; give the textile a name".to_owned());
+        }
+        if id.is_empty() || id_of(id) != id {
+            let words = "write it with letters a to z, digits and single hyphens";
+            return Some(format!("The id \"{id}\" can be no folder's name; {words}"));
+        }
+        let is_taken = known.iter().any(|known| known == id);
+        is_taken.then(|| format!("The library has a textile \"{id}\"; choose another id"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_follows_the_name_until_it_is_typed() {
+        let mut fields = KeepFields::of("Wool twill", true);
+        assert_eq!(fields.id, "wool-twill-changed");
+        fields.name = "Köper  Nr. 3 ".to_owned();
+        fields.follow_name();
+        assert_eq!(fields.id, "koper-nr-3");
+        fields.id = "mine".to_owned();
+        fields.has_own_id = true;
+        fields.name = "Other".to_owned();
+        fields.follow_name();
+        assert_eq!(fields.id, "mine");
+    }
+
+    #[test]
+    fn an_id_that_is_taken_or_no_folder_is_refused_in_a_line() {
+        let known = ["wool-twill".to_owned()];
+        let with = |name: &str, id: &str| KeepFields {
+            name: name.to_owned(),
+            id: id.to_owned(),
+            ..KeepFields::default()
+        };
+        assert_eq!(with("a", "a-1").refusal(&known), None);
+        for (name, id) in [
+            (" ", "a"),
+            ("a", ""),
+            ("a", "../a"),
+            ("a", "Wool-Twill"),
+            ("a", "wool-twill"),
+        ] {
+            let words = with(name, id).refusal(&known).unwrap();
+            assert!(words.contains(';') && !words.contains('\n'), "{words}");
+        }
+    }
+}

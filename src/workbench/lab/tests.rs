@@ -1,0 +1,186 @@
+//! The lab without a window: from a beginning to the files of a textile.
+
+use std::path::Path;
+
+use super::*;
+use selvedge_scratch::ScratchFolder;
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::Place;
+use selvedge_textile::surface::Direction;
+
+const HURST: Place = Place {
+    table: "source",
+    key: "hurst",
+};
+
+fn begun(from: &Beginning) -> Begun {
+    let library = Library::shipped().unwrap();
+    unheard(|progress| begin(from, &library, &Filters::default(), progress)).unwrap()
+}
+
+/// A Brownian surface of few points: made in no time.
+fn small() -> Lab {
+    let mut lab = Lab::default();
+    lab.begin(begun(&Beginning::Example("brownian")));
+    let at = |key| Place {
+        table: "source",
+        key,
+    };
+    let steps = lab.steps.as_mut().unwrap();
+    steps.set(at("step_mm"), Some(0.1.into()), false);
+    lab
+}
+
+#[test]
+fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
+    let mut lab = Lab::default();
+    lab.begin(begun(&Beginning::Copy("polyamide-taffeta".to_owned())));
+    let library = Library::shipped().unwrap();
+    assert_eq!(lab.fields.id, "polyamide-taffeta-changed");
+    let recipes = vec![lab.to_keep(&library).unwrap()];
+    let [one, again] = [(); 2].map(|()| unheard(|progress| built(&recipes, progress)).unwrap());
+    assert_eq!(one, again, "no clock, no chance");
+    let manifest = &one[0]
+        .files
+        .iter()
+        .find(|file| file.name == "textile.toml")
+        .unwrap()
+        .bytes;
+    let text = String::from_utf8(manifest.clone()).unwrap();
+    let manifest = Manifest::from_toml(&text, Path::new("textile.toml")).unwrap();
+    let provenance = manifest.provenance.as_ref().unwrap();
+    let parent = library.load("polyamide-taffeta").unwrap();
+    assert_eq!(provenance.parents[0].id, "polyamide-taffeta");
+    assert_eq!(provenance.parents[0].hash, parent.content_hash().unwrap());
+    // The recipe was not changed: what the textile is felt as is its parent's.
+    let of = |manifest: &Manifest| manifest.source.recipe_hash(Path::new("a")).unwrap();
+    assert_eq!(of(&manifest), of(parent.manifest()));
+}
+
+#[test]
+fn a_recipe_that_another_took_the_place_of_comes_back_with_all_its_steps() {
+    let mut lab = small();
+    lab.steps
+        .as_mut()
+        .unwrap()
+        .set(HURST, Some(0.3.into()), false);
+    lab.fields.id = "mine".to_owned();
+    let mine = lab.steps.as_ref().unwrap().now().clone();
+    lab.begin(begun(&Beginning::Copy("polyamide-taffeta".to_owned())));
+    assert!(lab.parent.is_some());
+    assert_eq!(lab.can_step(), [true, false]);
+    lab.undo();
+    assert_eq!(lab.steps.as_ref().unwrap().now(), &mine);
+    assert_eq!(
+        (lab.fields.id.as_str(), lab.parent.is_none()),
+        ("mine", true)
+    );
+    lab.undo();
+    assert_ne!(
+        lab.steps.as_ref().unwrap().now(),
+        &mine,
+        "its own steps too"
+    );
+    lab.redo();
+    lab.redo();
+    assert_eq!(lab.parent.as_ref().unwrap().id, "polyamide-taffeta");
+    assert_eq!(lab.can_step(), [true, false]);
+}
+
+#[test]
+fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
+    let folder = ScratchFolder::new("lab");
+    let textile = folder.join("measured");
+    std::fs::create_dir_all(&textile).unwrap();
+    let row = |i: u32| {
+        let x_mm = f64::from(i) / 100.0;
+        format!("{x_mm},{}\n", 5.0 * (x_mm * 6.0).sin())
+    };
+    let rows: String = (0..2000).map(row).collect();
+    std::fs::write(textile.join("w.csv"), format!("x_mm,height_um\n{rows}")).unwrap();
+    let text = "name = \"M\"\nconstruction = \"woven\"\nfibre = \"wool\"\n[source]\n\
+                kind = \"profiles\"\nwarp_forward = \"w.csv\"\n";
+    std::fs::write(textile.join("textile.toml"), text).unwrap();
+    let library = Library::open(&folder).unwrap();
+    let begin =
+        |from: Beginning| unheard(|progress| begin(&from, &library, &Filters::default(), progress));
+    let refusal = begin(Beginning::Copy("measured".to_owned())).unwrap_err();
+    assert!(refusal.contains("is not a recipe"), "{refusal}");
+    let begun = begin(Beginning::Restore("measured".to_owned())).unwrap();
+    assert_eq!(begun.draft.kind(), "restoration");
+    let (parent, compared) = begun.parent.unwrap();
+    assert_eq!(
+        (parent.id.as_str(), compared.name.as_str()),
+        ("measured", "M")
+    );
+}
+
+#[test]
+fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
+    let mut lab = small();
+    let plan = Plan {
+        place: HURST,
+        ends: [0.2, 0.8],
+        n: 3,
+    };
+    let draft = lab.steps.as_ref().unwrap().now().clone();
+    let filters = Filters::default();
+    let family = unheard(|progress| Family::of(&draft, &plan, &filters, progress)).unwrap();
+    let labels: Vec<&str> = family
+        .members
+        .iter()
+        .map(|member| member.label.as_str())
+        .collect();
+    let wanted = [
+        "Hurst exponent 0.2",
+        "Hurst exponent 0.5",
+        "Hurst exponent 0.8",
+    ];
+    assert_eq!(labels, wanted);
+    // Of equally rough surfaces the jagged one is stronger at 320 Hz.
+    let high = |member: &Member| member.felt.levels.mean_um[1];
+    assert!(high(&family.members[0]) > 2.0 * high(&family.members[2]));
+    lab.family = Some(family);
+    let library = Library::shipped().unwrap();
+    let kept = lab.family_to_keep(&library).unwrap();
+    let ids: Vec<&str> = kept.iter().map(|(id, _)| id.as_str()).collect();
+    assert_eq!(
+        ids,
+        [
+            "brownian-surface-1",
+            "brownian-surface-2",
+            "brownian-surface-3"
+        ]
+    );
+    assert_eq!(kept[2].1.name, "Brownian surface, Hurst exponent 0.8");
+    let beyond = Plan {
+        ends: [0.2, 8.0],
+        ..plan
+    };
+    let words = unheard(|progress| Family::of(&draft, &beyond, &filters, progress)).unwrap_err();
+    assert_eq!(words, "hurst is 4.1; give a number from 0.01 to 0.99");
+}
+
+#[test]
+fn a_preview_is_due_until_it_is_shown_and_not_while_it_is_stopped() {
+    let mut lab = small();
+    let (serial, manifest) = lab.due().unwrap();
+    lab.is_stopped = true;
+    assert!(lab.due().is_none());
+    lab.is_stopped = false;
+    let filters = Filters::default();
+    let preview = unheard(|progress| Preview::of(manifest, &filters, progress)).unwrap();
+    let [asked, found, _] = preview.hurst.unwrap();
+    assert!(asked == 0.5 && (found - asked).abs() < 0.3, "{found}");
+    assert_eq!(
+        preview.felt.over_speed[Direction::WeftReverse.index()].len(),
+        49
+    );
+    lab.show(serial, preview);
+    assert!(lab.due().is_none() && lab.is_fresh());
+    lab.has_changed();
+    assert!(
+        lab.due().is_some() && lab.preview.is_some(),
+        "the last one stays"
+    );
+}

@@ -1,0 +1,43 @@
+//! How scenes are rendered: a method, and the error that `auto` and `table` may make. Kept per
+//! user; no part of a scene.
+
+use selvedge_render::array::{Accuracy, Method};
+
+/// The largest budget that can be chosen, dB.
+pub const MOST_BUDGET_DB: f64 = 1.0;
+
+/// How scenes are rendered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rendering {
+    /// The method; `auto` chooses by bounds known before the first tick.
+    pub method: Method,
+    /// The level error that `auto` and `table` may make, dB; 0 is exact.
+    pub budget_db: f64,
+}
+
+impl Default for Rendering {
+    /// `auto` within the program's default budget.
+    fn default() -> Self {
+        Self {
+            method: Method::Auto,
+            budget_db: Accuracy::default().budget_db,
+        }
+    }
+}
+
+impl Rendering {
+    /// What renderers are told.
+    pub fn accuracy(self) -> Accuracy {
+        Accuracy::within_db(self.budget_db)
+    }
+
+    /// The same with a budget that can be chosen; what is no number is as at first.
+    pub fn in_bounds(self) -> Self {
+        let budget_db = if self.budget_db.is_nan() {
+            Self::default().budget_db
+        } else {
+            self.budget_db.clamp(0.0, MOST_BUDGET_DB)
+        };
+        Self { budget_db, ..self }
+    }
+}

@@ -1,0 +1,34 @@
+//! The controls that the toolkit does not have: a slider for gains, axes of plots, and small
+//! pieces of text.
+//!
+//! They draw and report; they change nothing themselves.
+
+mod axis;
+mod bar;
+mod card;
+mod fold;
+mod limit_mark;
+mod list;
+mod polyline;
+mod relief;
+mod relief3d;
+mod scale;
+mod slider;
+mod text;
+
+pub use axis::{
+    Axis, Side, Tick, paint_label, paint_outer_ticks, paint_ticks, paint_unit, round_step,
+};
+pub use bar::{amplitude_bar, colour_bar};
+pub use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN, card};
+pub use fold::{fold, told_fold};
+pub use limit_mark::{LIMIT_MARK, bites_band, limit_words, paint_limit_mark};
+pub use list::list;
+pub use polyline::corners;
+pub use relief::{BAR_ROOM, Relief, ReliefPicture, paint_height_bar};
+pub use relief3d::{Relief3d, View3d, relief3d};
+pub use scale::{Curve, Scale};
+pub use slider::{
+    RowShape, asked_value, declare, key_steps, slider_row, slider_row_as, tip_beside,
+};
+pub use text::{button, choice, field_row, mark, paint_line, quiet_pair, row, section, toggle};
