@@ -19,7 +19,7 @@ use selvedge_workbench::AppError;
 
 /// Why a command failed: one line.
 #[derive(Debug, thiserror::Error)]
-pub enum CliError {
+pub(crate) enum CliError {
     /// The command line or what it was given is wrong.
     #[error("{0}")]
     Input(String),
@@ -66,7 +66,7 @@ pub enum CliError {
 
 impl CliError {
     /// 0, 1 or 2: see the head of this file.
-    pub fn exit_code(&self) -> u8 {
+    pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
             Self::Failed(_) => 1,

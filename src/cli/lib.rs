@@ -52,7 +52,7 @@ mod textile_words;
 mod usage;
 mod workbench;
 
-pub use failure::CliError;
+pub(crate) use failure::CliError;
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -172,7 +172,7 @@ impl Coder {
 
     /// The code for a channel whose contactor is not known: this amplitude at 320 Hz, µm, within
     /// every limit, without calibration.
-    pub fn ident_code(&self, amplitude_um: f32) -> u16 {
+    pub(crate) fn ident_code(&self, amplitude_um: f32) -> u16 {
         let (code, _) = drive_code(
             [0.0, amplitude_um],
             1.0,

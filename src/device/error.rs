@@ -108,7 +108,7 @@ fn busy_words(holder: Option<&str>) -> String {
 
 impl BridgeError {
     /// The message without the port's name, for owners that know which port they asked for.
-    pub fn without_port(&self) -> String {
+    pub(crate) fn without_port(&self) -> String {
         let text = self.to_string();
         let (Self::Open { port, .. } | Self::Busy { port, .. } | Self::Link { port, .. }) = self
         else {

@@ -12,13 +12,13 @@
 use std::fmt;
 
 /// Bytes of a body before its payload: type, flags, seq.
-pub const HEADER_LEN: usize = 4;
+pub(crate) const HEADER_LEN: usize = 4;
 /// Bytes of the CRC-32 at the end of a body.
-pub const CRC_LEN: usize = 4;
+pub(crate) const CRC_LEN: usize = 4;
 /// The largest body that any v1 device may announce.
 pub const LARGEST_BODY: usize = 1024;
 /// The largest packet: delimiters, COBS overhead of one byte per 254, body.
-pub const LARGEST_PACKET: usize = LARGEST_BODY + LARGEST_BODY / 254 + 1 + 2;
+pub(crate) const LARGEST_PACKET: usize = LARGEST_BODY + LARGEST_BODY / 254 + 1 + 2;
 
 /// One encoded packet, ready for a single write. `Copy`, so it crosses threads without allocation.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ pub struct Packet {
 
 impl Packet {
     /// The lone delimiter that ends whatever a port held before.
-    pub fn delimiter() -> Self {
+    pub(crate) fn delimiter() -> Self {
         Self {
             bytes: [0; LARGEST_PACKET],
             len: 1,
@@ -149,12 +149,12 @@ impl Decoder {
 
     /// Bytes that it holds room for.
     #[cfg(test)]
-    pub fn capacity(&self) -> usize {
+    pub(crate) fn capacity(&self) -> usize {
         self.body.capacity()
     }
 
     /// Counts a packet that was whole but whose meaning was refused by the layer above.
-    pub fn count_bad(&mut self) {
+    pub(crate) fn count_bad(&mut self) {
         self.bad += 1;
     }
 

@@ -53,43 +53,48 @@ mod wire;
 
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
-pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
-    SampleCount, SampledTick, Sense,
-};
+pub(crate) use device::{AppliedFrame, DeviceSink, Load, Miswiring, SampledTick};
+pub use device::{CoreCounters, DeviceCore, DeviceModel, Lie, Moment, SampleCount, Sense};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
-pub use emulator::{DeviceLog, EmulatorThread};
+pub(crate) use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
 pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, SampleStream, Target};
 pub use hjif::{HjifSpec, HjifWriter};
 pub use host::{
-    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, CutSamples, DeviceCounters,
-    DisarmedBy, HostSession, SOFT_START_TICKS, SentFrame, Sequence, Waveform,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
+    SentFrame, Waveform,
 };
+pub(crate) use host::{CutSamples, HostSession, SOFT_START_TICKS, Sequence};
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
-    Ack, AckCode, Arm, Caps, ChannelMask, Clear, Config, DeviceMessage, DeviceState, Fault, Hello,
-    Ident, LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US,
-    Unreadable, fault_bit, frame, kind, samples,
+    Ack, Arm, Caps, Clear, Config, DeviceMessage, DeviceState, Fault, Hello, Ident,
+    LARGEST_CHANNELS, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, fault_bit, frame, kind,
+    samples,
 };
+pub(crate) use message::{AckCode, ChannelMask, LogText, Unreadable};
+pub(crate) use plant::{Amplifier, PlantFeed, SAMPLES_PER_TICK, plant_watch};
 pub use plant::{
-    Amplifier, Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantFeed,
-    PlantReading, PlantWatch, SAMPLES_PER_S, SAMPLES_PER_TICK, Skin, plant_watch,
+    Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantReading, PlantWatch,
+    SAMPLES_PER_S, Skin,
 };
 pub use port::{
-    FoundPort, PairPort, Port, PortEntry, PortIdentity, RecognisedBy, SerialLink, UDEV_RULE,
-    UsbIdentity, list_ports, pair,
+    FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
 };
-pub use self_test::{SelfTestReport, SelfTestStep, self_test};
-pub use session_log::{LogBound, LogFeed, SessionLog};
+pub use port::{PairPort, SerialLink, UsbIdentity};
+pub(crate) use self_test::SelfTestStep;
+pub use self_test::{SelfTestReport, self_test};
+pub(crate) use session_log::LogFeed;
+pub use session_log::{LogBound, SessionLog};
 pub use sink::SinkError;
-pub use wav::{SampleFormat, WavSpec, WavWriter};
+pub(crate) use wav::WavWriter;
+pub use wav::{SampleFormat, WavSpec};
 pub use wav_parts::WavParts;
 pub use wire::Simulation;
 pub use wire::{
-    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, Injection, InjectionKind,
-    LaneFaults, Latency, OneOff, OneOffKind, WiredDevice,
+    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, InjectionKind, LaneFaults,
+    Latency, OneOff, OneOffKind,
 };
+pub(crate) use wire::{Injection, WiredDevice};

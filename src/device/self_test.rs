@@ -41,7 +41,7 @@ pub struct SelfTestReport {
     /// What the device said of itself.
     pub caps: Option<Caps>,
     /// Round trips of the pings.
-    pub ping: Option<Spread>,
+    pub(crate) ping: Option<Spread>,
     /// Counters at the end.
     pub counters: BridgeCounters,
     /// Frame timings.

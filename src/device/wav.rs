@@ -140,7 +140,7 @@ impl WavSpec {
 
 /// A WAV file being written. Until [`finish`](Self::finish) its sizes are 0.
 #[derive(Debug)]
-pub struct WavWriter<W: Write + Seek> {
+pub(crate) struct WavWriter<W: Write + Seek> {
     out: W,
     spec: WavSpec,
     data_bytes: u64,
@@ -185,7 +185,7 @@ impl<W: Write + Seek> WavWriter<W> {
     }
 
     /// Frames that still fit.
-    pub fn n_free_frames(&self) -> u64 {
+    pub(crate) fn n_free_frames(&self) -> u64 {
         (self.most_data_bytes - self.data_bytes) / u64::from(self.spec.frame_bytes())
     }
 

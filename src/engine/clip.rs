@@ -253,8 +253,8 @@ pub fn write_clip(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_scratch::ScratchFolder;
     use selvedge_foundation::progress::{CancelFlag, unheard};
+    use selvedge_scratch::ScratchFolder;
 
     fn clip(path: &Path, kind: ClipKind) -> ClipWriter {
         let profile = ArrayProfile::default();

@@ -60,19 +60,23 @@ pub use input::{
     PointerSender, Reading, list_input_devices, open_input_device,
 };
 pub use meters::{DurationBucket, DurationHistogram};
-pub use pacer::{Due, PATIENCE, Pacer};
+pub use pacer::PATIENCE;
+pub(crate) use pacer::{Due, Pacer};
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
-pub use recording::{RecordedSample, RecordedTick, Recording};
+pub(crate) use recording::RecordedTick;
+pub use recording::{RecordedSample, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
-    ClockView, ContactorView, DisplayView, EngineCounters, LinkView, Playback, PointerView,
-    RecordingView, Snapshot, SourceKind,
+    ClockView, ContactorView, DisplayView, LinkView, PointerView, Snapshot, SourceKind,
 };
+pub(crate) use snapshot::{EngineCounters, Playback, RecordingView};
 pub use stop::StopSwitch;
-pub use synth::{DeviceWaveform, SampleSynth};
+pub use synth::DeviceWaveform;
+pub(crate) use synth::SampleSynth;
 pub use tap::Tap;
-pub use velocity::{Estimate, REST, VelocityEstimator};
+pub(crate) use velocity::REST;
+pub use velocity::{Estimate, VelocityEstimator};
 pub use vibration::VibrationStep;
 
 use std::time::Duration;

@@ -21,7 +21,7 @@ const LONGEST_GAP: u32 = 40;
 
 /// What to do now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Due {
+pub(crate) enum Due {
     /// Nothing yet.
     Nothing,
     /// Tick; it was due at this time.
@@ -32,7 +32,7 @@ pub enum Due {
 
 /// Decides when to tick.
 #[derive(Debug)]
-pub struct Pacer {
+pub(crate) struct Pacer {
     /// When the next tick is due by the own clock.
     own_due: Instant,
     last_own: Option<Instant>,
@@ -99,7 +99,7 @@ impl Pacer {
     }
 
     /// Time passed and no STATUS arrived.
-    pub fn own_tick(&mut self, now: Instant) -> Due {
+    pub(crate) fn own_tick(&mut self, now: Instant) -> Due {
         if let Some(due) = self.put_off.take_if(|due| *due <= now) {
             return Due::Tick(due);
         }
@@ -125,7 +125,7 @@ impl Pacer {
     }
 
     /// The device is gone: the own clock goes on one tick after the last.
-    pub fn forget_device(&mut self) {
+    pub(crate) fn forget_device(&mut self) {
         if self.is_device_paced {
             self.own_due -= PATIENCE;
         }
@@ -141,7 +141,7 @@ impl Pacer {
     }
 
     /// Whether the device paces.
-    pub fn is_device_paced(&self) -> bool {
+    pub(crate) fn is_device_paced(&self) -> bool {
         self.is_device_paced
     }
 

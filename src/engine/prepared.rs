@@ -60,7 +60,7 @@ impl PreparedScene {
 
     /// Whether [`prepare_cached`](Self::prepare_cached) would compute no table, so that it need not
     /// be done on another thread.
-    pub fn is_cached(
+    pub(crate) fn is_cached(
         loaded: &LoadedScene,
         method: Method,
         accuracy: &Accuracy,

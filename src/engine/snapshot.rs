@@ -177,7 +177,7 @@ pub struct PointerView {
     /// How velocity is estimated.
     pub method: VelocityMethod,
     /// The lag of that estimate at this tick, s; 0 when a path carries its own velocity.
-    pub velocity_lag_s: f64,
+    pub(crate) velocity_lag_s: f64,
     /// Whether the finger is off the surface, for sources that tell.
     pub is_lifted: bool,
     /// How steadily the source reports.
@@ -199,7 +199,7 @@ pub struct RecordingView {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ClockView {
     /// Whether the device paces (otherwise the engine's own clock does).
-    pub is_device_paced: bool,
+    pub(crate) is_device_paced: bool,
     /// Ticks that began more than 1 ms after they were due.
     pub late: u64,
     /// Ticks that never were because the engine came a whole tick too late.
@@ -218,11 +218,11 @@ pub struct ClockView {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EngineCounters {
     /// Notices that the full ring had no room for.
-    pub notices_lost: u64,
+    pub(crate) notices_lost: u64,
     /// Tunings, gains and angles that made no sense and were ignored.
     pub ignored: u64,
     /// Glimpses that the full ring had no room for.
-    pub glimpses_lost: u64,
+    pub(crate) glimpses_lost: u64,
     /// Frames not made because no armed device listened.
     pub frames_unheard: u64,
     /// Commands obeyed before this was shown: all that were sent once it equals

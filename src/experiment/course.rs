@@ -140,7 +140,7 @@ impl Course {
     ///
     /// # Errors
     /// It is no answer to it, or no trial waits.
-    pub fn answer(&mut self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
+    pub(crate) fn answer(&mut self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
         if !matches!(self.step(), Step::Trial(_)) {
             return Err(AnswerError::value(
                 "no trial waits",

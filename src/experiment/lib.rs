@@ -36,9 +36,13 @@ mod trial;
 
 pub use course::{Course, Step};
 pub use error::ExperimentError;
-pub use noise::{Colour, LONGEST_FADE_S, MOST_NOISE_MINUTES, MaskingNoise, NOISE_RATE_HZ};
+pub use noise::{Colour, MOST_NOISE_MINUTES, MaskingNoise};
+pub(crate) use noise::{LONGEST_FADE_S, NOISE_RATE_HZ};
 pub use participants::{HANDS, Participant, Participants, Particulars, SEXES};
 pub use procedure::Procedure;
-pub use record::{Apparatus, Outcome, Record, Timing, column_names, columns, read_records};
-pub use simulate::{SIMULATED, Simulation, simulated_subject};
-pub use trial::{Adjustment, Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task, Trial};
+pub use record::{Apparatus, Outcome, Record, Timing, columns};
+pub(crate) use record::{column_names, read_records};
+pub(crate) use simulate::SIMULATED;
+pub use simulate::{Simulation, simulated_subject};
+pub(crate) use trial::AnswerError;
+pub use trial::{Adjustment, Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};

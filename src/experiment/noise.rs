@@ -16,7 +16,7 @@ use selvedge_foundation::numerics::{Complex, Random, RealTransform};
 use selvedge_foundation::progress::Progress;
 
 /// Samples per second.
-pub const NOISE_RATE_HZ: u32 = 48_000;
+pub(crate) const NOISE_RATE_HZ: u32 = 48_000;
 /// The noise repeats itself after so long, s: nobody notices.
 const PERIOD_S: u32 = 60;
 /// What is filled, Hz.
@@ -29,7 +29,7 @@ const RMS: f64 = 0.1;
 /// The longest file, minutes.
 pub const MOST_NOISE_MINUTES: u16 = 120;
 /// The longest fade, s.
-pub const LONGEST_FADE_S: f64 = 30.0;
+pub(crate) const LONGEST_FADE_S: f64 = 30.0;
 
 /// How the power of a noise lies over frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -15,7 +15,7 @@ use super::session::{Opening, unwritten, write_whole};
 use selvedge_foundation::progress::Progress;
 
 /// What a log names as the device.
-pub const SIMULATED: &str = "simulated";
+pub(crate) const SIMULATED: &str = "simulated";
 
 /// 2000-01-03 09:00 UTC, a Monday: when the first session of the first observer begins.
 const EPOCH_S: u64 = 946_890_000;

@@ -206,7 +206,7 @@ impl Task {
     /// # Errors
     /// The answer is none to this question. How many scales and parameters there are is the
     /// design's to check.
-    pub fn verdict(&self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
+    pub(crate) fn verdict(&self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
         let chosen = |position: usize, n: usize| {
             let mend = || AnswerError::value(told(position), format!("give 1 to {n}"));
             if position < n {

@@ -10,13 +10,13 @@ use selvedge_textile::tactile::{Perception, vibrating_mean_um};
 
 /// An amplitude below this counts as silence, µm: a nanometre, 49 dB or more below any threshold
 /// of detection.
-pub const SILENT_UM: f64 = 1e-3;
+pub(crate) const SILENT_UM: f64 = 1e-3;
 /// Entries of the difference over time. A path with more ticks (27 minutes) has several in each.
 const MOST_ENTRIES: u64 = 1 << 16;
 
 /// Two amplitudes beside each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Contrast {
+pub(crate) enum Contrast {
     /// Neither sounds.
     Silent,
     /// The first sounds, the second does not.

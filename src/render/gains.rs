@@ -8,7 +8,7 @@ use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_textile::tactile::{Band, Tuning, check_gain};
 
 /// Total gains above this count as this, so that every product stays finite, dB.
-pub const MAX_TOTAL_GAIN_DB: f64 = 300.0;
+pub(crate) const MAX_TOTAL_GAIN_DB: f64 = 300.0;
 
 /// The terms of one textile's gain in one band, dB.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

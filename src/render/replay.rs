@@ -26,7 +26,7 @@ pub struct Replay<'a> {
 }
 
 /// Takes a tick's number, pose and frames; may stop the run.
-pub type FrameSink<'a> = dyn FnMut(u64, &Pose, &[DisplayFrame]) -> ControlFlow<()> + 'a;
+pub(crate) type FrameSink<'a> = dyn FnMut(u64, &Pose, &[DisplayFrame]) -> ControlFlow<()> + 'a;
 
 /// Replays ticks (number, pose). `clock_ns` tells a monotonic time in ns; `sink` takes every tick's
 /// number, pose and frames, and may stop the run.
@@ -94,7 +94,7 @@ pub fn replay(
 }
 
 /// Takes a tick's number and the frames of both runs; may stop them.
-pub type PairSink<'a> = dyn FnMut(u64, [&[DisplayFrame]; 2]) -> ControlFlow<()> + 'a;
+pub(crate) type PairSink<'a> = dyn FnMut(u64, [&[DisplayFrame]; 2]) -> ControlFlow<()> + 'a;
 
 /// Replays the same ticks in two scenes, each by its method, side by side: for comparing them. Both
 /// use the same `cache` of tables. Says whether every tick was replayed.

@@ -192,13 +192,13 @@ pub struct RunStats {
     /// Contactors of all displays.
     pub n_contactors: usize,
     /// Preparing the renderer, ns.
-    pub prepare_ns: u64,
+    pub(crate) prepare_ns: u64,
     /// Time a tick, median, ns.
     pub tick_median_ns: f64,
     /// Time a tick, 99th percentile, ns.
     pub tick_p99_ns: f64,
     /// Time of the slowest tick, ns.
-    pub tick_max_ns: f64,
+    pub(crate) tick_max_ns: f64,
     /// What was evaluated and left out.
     pub counters: Counters,
     /// The error found, if it was measured.

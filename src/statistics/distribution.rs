@@ -13,7 +13,7 @@ use statrs::function::{beta, erf, gamma};
 use super::{Computed, Undefined};
 
 /// P(Z > z) of the standard normal.
-pub fn normal_upper(z: f64) -> f64 {
+pub(crate) fn normal_upper(z: f64) -> f64 {
     // Beyond 38 the tail is smaller than any number; half a square of 0 is no argument.
     let half_square = 0.5 * z.clamp(-40.0, 40.0).powi(2);
     if half_square <= 0.0 {
@@ -31,7 +31,7 @@ pub fn normal_lower(z: f64) -> f64 {
 }
 
 /// The density of the standard normal at `z`.
-pub fn normal_density(z: f64) -> f64 {
+pub(crate) fn normal_density(z: f64) -> f64 {
     (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt()
 }
 
@@ -51,12 +51,12 @@ pub fn normal_quantile(p: f64) -> Computed {
 }
 
 /// P(T > t) of Student's t with `df` > 0 degrees of freedom.
-pub fn t_upper(t: f64, df: f64) -> Computed {
+pub(crate) fn t_upper(t: f64, df: f64) -> Computed {
     Ok(student(t, df)?.sf(t))
 }
 
 /// P(|T| > |t|).
-pub fn t_two_sided(t: f64, df: f64) -> Computed {
+pub(crate) fn t_two_sided(t: f64, df: f64) -> Computed {
     Ok((2.0 * t_upper(t.abs(), df)?).min(1.0))
 }
 
@@ -93,7 +93,7 @@ pub fn f_upper(f: f64, df_effect: f64, df_error: f64) -> Computed {
 }
 
 /// P(X > x) of chi-squared.
-pub fn chi_squared_upper(x: f64, df: f64) -> Computed {
+pub(crate) fn chi_squared_upper(x: f64, df: f64) -> Computed {
     if !(x >= 0.0 && x.is_finite() && df > 0.0) {
         return Err(Undefined::because(format!("χ² = {x} with df = {df}")));
     }
@@ -106,7 +106,7 @@ pub fn chi_squared_upper(x: f64, df: f64) -> Computed {
 }
 
 /// P(X ≥ k) of `n` trials that succeed with probability `p` in (0, 1).
-pub fn binomial_at_least(k: u64, n: u64, p: f64) -> f64 {
+pub(crate) fn binomial_at_least(k: u64, n: u64, p: f64) -> f64 {
     match k {
         0 => 1.0,
         k if k > n => 0.0,
@@ -115,7 +115,7 @@ pub fn binomial_at_least(k: u64, n: u64, p: f64) -> f64 {
 }
 
 /// P(X ≤ k) of `n` trials that succeed with probability `p` in (0, 1).
-pub fn binomial_at_most(k: u64, n: u64, p: f64) -> f64 {
+pub(crate) fn binomial_at_most(k: u64, n: u64, p: f64) -> f64 {
     if k >= n {
         return 1.0;
     }
@@ -123,7 +123,7 @@ pub fn binomial_at_most(k: u64, n: u64, p: f64) -> f64 {
 }
 
 /// P(X = k).
-pub fn binomial_mass(k: u64, n: u64, p: f64) -> f64 {
+pub(crate) fn binomial_mass(k: u64, n: u64, p: f64) -> f64 {
     if k > n {
         return 0.0;
     }

@@ -20,7 +20,7 @@ pub struct Equivalence {
     /// Degrees of freedom.
     pub df: f64,
     /// One-sided p against the low and the high bound.
-    pub p_each: [f64; 2],
+    pub(crate) p_each: [f64; 2],
     /// The larger of the two: that of the claim.
     pub p: f64,
     /// The interval of level 1 − 2α, which lies inside the bounds exactly when p < α.
@@ -69,7 +69,7 @@ pub fn tost(sample: &Summary, [low, high]: [f64; 2], alpha: f64) -> Computed<Equ
 ///
 /// # Errors
 /// No degrees of freedom, α outside (0, 0.5).
-pub fn power_of_tost([low, high]: [f64; 2], df: f64, alpha: f64) -> Computed {
+pub(crate) fn power_of_tost([low, high]: [f64; 2], df: f64, alpha: f64) -> Computed {
     let t = t_quantile_upper(alpha, df)?;
     Ok(over_spread(df, |s| {
         (normal_lower(high - t * s) - normal_lower(low + t * s)).max(0.0)

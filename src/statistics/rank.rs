@@ -6,7 +6,7 @@ pub struct Ranks {
     /// The rank of each value.
     pub ranks: Vec<f64>,
     /// Σ(t³ − t): 0 without ties.
-    pub tie_sum: f64,
+    pub(crate) tie_sum: f64,
 }
 
 impl Ranks {

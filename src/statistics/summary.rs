@@ -32,7 +32,7 @@ impl Summary {
     ///
     /// # Errors
     /// Different lengths, fewer than two pairs, values that are not finite.
-    pub fn of_differences(a: &[f64], b: &[f64]) -> Computed<Self> {
+    pub(crate) fn of_differences(a: &[f64], b: &[f64]) -> Computed<Self> {
         Self::at_scale(&differences(a, b)?, largest(a).max(largest(b)))
     }
 

@@ -111,7 +111,7 @@ impl<'a> Bench<'a> {
     }
 
     /// The same with so many repeats: for work that takes long and so varies little.
-    pub fn time_repeated<T>(
+    pub(crate) fn time_repeated<T>(
         &mut self,
         n_repeats: usize,
         n_units: usize,
@@ -127,7 +127,7 @@ impl<'a> Bench<'a> {
     /// Measures several works of `n_units` each, repeat by repeat in turn, so that a machine that
     /// changes its pace meanwhile changes it for all. Beside each timing stands its CPU time as a
     /// multiple of the first's, in the median over the repeats.
-    pub fn time_in_turn<T>(
+    pub(crate) fn time_in_turn<T>(
         &mut self,
         n_units: usize,
         works: Vec<impl FnMut() -> T>,
@@ -146,7 +146,7 @@ impl<'a> Bench<'a> {
 
     /// The same in so many rounds, each of which repeats every work until it took `least_s`. Beside
     /// each timing stand its CPU times, round by round, s.
-    pub fn time_rounds<T>(
+    pub(crate) fn time_rounds<T>(
         &mut self,
         (n_rounds, least_s): (usize, f64),
         n_units: usize,

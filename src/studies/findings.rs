@@ -65,7 +65,7 @@ impl Row {
     }
 
     /// The number in a further column; `None` where there is none.
-    pub fn further_number(&self, column: &str) -> Option<f64> {
+    pub(crate) fn further_number(&self, column: &str) -> Option<f64> {
         self.further(column)?.parse().ok()
     }
 }

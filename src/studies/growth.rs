@@ -25,7 +25,7 @@ const PER_ROW: usize = 10;
 
 /// Cost over contactors, textiles and ticks a second.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct GrowthStudy;
+pub(crate) struct GrowthStudy;
 
 impl Study for GrowthStudy {
     fn name(&self) -> &'static str {

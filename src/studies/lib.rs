@@ -51,30 +51,35 @@ mod tests;
 mod velocity;
 mod write;
 
-pub use areal::ArealStudy;
+pub(crate) use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
-pub use bimorph::BimorphStudy;
+pub(crate) use bimorph::BimorphStudy;
 pub use clips::ClipsStudy;
-pub use coverage::CoverageStudy;
-pub use drive_updates::DriveUpdatesStudy;
+pub(crate) use coverage::CoverageStudy;
+pub(crate) use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
-pub use growth::GrowthStudy;
-pub use left_out::{LeftOutStudy, SavingRule};
-pub use machine::Machine;
-pub use mds::MdsStudy;
-pub use models::{BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy};
+pub(crate) use growth::GrowthStudy;
+pub(crate) use left_out::{LeftOutStudy, SavingRule};
+pub(crate) use machine::Machine;
+pub(crate) use mds::MdsStudy;
+pub(crate) use models::{
+    BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy,
+};
 pub use pareto::pareto;
-pub use picture::{AutocorrelationStudy, LatticeStudy, PictureRouteStudy, PictureScaleStudy};
-pub use readers::ReadersStudy;
-pub use rendering::{RenderingStudy, Running, ThisSceneStudy};
-pub use replication::ReplicationStudy;
+pub(crate) use picture::{
+    AutocorrelationStudy, LatticeStudy, PictureRouteStudy, PictureScaleStudy,
+};
+pub(crate) use readers::ReadersStudy;
+pub(crate) use rendering::RenderingStudy;
+pub use rendering::{Running, ThisSceneStudy};
+pub(crate) use replication::ReplicationStudy;
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
-pub use shading::ShadingStudy;
-pub use spectral_model::SpectralModelStudy;
-pub use staircases::StaircasesStudy;
+pub(crate) use shading::ShadingStudy;
+pub(crate) use spectral_model::SpectralModelStudy;
+pub(crate) use staircases::StaircasesStudy;
 pub use study::Study;
-pub use velocity::VelocityStudy;
+pub(crate) use velocity::VelocityStudy;
 
 /// Every study of the floors below, in the order of the report.
 pub fn studies() -> Vec<Box<dyn Study>> {

@@ -8,9 +8,9 @@ use selvedge_foundation::quantity;
 
 /// What times were measured on, and with.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Machine {
+pub(crate) struct Machine {
     /// The processor's name, where the system tells.
-    pub cpu: String,
+    pub(crate) cpu: String,
     /// Threads that run at once.
     pub n_cores: usize,
     /// Operating system and architecture.
@@ -20,7 +20,7 @@ pub struct Machine {
     /// What compiled it, as far as it is known.
     pub compiler: String,
     /// Whether it was compiled without optimisation, so that times say little.
-    pub is_debug: bool,
+    pub(crate) is_debug: bool,
 }
 
 impl Machine {

@@ -11,7 +11,7 @@ use super::{Bench, Findings, ReportError, Row, Study, Timing};
 
 /// Printed and obtained.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ReplicationStudy;
+pub(crate) struct ReplicationStudy;
 
 impl Study for ReplicationStudy {
     fn name(&self) -> &'static str {

@@ -59,7 +59,7 @@ pub enum Outcome {
 #[derive(Debug)]
 pub struct Report {
     /// The studies by name, in the order in which they were asked for.
-    pub outcomes: Vec<(&'static str, Outcome)>,
+    pub(crate) outcomes: Vec<(&'static str, Outcome)>,
     /// Whether it was stopped.
     pub is_cancelled: bool,
 }

@@ -6,8 +6,8 @@ use super::pareto::tests::row;
 use super::*;
 use selvedge_chart::{Plot, Series};
 use selvedge_foundation::files::Table;
-use selvedge_scratch::ScratchFolder;
 use selvedge_foundation::progress::{CancelFlag, unheard};
+use selvedge_scratch::ScratchFolder;
 
 /// What a study finds in quick mode.
 pub(super) fn quick(study: &dyn Study, seed: u64) -> Findings {

@@ -175,7 +175,7 @@ fn content_names(manifest: &Manifest) -> Vec<String> {
 }
 
 /// What the figures of an index are made from: id, manifest and surface.
-pub fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, TextileError> {
+pub(crate) fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, TextileError> {
     let manifest = read_manifest(store, id)?;
     let mut content = vec![
         id.as_bytes().to_vec(),
@@ -189,7 +189,7 @@ pub fn content_of(store: &Store, id: &str) -> Result<Vec<Vec<u8>>, TextileError>
 
 /// The index of a library, from its profiles: levels with the default filters (to six digits), the
 /// mean level, the hash of what they were made from.
-pub fn index_of(
+pub(crate) fn index_of(
     library: &Library,
     tuning: Tuning,
     n_threads: usize,

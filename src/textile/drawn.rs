@@ -11,7 +11,7 @@ use selvedge_foundation::numerics::{Grid, quantile};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
     /// Heights of the strokes, µm, by [`Direction::index`], in travel order.
-    pub strokes_um: [Vec<f64>; 4],
+    pub(crate) strokes_um: [Vec<f64>; 4],
     /// Steps along warp and weft, mm.
     pub step_mm: [f64; 2],
     /// What is pictured.
@@ -22,7 +22,7 @@ pub struct Drawn {
 
 impl Drawn {
     /// Strokes along two lines, forward and back: a point has no friction.
-    pub fn of_lines(lines_um: [Vec<f64>; 2], step_mm: f64, patch: HeightMap) -> Self {
+    pub(crate) fn of_lines(lines_um: [Vec<f64>; 2], step_mm: f64, patch: HeightMap) -> Self {
         let back = |line: &[f64]| line.iter().rev().copied().collect();
         let [warp, weft] = lines_um.map(about_mean);
         let strokes_um = [warp.clone(), back(&warp), weft.clone(), back(&weft)];
@@ -49,7 +49,7 @@ impl Drawn {
     }
 
     /// The strokes as profile files, by [`Direction::index`].
-    pub fn profile_files(&self) -> Result<[String; 4], TextileError> {
+    pub(crate) fn profile_files(&self) -> Result<[String; 4], TextileError> {
         let mut texts: [String; 4] = Default::default();
         for direction in Direction::ALL {
             let is_weft = matches!(direction, Direction::WeftForward | Direction::WeftReverse);
@@ -78,7 +78,7 @@ fn about_mean(mut heights_um: Vec<f64>) -> Vec<f64> {
 }
 
 /// Every `stride`-th point of a map, so that a picture of it stays small.
-pub fn thinned(map: &HeightMap, stride: usize) -> Option<HeightMap> {
+pub(crate) fn thinned(map: &HeightMap, stride: usize) -> Option<HeightMap> {
     let heights = map.heights_um();
     let (width, stride) = (heights.width().div_ceil(stride.max(1)), stride.max(1));
     let rows = (0..heights.height()).step_by(stride);

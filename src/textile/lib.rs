@@ -48,36 +48,40 @@ mod words;
 mod workers;
 
 pub use brought::{Measurement, read_measurement};
-pub use brownian::{Brownian, Generator, Hurst, Tip};
+pub(crate) use brownian::Tip;
+pub use brownian::{Brownian, Generator, Hurst};
 pub use build::{BuiltFile, build, build_library, make, write};
 pub use cache::BuildCache;
 pub use catalogue::{sheet, write_catalogue, write_figure};
-pub use cloth::{Side, Yarn};
+pub use cloth::Side;
+pub(crate) use cloth::Yarn;
 pub use drawn::lit;
+pub(crate) use fourier::{Composition, Imported};
 pub use fourier::{
-    Composition, Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings,
-    example_templates, import, templates_from_toml, templates_to_toml,
+    Fourier, FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
+    templates_from_toml, templates_to_toml,
 };
-pub use index::{Index, IndexEntry};
+pub(crate) use index::{Index, IndexEntry};
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesAsk, KesColumn, KesFigures,
-    KesFile, KesFriction, KesImport, KesKnown, KesLine, KesLook, KesOptions, KesOrigin, KesPlace,
-    KesReading, KesSection, KesStroke, Mark, MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesAsk, KesColumn, KesFile, KesImport,
+    KesKnown, KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind,
+    PlaceUnit, ReturnOrder, StrokeSide,
 };
+pub use kes::{EVALUATED_MM, KesFigures, KesFriction, KesLine, KesOrigin};
 pub use knit::{Knit, Structure};
 pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
-pub use manifest::{
-    AppearanceKeys, Construction, Manifest, Parent, ProfileFiles, Profiles, Provenance, Source,
-};
+pub(crate) use manifest::{AppearanceKeys, ProfileFiles, Profiles};
+pub use manifest::{Construction, Manifest, Parent, Provenance, Source};
+pub(crate) use measured::KnownFigure;
 pub use measured::{
-    Figure as MeasuredFigure, KnownFigure, all_known as known_figures, figures as measured_figures,
+    Figure as MeasuredFigure, all_known as known_figures, figures as measured_figures,
 };
 pub use parameter::{
     Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
 };
 pub use profile_file::read as read_profile;
-pub use recipes::SEVENTY_FOUR;
+pub(crate) use recipes::SEVENTY_FOUR;
 pub use restoration::{Reduced, Restoration, Rule};
 pub use selection::{kind_of, most_typical};
 pub use trial::Trial;

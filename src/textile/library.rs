@@ -19,14 +19,14 @@ use selvedge_foundation::files::{FileError, read, read_text};
 use selvedge_foundation::progress::Progress;
 
 /// The name of the index in a library's folder.
-pub const INDEX: &str = "library.toml";
+pub(crate) const INDEX: &str = "library.toml";
 
 /// Textiles that are named when one is not found; more would hide what is wrong.
 const NAMED: usize = 20;
 
 /// Where a library's files lie.
 #[derive(Debug, Clone)]
-pub enum Store {
+pub(crate) enum Store {
     /// A folder with a folder for every textile.
     Folder(PathBuf),
     /// Part of the program.
@@ -110,7 +110,7 @@ impl Library {
     }
 
     /// One textile whose files are at hand and lie in no folder yet.
-    pub fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
+    pub(crate) fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
         Self {
             store: Store::Built(Arc::new(files), PathBuf::from("the new textile")),
             ids: vec![id.to_owned()],
@@ -203,7 +203,7 @@ impl Library {
     }
 
     /// Where the files of a textile are: built, if they were not there.
-    pub fn files_of(&self, id: &str) -> Result<Store, TextileError> {
+    pub(crate) fn files_of(&self, id: &str) -> Result<Store, TextileError> {
         self.check_id(id)?;
         match &self.store {
             Store::Recipes(recipes) => {

@@ -32,7 +32,7 @@ pub struct Appearance {
 impl Textile {
     /// Reads a textile of a store: manifest, profiles, spectra. A model or a height
     /// map that names no profile files is built on the spot, which takes a second or so.
-    pub fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
+    pub(crate) fn load(store: &Store, id: &str) -> Result<Self, TextileError> {
         let manifest = read_manifest(store, id)?;
         let floor = manifest.noise_floor_um2_mm.unwrap_or(0.0);
         let is_areal = manifest.source.representation() == Representation::Areal;
@@ -127,7 +127,7 @@ impl Textile {
 }
 
 /// Reads the picture that a manifest names; `None` if it names none.
-pub fn read_appearance(
+pub(crate) fn read_appearance(
     store: &Store,
     id: &str,
     manifest: &Manifest,
@@ -147,7 +147,7 @@ pub fn read_appearance(
 pub const MANIFEST: &str = "textile.toml";
 
 /// Reads the manifest of a textile.
-pub fn read_manifest(store: &Store, id: &str) -> Result<Manifest, TextileError> {
+pub(crate) fn read_manifest(store: &Store, id: &str) -> Result<Manifest, TextileError> {
     let path = store.path(id, MANIFEST);
     Manifest::from_toml(&store.text(id, MANIFEST)?, &path)
 }

@@ -72,7 +72,7 @@ impl Model {
     }
 
     /// The four strokes as profile files, by [`Direction::index`].
-    pub fn profile_files(&self) -> Result<[String; 4], TextileError> {
+    pub(crate) fn profile_files(&self) -> Result<[String; 4], TextileError> {
         let (cloth, probe, random) = match self {
             Self::Drawn(drawn) => return drawn.profile_files(),
             Self::Cloth {
@@ -134,7 +134,7 @@ impl Source {
 }
 
 /// The profiles of four profile files, by [`Direction::index`].
-pub fn profiles_of_files(texts: &[String; 4]) -> Result<ProfileSet, TextileError> {
+pub(crate) fn profiles_of_files(texts: &[String; 4]) -> Result<ProfileSet, TextileError> {
     let mut profiles = ProfileSet::default();
     for (direction, text) in Direction::ALL.into_iter().zip(texts) {
         let profile = profile_file::read(text, Path::new(direction.key()))?;

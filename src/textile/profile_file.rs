@@ -43,7 +43,7 @@ fn columns(text: &str, path: &Path, [x, y]: [&str; 2]) -> Result<(Vec<f64>, Vec<
 }
 
 /// Reads a friction trace. `path` only names it in errors.
-pub fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileError> {
+pub(crate) fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileError> {
     let (x_mm, mu) = columns(text, path, FRICTION_COLUMNS)?;
     FrictionTrace::from_positions(&x_mm, mu).map_err(|source| TextileError::Surface {
         path: path.to_owned(),
@@ -52,7 +52,7 @@ pub fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileEr
 }
 
 /// Writes a friction trace: places to a nanometre, coefficients to a millionth.
-pub fn write_friction(trace: &FrictionTrace, path: &Path) -> Result<String, FileError> {
+pub(crate) fn write_friction(trace: &FrictionTrace, path: &Path) -> Result<String, FileError> {
     written(trace.mu(), trace.step_mm(), 1e6, (path, FRICTION_COLUMNS))
 }
 

@@ -21,7 +21,7 @@ use selvedge_foundation::files::{
 };
 
 /// What the library of all textiles is called where a folder or a file is.
-pub const SEVENTY_FOUR: &str = "seventy-four";
+pub(crate) const SEVENTY_FOUR: &str = "seventy-four";
 /// What stands after the id of a cloth's other side.
 const BACK: &str = "-back";
 
@@ -50,7 +50,7 @@ struct File {
 
 impl Recipes {
     /// The recipes of the seventy-four, which are part of the program.
-    pub fn seventy_four(cache: Option<BuildCache>) -> Result<Self, TextileError> {
+    pub(crate) fn seventy_four(cache: Option<BuildCache>) -> Result<Self, TextileError> {
         let mut recipes = Self::parse(shipped::RECIPES, Path::new(SEVENTY_FOUR), cache)?;
         let path = index_path(Path::new("seventy-four.toml"));
         recipes.index = Some(Index::from_toml(shipped::RECIPES_INDEX, &path)?);

@@ -3,13 +3,13 @@
 //! The bytes are embedded as they lie in `textiles/`; nothing is decoded before it is asked for.
 
 /// `library.toml`.
-pub const INDEX: &str = include_str!("../../textiles/library.toml");
+pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
 
 /// The recipes of the seventy-four.
 pub const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
 
 /// What was measured on the seventy-four, as a `library.toml`.
-pub const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
+pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
 
 /// One embedded file of a textile.
 macro_rules! embedded {

@@ -17,7 +17,7 @@ const MOST_TOP_UM: f64 = 5e6;
 
 /// The scale of amplitudes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AmplitudeScale {
+pub(crate) struct AmplitudeScale {
     /// Its upper end, µm.
     most_um: f64,
     /// Whether it stays whatever comes.
@@ -36,7 +36,7 @@ impl Default for AmplitudeScale {
 
 impl AmplitudeScale {
     /// A scale that ends near `most_um` and stays there; what is no number changes nothing.
-    pub fn locked_at(self, most_um: f64) -> Self {
+    pub(crate) fn locked_at(self, most_um: f64) -> Self {
         if !most_um.is_finite() {
             return self;
         }
@@ -47,12 +47,12 @@ impl AmplitudeScale {
     }
 
     /// The same scale, held or free to follow.
-    pub fn with_lock(self, is_locked: bool) -> Self {
+    pub(crate) fn with_lock(self, is_locked: bool) -> Self {
         Self { is_locked, ..self }
     }
 
     /// Whether it is held.
-    pub fn is_locked(self) -> bool {
+    pub(crate) fn is_locked(self) -> bool {
         self.is_locked
     }
 
@@ -87,7 +87,7 @@ impl AmplitudeScale {
     }
 
     /// The amplitudes that a colour bar names, µm: 1, 2, 5 of each decade, both ends included.
-    pub fn marks_um(self) -> Vec<f64> {
+    pub(crate) fn marks_um(self) -> Vec<f64> {
         let decade = 10.0_f64.powf(self.least_um().log10().floor());
         let marks = (0..4).flat_map(|n| [1.0, 2.0, 5.0].map(|f| f * decade * 10.0_f64.powi(n)));
         let within =

@@ -33,7 +33,7 @@ const FRONT: [Pane; 7] = [
 
 /// A part of the window that can be moved, stacked and hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum Pane {
+pub(crate) enum Pane {
     /// The scene in mm with the display moving over it.
     Workspace,
     /// The textiles of the library and of the scene.
@@ -128,7 +128,7 @@ impl Pane {
     }
 
     /// Its title where there is little room.
-    pub fn short_title(self) -> &'static str {
+    pub(crate) fn short_title(self) -> &'static str {
         match self {
             Self::ContactSpectrum => "Contact",
             Self::DriveSpectrum => "Drive",
@@ -163,7 +163,7 @@ impl Pane {
 }
 
 /// The arrangement that a window of this size begins with, points.
-pub fn default_tree(size: Vec2) -> Tree<Pane> {
+pub(crate) fn default_tree(size: Vec2) -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let root = if is_roomy(size) {
         roomy(&mut tiles, size)
@@ -174,7 +174,7 @@ pub fn default_tree(size: Vec2) -> Tree<Pane> {
 }
 
 /// Whether a window of this size has room for everything side by side, points.
-pub fn is_roomy(size: Vec2) -> bool {
+pub(crate) fn is_roomy(size: Vec2) -> bool {
     size.x >= ROOMY.x && size.y >= ROOMY.y
 }
 
@@ -262,7 +262,7 @@ pub fn linear(tiles: &mut Tiles<Pane>, direction: LinearDir, parts: &[(TileId, f
 }
 
 /// The arrangement as text, to be kept.
-pub fn to_text(tree: &Tree<Pane>) -> Option<String> {
+pub(crate) fn to_text(tree: &Tree<Pane>) -> Option<String> {
     files::to_json_string(tree, Path::new("arrangement")).ok()
 }
 
@@ -355,7 +355,7 @@ pub fn tile_of(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
 
 /// Shows a pane that is hidden, brings one that is behind others to the front, and hides one that
 /// is in sight.
-pub fn toggle(tree: &mut Tree<Pane>, pane: Pane) {
+pub(crate) fn toggle(tree: &mut Tree<Pane>, pane: Pane) {
     let Some(id) = tile_of(tree, pane) else {
         return;
     };

@@ -24,7 +24,7 @@ pub struct Asked {
 }
 
 impl Desk<'_> {
-    pub fn show_workspace(&mut self, ui: &mut Ui) {
+    pub(crate) fn show_workspace(&mut self, ui: &mut Ui) {
         self.bench.prepare_overlays(ui.ctx());
         let bench = &*self.bench;
         let transient = &bench.transient;
@@ -40,7 +40,7 @@ impl Desk<'_> {
         self.shown = Some(shown);
     }
 
-    pub fn show_response(&mut self, ui: &Ui) {
+    pub(crate) fn show_response(&mut self, ui: &Ui) {
         let asked = self.bench.ask_response(ui.ctx());
         let bench = &*self.bench;
         let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));
@@ -54,7 +54,7 @@ impl Desk<'_> {
 
 impl Workbench {
     /// What the Response pane draws of a textile with this name and turn, degrees.
-    pub fn response_view<'a>(
+    pub(crate) fn response_view<'a>(
         &'a self,
         asked: &Asked,
         (textile, rotation_deg): (&'a str, f64),
@@ -72,7 +72,7 @@ impl Workbench {
     }
 
     /// Has what the workspace's overlays show.
-    pub fn prepare_overlays(&mut self, ctx: &egui::Context) {
+    pub(crate) fn prepare_overlays(&mut self, ctx: &egui::Context) {
         let overlays = self.workspace.overlays;
         let transient = &mut self.transient;
         if overlays.shows(Overlay::Points) {
@@ -102,7 +102,7 @@ impl Workbench {
 
     /// Has the curves of the textile that is chosen, or else of the one under the chosen contactor,
     /// or which was there last; `None` without any.
-    pub fn ask_response(&mut self, ctx: &egui::Context) -> Option<Asked> {
+    pub(crate) fn ask_response(&mut self, ctx: &egui::Context) -> Option<Asked> {
         let mut readings = std::mem::take(&mut self.transient.readings);
         let live = &self.transient.live;
         readings.clear();

@@ -10,29 +10,29 @@ use selvedge_textile::tactile::{Band, Tuning};
 
 /// What is muted and what is felt alone.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Audition {
+pub(crate) struct Audition {
     muted: Vec<Part>,
     solo: Vec<Part>,
 }
 
 impl Audition {
     /// Mutes a part, or lets it be felt again.
-    pub fn toggle_mute(&mut self, part: Part) {
+    pub(crate) fn toggle_mute(&mut self, part: Part) {
         toggle(&mut self.muted, part);
     }
 
     /// Lets a part be felt alone with others that are, or no longer.
-    pub fn toggle_solo(&mut self, part: Part) {
+    pub(crate) fn toggle_solo(&mut self, part: Part) {
         toggle(&mut self.solo, part);
     }
 
     /// Whether it was muted.
-    pub fn is_muted(&self, part: Part) -> bool {
+    pub(crate) fn is_muted(&self, part: Part) -> bool {
         self.muted.contains(&part)
     }
 
     /// Whether it is felt alone.
-    pub fn is_solo(&self, part: Part) -> bool {
+    pub(crate) fn is_solo(&self, part: Part) -> bool {
         self.solo.contains(&part)
     }
 
@@ -62,7 +62,7 @@ impl Audition {
     }
 
     /// The scene gain of a textile, silenced when it is not felt, dB.
-    pub fn cloth_gain_db(&self, index: usize, gain_db: f64) -> f64 {
+    pub(crate) fn cloth_gain_db(&self, index: usize, gain_db: f64) -> f64 {
         if self.is_felt(Part::Cloth(index)) {
             gain_db
         } else {
@@ -71,7 +71,7 @@ impl Audition {
     }
 
     /// Which of `n` contactors are felt; empty when all are.
-    pub fn contactor_mask(&self, n: usize) -> Vec<bool> {
+    pub(crate) fn contactor_mask(&self, n: usize) -> Vec<bool> {
         let mask: Vec<bool> = (0..n).map(|i| self.is_felt(Part::Contactor(i))).collect();
         if mask.iter().all(|is_felt| *is_felt) {
             Vec::new()

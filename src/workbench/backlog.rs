@@ -14,7 +14,7 @@ const ASLEEP: Duration = Duration::from_millis(1);
 
 /// Movements to pixels that were not passed on yet.
 #[derive(Debug)]
-pub struct Backlog {
+pub(crate) struct Backlog {
     waiting: Vec<[f64; 2]>,
     /// When the queue was last seen empty.
     clear_since: Instant,
@@ -32,7 +32,7 @@ impl Backlog {
     }
 
     /// The thread is about to wait for events. Some may have queued up already.
-    pub fn falls_asleep(&mut self, now: Instant) {
+    pub(crate) fn falls_asleep(&mut self, now: Instant) {
         self.asleep_since = now;
     }
 
@@ -49,13 +49,13 @@ impl Backlog {
     }
 
     /// Whether something was heard that was not passed on.
-    pub fn is_waiting(&self) -> bool {
+    pub(crate) fn is_waiting(&self) -> bool {
         !self.waiting.is_empty()
     }
 
     /// The queue is empty, everything that waited in it has been heard: passes it on with the times
     /// at which it must have happened.
-    pub fn pass_on(&mut self, now: Instant, mut take: impl FnMut(Instant, [f64; 2])) {
+    pub(crate) fn pass_on(&mut self, now: Instant, mut take: impl FnMut(Instant, [f64; 2])) {
         let span = now.saturating_duration_since(self.clear_since);
         let n = u32::try_from(self.waiting.len()).unwrap_or(u32::MAX);
         for (pixel, later) in self.waiting.drain(..).zip((0..n).rev()) {

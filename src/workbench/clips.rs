@@ -12,7 +12,7 @@ use selvedge_engine::{ClipKind, ClipWriter, Written, write_clip};
 use selvedge_render::{RenderScene, Replay};
 
 /// Every file that is offered, and what it is called.
-pub const CLIPS: [(ClipKind, &str); 4] = [
+pub(crate) const CLIPS: [(ClipKind, &str); 4] = [
     (ClipKind::FLOAT, "Waveform to play, 48 kHz…"),
     (ClipKind::ARCHIVE, "Waveform to keep, 8 kHz…"),
     (ClipKind::Hjif, "MPEG haptics…"),
@@ -29,9 +29,9 @@ pub struct Clips {
 
 /// What the menu shows of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ClipsView {
+pub(crate) struct ClipsView {
     /// Whether there is a recording to write.
-    pub has_take: bool,
+    pub(crate) has_take: bool,
     /// How far a file is, 0…1; `None` while none is written.
     pub share: Option<f32>,
 }
@@ -47,7 +47,7 @@ pub fn ending(kind: ClipKind) -> &'static str {
 
 impl Workbench {
     /// How it stands with files for other programs.
-    pub fn clips_view(&self) -> ClipsView {
+    pub(crate) fn clips_view(&self) -> ClipsView {
         let task = self.transient.clips.task.as_ref();
         ClipsView {
             has_take: self.take.is_some(),
@@ -56,7 +56,7 @@ impl Workbench {
     }
 
     /// Where a file is expected to go: where the last one did, else beside the recording or scene.
-    pub fn clip_path(&self, kind: ClipKind) -> PathBuf {
+    pub(crate) fn clip_path(&self, kind: ClipKind) -> PathBuf {
         let name = self.take.as_ref().map_or("recording", |take| take.name());
         let beside = self.take.as_ref().and_then(|take| take.file());
         let beside = beside.or_else(|| self.document.path().map(PathBuf::as_path));
@@ -71,7 +71,7 @@ impl Workbench {
     }
 
     /// Renders the recording into a file; one at a time.
-    pub fn write_clip_to(&mut self, ctx: &egui::Context, kind: ClipKind, path: &Path) {
+    pub(crate) fn write_clip_to(&mut self, ctx: &egui::Context, kind: ClipKind, path: &Path) {
         self.transient.ask = None;
         let Some(take) = self.take.clone() else {
             let words = "There is no recording to export; record one first";
@@ -109,14 +109,14 @@ impl Workbench {
     }
 
     /// Stops the file that is written; nothing of it is left.
-    pub fn stop_clip(&self) {
+    pub(crate) fn stop_clip(&self) {
         if let Some(task) = &self.transient.clips.task {
             task.stop();
         }
     }
 
     /// Takes the news of a file. To be called every frame.
-    pub fn poll_clips(&mut self) {
+    pub(crate) fn poll_clips(&mut self) {
         let Some((outcome, was_stopped)) = taken(&mut self.transient.clips.task) else {
             return;
         };
@@ -154,9 +154,9 @@ mod tests {
     use crate::Drive;
     use crate::command::{FileCommand, Purpose};
     use crate::take::Take;
-    use selvedge_scratch::ScratchFolder;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::{ExplorationPath, PathRow};
+    use selvedge_scratch::ScratchFolder;
 
     #[test]
     fn the_recording_at_hand_is_written_as_every_kind() {

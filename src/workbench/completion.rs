@@ -14,7 +14,7 @@ const MAX_ENTRIES: usize = 10_000;
 
 /// A completion on its way.
 #[derive(Debug)]
-pub struct Completing {
+pub(crate) struct Completing {
     /// What was typed.
     pub typed: String,
     result: Receiver<String>,

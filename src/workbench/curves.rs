@@ -29,7 +29,7 @@ pub struct Wanted {
 
 /// The curves as they were last computed.
 #[derive(Debug, Default)]
-pub struct Curves {
+pub(crate) struct Curves {
     around: Option<Curve>,
     over_speed: Option<Curve>,
     here: Option<Curve>,
@@ -106,7 +106,7 @@ pub fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
 
 impl Curves {
     /// Has the curves as they are wanted, at once or as soon as a thread has computed them.
-    pub fn catch_up(&mut self, ctx: &egui::Context, wanted: Wanted, is_at_once: bool) {
+    pub(crate) fn catch_up(&mut self, ctx: &egui::Context, wanted: Wanted, is_at_once: bool) {
         self.take();
         let wanted = Wanted {
             response: wanted.response.without_gains(),
@@ -173,7 +173,7 @@ impl Curves {
     }
 
     /// The same over [`speeds_mm_per_s`].
-    pub fn over_speed(&self) -> &[PointSpread] {
+    pub(crate) fn over_speed(&self) -> &[PointSpread] {
         values(self.over_speed.as_ref())
     }
 
@@ -183,7 +183,7 @@ impl Curves {
     }
 
     /// Curves computed so far: it stands still while nothing changes or nobody looks.
-    pub fn n_computed(&self) -> u64 {
+    pub(crate) fn n_computed(&self) -> u64 {
         self.n_computed
     }
 }

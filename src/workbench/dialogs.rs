@@ -46,7 +46,7 @@ pub enum Answer {
 /// The desktop's dialogs; at most one is open. By default there are none, and the field asks for
 /// everything.
 #[derive(Debug, Default)]
-pub struct Dialogs {
+pub(crate) struct Dialogs {
     has_desktop: bool,
     open: Option<Open>,
     /// An answer that is there before anybody was asked.
@@ -68,7 +68,7 @@ struct Open {
 
 impl Dialogs {
     /// The dialogs of this desktop, as far as the environment tells.
-    pub fn of_desktop() -> Self {
+    pub(crate) fn of_desktop() -> Self {
         let has_socket = |path: &Path| path.exists();
         Self {
             has_desktop: has_desktop(|name| env::var_os(name), has_socket),

@@ -60,7 +60,7 @@ impl Document {
     }
 
     /// Makes a change. One that makes no sense is refused and nothing happens.
-    pub fn edit(&mut self, edit: &Edit, now: Moment) -> Result<(), SceneError> {
+    pub(crate) fn edit(&mut self, edit: &Edit, now: Moment) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
         editing::apply(edit, &mut scene, self.tuning());
         if scene == self.scene {
@@ -77,28 +77,28 @@ impl Document {
     }
 
     /// Takes the last step back.
-    pub fn undo(&mut self) -> Option<&'static str> {
+    pub(crate) fn undo(&mut self) -> Option<&'static str> {
         self.history.undo(&mut self.scene)
     }
 
     /// Takes the last step back for good: it turned out to be impossible.
-    pub fn take_back(&mut self) {
+    pub(crate) fn take_back(&mut self) {
         self.history.undo(&mut self.scene);
         self.history.forget_undone();
     }
 
     /// Brings the last undone step back.
-    pub fn redo(&mut self) -> Option<&'static str> {
+    pub(crate) fn redo(&mut self) -> Option<&'static str> {
         self.history.redo(&mut self.scene)
     }
 
     /// What undo would take back.
-    pub fn undo_name(&self) -> Option<&'static str> {
+    pub(crate) fn undo_name(&self) -> Option<&'static str> {
         self.history.undo_name(&self.scene)
     }
 
     /// What redo would bring back.
-    pub fn redo_name(&self) -> Option<&'static str> {
+    pub(crate) fn redo_name(&self) -> Option<&'static str> {
         self.history.redo_name()
     }
 
@@ -111,7 +111,7 @@ impl Document {
     }
 
     /// Writes the scene to `path`, which is its place from now on.
-    pub fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
+    pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
         if let Some(old) = self
             .path
@@ -139,8 +139,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use selvedge_scratch::ScratchFolder;
     use selvedge_render::scene::PlacedTextile;
+    use selvedge_scratch::ScratchFolder;
     use selvedge_textile::tactile::Band;
 
     fn document() -> Document {

@@ -9,7 +9,7 @@ use selvedge_textile::tactile::{Band, Tuning};
 /// Side of a textile that is placed anew, where the workspace has room for it, mm.
 const NEW_SIDE_MM: f64 = 100.0;
 /// The least extent of a textile, mm.
-pub const LEAST_SIDE_MM: f64 = 2.0;
+pub(crate) const LEAST_SIDE_MM: f64 = 2.0;
 
 /// Makes the edit in `scene`, whose tuning is `tuning` as long as it states none. An edit of a
 /// textile that is not there changes nothing.
@@ -87,7 +87,7 @@ pub fn middle(cloth: &PlacedTextile) -> Point {
 }
 
 /// Extent of a textile that is placed anew: 100 mm, or half of a workspace that is too small.
-pub fn new_size_mm(workspace_mm: [f64; 2]) -> [f64; 2] {
+pub(crate) fn new_size_mm(workspace_mm: [f64; 2]) -> [f64; 2] {
     let side_mm = NEW_SIDE_MM.min(workspace_mm[0].min(workspace_mm[1]) / 2.0);
     [side_mm.max(LEAST_SIDE_MM); 2]
 }
@@ -127,7 +127,7 @@ fn free_label(scene: &Scene) -> String {
 
 /// Where the textile at `index` of `before` stands in `after`: by its id and label, the same one of
 /// several that are alike.
-pub fn place_after(before: &Scene, after: &Scene, index: usize) -> Option<usize> {
+pub(crate) fn place_after(before: &Scene, after: &Scene, index: usize) -> Option<usize> {
     let sought = before.textiles.get(index)?;
     let is_alike = |cloth: &&PlacedTextile| cloth.id == sought.id && cloth.label == sought.label;
     let nth = before.textiles[..index].iter().filter(is_alike).count();

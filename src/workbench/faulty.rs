@@ -7,7 +7,7 @@ use selvedge_device::{FaultWords, Target};
 
 /// What the user chose, and what the emulator that is connected was started with.
 #[derive(Debug, Default)]
-pub struct FaultBench {
+pub(crate) struct FaultBench {
     /// What is typed, for the next start.
     pub chosen: FaultWords,
     /// What goes wrong now; `None` where no emulator of this program is connected.
@@ -15,7 +15,7 @@ pub struct FaultBench {
 }
 
 /// Faults that are worth a try together: a name, and options with their texts.
-pub const PRESETS: [(&str, &[(&str, &str)]); 6] = [
+pub(crate) const PRESETS: [(&str, &[(&str, &str)]); 6] = [
     ("None", &[]),
     (
         "Adapter with a timer",

@@ -18,7 +18,12 @@ pub struct Felt {
 
 impl Felt {
     /// What is to be felt of a scene with `n_contactors`.
-    pub fn of(scene: &Scene, tuning: Tuning, audition: &Audition, n_contactors: usize) -> Self {
+    pub(crate) fn of(
+        scene: &Scene,
+        tuning: Tuning,
+        audition: &Audition,
+        n_contactors: usize,
+    ) -> Self {
         let gains = scene.textiles.iter().enumerate();
         Self {
             tuning: audition.tuning(tuning),
@@ -31,7 +36,7 @@ impl Felt {
 
     /// What is in force once the engine has a scene that was made by [`Self::in_scene`]: it brings
     /// gains, and contactors stay as they were.
-    pub fn after_scene(&self, scene: &Scene) -> Self {
+    pub(crate) fn after_scene(&self, scene: &Scene) -> Self {
         Self {
             tuning: scene.tuning.unwrap_or(self.tuning),
             cloth_gains_db: scene.textiles.iter().map(|cloth| cloth.gain_db).collect(),
@@ -40,7 +45,7 @@ impl Felt {
     }
 
     /// The scene as the engine ought to prepare it: with these gains.
-    pub fn in_scene(&self, scene: &Scene) -> Scene {
+    pub(crate) fn in_scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.tuning = Some(self.tuning);
         for (cloth, gain_db) in scene.textiles.iter_mut().zip(&self.cloth_gains_db) {
@@ -50,7 +55,7 @@ impl Felt {
     }
 
     /// Puts these gains into a scene as rendering sees it.
-    pub fn put_into(&self, scene: &mut RenderScene) {
+    pub(crate) fn put_into(&self, scene: &mut RenderScene) {
         scene.tuning = self.tuning;
         for (textile, gain_db) in scene.textiles.iter_mut().zip(&self.cloth_gains_db) {
             textile.scene_gain_db = *gain_db;

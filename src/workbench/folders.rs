@@ -19,7 +19,7 @@ const OPENER: &str = if cfg!(target_os = "macos") {
 
 /// The last folder that was asked for.
 #[derive(Debug, Default)]
-pub struct Folders {
+pub(crate) struct Folders {
     opening: Option<Job<Result<(), String>>>,
 }
 

@@ -62,7 +62,7 @@ struct Running<A: Answer> {
 }
 
 /// The last result and the work on the next.
-pub struct Follower<A: Answer> {
+pub(crate) struct Follower<A: Answer> {
     found: Option<Arc<A>>,
     running: Option<Running<A>>,
     stopped: Option<A::Inputs>,

@@ -57,7 +57,7 @@ pub fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
 
 /// Frames the whole window in red while high voltage is on: to be seen from across the room,
 /// whatever pane is in front.
-pub fn frame_as_armed(ctx: &egui::Context) {
+pub(crate) fn frame_as_armed(ctx: &egui::Context) {
     let layer = LayerId::new(Order::Foreground, Id::unique("armed frame"));
     let palette = Palette::of(ctx.theme());
     let stroke = Stroke::new(ARMED_FRAME, palette.danger);
@@ -105,7 +105,7 @@ fn show_transport(bench: &mut Workbench, ui: &mut Ui, wishes: &mut Wishes) {
 }
 
 /// What the timeline shows; `take` is the recording at hand.
-pub fn transport_view<'a>(
+pub(crate) fn transport_view<'a>(
     transient: &'a Transient,
     take: Option<&'a Take>,
 ) -> panes::TransportView<'a> {
@@ -231,7 +231,7 @@ impl Workbench {
     }
 
     /// Arranges the window for something else; what was arranged before stays as it is.
-    pub fn arrange_for(&mut self, perspective: Perspective) {
+    pub(crate) fn arrange_for(&mut self, perspective: Perspective) {
         let before = std::mem::replace(&mut self.settings.kept.perspective, perspective);
         if before == perspective {
             return;

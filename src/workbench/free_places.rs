@@ -20,7 +20,7 @@ type Upright = [[f64; 2]; 2];
 
 /// The side of `n` new textiles, mm, and the middle of each. Where there is no room for them at a
 /// useful size, they lie side by side on top of what is there.
-pub fn free_places(scene: &Scene, n: usize) -> (f64, Vec<Point>) {
+pub(crate) fn free_places(scene: &Scene, n: usize) -> (f64, Vec<Point>) {
     let taken: Vec<Upright> = scene.textiles.iter().map(upright).collect();
     let [largest_mm, _] = new_size_mm(scene.size_mm);
     for covered in [taken.as_slice(), &[]] {

@@ -23,7 +23,7 @@ pub struct Moment {
 
 /// Snapshots before and after, with names of the steps between.
 #[derive(Debug, Clone)]
-pub struct History<S, K> {
+pub(crate) struct History<S, K> {
     past: Vec<Step<S>>,
     future: Vec<Step<S>>,
     open: Option<Open<K>>,
@@ -80,7 +80,7 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     }
 
     /// Takes the last step back: `state` becomes what it was before. Says which step it was.
-    pub fn undo(&mut self, state: &mut S) -> Option<&'static str> {
+    pub(crate) fn undo(&mut self, state: &mut S) -> Option<&'static str> {
         self.open = None;
         // A drag that ended where it began left a step without a difference.
         while self.past.last().is_some_and(|step| step.state == *state) {
@@ -96,12 +96,12 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     }
 
     /// What was undone cannot be brought back any more.
-    pub fn forget_undone(&mut self) {
+    pub(crate) fn forget_undone(&mut self) {
         self.future.clear();
     }
 
     /// Brings the last undone step back. Says which step it was.
-    pub fn redo(&mut self, state: &mut S) -> Option<&'static str> {
+    pub(crate) fn redo(&mut self, state: &mut S) -> Option<&'static str> {
         self.open = None;
         let Step { state: after, name } = self.future.pop()?;
         let before = std::mem::replace(state, after);
@@ -113,13 +113,13 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     }
 
     /// Changes every state that undo and redo could bring back.
-    pub fn change_all(&mut self, change: impl Fn(&mut S)) {
+    pub(crate) fn change_all(&mut self, change: impl Fn(&mut S)) {
         let steps = self.past.iter_mut().chain(&mut self.future);
         steps.for_each(|step| change(&mut step.state));
     }
 
     /// What undo would take back from `state`.
-    pub fn undo_name(&self, state: &S) -> Option<&'static str> {
+    pub(crate) fn undo_name(&self, state: &S) -> Option<&'static str> {
         self.past
             .iter()
             .rev()
@@ -128,7 +128,7 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     }
 
     /// What redo would bring back.
-    pub fn redo_name(&self) -> Option<&'static str> {
+    pub(crate) fn redo_name(&self) -> Option<&'static str> {
         self.future.last().map(|step| step.name)
     }
 }

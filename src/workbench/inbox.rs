@@ -19,7 +19,7 @@ const MOST_NOTICES: usize = 64;
 
 impl Workbench {
     /// Empties the inboxes.
-    pub fn take_news(&mut self, ctx: &egui::Context) {
+    pub(crate) fn take_news(&mut self, ctx: &egui::Context) {
         if self.is_stepped {
             self.step_engine(ctx);
         }
@@ -191,7 +191,7 @@ impl Workbench {
     }
 
     /// What was pressed on the keyboard.
-    pub fn take_keys(&mut self, ctx: &egui::Context) {
+    pub(crate) fn take_keys(&mut self, ctx: &egui::Context) {
         let moment = &mut self.transient.moment;
         ctx.input(|input| {
             moment.press += u64::from(input.pointer.any_pressed());
@@ -213,7 +213,7 @@ impl Workbench {
     }
 
     /// A window that would lose changes asks before it closes; the device has stopped already.
-    pub fn take_close_request(&mut self, ctx: &egui::Context) {
+    pub(crate) fn take_close_request(&mut self, ctx: &egui::Context) {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
         if is_asked && !self.transient.may_close && self.document.is_edited() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
@@ -222,7 +222,7 @@ impl Workbench {
     }
 
     /// Keeps what the user chose.
-    pub fn keep_settings(&mut self) {
+    pub(crate) fn keep_settings(&mut self) {
         let kept = &mut self.settings.kept;
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;

@@ -9,13 +9,13 @@ use eframe::egui;
 
 /// A thread at work on a `T`.
 #[derive(Debug)]
-pub struct Job<T> {
+pub(crate) struct Job<T> {
     result: Receiver<T>,
 }
 
 /// How far a job is.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Polled<T> {
+pub(crate) enum Polled<T> {
     /// Still at work.
     Working,
     /// It is done; there is nothing more to come.

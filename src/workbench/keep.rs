@@ -17,7 +17,7 @@ use selvedge_textile::{BuiltFile, Library, TextileError, n_threads};
 
 /// A textile that was made in the window and lies in no folder yet.
 #[derive(Debug, Clone, PartialEq)]
-pub struct NewTextile {
+pub(crate) struct NewTextile {
     /// The id that it is wished to have; the next free one is taken when there is such a textile.
     pub id: String,
     /// Its name.
@@ -41,7 +41,7 @@ pub struct Kept {
     /// The library that has them now.
     pub library: Arc<Library>,
     /// Its textiles.
-    pub shelf: Vec<ShelfItem>,
+    pub(crate) shelf: Vec<ShelfItem>,
     /// Its folder.
     pub folder: PathBuf,
     /// The library that the window had when this was asked for.
@@ -49,21 +49,21 @@ pub struct Kept {
     /// The ids that the new ones got.
     pub ids: Vec<String>,
     /// Whether the first is to be felt.
-    pub is_to_feel: bool,
+    pub(crate) is_to_feel: bool,
 }
 
 /// Keeps textiles, one wish at a time.
 #[derive(Debug, Default)]
-pub struct Keeping {
+pub(crate) struct Keeping {
     job: Option<Job<Result<Kept, AppError>>>,
     next: Vec<Keep>,
     /// The folder that holds the user's own libraries; a stepped window has none.
-    pub own_folder: Option<PathBuf>,
+    pub(crate) own_folder: Option<PathBuf>,
 }
 
 impl Keeping {
     /// Whether a thread is at work.
-    pub fn is_busy(&self) -> bool {
+    pub(crate) fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 

@@ -55,7 +55,7 @@ struct Key {
 
 /// A map as it is shown.
 #[derive(Debug, Clone, Copy)]
-pub struct ShownMap<'a> {
+pub(crate) struct ShownMap<'a> {
     /// The amplitudes.
     pub map: &'a VelocityMap,
     /// What they are of, and how they are coloured.
@@ -85,7 +85,7 @@ impl Key {
 
 impl Maps {
     /// Has every textile's map as it is wanted, at once or as soon as a thread has made it.
-    pub fn catch_up(
+    pub(crate) fn catch_up(
         &mut self,
         ctx: &egui::Context,
         inspector: &ContactInspector,
@@ -193,7 +193,7 @@ impl Maps {
     }
 
     /// Maps computed so far: it stands still while nothing changes or nobody looks.
-    pub fn n_computed(&self) -> u64 {
+    pub(crate) fn n_computed(&self) -> u64 {
         self.n_computed
     }
 }

@@ -46,7 +46,7 @@ pub struct Opened {
     /// The tables that were made for it.
     pub cache: TableCache,
     /// The textiles of its library.
-    pub shelf: Vec<ShelfItem>,
+    pub(crate) shelf: Vec<ShelfItem>,
 }
 
 /// A scene on its way.

@@ -16,7 +16,7 @@ const EXPERIMENTER: f32 = 328.0;
 
 /// What the window is arranged for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Perspective {
+pub(crate) enum Perspective {
     /// To feel a scene.
     #[default]
     Explore,
@@ -64,7 +64,7 @@ impl Perspective {
     }
 
     /// The arrangement that a window of this size begins with, points.
-    pub fn default_tree(self, size: Vec2) -> Tree<Pane> {
+    pub(crate) fn default_tree(self, size: Vec2) -> Tree<Pane> {
         match self {
             Self::Explore => arrangement::default_tree(size),
             Self::Cloth => {

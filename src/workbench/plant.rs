@@ -16,7 +16,7 @@ const REST_UM: f64 = 0.005;
 
 /// What the user chose, and what was seen last.
 #[derive(Debug)]
-pub struct PlantPeek {
+pub(crate) struct PlantPeek {
     /// Whether the section is open.
     pub is_open: bool,
     /// The finger on the contactors.
@@ -55,23 +55,23 @@ pub struct PlantView {
 
 /// One contactor, told and modelled.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PlantCell {
+pub(crate) struct PlantCell {
     /// Amplitudes [A40, A320] that the device was told and puts out, µm.
     pub told_um: [f64; 2],
     /// Displacement of the pin at 40 and 320 Hz, by the model, µm.
-    pub moved_um: [f64; 2],
+    pub(crate) moved_um: [f64; 2],
     /// Root mean square and peak of the amplifier's current, mA.
     pub current_ma: [f64; 2],
     /// Share of the time without skin on the pin, 0…1.
     pub lost_share: f64,
     /// Share of the time in which the amplifier was held back, 0…1.
-    pub held_share: f64,
+    pub(crate) held_share: f64,
 }
 
 impl Workbench {
     /// What the section shows; `None` where no emulator of this program is connected. To be called
     /// while its pane is drawn.
-    pub fn peek_at_plant(&mut self, ctx: &egui::Context) -> Option<&PlantView> {
+    pub(crate) fn peek_at_plant(&mut self, ctx: &egui::Context) -> Option<&PlantView> {
         let full_scale_um = self.engine.profile().full_scale_um;
         let n_columns = usize::from(self.engine.profile().cols);
         let watch = self.engine.plant()?;
@@ -107,7 +107,7 @@ impl Workbench {
     }
 
     /// Lets the model rest whose pane was not drawn. To be called after every frame.
-    pub fn leave_plant(&mut self) {
+    pub(crate) fn leave_plant(&mut self) {
         let was_drawn = std::mem::take(&mut self.transient.plant.is_drawn);
         if let Some(watch) = self.engine.plant().filter(|_| !was_drawn) {
             watch.look(false);

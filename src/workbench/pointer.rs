@@ -13,7 +13,7 @@ use selvedge_engine::{PointerSample, PointerSender};
 
 /// The window that the pointer is over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pointed {
+pub(crate) enum Pointed {
     /// The workbench.
     #[default]
     Workbench,
@@ -23,7 +23,7 @@ pub enum Pointed {
 
 /// Where the workspace was drawn last.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ground {
+pub(crate) struct Ground {
     /// In which window.
     pub window: Pointed,
     /// How mm are laid on the screen.
@@ -38,7 +38,7 @@ pub struct Ground {
 
 /// Takes movements and passes on those over the workspace.
 #[derive(Debug, Default)]
-pub struct PointerTap {
+pub(crate) struct PointerTap {
     sender: Option<PointerSender>,
     ground: Option<Ground>,
 }
@@ -53,13 +53,13 @@ impl PointerTap {
     }
 
     /// Says where the workspace is now; `None` while something covers it.
-    pub fn set_ground(&mut self, ground: Option<Ground>) {
+    pub(crate) fn set_ground(&mut self, ground: Option<Ground>) {
         self.ground = ground;
     }
 
     /// Takes in a movement to a pixel of a window, stamped on arrival. Only the window that shows
     /// what is felt counts.
-    pub fn moved_to_pixel(&mut self, stamp: Instant, window: Pointed, [x, y]: [f64; 2]) {
+    pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, window: Pointed, [x, y]: [f64; 2]) {
         let Some(ground) = self.ground.filter(|ground| ground.window == window) else {
             return;
         };
@@ -72,7 +72,7 @@ impl PointerTap {
     }
 
     /// Takes in a movement to a place on the screen, points.
-    pub fn moved_to(&mut self, stamp: Instant, at: Pos2) {
+    pub(crate) fn moved_to(&mut self, stamp: Instant, at: Pos2) {
         let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else {
             return;
         };

@@ -10,9 +10,9 @@ use selvedge_device::{BridgeError, FoundPort, PortEntry, Target, list_ports};
 
 /// The ports as a pane shows them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct PortsView {
+pub(crate) struct PortsView {
     /// Whether they are being listed now; what was found before stays until then.
-    pub is_listing: bool,
+    pub(crate) is_listing: bool,
     /// Whether they have ever been listed.
     pub is_known: bool,
     /// What to open, and what it is.
@@ -28,7 +28,7 @@ type Listed = Result<Vec<PortEntry>, BridgeError>;
 
 /// The ports that are known, and a listing on its way.
 #[derive(Debug, Default)]
-pub struct Ports {
+pub(crate) struct Ports {
     view: PortsView,
     listing: Option<Receiver<Listed>>,
     replug: Replug,

@@ -32,7 +32,7 @@ struct Done {
 
 /// Prepares edited scenes, one at a time.
 #[derive(Default)]
-pub struct Preparing {
+pub(crate) struct Preparing {
     cache: TableCache,
     /// What the tables in the cache were made for last.
     rendering: Rendering,
@@ -51,7 +51,7 @@ impl Preparing {
     }
 
     /// Whether a thread is at work.
-    pub fn is_busy(&self) -> bool {
+    pub(crate) fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 

@@ -6,7 +6,7 @@ use selvedge_foundation::geometry::{Rotation, Velocity};
 /// Least and largest speed that can be chosen, mm/s.
 pub const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 2000.0];
 /// Directions are chosen and followed in steps of this, degrees.
-pub const STEP_DEG: f64 = 5.0;
+pub(crate) const STEP_DEG: f64 = 5.0;
 
 /// A velocity in the workspace.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Probe {
     /// How fast, mm/s.
     pub speed_mm_per_s: f64,
     /// Where to, degrees counter-clockwise from the workspace's x, 0 to below 360.
-    pub direction_deg: f64,
+    pub(crate) direction_deg: f64,
     /// Whether it is the display's own velocity, as far as that moves.
     pub follows: bool,
 }
@@ -38,7 +38,7 @@ impl Probe {
     }
 
     /// Another speed, chosen by hand; what is no number changes nothing.
-    pub fn with_speed(self, speed_mm_per_s: f64) -> Self {
+    pub(crate) fn with_speed(self, speed_mm_per_s: f64) -> Self {
         if speed_mm_per_s.is_nan() {
             return self;
         }
@@ -50,7 +50,7 @@ impl Probe {
     }
 
     /// Another direction, chosen by hand; what is not finite changes nothing.
-    pub fn with_direction(self, direction_deg: f64) -> Self {
+    pub(crate) fn with_direction(self, direction_deg: f64) -> Self {
         if !direction_deg.is_finite() {
             return self;
         }
@@ -62,7 +62,7 @@ impl Probe {
     }
 
     /// The same, following the display or no longer.
-    pub fn with_follow(self, follows: bool) -> Self {
+    pub(crate) fn with_follow(self, follows: bool) -> Self {
         Self { follows, ..self }
     }
 
@@ -93,7 +93,7 @@ fn wrapped(direction_deg: f64) -> f64 {
 }
 
 /// A positive number to two significant digits.
-pub fn two_digits(value: f64) -> f64 {
+pub(crate) fn two_digits(value: f64) -> f64 {
     let decade = value.log10().floor();
     // Of the two powers of ten the whole one: numbers stay as they are typed.
     if decade >= 1.0 {

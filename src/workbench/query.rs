@@ -18,7 +18,7 @@ use selvedge_render::scene::LoadedScene;
 use selvedge_textile::tactile::{Filters, Levels};
 
 /// The scene as panes draw it. A textile that is not ready yet is drawn already.
-pub fn scene_view(
+pub(crate) fn scene_view(
     document: &Document,
     shelf: &Shelf,
     library: &[LibraryDot],
@@ -62,7 +62,7 @@ pub fn scene_view(
 
 /// The textiles of the scene's library that have a level: from the library's index where the
 /// scene's filters are those that the index was made with, else the placed ones alone.
-pub fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDot> {
+pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDot> {
     let scene = loaded.scene();
     let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
     let has_index = loaded.library().index().is_some();
@@ -100,7 +100,11 @@ pub fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDot> {
 }
 
 /// The engine as panes draw it.
-pub fn live_view(snapshot: &Snapshot, frame_interval_s: Option<f64>, audition: &Audition) -> Live {
+pub(crate) fn live_view(
+    snapshot: &Snapshot,
+    frame_interval_s: Option<f64>,
+    audition: &Audition,
+) -> Live {
     let contactors = snapshot
         .displays
         .first()
@@ -294,7 +298,7 @@ fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
     }
 }
 
-pub fn capitalised(text: &str) -> String {
+pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters
         .next()
@@ -304,7 +308,7 @@ pub fn capitalised(text: &str) -> String {
 
 /// The interval between frames, by the device's own clock.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct IntervalMeter {
+pub(crate) struct IntervalMeter {
     last: Option<(u32, u32)>,
     interval_s: Option<f64>,
 }

@@ -4,7 +4,7 @@
 use selvedge_render::array::{Accuracy, Method};
 
 /// The largest budget that can be chosen, dB.
-pub const MOST_BUDGET_DB: f64 = 1.0;
+pub(crate) const MOST_BUDGET_DB: f64 = 1.0;
 
 /// How scenes are rendered.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +32,7 @@ impl Rendering {
     }
 
     /// The same with a budget that can be chosen; what is no number is as at first.
-    pub fn in_bounds(self) -> Self {
+    pub(crate) fn in_bounds(self) -> Self {
         let budget_db = if self.budget_db.is_nan() {
             Self::default().budget_db
         } else {

@@ -18,7 +18,7 @@ const NAP: Duration = Duration::from_millis(50);
 
 /// The port that is or was connected, and the search for it.
 #[derive(Debug, Default)]
-pub struct Replug {
+pub(crate) struct Replug {
     phase: Phase,
 }
 

@@ -11,13 +11,13 @@ use selvedge_textile::tactile::{
 };
 
 /// Where numbers above threshold come from, for tips.
-pub const SOURCE: &str = "dB SL: above the threshold of detection. A model of published \
+pub(crate) const SOURCE: &str = "dB SL: above the threshold of detection. A model of published \
                                  averages, ±3 dB, not a measurement of anybody’s finger: “Above \
                                  threshold” in the guide to the workbench";
 
 /// What a display feels like at one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sensation {
+pub(crate) struct Sensation {
     /// Contactors that vibrate: the more, the lower the threshold at 320 Hz.
     pub n_vibrating: usize,
     /// Thresholds of detection of both bands, dB re 1 µm peak.
@@ -63,7 +63,7 @@ impl Sensation {
     }
 
     /// A line for each band of one contactor: amplitude and level above threshold.
-    pub fn band_lines(&self, amplitudes_um: [f64; 2]) -> String {
+    pub(crate) fn band_lines(&self, amplitudes_um: [f64; 2]) -> String {
         let above = self.above_db(amplitudes_um).map(above_words);
         let [low, high] = amplitudes_um.map(|um| with_unit(um, 2, "µm"));
         let [above_low, above_high] = above;
@@ -72,7 +72,7 @@ impl Sensation {
 }
 
 /// A level above threshold: `−4.2 dB SL`; `silent` where there is none.
-pub fn above_words(above_db: f64) -> String {
+pub(crate) fn above_words(above_db: f64) -> String {
     if above_db.is_finite() {
         with_unit(above_db, 1, "dB SL")
     } else {
@@ -81,7 +81,7 @@ pub fn above_words(above_db: f64) -> String {
 }
 
 /// Intensity and balance: `intensity 4.2, 41 % of it at 320 Hz`.
-pub fn felt_words(felt: &Perception) -> String {
+pub(crate) fn felt_words(felt: &Perception) -> String {
     match felt.balance() {
         Some(balance) => {
             let share = with_unit(balance * 100.0, 0, "%");
@@ -111,7 +111,7 @@ pub fn of_textile(scene: &SceneView, cloth: usize, n_contactors: usize) -> Optio
 
 /// The change of gain that is just noticed: of one band, or of both at once, where the more
 /// sensitive channel notices first, dB; `None` when nothing sounds.
-pub fn noticed_db(felt: &Perception, band: Option<Band>) -> Option<f64> {
+pub(crate) fn noticed_db(felt: &Perception, band: Option<Band>) -> Option<f64> {
     let bands = Band::ALL
         .into_iter()
         .filter(|b| band.is_none_or(|band| band == *b));

@@ -21,7 +21,7 @@ const AT_ONCE: usize = 8;
 type Read = (String, Result<Option<(ColorImage, Vec2)>, String>);
 
 /// A library in sight.
-pub struct Shelf {
+pub(crate) struct Shelf {
     library: Arc<Library>,
     items: Arc<[ShelfItem]>,
     pictures: BTreeMap<String, (TextureHandle, ClothPicture)>,
@@ -46,7 +46,7 @@ impl Shelf {
 
     /// The same with the textiles of another library, which has all that this one had: pictures
     /// stay.
-    pub fn with_library(self, library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
+    pub(crate) fn with_library(self, library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
         Self {
             library,
             items: items.into(),
@@ -60,7 +60,7 @@ impl Shelf {
     }
 
     /// The same, to keep while the shelf is used.
-    pub fn shared_items(&self) -> Arc<[ShelfItem]> {
+    pub(crate) fn shared_items(&self) -> Arc<[ShelfItem]> {
         Arc::clone(&self.items)
     }
 
@@ -80,7 +80,7 @@ impl Shelf {
     }
 
     /// Says that a textile is in sight.
-    pub fn want(&mut self, id: &str) {
+    pub(crate) fn want(&mut self, id: &str) {
         if !self.asked.contains(id) && self.asked.insert(id.to_owned()) {
             self.wanted.push(id.to_owned());
         }
@@ -160,7 +160,7 @@ impl ShelfItem {
 }
 
 /// What the manifests of a library say; one that cannot be read is listed with the reason.
-pub fn items_of(library: &Library) -> Vec<ShelfItem> {
+pub(crate) fn items_of(library: &Library) -> Vec<ShelfItem> {
     let item = |id: &String| {
         let entry = library.index().and_then(|index| index.entry(id));
         let (level_db, mean_um) = entry.map_or((None, [0.0; 2]), |entry| {

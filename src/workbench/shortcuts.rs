@@ -11,7 +11,7 @@ use selvedge_textile::tactile::Band;
 
 /// A key and what it does.
 #[derive(Debug, Clone)]
-pub struct Shortcut {
+pub(crate) struct Shortcut {
     /// The key with its modifiers.
     pub key: KeyboardShortcut,
     /// What it does.
@@ -19,7 +19,7 @@ pub struct Shortcut {
     /// The same for people; keys that do the same say the same.
     pub what: &'static str,
     /// Whether it also works while text is being typed.
-    pub while_typing: bool,
+    pub(crate) while_typing: bool,
 }
 
 /// Every key of the window. Esc stands first: nothing may come before it.

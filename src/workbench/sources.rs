@@ -22,7 +22,7 @@ const PORT: u16 = 7240;
 
 /// What can be done with sources.
 #[derive(Debug, Clone, PartialEq)]
-pub enum SourceCommand {
+pub(crate) enum SourceCommand {
     /// Look anew which devices there are.
     List,
     /// Take positions from this device.
@@ -40,7 +40,7 @@ pub enum SourceCommand {
 
 /// Where the surface of the tablet that was chosen last lies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SurfaceView {
+pub(crate) struct SurfaceView {
     /// What the tablet calls itself.
     pub name: String,
     /// `[x, y, width, height]`, mm of the workspace.
@@ -51,9 +51,9 @@ pub struct SurfaceView {
 
 /// What is shown of the sources.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct SourcesView {
+pub(crate) struct SourcesView {
     /// Whether devices are being listed or opened now.
-    pub is_busy: bool,
+    pub(crate) is_busy: bool,
     /// Whether they have ever been listed.
     pub is_known: bool,
     /// Devices to choose from, and what they are.
@@ -71,7 +71,7 @@ type Opened = Result<Box<dyn PointerInput>, InputError>;
 
 /// The sources that are known, and what is under way with them.
 #[derive(Debug, Default)]
-pub struct Sources {
+pub(crate) struct Sources {
     view: SourcesView,
     /// The devices as they were listed last.
     listed: Vec<InputDevice>,
@@ -112,7 +112,7 @@ impl Sources {
     }
 
     /// What people call it.
-    pub fn chosen_name(&self) -> Option<&str> {
+    pub(crate) fn chosen_name(&self) -> Option<&str> {
         self.chosen.as_ref().map(|(_, name)| name.as_str())
     }
 
@@ -148,7 +148,7 @@ fn described(device: &InputDevice) -> String {
 
 impl Workbench {
     /// Does what is wanted of sources.
-    pub fn dispatch_source(&mut self, ctx: &egui::Context, command: SourceCommand) {
+    pub(crate) fn dispatch_source(&mut self, ctx: &egui::Context, command: SourceCommand) {
         match command {
             SourceCommand::List => self.list_devices(ctx),
             SourceCommand::Device(path) => self.open_device(ctx, &path),
@@ -160,7 +160,7 @@ impl Workbench {
     }
 
     /// What is shown of the sources.
-    pub fn sources_view(&self) -> SourcesView {
+    pub(crate) fn sources_view(&self) -> SourcesView {
         let sources = &self.transient.sources;
         let surface = sources.chosen_device().map(|device| {
             let own = self.settings.kept.tablet_areas.get(&device.name);
@@ -260,7 +260,7 @@ impl Workbench {
     }
 
     /// Takes what was listed and opened. To be called every frame.
-    pub fn poll_sources(&mut self) {
+    pub(crate) fn poll_sources(&mut self) {
         let sources = &mut self.transient.sources;
         match sources.listing.as_ref().map(Job::poll) {
             Some(Polled::Done(listed)) => {

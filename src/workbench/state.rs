@@ -41,7 +41,7 @@ use selvedge_render::scene::SceneError;
 
 /// What is neither saved nor undoable.
 #[derive(Debug, Default)]
-pub struct Transient {
+pub(crate) struct Transient {
     /// Sentences for the user.
     pub notices: Notices,
     /// A path that is asked for.
@@ -49,9 +49,9 @@ pub struct Transient {
     /// What waits for an answer to "save changes?".
     pub question: Option<After>,
     /// Whether the window may close without another question.
-    pub may_close: bool,
+    pub(crate) may_close: bool,
     /// Whether the list of keys is shown.
-    pub is_help_shown: bool,
+    pub(crate) is_help_shown: bool,
     /// The desktop's dialogs.
     pub dialogs: Dialogs,
     /// The serial ports of this computer.
@@ -81,15 +81,15 @@ pub struct Transient {
     /// The engine as it was seen last.
     pub live: Live,
     /// Where the display was.
-    pub trail: Trail,
+    pub(crate) trail: Trail,
     /// The last seconds.
-    pub history: History,
+    pub(crate) history: History,
     /// The spectrum that arrives, as far as it was drawn.
-    pub contact_spectrogram: ContactSpectrogram,
+    pub(crate) contact_spectrogram: ContactSpectrogram,
     /// The spectrum that drives, as far as it was drawn.
-    pub drive_spectrogram: DriveSpectrogram,
+    pub(crate) drive_spectrogram: DriveSpectrogram,
     /// The axis of the drive waveform.
-    pub wave_scale: WaveScale,
+    pub(crate) wave_scale: WaveScale,
     /// Spatial spectra as they were drawn last.
     pub spatial: SpatialSpectra,
     /// The explanation that is shown, and whether it is held.
@@ -103,13 +103,13 @@ pub struct Transient {
     /// Logs that are analysed.
     pub analysing: Analysing,
     /// Tables and figures of an analysis as they are laid out.
-    pub analysis_looks: AnalysisLooks,
+    pub(crate) analysis_looks: AnalysisLooks,
     /// Measurements that are imported.
     pub importing: Importing,
     /// A picture of a cloth on its way to a textile.
-    pub picturing: Picturing,
+    pub(crate) picturing: Picturing,
     /// Its stages as textures.
-    pub picture_textures: PictureTextures,
+    pub(crate) picture_textures: PictureTextures,
     /// How accurate rendering was found to be.
     pub accuracy: AccuracyWatch,
     /// Maps of the textiles at the chosen velocity.
@@ -121,17 +121,17 @@ pub struct Transient {
     /// A textile's amplitudes over direction and speed.
     pub curves: Curves,
     /// The textile whose curves were shown last.
-    pub asked_textile: Option<usize>,
+    pub(crate) asked_textile: Option<usize>,
     /// The textile lab.
     pub lab: Lab,
     /// What the lab pictures, as it was drawn last.
-    pub lab_pictures: LabPictures,
+    pub(crate) lab_pictures: LabPictures,
     /// What the pointer rests on.
     pub hovered: Hovered,
     /// What the timeline remembers.
-    pub transport: TransportState,
+    pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.
-    pub audition: Audition,
+    pub(crate) audition: Audition,
     /// Whether recordings are replayed again and again.
     pub does_loop: bool,
     /// The gesture that edits belong to.
@@ -139,15 +139,15 @@ pub struct Transient {
     /// The part of the screen that showed the workspace last, points.
     pub ground: Option<Rect>,
     /// The size of everything between header and timeline, points.
-    pub desk_size: Vec2,
+    pub(crate) desk_size: Vec2,
     /// A device that is shown though the engine has none: in pictures.
-    pub pictured_bridge: Option<BridgeView>,
+    pub(crate) pictured_bridge: Option<BridgeView>,
     /// What is to go wrong with the emulator.
     pub faults: FaultBench,
     /// The emulator's contactors.
     pub plant: PlantPeek,
     /// Refusals to arm that are expected, since there is no device.
-    pub n_expected_refusals: u32,
+    pub(crate) n_expected_refusals: u32,
     /// The device's measured interval between frames.
     pub interval: IntervalMeter,
     /// The level that compression leaves alone, dB re 1 µm.
@@ -158,7 +158,7 @@ pub struct Transient {
 
 /// What was asked for when there was something to save first.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum After {
+pub(crate) enum After {
     /// Close the window.
     Close,
     /// Open a scene.

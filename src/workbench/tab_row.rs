@@ -8,11 +8,11 @@ use super::panes::EXPORT_SIZE;
 use super::theme;
 
 /// Space on both sides of a title, points.
-pub const TITLE_SPACING: f32 = 8.0;
+pub(crate) const TITLE_SPACING: f32 = 8.0;
 
 /// What a row of tabs has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum TabRow {
+pub(crate) enum TabRow {
     /// Titles, and beside them what belongs to the pane in front.
     #[default]
     Roomy,
@@ -49,13 +49,13 @@ impl TabRow {
     }
 
     /// Whether what belongs to the pane in front stands beside the titles.
-    pub fn has_corner(self) -> bool {
+    pub(crate) fn has_corner(self) -> bool {
         matches!(self, Self::Roomy | Self::Short)
     }
 }
 
 /// Width of what stands at the right end of a row of tabs, points.
-pub fn corner_width(pane: Pane) -> f32 {
+pub(crate) fn corner_width(pane: Pane) -> f32 {
     let export = if is_exportable(pane) {
         EXPORT_SIZE + TITLE_SPACING
     } else {

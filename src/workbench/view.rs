@@ -20,7 +20,7 @@ use selvedge_textile::tactile::{Filters, Tuning};
 
 /// The scene as it is drawn.
 #[derive(Debug, Clone)]
-pub struct SceneView {
+pub(crate) struct SceneView {
     /// What people call it.
     pub name: String,
     /// Where it was opened or saved.
@@ -44,18 +44,18 @@ pub struct SceneView {
     /// The textiles of the library with a level, for the compression curve.
     pub library: Vec<LibraryDot>,
     /// What undo would take back.
-    pub undo: Option<&'static str>,
+    pub(crate) undo: Option<&'static str>,
     /// What redo would bring back.
-    pub redo: Option<&'static str>,
+    pub(crate) redo: Option<&'static str>,
     /// What every view marks.
     pub marks: Marks,
     /// The ids of the library's textiles that are selected.
-    pub picked: Arc<BTreeSet<String>>,
+    pub(crate) picked: Arc<BTreeSet<String>>,
 }
 
 /// What is chosen, and what the pointer rests on, in whichever view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Marks {
+pub(crate) struct Marks {
     /// The chosen textile: its place in the scene's list.
     pub cloth: Option<usize>,
     /// What the pointer rests on.
@@ -64,7 +64,7 @@ pub struct Marks {
 
 /// What the pointer rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Hovered {
+pub(crate) struct Hovered {
     /// A textile: its place in the scene's list.
     pub cloth: Option<usize>,
     /// A contactor.
@@ -89,18 +89,18 @@ impl SceneView {
     }
 
     /// Whether a textile is chosen, or under the pointer in some view.
-    pub fn is_marked(&self, index: usize) -> bool {
+    pub(crate) fn is_marked(&self, index: usize) -> bool {
         let Marks { cloth, hovered } = self.marks;
         cloth == Some(index) || hovered.cloth == Some(index)
     }
 
     /// The same for a textile of the library, wherever it is placed; and whether it is selected.
-    pub fn is_marked_id(&self, id: &str) -> bool {
+    pub(crate) fn is_marked_id(&self, id: &str) -> bool {
         self.picked.contains(id) || self.is_placed_and_marked(id)
     }
 
     /// Whether a textile of the library is chosen or under the pointer where it is placed.
-    pub fn is_placed_and_marked(&self, id: &str) -> bool {
+    pub(crate) fn is_placed_and_marked(&self, id: &str) -> bool {
         let marked = [self.marks.cloth, self.marks.hovered.cloth];
         let mut cloths = marked
             .into_iter()
@@ -126,7 +126,7 @@ pub struct Cloth {
     /// How it is turned, degrees counter-clockwise.
     pub rotation_deg: f64,
     /// Whether it is silent because it was muted or another one is felt alone.
-    pub is_muted: bool,
+    pub(crate) is_muted: bool,
     /// The scene's gain, dB.
     pub gain_db: f64,
     /// How it looks; `None` while it has no picture.
@@ -135,16 +135,16 @@ pub struct Cloth {
 
 /// The picture that a textile is tiled with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClothPicture {
+pub(crate) struct ClothPicture {
     /// The texture that holds it.
-    pub texture: TextureId,
+    pub(crate) texture: TextureId,
     /// How much cloth one tile shows, mm.
-    pub tile_mm: Vec2,
+    pub(crate) tile_mm: Vec2,
 }
 
 /// A textile of the library as the shelf shows it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ShelfItem {
+pub(crate) struct ShelfItem {
     /// What scenes call it.
     pub id: String,
     /// What people call it.
@@ -169,7 +169,7 @@ pub struct ShelfItem {
 
 /// A textile of the library as the compression curve shows it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LibraryDot {
+pub(crate) struct LibraryDot {
     /// What scenes call it.
     pub id: String,
     /// The textile's name.
@@ -198,7 +198,7 @@ pub struct Live {
     /// Contactors in index order.
     pub dots: Vec<Dot>,
     /// What they feel like, by a model.
-    pub sensation: Sensation,
+    pub(crate) sensation: Sensation,
     /// Whether everything was switched off and nothing was armed since.
     pub is_stopped: bool,
     /// Whether the device plays silence, stopped or held; the screen keeps what it showed.
@@ -217,7 +217,7 @@ pub struct Live {
 
 /// Positions as they come.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct InputView {
+pub(crate) struct InputView {
     /// Rate, jitter and gaps.
     pub rate: InputRate,
     /// Whether the finger is off the surface.
@@ -238,7 +238,7 @@ pub struct Dot {
     /// Which output limits bite.
     pub bite: Bite,
     /// Whether it is silent because it was muted or another one is felt alone.
-    pub is_muted: bool,
+    pub(crate) is_muted: bool,
 }
 
 /// What moves the display.
@@ -259,7 +259,7 @@ pub enum Source {
 
 /// How far a stroke, a recording or its replay is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct PlayView {
+pub(crate) struct PlayView {
     /// What moves the display.
     pub source: Source,
     /// Whether it moves on at the next tick.
@@ -282,7 +282,7 @@ pub struct Status {
     /// The rendering method.
     pub method: &'static str,
     /// Cost of a tick, s; `None` where nobody measures.
-    pub tick_cost_s: Option<f64>,
+    pub(crate) tick_cost_s: Option<f64>,
     /// Bound of the method's level error, dB.
     pub bound_db: f64,
     /// Ticks that never were.
@@ -290,12 +290,12 @@ pub struct Status {
     /// Ticks that came late.
     pub late: u64,
     /// Age of the felt amplitude, s: from the pointer to the middle of the felt tick.
-    pub felt_age_s: Option<f64>,
+    pub(crate) felt_age_s: Option<f64>,
 }
 
 /// The device and the link to it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct BridgeView {
+pub(crate) struct BridgeView {
     /// Where the connection stands, for people.
     pub state: &'static str,
     /// What may be done with it.
@@ -305,15 +305,15 @@ pub struct BridgeView {
     /// The largest codes that it takes now.
     pub comp_limit: Option<[u16; 2]>,
     /// Whether it can drive one channel alone.
-    pub can_identify: bool,
+    pub(crate) can_identify: bool,
     /// Ticks from a frame to its effect.
     pub depth: u8,
     /// From the last frame but one to the last, measured on the device's ticks, s.
-    pub frame_interval_s: Option<f64>,
+    pub(crate) frame_interval_s: Option<f64>,
     /// From a pointer event to the end of the write of its frame, 99th percentile, s.
-    pub stamp_to_write_s: Option<f64>,
+    pub(crate) stamp_to_write_s: Option<f64>,
     /// From the device's STATUS to the frame that answers it, 99th percentile and largest, s.
-    pub status_to_frame_s: Option<[f64; 2]>,
+    pub(crate) status_to_frame_s: Option<[f64; 2]>,
     /// Soft-start gain of the last frame, 0…1.
     pub gain: Option<f64>,
     /// Frames sent.
@@ -326,7 +326,7 @@ pub struct BridgeView {
 
 /// How long things take on the link, and where it is written down what happens there.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct LinkTiming {
+pub(crate) struct LinkTiming {
     /// How long before the tick in which it is felt a frame is made.
     pub lead: Option<std::time::Duration>,
     /// What is known of the device's clock.
@@ -338,12 +338,12 @@ pub struct LinkTiming {
     /// The path of the session log.
     pub log: Option<String>,
     /// Why nothing is written to it.
-    pub log_failure: Option<String>,
+    pub(crate) log_failure: Option<String>,
 }
 
 /// What may be done with a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BridgePhase {
+pub(crate) enum BridgePhase {
     /// On the way to ready.
     #[default]
     Opening,
@@ -357,7 +357,7 @@ pub enum BridgePhase {
 
 impl Live {
     /// Whether one channel can be driven alone now: armed, and nothing played yet.
-    pub fn takes_ident(&self) -> bool {
+    pub(crate) fn takes_ident(&self) -> bool {
         let bridge = self.bridge.as_ref();
         bridge.is_some_and(|bridge| bridge.state == BridgeState::Armed.label())
     }
@@ -370,7 +370,7 @@ impl Live {
     }
 
     /// The textile under most contactors; of equals the one on top.
-    pub fn cloth_under_display(&self) -> Option<usize> {
+    pub(crate) fn cloth_under_display(&self) -> Option<usize> {
         let n_cloths = self.dots.iter().filter_map(|dot| dot.cloth).max()? + 1;
         let count = |cloth| {
             self.dots

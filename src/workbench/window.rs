@@ -58,18 +58,18 @@ pub struct Workbench {
     /// What is kept per user.
     pub settings: Settings,
     /// What devices are taken to drive.
-    pub arrays: Arrays,
+    pub(crate) arrays: Arrays,
     /// Which pane stands where.
-    pub tree: Tree<Pane>,
+    pub(crate) tree: Tree<Pane>,
     /// The arrangements of the other perspectives, as far as they were shown.
-    pub resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
     /// How the workspace is looked at.
-    pub workspace: WorkspaceState,
-    pub transient: Transient,
+    pub(crate) workspace: WorkspaceState,
+    pub(crate) transient: Transient,
     pub engine: Engine,
     pub switch: StopSwitch,
-    pub is_stepped: bool,
-    pub tap: Arc<Mutex<PointerTap>>,
+    pub(crate) is_stepped: bool,
+    pub(crate) tap: Arc<Mutex<PointerTap>>,
     /// The exploration that can be replayed.
     pub take: Option<Take>,
     /// The scene as the engine has it: with its textiles, and gains as they are felt.
@@ -78,25 +78,25 @@ pub struct Workbench {
     pub scene_serial: u64,
     /// How that scene is rendered; what the user chose may still be on its way.
     pub rendering: Rendering,
-    pub preparing: Preparing,
+    pub(crate) preparing: Preparing,
     pub felt: Felt,
-    pub shelf: Shelf,
-    pub library: Vec<LibraryDot>,
-    pub eye: Eye,
+    pub(crate) shelf: Shelf,
+    pub(crate) library: Vec<LibraryDot>,
+    pub(crate) eye: Eye,
     pub ctx: egui::Context,
     pub now: Instant,
 }
 
 /// What plots look at a contactor with.
-pub struct Eye {
+pub(crate) struct Eye {
     /// The scene as rendering sees it.
     pub scene: RenderScene,
     /// What a contactor feels of it.
     pub inspector: ContactInspector,
     /// Scenes that were opened.
-    pub n_scenes: u64,
+    pub(crate) n_scenes: u64,
     /// Changes of any scene that need another inspector.
-    pub n_edits: u64,
+    pub(crate) n_edits: u64,
 }
 
 impl Eye {
@@ -215,7 +215,7 @@ impl Workbench {
     }
 
     /// Shows another scene, and lets it be felt.
-    pub fn show_scene(&mut self, opened: Opened) {
+    pub(crate) fn show_scene(&mut self, opened: Opened) {
         self.scene_serial = opened.prepared.serial();
         self.rendering = opened.rendering;
         self.send(Command::SetScene(Box::new(opened.prepared)));
@@ -250,7 +250,7 @@ impl Workbench {
     }
 
     /// What depends on the textiles and where they lie is made anew.
-    pub fn scene_has_changed(&mut self) {
+    pub(crate) fn scene_has_changed(&mut self) {
         self.library = query::library_dots(&self.loaded, &self.shelf);
         let (n_scenes, n_edits) = (self.eye.n_scenes, self.eye.n_edits);
         self.eye = Eye::on(&self.loaded, n_scenes, n_edits + 1);
@@ -272,7 +272,7 @@ impl Workbench {
     }
 
     /// The scene as panes draw it; textiles in it want their pictures.
-    pub fn scene_view(&mut self) -> SceneView {
+    pub(crate) fn scene_view(&mut self) -> SceneView {
         let placed = &self.document.scene().textiles;
         for cloth in placed {
             self.shelf.want(&cloth.id);

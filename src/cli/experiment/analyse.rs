@@ -13,7 +13,7 @@ use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// Logs, and how they are analysed.
 #[derive(Debug, Args)]
-pub struct AnalyseArgs {
+pub(crate) struct AnalyseArgs {
     /// Folder of the logs, each with its .json beside it
     logs: PathBuf,
     /// Folder for index.md, tables and figures; it is made where it is missing

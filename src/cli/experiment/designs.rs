@@ -7,7 +7,7 @@ use selvedge_experiment::design::Design;
 
 /// Which designs to show.
 #[derive(Debug, Args)]
-pub struct DesignsArgs {
+pub(crate) struct DesignsArgs {
     /// Print the file of this design, to begin one's own with
     #[arg(long, value_name = "NAME")]
     show: Option<String>,

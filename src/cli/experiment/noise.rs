@@ -11,7 +11,7 @@ use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// A noise and its file.
 #[derive(Debug, Args)]
-pub struct NoiseArgs {
+pub(crate) struct NoiseArgs {
     /// Where it is written: one channel of 16 bits at 48 kHz, for any player
     #[arg(long, value_name = "WAV")]
     out: PathBuf,

@@ -14,7 +14,7 @@ use selvedge_foundation::quantity::fixed;
 
 /// How much is simulated, and where it goes.
 #[derive(Debug, Args)]
-pub struct ReplicateArgs {
+pub(crate) struct ReplicateArgs {
     /// Folder for index.md, tables and figures; it is made where it is missing
     #[arg(long, value_name = "OUT")]
     out: PathBuf,

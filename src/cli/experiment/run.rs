@@ -29,7 +29,7 @@ const STEP: Duration = Duration::from_millis(100);
 
 /// What to hold, with whom.
 #[derive(Debug, Args)]
-pub struct RunArgs {
+pub(crate) struct RunArgs {
     /// Design: a file, or a name that "selvedge experiment designs" lists
     design: PathBuf,
     /// Pseudonym of the participant: letters, digits, - and _, and no real name

@@ -13,7 +13,7 @@ use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// A design, and who takes part.
 #[derive(Debug, Args)]
-pub struct SimulateArgs {
+pub(crate) struct SimulateArgs {
     /// Design file, or the name of a design of the program
     design: PathBuf,
     /// How many observers take part

@@ -205,7 +205,7 @@ impl ArrayProfile {
 
     /// What is to be said when the device with the number `now` follows the one with `before`, in
     /// one line; `None` when it is the same. What was measured on an array is not said of another.
-    pub fn other_device(&self, before: DeviceUid, now: DeviceUid) -> Option<String> {
+    pub(crate) fn other_device(&self, before: DeviceUid, now: DeviceUid) -> Option<String> {
         let is_wired_for = |wiring: &Wiring| wiring.device_uid == now;
         let is_its_own = self.wiring.as_ref().is_some_and(is_wired_for);
         let measured = match (self.calibration.is_empty(), self.wiring.is_none()) {

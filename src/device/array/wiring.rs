@@ -146,9 +146,9 @@ pub struct WiringFound {
     /// that drive nothing, so that each channel stands here once.
     pub channels: Vec<u16>,
     /// Channels that drive nothing.
-    pub dead_channels: Vec<usize>,
+    pub(crate) dead_channels: Vec<usize>,
     /// Contactors that no channel drives.
-    pub silent_contactors: Vec<usize>,
+    pub(crate) silent_contactors: Vec<usize>,
 }
 
 impl WiringFound {

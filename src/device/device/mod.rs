@@ -18,13 +18,16 @@ mod trouble;
 
 use super::framing::{Decoder, Packet};
 use super::message::{Config, DeviceState, Fault, LogText, Message, Status, TICK_US, fault_bit};
-pub use lie::{Lie, Miswiring};
+pub use lie::Lie;
+pub(crate) use lie::Miswiring;
 pub use model::DeviceModel;
 use output::OutputStage;
 use queue::FrameQueue;
 use samples::SampleRing;
-pub use sink::{AppliedFrame, DeviceSink, Moment, SampleCount, SampledTick};
-pub use trouble::{Load, Sense};
+pub(crate) use sink::{AppliedFrame, DeviceSink, SampledTick};
+pub use sink::{Moment, SampleCount};
+pub(crate) use trouble::Load;
+pub use trouble::Sense;
 
 const MS_US: u64 = 1000;
 const TICK: u64 = TICK_US as u64;
@@ -163,7 +166,7 @@ impl DeviceCore {
 
     /// When [`advance`](Self::advance) should be called next, in µs since boot; `None` while only
     /// bytes can change anything.
-    pub fn next_deadline_us(&self) -> Option<u64> {
+    pub(crate) fn next_deadline_us(&self) -> Option<u64> {
         if !self.is_awake() {
             return None;
         }
@@ -200,7 +203,7 @@ impl DeviceCore {
 
     /// Writes [`output`](Self::output) to codes that are there already; silence in mode B, where
     /// no amplitudes are.
-    pub fn write_output(&self, codes: &mut [[u16; 2]]) {
+    pub(crate) fn write_output(&self, codes: &mut [[u16; 2]]) {
         codes.fill([0; 2]);
         if self.state.is_live() && !self.plays_samples() {
             self.output.write_to(codes);
@@ -209,7 +212,7 @@ impl DeviceCore {
     }
 
     /// The voltage of the amplifiers' rails, V: 0 while high voltage is off.
-    pub fn rail_v(&self) -> f64 {
+    pub(crate) fn rail_v(&self) -> f64 {
         if self.state.is_live() {
             0.1 * f64::from(self.measured_hv_dv())
         } else {

@@ -12,7 +12,7 @@ pub struct Sense {
     /// Supply current in mA.
     pub i_ma: u16,
     /// High voltage in thousandths of what was asked for.
-    pub hv_per_mille: u16,
+    pub(crate) hv_per_mille: u16,
 }
 
 impl Default for Sense {
@@ -30,7 +30,7 @@ impl Default for Sense {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// Root mean square of a contactor's current for each code, `[40 Hz, 320 Hz]`, mA.
-    pub ma_per_code: [f64; 2],
+    pub(crate) ma_per_code: [f64; 2],
 }
 
 impl Load {
@@ -46,7 +46,7 @@ impl Load {
 
 impl DeviceCore {
     /// Measures the current of amplifiers with this load from now on.
-    pub fn set_load(&mut self, load: Load) {
+    pub(crate) fn set_load(&mut self, load: Load) {
         self.model.load = Some(load);
     }
 
@@ -78,7 +78,7 @@ impl DeviceCore {
     }
 
     /// What the sensors show from now on.
-    pub fn set_sense(&mut self, sense: Sense) {
+    pub(crate) fn set_sense(&mut self, sense: Sense) {
         self.sense = sense;
     }
 
@@ -130,7 +130,7 @@ impl DeviceCore {
 
     /// Age of the last accepted frame in µs if it is above `above_us` and there is still output;
     /// for those who watch that it ends in time.
-    pub fn loud_age_us(&self, above_us: u64) -> Option<u64> {
+    pub(crate) fn loud_age_us(&self, above_us: u64) -> Option<u64> {
         self.age_us()
             .filter(|age_us| *age_us > above_us && self.amp_sum() > 0)
     }

@@ -18,7 +18,7 @@ use crate::wire::Injection;
 
 /// A log being written. The first error is kept and given by [`finish`](Self::finish).
 #[derive(Debug)]
-pub struct DeviceLog {
+pub(crate) struct DeviceLog {
     out: BufWriter<File>,
     path: PathBuf,
     n_channels: usize,

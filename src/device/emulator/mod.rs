@@ -17,7 +17,7 @@ use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment, S
 use super::plant::PlantFeed;
 use super::port::{PairPort, Port, pair};
 use super::wire::{Faults, Injection, WiredDevice};
-pub use log::DeviceLog;
+pub(crate) use log::DeviceLog;
 #[cfg(unix)]
 pub use pty::PtyEmulator;
 
@@ -26,7 +26,7 @@ const NAP: Duration = Duration::from_millis(50);
 
 /// An emulated device on a thread of its own, connected within the process.
 #[derive(Debug)]
-pub struct EmulatorThread;
+pub(crate) struct EmulatorThread;
 
 impl EmulatorThread {
     /// Boots a device and gives the host's end of its link; the thread ends when all copies of that
@@ -38,7 +38,7 @@ impl EmulatorThread {
     /// The same with a device and a link that have these faults, and with contactors that somebody
     /// may look at. Within a process nothing can be plugged in again: a cable that is pulled ends
     /// the link.
-    pub fn start_with(
+    pub(crate) fn start_with(
         model: DeviceModel,
         faults: &Faults,
         plant: Option<PlantFeed>,

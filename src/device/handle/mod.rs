@@ -200,7 +200,7 @@ impl Bridge {
     }
 
     /// Sends a PING; `Pong` follows.
-    pub fn ping(&mut self) {
+    pub(crate) fn ping(&mut self) {
         self.session.ping(Instant::now());
         self.flush();
     }

@@ -18,7 +18,7 @@ const MORE: Duration = Duration::from_millis(1);
 
 /// What delays are learned from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DelaySource {
+pub(crate) enum DelaySource {
     /// The number and age of the last accepted FRAME.
     LastSeq,
     /// How full the device's ring is, and the age of its last samples.

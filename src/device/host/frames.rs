@@ -7,7 +7,7 @@ use crate::framing::Packet;
 use crate::message::frame;
 
 /// Ticks of the linear soft start after ARM.
-pub const SOFT_START_TICKS: u32 = 20;
+pub(crate) const SOFT_START_TICKS: u32 = 20;
 
 impl HostSession {
     /// A FRAME for the tick `depth` after the present one, soft start applied; `None` unless armed

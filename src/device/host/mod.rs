@@ -38,14 +38,15 @@ pub use clock::ClockFit;
 use clock::DeviceClock;
 pub(super) use delays::DelaySource;
 use delays::Evidence;
-pub use frames::SOFT_START_TICKS;
+pub(crate) use frames::SOFT_START_TICKS;
 use ident::Identifying;
 use latching::Latching;
 use notes::Notes;
 use pending::Pending;
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
+pub(crate) use samples::CutSamples;
 pub(super) use samples::MOST_TICKS;
-pub use samples::{CutSamples, Waveform};
+pub use samples::Waveform;
 
 const TICK: Duration = Duration::from_millis(25);
 const MOST_EVENTS: usize = 64;
@@ -53,7 +54,7 @@ const MOST_PACKETS: usize = 16;
 
 /// The host's packet counter, shared by everything that may send on one link.
 #[derive(Clone, Debug, Default)]
-pub struct Sequence(Arc<AtomicU16>);
+pub(crate) struct Sequence(Arc<AtomicU16>);
 
 impl Sequence {
     /// The next number; wraps.
@@ -112,7 +113,12 @@ pub struct HostSession {
 
 impl HostSession {
     /// A session that will greet with `nonce` (random; 0 becomes 1) once the port is open.
-    pub fn new(nonce: u32, profile: ArrayProfile, n_contactors: usize, sequence: Sequence) -> Self {
+    pub(crate) fn new(
+        nonce: u32,
+        profile: ArrayProfile,
+        n_contactors: usize,
+        sequence: Sequence,
+    ) -> Self {
         Self {
             nonce: nonce.max(1),
             coder: Coder::new(&profile, n_contactors),
@@ -164,7 +170,7 @@ impl HostSession {
     }
 
     /// The port failed or could not be opened.
-    pub fn link_gone(&mut self, reason: &str) {
+    pub(crate) fn link_gone(&mut self, reason: &str) {
         self.lose(String::from(reason));
     }
 
@@ -209,7 +215,7 @@ impl HostSession {
     }
 
     /// Sends a PING; `Pong` follows.
-    pub fn ping(&mut self, now: Instant) {
+    pub(crate) fn ping(&mut self, now: Instant) {
         let seq = self.sequence.next();
         let token = u32::from(seq) | self.nonce << 16;
         self.ping = Some((token, now));
@@ -218,17 +224,17 @@ impl HostSession {
     }
 
     /// The next packet to write, STOP excepted.
-    pub fn next_packet(&mut self) -> Option<Packet> {
+    pub(crate) fn next_packet(&mut self) -> Option<Packet> {
         self.packets.pop_front()
     }
 
     /// A STOP to write ahead of everything else.
-    pub fn take_stop(&mut self) -> Option<Packet> {
+    pub(crate) fn take_stop(&mut self) -> Option<Packet> {
         self.stop_packet.take()
     }
 
     /// The next piece of news.
-    pub fn next_event(&mut self) -> Option<BridgeEvent> {
+    pub(crate) fn next_event(&mut self) -> Option<BridgeEvent> {
         self.events.pop_front()
     }
 
@@ -253,7 +259,7 @@ impl HostSession {
     }
 
     /// When the last STATUS arrived.
-    pub fn status_received(&self) -> Option<Instant> {
+    pub(crate) fn status_received(&self) -> Option<Instant> {
         self.status_received
     }
 

@@ -26,12 +26,12 @@ impl HostSession {
     }
 
     /// The next thing that was written down.
-    pub fn next_note(&mut self) -> Option<Entry> {
+    pub(crate) fn next_note(&mut self) -> Option<Entry> {
         self.notes.waiting.pop_front()
     }
 
     /// Writes something down, with the times of host and device.
-    pub fn note(&mut self, now: Instant, note: Note) {
+    pub(crate) fn note(&mut self, now: Instant, note: Note) {
         if !self.notes.is_wanted || self.notes.waiting.len() >= MOST_NOTES {
             return;
         }

@@ -17,7 +17,7 @@ const MOVED: Duration = Duration::from_millis(1);
 impl HostSession {
     /// Takes one message. Everything before CAPS with our own nonce is left over from another
     /// session and ignored.
-    pub fn on_message(&mut self, received: Instant, message: &DeviceMessage) {
+    pub(crate) fn on_message(&mut self, received: Instant, message: &DeviceMessage) {
         if !self.state.is_open() {
             return;
         }

@@ -31,11 +31,11 @@ pub trait Waveform: Debug + Send {
 
 /// A SAMPLES packet that was cut of a tick.
 #[derive(Clone, Copy, Debug)]
-pub struct CutSamples {
+pub(crate) struct CutSamples {
     /// The packet.
     pub packet: Packet,
     /// Whether it is the last of its tick.
-    pub ends_tick: bool,
+    pub(crate) ends_tick: bool,
     /// When its tick was due, if it answers a STATUS.
     pub due: Option<Instant>,
     /// From now to the start of its tick.
@@ -69,7 +69,7 @@ impl HostSession {
     /// A tick that was left out because the depth has grown, and has not begun, is played as this
     /// one. `amplitudes_um` are as those of a [`frame`](Self::frame). The number in the stamp is
     /// that of the first packet.
-    pub fn play(
+    pub(crate) fn play(
         &mut self,
         now: Instant,
         amplitudes_um: &[[f32; 2]],
@@ -140,13 +140,13 @@ impl HostSession {
     }
 
     /// The most samples for each channel that one packet takes.
-    pub fn samples_per_packet(&self) -> usize {
+    pub(crate) fn samples_per_packet(&self) -> usize {
         let max_body = self.caps.map_or(0, |caps| caps.max_body);
         samples::most(max_body, self.n_contactors)
     }
 
     /// SAMPLES packets that a tick takes.
-    pub fn sample_packets_per_tick(&self) -> usize {
+    pub(crate) fn sample_packets_per_tick(&self) -> usize {
         let per_tick = usize::try_from(self.samples_per_tick()).unwrap_or(0);
         per_tick.div_ceil(self.samples_per_packet().max(1))
     }

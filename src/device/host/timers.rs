@@ -23,7 +23,7 @@ const LONGEST_STEP: Duration = Duration::from_millis(100);
 impl HostSession {
     /// Lets time pass: repeats, pings, and the patience with a silent device. Call at least every
     /// 100 ms.
-    pub fn on_time(&mut self, now: Instant) {
+    pub(crate) fn on_time(&mut self, now: Instant) {
         let step = self
             .last_time
             .map_or(Duration::ZERO, |last| now.saturating_duration_since(last));

@@ -52,7 +52,7 @@ pub struct Caps {
     /// Sample rate of its synthesis in Hz.
     pub sample_hz: u16,
     /// Carrier frequencies in mHz.
-    pub freq_mhz: [u32; 2],
+    pub(crate) freq_mhz: [u32; 2],
     /// Largest code per component.
     pub comp_limit: [u16; 2],
     /// Unique number.
@@ -88,7 +88,7 @@ impl Caps {
     }
 
     /// Pads or cuts `name` to the field.
-    pub fn name_field(name: &str) -> [u8; 32] {
+    pub(crate) fn name_field(name: &str) -> [u8; 32] {
         let mut field = [0; 32];
         for (slot, byte) in field.iter_mut().zip(name.bytes()) {
             *slot = byte;

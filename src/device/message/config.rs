@@ -10,7 +10,7 @@ const MASK_WORDS: usize = LARGEST_CHANNELS.div_ceil(32);
 
 /// Which channels may sound, one bit each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ChannelMask {
+pub(crate) struct ChannelMask {
     words: [u32; MASK_WORDS],
 }
 
@@ -40,7 +40,7 @@ impl ChannelMask {
     }
 
     /// A mask whose first 32 channels are the bits of `word`.
-    pub fn from_first_word(word: u32) -> Self {
+    pub(crate) fn from_first_word(word: u32) -> Self {
         let mut mask = Self::default();
         mask.words[0] = word;
         mask
@@ -70,16 +70,16 @@ pub struct Config {
     /// Largest code per component.
     pub comp_limit: [u16; 2],
     /// Channels that may sound.
-    pub mask: ChannelMask,
+    pub(crate) mask: ChannelMask,
 }
 
 impl Config {
     /// `mode`: the device makes the carriers, the host sends amplitudes.
-    pub const AMPLITUDES: u8 = 0;
+    pub(crate) const AMPLITUDES: u8 = 0;
     /// `mode`: the host sends samples.
     pub const SAMPLES: u8 = 1;
     /// Bit of `flags`: amplitudes move linearly inside a tick.
-    pub const INTERPOLATE: u8 = 1;
+    pub(crate) const INTERPOLATE: u8 = 1;
 
     /// Reads a CONFIG or CFG payload of a device with `n_channels` channels.
     pub fn decode(payload: &[u8], n_channels: usize) -> Option<Self> {

@@ -15,7 +15,7 @@ pub struct Ack {
     /// Type of the packet answered.
     pub kind: u8,
     /// What became of it.
-    pub code: AckCode,
+    pub(crate) code: AckCode,
     /// Seq of the packet answered.
     pub seq: u16,
 }
@@ -121,7 +121,7 @@ message!(
 
 impl Status {
     /// The state, if v1 knows its code.
-    pub fn device_state(&self) -> Option<DeviceState> {
+    pub(crate) fn device_state(&self) -> Option<DeviceState> {
         DeviceState::from_code(self.state)
     }
 }
@@ -212,7 +212,7 @@ impl LogText {
     }
 
     /// The text in one line: control characters and what is no UTF-8 are replaced.
-    pub fn to_line(self) -> String {
+    pub(crate) fn to_line(self) -> String {
         String::from_utf8_lossy(&self.bytes[..self.len])
             .trim_end()
             .chars()

@@ -4,9 +4,9 @@
 use super::{FieldReader, FieldWriter, MAGIC, kind, message};
 
 /// XOR-ed with the session to make the ARM key, so that no stray bytes arm a device.
-pub const ARM_KEY: u32 = 0xa5c3_0f96;
+pub(crate) const ARM_KEY: u32 = 0xa5c3_0f96;
 /// The apply tick that means "the next one".
-pub const NEXT_TICK: u32 = u32::MAX;
+pub(crate) const NEXT_TICK: u32 = u32::MAX;
 
 /// Opens a session; from any state it stops, empties the queue and disarms.
 ///
@@ -53,9 +53,9 @@ message!(
 
 impl Hello {
     /// Bit of `host_flags` that asks for STATUS at every tick.
-    pub const WANT_STATUS: u16 = 1;
+    pub(crate) const WANT_STATUS: u16 = 1;
     /// Bit of `host_flags` that asks for LOG.
-    pub const WANT_LOG: u16 = 1 << 1;
+    pub(crate) const WANT_LOG: u16 = 1 << 1;
 
     /// A version 1 HELLO that wants STATUS and keeps the default lease.
     pub fn new(session: u32) -> Self {
@@ -212,7 +212,7 @@ pub mod frame {
     use crate::framing::Packet;
 
     /// Payload bytes for `n_channels` channels.
-    pub fn payload_len(n_channels: usize) -> usize {
+    pub(crate) fn payload_len(n_channels: usize) -> usize {
         4 + 4 * n_channels
     }
 

@@ -11,10 +11,14 @@ mod host;
 mod state;
 
 pub use caps::Caps;
-pub use config::{ChannelMask, Config, LARGEST_CHANNELS};
-pub use device::{Ack, DeviceMessage, Fault, LogText, Pong, Status, Unreadable};
-pub use host::{ARM_KEY, Arm, Clear, Hello, Ident, NEXT_TICK, Ping, Stop, StopHow, frame, samples};
-pub use state::{AckCode, DeviceState, fault_bit};
+pub(crate) use config::ChannelMask;
+pub use config::{Config, LARGEST_CHANNELS};
+pub use device::{Ack, DeviceMessage, Fault, Pong, Status};
+pub(crate) use device::{LogText, Unreadable};
+pub(crate) use host::{ARM_KEY, NEXT_TICK};
+pub use host::{Arm, Clear, Hello, Ident, Ping, Stop, StopHow, frame, samples};
+pub(crate) use state::AckCode;
+pub use state::{DeviceState, fault_bit};
 
 use super::fields::{FieldReader, FieldWriter};
 use super::framing::Packet;
@@ -22,7 +26,7 @@ use super::framing::Packet;
 /// The four bytes that open HELLO and CAPS.
 pub const MAGIC: [u8; 4] = *b"HBP1";
 /// The only protocol version so far.
-pub const VERSION: u8 = 1;
+pub(crate) const VERSION: u8 = 1;
 /// Device tick in µs: every amplitude lasts one tick, in which both carriers complete whole
 /// periods.
 pub const TICK_US: u32 = 25_000;
@@ -48,7 +52,7 @@ pub mod kind {
     /// Drives one contactor.
     pub const IDENT: u8 = 0x09;
     /// Types from here on travel from the device to the host.
-    pub const FIRST_DEVICE: u8 = 0x80;
+    pub(crate) const FIRST_DEVICE: u8 = 0x80;
     /// Answers HELLO.
     pub const CAPS: u8 = 0x81;
     /// Answers CONFIG with the effective values.

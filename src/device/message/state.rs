@@ -5,21 +5,21 @@ use std::fmt;
 /// Bits of a fault word.
 pub mod fault_bit {
     /// Too hot.
-    pub const OVER_TEMPERATURE: u16 = 1;
+    pub(crate) const OVER_TEMPERATURE: u16 = 1;
     /// Too much current.
-    pub const OVER_CURRENT: u16 = 1 << 1;
+    pub(crate) const OVER_CURRENT: u16 = 1 << 1;
     /// High voltage out of range.
-    pub const HIGH_VOLTAGE: u16 = 1 << 2;
+    pub(crate) const HIGH_VOLTAGE: u16 = 1 << 2;
     /// Converter or its bus failed.
-    pub const CONVERTER: u16 = 1 << 3;
+    pub(crate) const CONVERTER: u16 = 1 << 3;
     /// The device restarted by its watchdog.
-    pub const WATCHDOG: u16 = 1 << 4;
+    pub(crate) const WATCHDOG: u16 = 1 << 4;
     /// The host's lease ran out (informative, never latched).
-    pub const LEASE_LOST: u16 = 1 << 5;
+    pub(crate) const LEASE_LOST: u16 = 1 << 5;
     /// The emergency stop is pressed.
-    pub const EMERGENCY_STOP: u16 = 1 << 6;
+    pub(crate) const EMERGENCY_STOP: u16 = 1 << 6;
     /// Configuration or self-test failed.
-    pub const SELF_TEST: u16 = 1 << 7;
+    pub(crate) const SELF_TEST: u16 = 1 << 7;
 
     /// The bits' names for people, joined with commas.
     pub fn names(faults: u16) -> String {
@@ -79,7 +79,7 @@ impl DeviceState {
     }
 
     /// The state of a code, if v1 knows it.
-    pub fn from_code(code: u8) -> Option<Self> {
+    pub(crate) fn from_code(code: u8) -> Option<Self> {
         use DeviceState::{Armed, Fault, Hold, Idle, Ramp, Ready, Run};
         [Idle, Ready, Armed, Run, Hold, Ramp, Fault]
             .get(usize::from(code))
@@ -113,7 +113,7 @@ impl fmt::Display for DeviceState {
 
 /// Why a request was accepted or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AckCode {
+pub(crate) enum AckCode {
     /// Done.
     Ok,
     /// Another session, or a wrong key.
@@ -158,7 +158,7 @@ impl AckCode {
     }
 
     /// The code of a byte.
-    pub fn from_code(code: u8) -> Self {
+    pub(crate) fn from_code(code: u8) -> Self {
         Self::KNOWN
             .get(usize::from(code))
             .copied()

@@ -4,11 +4,11 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amplifier {
     /// Time constant of its pole, s.
-    pub time_constant_s: f64,
+    pub(crate) time_constant_s: f64,
     /// Steepest slope of its output, V/µs.
     pub slew_v_per_us: f64,
     /// Largest current into its load, mA: with a capacitance, another limit of the slope.
-    pub current_limit_ma: f64,
+    pub(crate) current_limit_ma: f64,
 }
 
 impl Default for Amplifier {
@@ -23,7 +23,7 @@ impl Default for Amplifier {
 
 impl Amplifier {
     /// The steepest slope into `capacitance_f` farads, V/s.
-    pub fn steepest_v_per_s(&self, capacitance_f: f64) -> f64 {
+    pub(crate) fn steepest_v_per_s(&self, capacitance_f: f64) -> f64 {
         (1e6 * self.slew_v_per_us).min(1e-3 * self.current_limit_ma / capacitance_f)
     }
 }

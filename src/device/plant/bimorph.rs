@@ -71,18 +71,18 @@ impl Bimorph {
 
     /// Free deflection of the tip at rest, `3 d₃₁ L² / (4 h²)`, µm/V, both layers across the
     /// voltage.
-    pub fn free_um_per_v(&self) -> f64 {
+    pub(crate) fn free_um_per_v(&self) -> f64 {
         let [length, _, layer] = self.metres();
         1e6 * 0.75 * D31_M_PER_V * (length / layer).powi(2)
     }
 
     /// Force of the held tip, N/V; also the charge for its deflection, C/m.
-    pub fn force_n_per_v(&self) -> f64 {
+    pub(crate) fn force_n_per_v(&self) -> f64 {
         1e-6 * self.stiffness_n_per_m() * self.free_um_per_v()
     }
 
     /// Capacitance at constant stress, `2 ε₃₃ w L / h`, F.
-    pub fn capacitance_f(&self) -> f64 {
+    pub(crate) fn capacitance_f(&self) -> f64 {
         let [length, width, layer] = self.metres();
         2.0 * EPSILON_F_PER_M * width * length / layer
     }

@@ -150,7 +150,7 @@ impl Plant {
     }
 
     /// Says in which state the device is; kept in the readings from then on.
-    pub fn set_state(&mut self, state: DeviceState) {
+    pub(crate) fn set_state(&mut self, state: DeviceState) {
         self.reading.state = state;
     }
 
@@ -183,7 +183,7 @@ impl Plant {
     }
 
     /// Displacement of a contactor's pin from rest now, µm; 0 for one that is not there.
-    pub fn displacement_um(&self, contactor: usize) -> f64 {
+    pub(crate) fn displacement_um(&self, contactor: usize) -> f64 {
         let block = self.blocks.get(contactor / LANES);
         block.map_or(0.0, |block| 1e6 * block.states[X_PIN][contactor % LANES])
     }

@@ -13,7 +13,7 @@ const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
 impl ContactorModel {
     /// The current for each carrier's codes while they stay, skin on the pin and no limit of the
     /// amplifier reached.
-    pub fn load(&self) -> Load {
+    pub(crate) fn load(&self) -> Load {
         let full = f64::from(FULL_CODE);
         Load {
             ma_per_code: CARRIERS_HZ

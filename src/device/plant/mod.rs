@@ -25,18 +25,19 @@ mod skin;
 mod synth;
 mod watch;
 
-pub use amplifier::Amplifier;
+pub(crate) use amplifier::Amplifier;
 pub use bimorph::Bimorph;
 pub use contactor::{ContactorModel, MOST_QUALITY};
 pub use lanes::Plant;
 pub use reading::{ContactorReading, PlantReading};
 pub use skin::Skin;
-pub use watch::{PlantFeed, PlantWatch, plant_watch};
+pub use watch::PlantWatch;
+pub(crate) use watch::{PlantFeed, plant_watch};
 
 /// Samples a second that the DAC is given.
 pub const SAMPLES_PER_S: u32 = 8000;
 /// Samples of a tick of 25 ms.
-pub const SAMPLES_PER_TICK: usize = 200;
+pub(crate) const SAMPLES_PER_TICK: usize = 200;
 
 #[cfg(test)]
 mod tests;

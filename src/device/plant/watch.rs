@@ -29,7 +29,7 @@ pub struct PlantWatch {
 }
 
 /// The end of the device.
-pub struct PlantFeed {
+pub(crate) struct PlantFeed {
     is_looked_at: Arc<AtomicBool>,
     readings: Input<PlantReading>,
     models: Output<ContactorModel>,
@@ -45,7 +45,7 @@ pub struct PlantFeed {
 }
 
 /// Both ends for an array of `n_contactors`; nobody looks yet.
-pub fn plant_watch(model: ContactorModel, n_contactors: usize) -> (PlantFeed, PlantWatch) {
+pub(crate) fn plant_watch(model: ContactorModel, n_contactors: usize) -> (PlantFeed, PlantWatch) {
     let is_looking = Arc::new(AtomicBool::new(false));
     let (readings_in, readings) = triple_buffer(&PlantReading::new(n_contactors));
     let (models, models_out) = triple_buffer(&model);

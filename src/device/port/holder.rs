@@ -5,7 +5,7 @@ use std::path::Path;
 /// The other program that has `path` open: `minicom, process 812`. A look over all processes takes
 /// some ms; `None` when it is not to be known.
 #[cfg(target_os = "linux")]
-pub fn holder_of(path: &Path) -> Option<String> {
+pub(crate) fn holder_of(path: &Path) -> Option<String> {
     use std::fs;
 
     let node = fs::canonicalize(path).ok()?;
@@ -37,7 +37,7 @@ pub fn holder_of(path: &Path) -> Option<String> {
 
 /// Not to be known here.
 #[cfg(not(target_os = "linux"))]
-pub fn holder_of(_path: &Path) -> Option<String> {
+pub(crate) fn holder_of(_path: &Path) -> Option<String> {
     None
 }
 

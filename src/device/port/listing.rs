@@ -19,7 +19,7 @@ pub struct PortEntry {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UsbIdentity {
     /// Vendor number.
-    pub vid: u16,
+    pub(crate) vid: u16,
     /// Product number.
     pub pid: u16,
     /// Serial number, if it has one.

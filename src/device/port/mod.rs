@@ -15,8 +15,10 @@ use std::io;
 use std::time::Duration;
 
 pub(super) use holder::holder_of;
-pub use listing::{PortEntry, UsbIdentity, list_ports};
-pub use pair::{PairPort, pair};
+pub use listing::UsbIdentity;
+pub use listing::{PortEntry, list_ports};
+pub use pair::PairPort;
+pub use pair::pair;
 pub use replug::{FoundPort, PortIdentity, RecognisedBy};
 pub use serial::SerialLink;
 

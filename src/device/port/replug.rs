@@ -14,7 +14,7 @@ pub struct PortIdentity {
     /// What was opened.
     pub path: PathBuf,
     /// What its adapter says of itself.
-    pub usb: Option<UsbIdentity>,
+    pub(crate) usb: Option<UsbIdentity>,
     /// The device's own number from CAPS.
     pub uid: Option<[u8; 12]>,
     /// What the path led to, if it was a link.

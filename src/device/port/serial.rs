@@ -46,7 +46,7 @@ impl SerialLink {
     }
 
     /// Wraps an open port.
-    pub fn from_port(port: Box<dyn SerialPort>, name: &str) -> Self {
+    pub(crate) fn from_port(port: Box<dyn SerialPort>, name: &str) -> Self {
         Self {
             port,
             name: String::from(name),

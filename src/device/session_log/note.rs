@@ -14,13 +14,13 @@ pub struct Entry {
     pub at: Instant,
     /// The device's tick and its clock in µs, wraps undone, as far as they are known.
     pub tick: Option<u32>,
-    pub device_us: Option<u64>,
+    pub(crate) device_us: Option<u64>,
     pub note: Note,
 }
 
 /// What happened.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Note {
+pub(crate) enum Note {
     /// HELLO was sent with this session number.
     Hello(u32),
     /// The device says what it is.
@@ -65,7 +65,7 @@ pub enum Note {
 
 /// What this side counts that ought to stay at zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct HostCounters {
+pub(crate) struct HostCounters {
     pub rejected: u64,
     pub superseded: u64,
     pub bad_received: u64,

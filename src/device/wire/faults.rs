@@ -210,7 +210,7 @@ pub struct Injection {
     /// What.
     pub kind: InjectionKind,
     /// How much of it, in the kind's own unit.
-    pub amount: u64,
+    pub(crate) amount: u64,
 }
 
 /// What was injected, and what its amount counts.

@@ -18,12 +18,11 @@ mod parse;
 mod simulation;
 mod wired;
 
-pub use faults::{
-    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
-};
+pub(crate) use faults::Injection;
+pub use faults::{Direction, Faults, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind};
 pub use options::{FaultGroup, FaultKind, FaultOption, FaultWords};
 pub use simulation::Simulation;
-pub use wired::WiredDevice;
+pub(crate) use wired::WiredDevice;
 
 #[cfg(test)]
 mod tests;

@@ -44,7 +44,7 @@ pub struct Simulation {
     /// Whether ticks go unanswered.
     is_unheard: bool,
     /// How much faster the host's clock runs, in parts per million.
-    pub host_ppm: i64,
+    pub(crate) host_ppm: i64,
     /// The longest time from an accepted frame to a moment with output, µs of device time.
     pub loudest_age_us: u64,
     /// Texts from the device that were no packet or no message.
@@ -213,7 +213,7 @@ impl Simulation {
 
     /// Writes a packet as the host would.
     #[cfg(test)]
-    pub fn host_writes(&mut self, packet: &Packet) {
+    pub(crate) fn host_writes(&mut self, packet: &Packet) {
         if !self.cut {
             self.device.host_wrote(self.us, packet.as_bytes());
         }

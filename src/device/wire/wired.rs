@@ -94,7 +94,7 @@ impl WiredDevice {
 
     /// Takes bytes that the host wrote at `now_us`; they arrive when the link lets them, at the
     /// earliest in the next [`advance`](Self::advance). Without a cable they are lost.
-    pub fn host_wrote(&mut self, now_us: u64, bytes: &[u8]) {
+    pub(crate) fn host_wrote(&mut self, now_us: u64, bytes: &[u8]) {
         if self.is_plugged() && !bytes.is_empty() {
             self.to_device.send(now_us.max(self.now_us), bytes);
         }
@@ -102,7 +102,7 @@ impl WiredDevice {
 
     /// Lets true time pass up to `now_us` (going back is ignored). What arrives at the host goes to
     /// `sink` as packets, which may be cut anywhere.
-    pub fn advance(&mut self, now_us: u64, sink: &mut impl DeviceSink) {
+    pub(crate) fn advance(&mut self, now_us: u64, sink: &mut impl DeviceSink) {
         let end_us = now_us.max(self.now_us);
         while let Some(at_us) = self.next_deadline_us().filter(|at_us| *at_us <= end_us) {
             self.now_us = at_us.max(self.now_us);
@@ -114,19 +114,19 @@ impl WiredDevice {
 
     /// When [`advance`](Self::advance) has something to do next, µs of true time; `None` while only
     /// bytes can change anything.
-    pub fn next_deadline_us(&self) -> Option<u64> {
+    pub(crate) fn next_deadline_us(&self) -> Option<u64> {
         let scheduled = self.schedule.last().map(|&(at_us, ..)| at_us);
         let lanes = earlier(self.to_device.next_due_us(), self.to_host.next_due_us());
         earlier(earlier(scheduled, self.core_deadline_us()), lanes)
     }
 
     /// Whether the cable is in.
-    pub fn is_plugged(&self) -> bool {
+    pub(crate) fn is_plugged(&self) -> bool {
         self.n_unplugged == 0
     }
 
     /// Whether the device takes bytes from its port at all at `now_us`.
-    pub fn is_reading(&self, now_us: u64) -> bool {
+    pub(crate) fn is_reading(&self, now_us: u64) -> bool {
         now_us >= self.stalled_reading_until_us
     }
 
@@ -136,12 +136,12 @@ impl WiredDevice {
     }
 
     /// The same, to change what it senses or to break it.
-    pub fn core_mut(&mut self) -> &mut DeviceCore {
+    pub(crate) fn core_mut(&mut self) -> &mut DeviceCore {
         &mut self.core
     }
 
     /// Lets the device measure the current of amplifiers with this load, after a reboot too.
-    pub fn set_load(&mut self, load: Load) {
+    pub(crate) fn set_load(&mut self, load: Load) {
         self.model.load = Some(load);
         self.core.set_load(load);
     }

@@ -199,7 +199,7 @@ impl EngineCore {
     }
 
     /// Ticks done.
-    pub fn tick_count(&self) -> u64 {
+    pub(crate) fn tick_count(&self) -> u64 {
         self.tick
     }
 

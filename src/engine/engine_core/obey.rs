@@ -12,7 +12,7 @@ use selvedge_render::scene::Pose;
 
 impl EngineCore {
     /// Obeys, and hands back what was replaced: at most two things.
-    pub fn obey(&mut self, order: CoreOrder, say: Say<'_>) -> [Option<Retired>; 2] {
+    pub(crate) fn obey(&mut self, order: CoreOrder, say: Say<'_>) -> [Option<Retired>; 2] {
         let mut retired = [None, None];
         match order {
             CoreOrder::Scene(next) => retired = self.next_scene(next),

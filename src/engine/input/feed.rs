@@ -18,7 +18,7 @@ pub(super) const CAPACITY: usize = 1024;
 
 /// What a reader found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FeedItem {
+pub(crate) enum FeedItem {
     /// The finger is here; the angle of the display where the source tells it, degrees.
     Sample(PointerSample, Option<f64>),
     /// The finger left the surface.
@@ -35,14 +35,14 @@ struct Shared {
 
 /// The reader's end.
 #[derive(Debug)]
-pub struct FeedSender {
+pub(crate) struct FeedSender {
     ring: Producer<FeedItem>,
     shared: Arc<Shared>,
 }
 
 /// The engine's end.
 #[derive(Debug)]
-pub struct FeedInput {
+pub(crate) struct FeedInput {
     ring: Consumer<FeedItem>,
     shared: Arc<Shared>,
     kind: SourceKind,
@@ -82,13 +82,13 @@ impl FeedSender {
     }
 
     /// Counts a line that was no position.
-    pub fn count_bad_line(&self) {
+    pub(crate) fn count_bad_line(&self) {
         self.shared.bad_lines.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Counts reports that the system dropped before they could be read.
     #[cfg(target_os = "linux")]
-    pub fn count_lost_in_system(&self) {
+    pub(crate) fn count_lost_in_system(&self) {
         self.shared.lost_in_system.fetch_add(1, Ordering::Relaxed);
     }
 

@@ -25,7 +25,7 @@ const HEADERS: [&str; 3] = ["x_mm,y_mm", "t_s,x_mm,y_mm", "t_s,x_mm,y_mm,angle_d
 
 /// Starts to read a stream. The thread ends with it, or at the next line after the input is
 /// dropped.
-pub fn start_lines(lines: Box<dyn BufRead + Send>) -> Result<FeedInput, EngineError> {
+pub(crate) fn start_lines(lines: Box<dyn BufRead + Send>) -> Result<FeedInput, EngineError> {
     let (mut sender, input) = feed(SourceKind::Lines);
     let mut lines = Lines::new(lines);
     thread::Builder::new()

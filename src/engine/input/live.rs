@@ -34,13 +34,13 @@ impl PointerSender {
 
 /// The end of the ring that the engine reads.
 #[derive(Debug)]
-pub struct LiveInput {
+pub(crate) struct LiveInput {
     ring: Consumer<PointerSample>,
     overflowed: Arc<AtomicU64>,
 }
 
 /// A ring for live samples.
-pub fn live_ring() -> (PointerSender, LiveInput) {
+pub(crate) fn live_ring() -> (PointerSender, LiveInput) {
     let (sender, ring) = RingBuffer::new(CAPACITY);
     let overflowed = Arc::new(AtomicU64::new(0));
     (

@@ -42,7 +42,7 @@ impl Motion {
 
 /// A recorded exploration, tick by tick.
 #[derive(Debug)]
-pub struct ReplayInput {
+pub(crate) struct ReplayInput {
     path: Arc<ExplorationPath>,
     cursor: PathCursor,
     motion: Motion,
@@ -133,7 +133,7 @@ impl PointerInput for ReplayInput {
 
 /// A generated stroke, tick by tick; it never ends.
 #[derive(Debug)]
-pub struct StrokeInput {
+pub(crate) struct StrokeInput {
     stroke: Stroke,
     motion: Motion,
     next_tick: u64,

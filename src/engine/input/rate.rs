@@ -33,7 +33,7 @@ pub struct InputRate {
 
 /// Measures the rate of a source. Allocates nothing.
 #[derive(Debug)]
-pub struct RateMeter {
+pub(crate) struct RateMeter {
     intervals_s: [f64; N_INTERVALS],
     n_seen: usize,
     last: Option<(Instant, Point)>,

@@ -43,7 +43,7 @@ pub struct ProgramCounts {
     /// Programs that read too slowly and were let go.
     pub let_go: u64,
     /// Ticks that nobody could be told of in time.
-    pub lost_ticks: u64,
+    pub(crate) lost_ticks: u64,
 }
 
 /// Listens for programs until it is dropped.

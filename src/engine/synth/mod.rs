@@ -14,7 +14,7 @@ const FULL_CODE: f64 = 65535.0;
 
 /// Makes the samples of one tick after another.
 #[derive(Debug, Clone)]
-pub struct SampleSynth {
+pub(crate) struct SampleSynth {
     drive: DriveSynth,
     amplitudes: Vec<[f32; 2]>,
     wave: Vec<f32>,

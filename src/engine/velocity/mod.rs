@@ -14,7 +14,7 @@ use filter::Tracked;
 use selvedge_foundation::geometry::{Displacement, Velocity};
 
 /// A pointer that is silent for longer is at rest, and what it did before is forgotten.
-pub const REST: Duration = Duration::from_millis(50);
+pub(crate) const REST: Duration = Duration::from_millis(50);
 
 /// Most samples that are remembered: 40 ms of a mouse with 8 kHz and some.
 const CAPACITY: usize = 512;
@@ -34,7 +34,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// At rest.
-    pub const REST: Self = Self {
+    pub(crate) const REST: Self = Self {
         velocity: Velocity::ZERO,
         lag_s: 0.0,
     };
@@ -66,7 +66,7 @@ impl VelocityEstimator {
     }
 
     /// Chooses another method and forgets every sample.
-    pub fn set_method(&mut self, method: VelocityMethod) {
+    pub(crate) fn set_method(&mut self, method: VelocityMethod) {
         self.method = method;
         self.reset();
     }

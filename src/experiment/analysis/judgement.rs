@@ -18,7 +18,7 @@ use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_fli
 pub struct Said {
     pub item: usize,
     pub is_real: bool,
-    pub said_real: bool,
+    pub(crate) said_real: bool,
     pub confidence: Option<u8>,
 }
 

@@ -83,7 +83,7 @@ pub struct Adjusting {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TunedParameter {
     /// Which.
-    pub what: Tunable,
+    pub(crate) what: Tunable,
     /// The lowest value.
     pub from: f64,
     /// The highest value.
@@ -94,7 +94,7 @@ pub struct TunedParameter {
 
 /// What can be turned: parts of a [`Tuning`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Tunable {
+pub(crate) enum Tunable {
     /// The gain of everything, dB.
     Gain,
     /// The gain of the 40 Hz band, dB.
@@ -162,7 +162,7 @@ pub struct Levels {
     /// What the other intervals hold, dB re 1 µm; `None` is nothing, which asks for a threshold.
     pub reference_db: Option<f64>,
     /// Length of an interval, ms.
-    pub interval_ms: u32,
+    pub(crate) interval_ms: u32,
     /// The lowest and the highest level that may come, dB re 1 µm.
     pub range_db: [f64; 2],
     /// How the next level is found.
@@ -213,7 +213,7 @@ pub enum Track {
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuestPlusTrack {
     /// Step of levels and thresholds over the range, dB.
-    pub grid_db: f64,
+    pub(crate) grid_db: f64,
     /// Widths of the psychometric function, from 5 to 95 %: dB for a threshold, natural logarithms
     /// of the difference for one from a reference.
     pub widths: Vec<f64>,
@@ -229,13 +229,13 @@ pub struct StaircaseTrack {
     /// Right answers before it goes down.
     pub down: u32,
     /// Steps downwards, dB: the first until the first reversal, then the next; the last stays.
-    pub steps_db: Vec<f64>,
+    pub(crate) steps_db: Vec<f64>,
     /// Steps upwards over steps downwards.
-    pub up_over_down: f64,
+    pub(crate) up_over_down: f64,
     /// Where each of the interleaved series begins, dB re 1 µm.
-    pub starts_db: Vec<f64>,
+    pub(crate) starts_db: Vec<f64>,
     /// The last reversals that the threshold is the mean of; an even number.
-    pub reversals_averaged: usize,
+    pub(crate) reversals_averaged: usize,
 }
 
 impl StaircaseTrack {
@@ -273,9 +273,9 @@ pub struct Stopping {
     /// After so many reversals.
     pub reversals: usize,
     /// Once the threshold's posterior standard deviation is below this, dB.
-    pub posterior_sd_db: f64,
+    pub(crate) posterior_sd_db: f64,
     /// Only once all that are stated hold, instead of any.
-    pub needs_all: bool,
+    pub(crate) needs_all: bool,
 }
 
 /// Rating scales.

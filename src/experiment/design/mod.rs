@@ -14,11 +14,14 @@ mod tables;
 
 use std::path::PathBuf;
 
-pub use method::{
-    Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, QuestPlusTrack, Ranking, Rating,
-    Scale, StaircaseTrack, Standard, Stopping, Track, Tunable, TunedParameter,
+pub(crate) use method::{
+    Adjusting, Choosing, Judging, QuestPlusTrack, Ranking, StaircaseTrack, Tunable,
 };
-pub use stimulus::{Medium, Source, Stimulus};
+pub use method::{
+    JudgingProtocol, Levels, Method, Rating, Scale, Standard, Stopping, Track, TunedParameter,
+};
+pub use stimulus::Source;
+pub(crate) use stimulus::{Medium, Stimulus};
 
 use selvedge_textile::tactile::Tuning;
 
@@ -61,9 +64,9 @@ pub struct CourseSettings {
     /// Trials of practice, which do not count.
     pub practice_trials: usize,
     /// A break after every so many blocks; 0 for none.
-    pub break_after_blocks: usize,
+    pub(crate) break_after_blocks: usize,
     /// The least length of a break, s.
-    pub break_s: f64,
+    pub(crate) break_s: f64,
     /// Whether a noise covers what the device can be heard by.
     pub masking_noise: bool,
     /// What the participant reads first.
@@ -96,11 +99,11 @@ pub struct Rules {
     /// How many subjects are planned; 0 where it was left open.
     pub subjects: usize,
     /// A session with fewer complete trials is left out.
-    pub least_trials: usize,
+    pub(crate) least_trials: usize,
     /// A trial answered faster is left out, s.
-    pub least_response_s: f64,
+    pub(crate) least_response_s: f64,
     /// A subject whose share of right answers is below this is left out, 0 to 1.
-    pub least_share_correct: f64,
+    pub(crate) least_share_correct: f64,
 }
 
 /// Who takes part, as schedules need to know it.

@@ -10,11 +10,11 @@ use selvedge_foundation::numerics::Random;
 
 /// What came of a trial.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reply {
+pub(crate) struct Reply {
     /// The answer.
     pub answer: Answer,
     /// How long it took, s.
-    pub response_s: f64,
+    pub(crate) response_s: f64,
 }
 
 /// An observer as a subject of a session.
@@ -93,7 +93,7 @@ impl<'a> Participant<'a> {
     }
 
     /// Answers a trial, whatever was answered before.
-    pub fn answer(&self, trial: &Trial, attempt: u32) -> Reply {
+    pub(crate) fn answer(&self, trial: &Trial, attempt: u32) -> Reply {
         let kind = if trial.is_practice {
             "practice"
         } else {

@@ -83,7 +83,7 @@ impl Stimuli {
     ///
     /// # Errors
     /// `of_textile` does not know a textile.
-    pub fn from_levels(
+    pub(crate) fn from_levels(
         design: &Design,
         library_tuning: Tuning,
         of_textile: impl Fn(&str) -> Option<(Levels, f64)>,

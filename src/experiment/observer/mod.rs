@@ -22,10 +22,12 @@ mod scale;
 mod strength;
 mod times;
 
-pub use answer::{Participant, Reply};
+pub use answer::Participant;
+pub(crate) use answer::Reply;
 pub use measure::Stimuli;
 pub use percept::{Strategy, Weighting};
-pub use scale::{Jnd, NOISE_JND};
+pub use scale::Jnd;
+pub(crate) use scale::NOISE_JND;
 
 use super::ExperimentError;
 
@@ -82,25 +84,25 @@ pub struct Habits {
     /// The odd one was hard to find below the first and easy from the second on: how much farther
     /// it is from the others than they are from each other, in just noticeable differences a
     /// coordinate (root mean square).
-    pub grade_criteria_jnd: [f64; 2],
+    pub(crate) grade_criteria_jnd: [f64; 2],
     /// What lies nearer than this to what the material should feel like is called real, in just
     /// noticeable differences a coordinate (root mean square).
-    pub real_criterion_jnd: f64,
+    pub(crate) real_criterion_jnd: f64,
     /// How much farther from the criterion makes one grade of confidence more, likewise.
-    pub confidence_jnd: f64,
+    pub(crate) confidence_jnd: f64,
     /// Turning ends once the difference to the standard is below this, in just noticeable
     /// differences a coordinate: where it began shows in where it ends.
-    pub satisfied_jnd: f64,
+    pub(crate) satisfied_jnd: f64,
     /// Standard deviation of the logarithm of subjects' own moduli of numbers.
-    pub modulus_spread: f64,
+    pub(crate) modulus_spread: f64,
     /// Standard deviation of the logarithm of subjects' exponents of strength.
-    pub exponent_spread: f64,
+    pub(crate) exponent_spread: f64,
     /// Standard deviation of the logarithm of a number that is given again.
-    pub magnitude_noise: f64,
+    pub(crate) magnitude_noise: f64,
     /// Standard deviation of a rating that is given again, as a share of its scale.
-    pub rating_noise: f64,
+    pub(crate) rating_noise: f64,
     /// Standard deviation of the logarithm of times of response.
-    pub time_spread: f64,
+    pub(crate) time_spread: f64,
 }
 
 impl Default for Habits {

@@ -11,7 +11,7 @@ use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db
 pub(super) const N_ACTIVE: usize = 24;
 /// Standard deviation of one look in just noticeable differences: two looks one difference apart
 /// are then in the right order three times in four, 1/(√2 Φ⁻¹(¾)).
-pub const NOISE_JND: f64 = 1.048_358_082_507_530_5;
+pub(crate) const NOISE_JND: f64 = 1.048_358_082_507_530_5;
 /// Levels above this are no longer told apart better, nor felt, dB above threshold.
 const MOST_DB: f64 = 80.0;
 /// Width of a cell of the sum, dB; the knots of the published curve lie between cells.
@@ -29,7 +29,7 @@ pub enum Jnd {
 
 impl Jnd {
     /// The just noticeable difference so far above threshold, dB.
-    pub fn at_db(self, band: Band, sensation_db: f64) -> f64 {
+    pub(crate) fn at_db(self, band: Band, sensation_db: f64) -> f64 {
         match self {
             Self::Published => just_noticeable_db(sensation_db),
             Self::Fixed(db) => db[band.index()],

@@ -84,7 +84,7 @@ impl Procedure {
     ///
     /// # Errors
     /// It is no answer to it; the trial still waits.
-    pub fn answer(&mut self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
+    pub(crate) fn answer(&mut self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
         match &mut self.0 {
             Kind::Listed {
                 trials,

@@ -8,7 +8,7 @@ mod task;
 
 use std::time::SystemTime;
 
-pub use read::read_records;
+pub(crate) use read::read_records;
 
 use super::design::{Design, Method, Subject};
 use super::trial::{Answer, Trial};
@@ -32,13 +32,13 @@ pub enum Outcome {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Timing {
     /// The beginning, UTC as RFC 3339.
-    pub start_utc: String,
+    pub(crate) start_utc: String,
     /// The answer, UTC as RFC 3339.
     pub response_utc: String,
     /// The beginning on a monotonic clock, ns since the session was opened.
-    pub start_ns: u64,
+    pub(crate) start_ns: u64,
     /// The answer on the same clock, ns.
-    pub response_ns: u64,
+    pub(crate) response_ns: u64,
 }
 
 impl Timing {
@@ -147,7 +147,7 @@ pub fn columns(design: &Design) -> Vec<(String, String)> {
 }
 
 /// The names of the columns of a design's logs.
-pub fn column_names(design: &Design) -> Vec<String> {
+pub(crate) fn column_names(design: &Design) -> Vec<String> {
     columns(design).into_iter().map(|(name, _)| name).collect()
 }
 

@@ -14,7 +14,7 @@ use selvedge_textile::tactile::Tuning;
 /// # Errors
 /// A cell does not hold what its column says, a stimulus is none of the design's, or the log was
 /// written by a later version.
-pub fn read_records(
+pub(crate) fn read_records(
     design: &Design,
     table: &Table,
     path: &Path,

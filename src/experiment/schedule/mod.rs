@@ -9,14 +9,16 @@ mod ranking;
 mod rounds;
 mod triads;
 
-pub use plane::{LINE_POINTS, Lines};
-pub use ranking::{RankingSchedule, RankingTrial, ScheduleError, is_ranked};
+pub(crate) use plane::LINE_POINTS;
+pub use plane::Lines;
+pub(crate) use ranking::{RankingSchedule, RankingTrial, ScheduleError, is_ranked};
 pub use rounds::rounds;
-pub use triads::{Triad, triads};
+pub use triads::Triad;
+pub use triads::triads;
 
 use selvedge_foundation::numerics::Random;
 
 /// The generator of one subject in one experiment of a study.
-pub fn subject_random(study_seed: u64, experiment: &str, subject: &str) -> Random {
+pub(crate) fn subject_random(study_seed: u64, experiment: &str, subject: &str) -> Random {
     Random::new(study_seed).branch(experiment).branch(subject)
 }

@@ -2,7 +2,7 @@
 //! (16 points, 20 lines) and the projective plane of order 3 (13 points, 13 lines).
 
 /// Points of a line.
-pub const LINE_POINTS: usize = 4;
+pub(crate) const LINE_POINTS: usize = 4;
 
 /// Points numbered from 0, and lines of four of them.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -18,7 +18,7 @@ const N_ALTERNATIVES: usize = LINE_POINTS;
 
 /// One trial: textiles by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct RankingTrial {
+pub(crate) struct RankingTrial {
     /// The block, from 0.
     pub block: usize,
     /// The textile that is felt as the target.
@@ -52,11 +52,11 @@ pub enum ScheduleError {
 
 /// All trials of one subject, in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RankingSchedule {
+pub(crate) struct RankingSchedule {
     /// The trials.
     pub trials: Vec<RankingTrial>,
     /// Whether every two textiles are incorrect alternatives together equally often.
-    pub is_pair_balanced: bool,
+    pub(crate) is_pair_balanced: bool,
 }
 
 impl RankingSchedule {
@@ -89,7 +89,7 @@ impl RankingSchedule {
 }
 
 /// Whether so many textiles can be ranked in fours: the others of a target split into triples.
-pub fn is_ranked(n_textiles: usize) -> bool {
+pub(crate) fn is_ranked(n_textiles: usize) -> bool {
     n_textiles >= N_ALTERNATIVES && n_textiles % 3 == 1
 }
 

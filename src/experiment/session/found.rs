@@ -21,7 +21,7 @@ pub struct Found {
     /// Its rows in order, practice and aborted trials too.
     pub records: Vec<Record>,
     /// Whether the log ends in the middle of a row, which is left out.
-    pub has_torn_row: bool,
+    pub(crate) has_torn_row: bool,
 }
 
 /// A log that cannot be read.

@@ -20,10 +20,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-pub use found::{Found, Unread, find, find_readable};
+pub(crate) use found::Unread;
+pub use found::{Found, find, find_readable};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
-pub use whole::{unwritten, write_whole};
+pub(crate) use whole::{unwritten, write_whole};
 
 use super::ExperimentError;
 use super::course::{Course, Step};

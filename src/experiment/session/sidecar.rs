@@ -51,7 +51,7 @@ pub struct Opening {
     pub rows: usize,
     /// When the last of them was answered, UTC: how long the gap was.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub after_utc: Option<String>,
+    pub(crate) after_utc: Option<String>,
     /// Where a row that was not complete was put.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub set_aside: Option<String>,

@@ -5,8 +5,8 @@ use std::time::UNIX_EPOCH;
 use super::*;
 use crate::design::Method;
 use crate::{Grade, Task};
-pub use selvedge_scratch::ScratchFolder as Folder;
 use selvedge_foundation::numerics::Random;
+pub use selvedge_scratch::ScratchFolder as Folder;
 
 pub(super) fn subject() -> Subject {
     Subject {
@@ -17,7 +17,7 @@ pub(super) fn subject() -> Subject {
 }
 
 /// Some answer to a task.
-pub fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
+pub(crate) fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
     match task {
         Task::Rank { .. } => {
             let mut ranks = [1, 2, 3, 4];

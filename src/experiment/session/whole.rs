@@ -15,7 +15,7 @@ use selvedge_foundation::files::{FileError, TableWriter, write_atomic};
 ///
 /// # Errors
 /// The pseudonym is no name, the log is there already, or it cannot be written.
-pub fn write_whole(
+pub(crate) fn write_whole(
     folder: &Path,
     (design, subject): (&Design, &Subject),
     opening: Opening,
@@ -51,7 +51,7 @@ pub fn write_whole(
 ///
 /// # Errors
 /// The pseudonym is no name, or the log is there already.
-pub fn unwritten(
+pub(crate) fn unwritten(
     folder: &Path,
     design: &Design,
     subject: &Subject,

@@ -21,7 +21,7 @@ pub struct Rgb16Image {
     /// transparent stands on white.
     pub pixels: Vec<[u16; 3]>,
     /// Bits of a channel in the file: 8, or 16 and more.
-    pub n_bits: u8,
+    pub(crate) n_bits: u8,
 }
 
 const MEND: &str = "give an intact PNG, JPEG, TIFF or BMP picture";

@@ -82,7 +82,7 @@ impl RealTransform {
 
     /// [`Self::forward`] without holding anything new. `samples` (as many as the transform has) are
     /// destroyed; `spectrum` holds ⌊n/2⌋ + 1 bins.
-    pub fn forward_into(
+    pub(crate) fn forward_into(
         &self,
         samples: &mut [f64],
         spectrum: &mut [Complex],
@@ -94,7 +94,7 @@ impl RealTransform {
     }
 
     /// [`Self::inverse`] without holding anything new. `spectrum` is destroyed.
-    pub fn inverse_into(
+    pub(crate) fn inverse_into(
         &self,
         spectrum: &mut [Complex],
         samples: &mut [f64],

@@ -21,11 +21,13 @@ mod trace;
 
 pub use drive::DriveSynth;
 pub use frame::DisplayFrame;
-pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
+pub(crate) use method::UnknownMethod;
+pub use method::{Accuracy, ErrorBound, Method};
 pub use reading::{ContactorReading, Reading};
 pub use response::{PointSpread, TextileResponse, VelocityMap};
 pub use table::TableCache;
-pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
+pub(crate) use trace::BinTrace;
+pub use trace::{ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 
 use std::hint::black_box;
 

@@ -10,9 +10,9 @@ const EDGE_MM: f64 = 1e-6;
 
 /// A placed textile, ready to be asked for contacts.
 #[derive(Debug, Clone)]
-pub struct TextilePlan {
+pub(crate) struct TextilePlan {
     origin: Point,
-    pub textile_from_workspace: Rotation,
+    pub(crate) textile_from_workspace: Rotation,
     size_mm: [f64; 2],
     /// The spectra of each direction in the pool.
     pub spectra: [usize; 4],
@@ -22,7 +22,7 @@ pub struct TextilePlan {
 
 /// Where a display's centre is in a textile's frame, and how it lies there.
 #[derive(Debug, Clone, Copy)]
-pub struct Placing {
+pub(crate) struct Placing {
     pub(super) centre: Point,
     pub(super) textile_from_display: Rotation,
     /// Every contactor lies on the textile.
@@ -40,11 +40,11 @@ pub enum Motion<'a> {
 
 /// The contacts of one display with one textile in one tick.
 #[derive(Debug, Clone, Copy)]
-pub struct Contacts<'a> {
+pub(crate) struct Contacts<'a> {
     /// Which textile.
     pub textile: usize,
     /// Which textile every contactor lies on.
-    pub owners: &'a [u16],
+    pub(crate) owners: &'a [u16],
     /// Places along warp and weft of every contactor, mm.
     pub places_mm: [&'a [f64]; 2],
     /// How they move.
@@ -91,7 +91,12 @@ impl Contacts<'_> {
 
     /// What a contactor that feels nothing along an axis would feel at the nearest speed that is
     /// felt: to be evaluated for nothing. `None` where that is left out, as it should be.
-    pub fn idle_feel(&self, textile: &TextilePlan, axis: Axis, contactor: usize) -> Option<Feel> {
+    pub(crate) fn idle_feel(
+        &self,
+        textile: &TextilePlan,
+        axis: Axis,
+        contactor: usize,
+    ) -> Option<Feel> {
         let component = self.component(axis, contactor);
         let speed_mm_per_s = component.nearest_felt_mm_per_s();
         (!self.rules.leave_out(component))
@@ -117,7 +122,7 @@ impl Contacts<'_> {
 
     /// Places of all contactors along and across an axis, mm.
     #[inline]
-    pub fn along_and_across_mm(&self, axis: Axis) -> [&[f64]; 2] {
+    pub(crate) fn along_and_across_mm(&self, axis: Axis) -> [&[f64]; 2] {
         let [u_mm, w_mm] = self.places_mm;
         match axis {
             Axis::Warp => [u_mm, w_mm],
@@ -128,7 +133,7 @@ impl Contacts<'_> {
     /// Counts `n` directions of a component that is not felt, unless they are evaluated for
     /// nothing.
     #[inline]
-    pub fn count_left_out(&self, component: Component, n: u64, counters: &mut Counters) {
+    pub(crate) fn count_left_out(&self, component: Component, n: u64, counters: &mut Counters) {
         if self.rules.leave_out(component) {
             counters.left_out(component, n);
         }
@@ -142,7 +147,7 @@ impl Contacts<'_> {
 
     /// Does something with the output of every contactor on this textile.
     #[inline]
-    pub fn for_each_owned<T>(&self, outputs: &mut [T], mut act: impl FnMut(usize, &mut T)) {
+    pub(crate) fn for_each_owned<T>(&self, outputs: &mut [T], mut act: impl FnMut(usize, &mut T)) {
         if self.n_contactors == self.owners.len() {
             // Without a question for each, the loop runs several contactors at a time.
             outputs
@@ -159,7 +164,11 @@ impl Contacts<'_> {
 
     /// The same with the contactor's place along warp and weft, mm.
     #[inline]
-    pub fn for_each_placed<T>(&self, outputs: &mut [T], mut act: impl FnMut([f64; 2], &mut T)) {
+    pub(crate) fn for_each_placed<T>(
+        &self,
+        outputs: &mut [T],
+        mut act: impl FnMut([f64; 2], &mut T),
+    ) {
         let places = self.places_mm[0].iter().zip(self.places_mm[1]);
         let placed = outputs.iter_mut().zip(places);
         if self.n_contactors == self.owners.len() {
@@ -204,7 +213,7 @@ impl TextilePlan {
     }
 
     /// How a display lies in the textile's frame; `None` when none of its contactors can lie on it.
-    pub fn placing(&self, display: &DisplayPlan, at: Point) -> Option<Placing> {
+    pub(crate) fn placing(&self, display: &DisplayPlan, at: Point) -> Option<Placing> {
         let centre = Point::default() + self.textile_from_workspace.turn(at - self.origin);
         let radius = display.radius_mm;
         let reaches =

@@ -14,9 +14,9 @@ pub struct Counters {
     /// Directions whose powers were evaluated or looked up.
     pub directions_evaluated: u64,
     /// Directions that repeat another of the same tick: same spectra, point and speed.
-    pub directions_repeated: u64,
+    pub(crate) directions_repeated: u64,
     /// Directions left out because they move at less than 0.01 mm/s.
-    pub directions_at_rest: u64,
+    pub(crate) directions_at_rest: u64,
     /// Directions left out because they move at 1000/0.23 mm/s or faster.
     pub directions_over_speed: u64,
     /// Bins summed, both bands counted.
@@ -24,32 +24,32 @@ pub struct Counters {
     /// Nodes of an areal textile's tables that were made because a tick first needed them.
     pub nodes_made: u64,
     /// Bins left out because they sound at or above 1 kHz, both bands counted.
-    pub bins_above_1_khz: u64,
+    pub(crate) bins_above_1_khz: u64,
     /// Bins left out because the filter lets less than its floor through.
     pub bins_below_floor: u64,
     /// Displays that stayed silent for a tick because they rest where they rested before.
-    pub displays_standing: u64,
+    pub(crate) displays_standing: u64,
     /// Angles whose sine and cosine were at hand.
-    pub angles_repeated: u64,
+    pub(crate) angles_repeated: u64,
     /// Textiles left out for a display and a tick because none of its contactors reaches them.
-    pub textiles_out_of_reach: u64,
+    pub(crate) textiles_out_of_reach: u64,
     /// Contactors not asked whether they lie on a textile because their whole display does.
-    pub touches_covered: u64,
+    pub(crate) touches_covered: u64,
     /// Contactors not evaluated on a textile within reach because they lie beside it.
-    pub touches_outside: u64,
+    pub(crate) touches_outside: u64,
     /// Contactors not evaluated on a textile because they lie on another above.
-    pub touches_beneath: u64,
+    pub(crate) touches_beneath: u64,
     /// Speeds that were looked up for another contactor of the same tick.
-    pub speeds_repeated: u64,
+    pub(crate) speeds_repeated: u64,
     /// Displays left silent for a tick because their pose held NaN or infinity.
     pub poses_not_finite: u64,
     /// Displays left silent for a tick because no pose was given.
-    pub poses_missing: u64,
+    pub(crate) poses_missing: u64,
 }
 
 impl Counters {
     /// Counts `n` directions of one component that is not felt.
-    pub fn left_out(&mut self, component: super::Component, n: u64) {
+    pub(crate) fn left_out(&mut self, component: super::Component, n: u64) {
         match component {
             super::Component::AtRest => self.directions_at_rest += n,
             super::Component::TooFast => self.directions_over_speed += n,

@@ -9,7 +9,7 @@ use selvedge_textile::tactile::MIN_SPEED_MM_PER_S;
 
 /// A display's contactors, their places on the textile at hand, and who owns each.
 #[derive(Debug, Clone)]
-pub struct DisplayPlan {
+pub(crate) struct DisplayPlan {
     x_mm: Vec<f64>,
     y_mm: Vec<f64>,
     pub(super) radius_mm: f64,
@@ -19,7 +19,7 @@ pub struct DisplayPlan {
     w_mm: Vec<f64>,
     velocity_u: Vec<f64>,
     velocity_w: Vec<f64>,
-    pub owners: Vec<u16>,
+    pub(crate) owners: Vec<u16>,
     pub n_owned: usize,
     /// What may be left out.
     pub(super) rules: Rules,
@@ -57,7 +57,7 @@ impl DisplayPlan {
     }
 
     /// Takes other rules.
-    pub fn set_rules(&mut self, rules: Rules) {
+    pub(crate) fn set_rules(&mut self, rules: Rules) {
         self.rules = rules;
         self.rested = None;
         let n_spare = if rules.skip_spare_touches() {
@@ -154,7 +154,7 @@ impl DisplayPlan {
 
     /// The contactors, besides those just claimed, that are evaluated on a textile for nothing,
     /// because a rule that would leave them out is off. `None` when there are none.
-    pub fn claim_spare(
+    pub(crate) fn claim_spare(
         &mut self,
         (textile, number): (&TextilePlan, usize),
         placing: &Placing,

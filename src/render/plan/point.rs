@@ -9,7 +9,7 @@ const BORDER_MM: f64 = 1e-6;
 /// The remainder is taken by two multiplications with a precomputed reciprocal (Lemire, Kaser,
 /// Kurz 2019), exact for 32-bit numbers: a division costs more than the rest of a contactor.
 #[derive(Debug, Clone, Copy)]
-pub struct PointIndex {
+pub(crate) struct PointIndex {
     n_points: u64,
     reciprocal: u64,
 }
@@ -51,7 +51,7 @@ pub fn nearest_mm(place_mm: f64) -> u32 {
 /// The point of spectra nearest to a place along and across their direction. Spectra along one
 /// profile are repeated across.
 #[derive(Debug, Clone, Copy)]
-pub struct PointGrid {
+pub(crate) struct PointGrid {
     pub along: PointIndex,
     across: PointIndex,
     n_along: usize,
@@ -98,7 +98,7 @@ impl PointGrid {
     reason = "the low bits are what is wanted"
 )]
 #[inline]
-pub fn whole_part(x: f64) -> u32 {
+pub(crate) fn whole_part(x: f64) -> u32 {
     const SHIFT: f64 = 4_503_599_627_370_496.0;
     let shifted = x + SHIFT;
     let is_rounded_up = shifted - SHIFT > x;

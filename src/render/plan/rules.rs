@@ -184,13 +184,13 @@ impl Rules {
     }
 
     /// Whether each contactor is evaluated on its own textile alone.
-    pub fn skip_spare_touches(self) -> bool {
+    pub(crate) fn skip_spare_touches(self) -> bool {
         self.has(Rule::Outside) && self.has(Rule::Beneath)
     }
 
     /// Whether a component that is not felt is left out.
     #[inline]
-    pub fn leave_out(self, component: Component) -> bool {
+    pub(crate) fn leave_out(self, component: Component) -> bool {
         match component {
             Component::Felt { .. } => false,
             Component::AtRest => self.has(Rule::AtRest),

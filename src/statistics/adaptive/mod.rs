@@ -21,11 +21,16 @@ mod tests;
 
 pub use constant::ConstantStimuli;
 pub use interleaved::Interleaved;
-pub use quest_plus::{QuestGrid, QuestPlus, QuestSummary, Reckoned};
-pub use rule::{GARCIA_PEREZ_RATIOS, Rule, StepScale};
-pub use staircase::{Limit, Reversal, ReversalMean, Stage, Staircase, StaircasePlan};
-pub use stationary::{Stationary, stationary};
-pub use stop::{Reached, Stop};
+pub use quest_plus::{QuestGrid, QuestPlus};
+pub(crate) use quest_plus::{QuestSummary, Reckoned};
+pub(crate) use rule::GARCIA_PEREZ_RATIOS;
+pub use rule::{Rule, StepScale};
+pub(crate) use staircase::Reversal;
+pub use staircase::{Limit, ReversalMean, Stage, Staircase, StaircasePlan};
+pub use stationary::Stationary;
+pub use stationary::stationary;
+pub(crate) use stop::Reached;
+pub use stop::Stop;
 
 use super::Computed;
 use super::Undefined;

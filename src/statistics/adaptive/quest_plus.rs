@@ -104,7 +104,7 @@ pub struct QuestSummary {
     /// Of the lapse rate.
     pub lapse: Reckoned,
     /// Its entropy, nats.
-    pub entropy: f64,
+    pub(crate) entropy: f64,
 }
 
 /// A QUEST+ procedure as far as it came.
@@ -137,7 +137,7 @@ impl QuestPlus {
     ///
     /// # Errors
     /// As [`Self::new`], and a prior that leaves nothing possible.
-    pub fn with_prior(
+    pub(crate) fn with_prior(
         grid: QuestGrid,
         stop: Stop,
         ln_prior: impl Fn(&Psychometric) -> f64,
@@ -178,7 +178,7 @@ impl QuestPlus {
     }
 
     /// The posterior before the first trial and after every one.
-    pub fn summaries(&self) -> &[QuestSummary] {
+    pub(crate) fn summaries(&self) -> &[QuestSummary] {
         &self.summaries
     }
 
@@ -188,12 +188,12 @@ impl QuestPlus {
     }
 
     /// The probability of every function, thresholds outermost and lapse rates innermost.
-    pub fn masses(&self) -> &[f64] {
+    pub(crate) fn masses(&self) -> &[f64] {
         &self.masses
     }
 
     /// The entropy that is to be expected after a trial with each stimulus, nats.
-    pub fn expected_entropies(&self) -> Vec<f64> {
+    pub(crate) fn expected_entropies(&self) -> Vec<f64> {
         let now = self.summary().entropy;
         (0..self.grid.stimuli.len())
             .map(|i| now - self.told_by(i))
@@ -201,7 +201,7 @@ impl QuestPlus {
     }
 
     /// How far it is.
-    pub fn reached(&self) -> Reached {
+    pub(crate) fn reached(&self) -> Reached {
         Reached {
             n_trials: u32::try_from(self.trials.len()).unwrap_or(u32::MAX),
             n_reversals: None,

@@ -5,7 +5,7 @@ use crate::{Computed, Undefined};
 
 /// Ratios of step down to step up that let one-up-m-down staircases with clear steps settle where
 /// they should, for m = 1…4 (García-Pérez 1998); targets 0.7785, 0.8035, 0.8315, 0.8584.
-pub const GARCIA_PEREZ_RATIOS: [f64; 4] = [0.2845, 0.5488, 0.7393, 0.8415];
+pub(crate) const GARCIA_PEREZ_RATIOS: [f64; 4] = [0.2845, 0.5488, 0.7393, 0.8415];
 
 /// What steps are steps of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,7 +65,7 @@ impl Rule {
 
     /// The probability that the next move is down if answers are right with probability `p`: that
     /// m right ones in a row come before n wrong ones.
-    pub fn down_share(self, p: f64) -> f64 {
+    pub(crate) fn down_share(self, p: f64) -> f64 {
         let q = 1.0 - p;
         let power = |x: f64, n: u32| x.powf(f64::from(n));
         let [right, wrong] = [power(p, self.m_down - 1), power(q, self.n_up - 1)];

@@ -173,7 +173,7 @@ impl Staircase {
     }
 
     /// How often a step was cut short at a limit.
-    pub fn n_clamped(&self, limit: Limit) -> u32 {
+    pub(crate) fn n_clamped(&self, limit: Limit) -> u32 {
         self.n_clamped[usize::from(limit == Limit::High)]
     }
 
@@ -199,7 +199,7 @@ impl Staircase {
     }
 
     /// Steps in a row that a limit cut short, up to now: an observer who never feels it.
-    pub fn n_at_limit_in_a_row(&self) -> u32 {
+    pub(crate) fn n_at_limit_in_a_row(&self) -> u32 {
         self.n_at_limit_in_a_row
     }
 
@@ -229,7 +229,7 @@ impl Staircase {
     }
 
     /// How far it is.
-    pub fn reached(&self) -> Reached {
+    pub(crate) fn reached(&self) -> Reached {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         Reached {
             n_trials: count(self.trials.len()),

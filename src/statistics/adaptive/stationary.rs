@@ -10,13 +10,13 @@ pub struct Stationary {
     /// The share of trials at each place, weakest first.
     pub shares: Vec<f64>,
     /// Mean place of a trial, counted from 0.
-    pub mean_place: f64,
+    pub(crate) mean_place: f64,
     /// Mean place of a reversal, counted from 0.
-    pub mean_reversal_place: f64,
+    pub(crate) mean_reversal_place: f64,
     /// The share of right answers.
-    pub share_right: f64,
+    pub(crate) share_right: f64,
     /// Reversals a trial.
-    pub reversals_per_trial: f64,
+    pub(crate) reversals_per_trial: f64,
 }
 
 /// States more than this are too many to solve for.

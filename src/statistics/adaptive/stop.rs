@@ -19,18 +19,18 @@ pub enum Stop {
 
 /// How far a procedure is; `None` for what it does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Reached {
+pub(crate) struct Reached {
     /// Trials.
     pub n_trials: u32,
     /// Reversals.
     pub n_reversals: Option<u32>,
     /// Standard deviation of the posterior of the threshold.
-    pub posterior_sd: Option<f64>,
+    pub(crate) posterior_sd: Option<f64>,
 }
 
 impl Stop {
     /// Whether the procedure is over.
-    pub fn is_met(&self, reached: &Reached) -> bool {
+    pub(crate) fn is_met(&self, reached: &Reached) -> bool {
         match self {
             Self::Trials(n) => reached.n_trials >= *n,
             Self::Reversals(n) => reached.n_reversals.is_some_and(|found| found >= *n),

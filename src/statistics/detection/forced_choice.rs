@@ -31,7 +31,7 @@ fn share(d_prime: f64, m: u32) -> f64 {
 ///
 /// # Errors
 /// As [`share_of_d_prime`]; a share within 1e-9 of 0 or 1 or outside.
-pub fn d_prime_of_share(correct: f64, m: u32) -> Computed {
+pub(crate) fn d_prime_of_share(correct: f64, m: u32) -> Computed {
     share_of_d_prime(0.0, m)?;
     if !(SHARES[0]..=SHARES[1]).contains(&correct) {
         let reason = format!("a share of {correct} among {m} alternatives has no finite d′");

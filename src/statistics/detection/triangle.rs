@@ -11,7 +11,7 @@ const CHANCE: f64 = 1.0 / 3.0;
 ///
 /// # Errors
 /// A distance that is not finite.
-pub fn triangle_share(d_prime: f64) -> Computed {
+pub(crate) fn triangle_share(d_prime: f64) -> Computed {
     if !d_prime.is_finite() {
         return Err(Undefined::because(format!("d′ = {d_prime} in triads")));
     }

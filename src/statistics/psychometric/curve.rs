@@ -43,7 +43,7 @@ impl Psychometric {
     }
 
     /// p and 1 − p at a stimulus. Of Weibull, at 0 and below, as at nothing.
-    pub fn probabilities(&self, x: f64) -> [f64; 2] {
+    pub(crate) fn probabilities(&self, x: f64) -> [f64; 2] {
         let place = self.family.place(x);
         self.at_place(if place.is_nan() {
             f64::NEG_INFINITY

@@ -18,7 +18,7 @@ pub struct Model {
     /// Its lower end.
     pub guess: Guess,
     /// Its upper end.
-    pub lapse: Lapse,
+    pub(crate) lapse: Lapse,
 }
 
 impl Model {
@@ -56,7 +56,7 @@ impl Model {
     ///
     /// # Errors
     /// As [`Self::fit`], and ranges that are none.
-    pub fn fit_with(self, priors: Priors, blocks: &[Block]) -> Computed<Fit> {
+    pub(crate) fn fit_with(self, priors: Priors, blocks: &[Block]) -> Computed<Fit> {
         self.check()?;
         priors.check()?;
         self.fitted(priors, checked(self.family, blocks)?)
@@ -98,13 +98,13 @@ pub struct Fit {
     /// What was assumed.
     pub model: Model,
     /// What was taken for likely before.
-    pub priors: Priors,
+    pub(crate) priors: Priors,
     /// The mode of the posterior of threshold, width and lapse rate.
     pub curve: Psychometric,
     /// Its log-likelihood.
-    pub ln_likelihood: f64,
+    pub(crate) ln_likelihood: f64,
     /// Its log-posterior, but for a constant.
-    pub ln_posterior: f64,
+    pub(crate) ln_posterior: f64,
     /// Twice what a rate of its own for each stimulus gains in log-likelihood.
     pub deviance: f64,
     /// The answers, stimuli ascending.

@@ -13,11 +13,11 @@ const LEAST: f64 = 1e-5;
 
 /// The distribution of one number.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Marginal {
+pub(crate) struct Marginal {
     /// Its values, ascending: threshold in the unit of the stimulus, width on the family's scale.
     pub values: Vec<f64>,
     /// The probability of each, 1 together.
-    pub masses: Vec<f64>,
+    pub(crate) masses: Vec<f64>,
 }
 
 impl Marginal {
@@ -44,11 +44,11 @@ impl Marginal {
 #[derive(Debug, Clone)]
 pub struct Posterior {
     /// Of the threshold.
-    pub threshold: Marginal,
+    pub(crate) threshold: Marginal,
     /// Of the width.
-    pub width: Marginal,
+    pub(crate) width: Marginal,
     /// Of the lapse rate; one value where it is fixed.
-    pub lapse: Marginal,
+    pub(crate) lapse: Marginal,
     cells: Vec<(Psychometric, f64)>,
 }
 

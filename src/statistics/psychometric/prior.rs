@@ -5,7 +5,7 @@ use super::{Family, Psychometric};
 use crate::{Computed, Undefined};
 
 /// No lapse rate above this is believed unless the caller says so.
-pub const MOST_LAPSE: f64 = 0.06;
+pub(crate) const MOST_LAPSE: f64 = 0.06;
 
 /// How the lower end of the function is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub enum Guess {
 
 /// How the upper end of the function is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Lapse {
+pub(crate) enum Lapse {
     /// Given.
     Fixed(f64),
     /// Any rate from 0 to `most` as likely as another.
@@ -92,7 +92,7 @@ pub(super) fn times_ln(a: f64, x: f64) -> f64 {
 /// Priors of threshold and width as of psignifit (Schütt et al. 2016), on the family's scale:
 /// natural logarithms for Weibull, stimuli as they are for the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Priors {
+pub(crate) struct Priors {
     /// Flat between these; to either side half a cosine down to nothing, half the range beyond.
     pub threshold: [f64; 2],
     /// Flat between these; nothing below half of the one and above three times the other.

@@ -16,7 +16,7 @@ pub struct Resamples {
     /// The functions.
     pub curves: Vec<Psychometric>,
     /// How well each fits the answers that it was fitted to.
-    pub deviances: Vec<f64>,
+    pub(crate) deviances: Vec<f64>,
     /// Simulations that said nothing of a threshold.
     pub n_undefined: usize,
     /// Confidence of the intervals.
@@ -75,7 +75,7 @@ impl Fit {
 
 impl Resamples {
     /// The probability of a deviance at least that of the fit, if the model holds.
-    pub fn p_deviance(&self) -> f64 {
+    pub(crate) fn p_deviance(&self) -> f64 {
         let n_worse = self
             .deviances
             .iter()

@@ -90,7 +90,7 @@ pub fn stevens(estimates: &[Estimate], level: f64) -> Computed<Stevens> {
 ///
 /// # Errors
 /// As [`stevens`].
-pub fn with_equal_moduli(estimates: &[Estimate]) -> Computed<Vec<Estimate>> {
+pub(crate) fn with_equal_moduli(estimates: &[Estimate]) -> Computed<Vec<Estimate>> {
     let (_, subjects) = collected(estimates)?;
     let mean = |logs: &[f64]| logs.iter().sum::<f64>() / logs.len() as f64;
     let own: BTreeMap<&str, f64> = subjects

@@ -16,7 +16,7 @@ pub struct BradleyTerry {
     /// observed information.
     pub scale: Scale,
     /// Log-likelihood of the comparisons, without the prior's share and the binomial coefficients.
-    pub log_likelihood: f64,
+    pub(crate) log_likelihood: f64,
     /// Against a probability for each pair, and against one half for all.
     pub deviance: Deviance,
     /// Steps of Newton's method.

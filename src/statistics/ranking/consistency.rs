@@ -16,7 +16,7 @@ pub struct Consistency {
     /// Circular ones.
     pub n_circular: u64,
     /// The most that so many items can have: k(k² − 1)/24 for odd k, k(k² − 4)/24 for even k.
-    pub most_circular: u64,
+    pub(crate) most_circular: u64,
     /// Kendall's ζ: 1 for an order without a circle, 0 for as many circles as there can be.
     pub zeta: f64,
     /// Probability that answers by chance have as few circular triads.

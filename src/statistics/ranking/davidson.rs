@@ -13,15 +13,15 @@ use crate::{Computed, Undefined};
 
 /// Abilities of items from paired comparisons with ties.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Davidson {
+pub(crate) struct Davidson {
     /// Abilities in logits of preferred against not preferred, ln π, summing to zero, with errors
     /// from the observed information.
     pub scale: Scale,
     /// ln ν. Two equal items tie with probability ν/(2 + ν).
-    pub log_nu: Estimate,
+    pub(crate) log_nu: Estimate,
     /// Log-likelihood of the comparisons, without the prior's share and the multinomial
     /// coefficients.
-    pub log_likelihood: f64,
+    pub(crate) log_likelihood: f64,
     /// Against two free probabilities for each pair, and against equal items that tie as often as
     /// all did.
     pub deviance: Deviance,
@@ -37,7 +37,7 @@ pub struct Davidson {
 /// Fewer than two items, no comparisons; no ties (ν would be 0: that is
 /// [`bradley_terry`](super::bradley_terry())); ties so many that ν would be infinite; groups of
 /// items without finite abilities, unless there is a prior.
-pub fn davidson(preferences: &Preferences, prior: Prior) -> Computed<Davidson> {
+pub(crate) fn davidson(preferences: &Preferences, prior: Prior) -> Computed<Davidson> {
     check(preferences, prior)?;
     let n_items = preferences.n_items();
     let model = Model {

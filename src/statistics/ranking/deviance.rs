@@ -16,7 +16,7 @@ pub struct Deviance {
     /// Of all items equal.
     pub null: f64,
     /// Its degrees of freedom.
-    pub null_df: usize,
+    pub(crate) null_df: usize,
     /// What was known before the data; no test with a prior.
     pub prior: Prior,
 }

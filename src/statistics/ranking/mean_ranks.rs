@@ -57,7 +57,7 @@ pub struct MeanRanks {
 
 /// How the correct alternative was ranked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Correct {
+pub(crate) struct Correct {
     /// Trials.
     pub n_trials: usize,
     /// Trials in which it was ranked first.
@@ -65,9 +65,9 @@ pub struct Correct {
     /// Its mean rank.
     pub mean_rank: f64,
     /// The mean rank of guesses, (k + 1)/2.
-    pub chance_rank: f64,
+    pub(crate) chance_rank: f64,
     /// The share of guesses that rank it first, 1/k.
-    pub chance_share: f64,
+    pub(crate) chance_share: f64,
 }
 
 /// How far mean ranks differ when target and alternative change places.
@@ -196,7 +196,7 @@ impl MeanRanks {
     }
 
     /// How the correct alternative was ranked over all trials.
-    pub fn correct(&self) -> Correct {
+    pub(crate) fn correct(&self) -> Correct {
         self.correct_of(0..self.n_items, self.n_trials)
     }
 
@@ -204,7 +204,7 @@ impl MeanRanks {
     ///
     /// # Errors
     /// The item is unknown or was never the target.
-    pub fn correct_for(&self, target: usize) -> Computed<Correct> {
+    pub(crate) fn correct_for(&self, target: usize) -> Computed<Correct> {
         let n = self.n_items;
         let n_trials = (target < n).then(|| self.counts[target * n + target]);
         match n_trials {

@@ -84,7 +84,7 @@ impl PairTally {
     }
 
     /// The distance for one answer: comparable where pairs were asked different numbers of times.
-    pub fn mean_weight(&self) -> f64 {
+    pub(crate) fn mean_weight(&self) -> f64 {
         self.distance / self.n() as f64
     }
 }

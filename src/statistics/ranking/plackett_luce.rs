@@ -22,9 +22,9 @@ pub struct PlackettLuce {
     /// Rankings that entered.
     pub n_rankings: usize,
     /// Log-likelihood of the rankings, without the prior's share.
-    pub log_likelihood: f64,
+    pub(crate) log_likelihood: f64,
     /// That of worths all equal: of rankings by chance.
-    pub null_log_likelihood: f64,
+    pub(crate) null_log_likelihood: f64,
     /// Steps of Newton's method.
     pub n_steps: usize,
     /// What was known before; with a prior the worths are the mode of what is known after, and the

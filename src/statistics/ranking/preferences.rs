@@ -59,7 +59,7 @@ impl Preferences {
     ///
     /// # Errors
     /// A table of another size or with sides that differ, an item tied with itself.
-    pub fn with_ties(mut self, rows: &[Vec<u64>]) -> Computed<Self> {
+    pub(crate) fn with_ties(mut self, rows: &[Vec<u64>]) -> Computed<Self> {
         self.ties = square(rows, "tied with itself")?;
         let n = self.n_items;
         if rows.len() != n {
@@ -101,7 +101,7 @@ impl Preferences {
     ///
     /// # Errors
     /// An unknown item, or the same twice.
-    pub fn prefer(&mut self, upper: usize, lower: usize) -> Computed<()> {
+    pub(crate) fn prefer(&mut self, upper: usize, lower: usize) -> Computed<()> {
         self.check_pair(upper, lower)?;
         self.wins[upper * self.n_items + lower] += 1;
         Ok(())
@@ -111,7 +111,7 @@ impl Preferences {
     ///
     /// # Errors
     /// An unknown item, or the same twice.
-    pub fn tie(&mut self, one: usize, other: usize) -> Computed<()> {
+    pub(crate) fn tie(&mut self, one: usize, other: usize) -> Computed<()> {
         self.check_pair(one, other)?;
         self.ties[one * self.n_items + other] += 1;
         self.ties[other * self.n_items + one] += 1;
@@ -164,13 +164,13 @@ impl Preferences {
     }
 
     /// Ties in all.
-    pub fn n_ties(&self) -> u64 {
+    pub(crate) fn n_ties(&self) -> u64 {
         self.compared().iter().map(|pair| pair.ties).sum()
     }
 
     /// The same without the ties.
     #[must_use]
-    pub fn without_ties(mut self) -> Self {
+    pub(crate) fn without_ties(mut self) -> Self {
         self.ties.fill(0);
         self
     }
@@ -183,7 +183,7 @@ impl Preferences {
 
     /// How they hang together where a tie places two items beside each other, as for
     /// [`davidson`](super::davidson()).
-    pub fn connection_with_ties(&self) -> Connection {
+    pub(crate) fn connection_with_ties(&self) -> Connection {
         let is_above = |i, j| self.wins(i, j) + self.ties(i, j) > 0;
         Connection::of(self.n_items, is_above)
     }

@@ -62,7 +62,7 @@ impl Scale {
     ///
     /// # Errors
     /// No such item.
-    pub fn relative_to(&self, reference: usize) -> Computed<Vec<Option<Estimate>>> {
+    pub(crate) fn relative_to(&self, reference: usize) -> Computed<Vec<Option<Estimate>>> {
         let n = self.values.len();
         if reference >= n {
             let reason = format!("item {} of {n} is no reference", reference + 1);

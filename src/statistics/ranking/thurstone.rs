@@ -24,7 +24,7 @@ pub struct Thurstone {
     /// Values summing to zero, with errors from the observed information.
     pub scale: Scale,
     /// Log-likelihood of the comparisons, without the binomial coefficients.
-    pub log_likelihood: f64,
+    pub(crate) log_likelihood: f64,
     /// Against a probability for each pair, and against one half for all.
     pub deviance: Deviance,
     /// Steps of Newton's method.
@@ -126,7 +126,7 @@ pub struct Mosteller {
     pub values: Vec<f64>,
     /// Pairs in which one item was always preferred, whose share was moved to 1/(2n) or 1 − 1/(2n)
     /// since its z is infinite. The values hang on that choice.
-    pub n_clipped: usize,
+    pub(crate) n_clipped: usize,
     /// Whether the shares deviate from the scale, by Mosteller's test (1951) on arcsines of the
     /// square roots of the shares as they are: χ² with (k − 1)(k − 2)/2 degrees of freedom.
     pub fit: Computed<Outcome>,

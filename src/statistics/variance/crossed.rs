@@ -6,7 +6,7 @@ use crate::{Computed, Undefined};
 
 /// A factor and its levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Factor {
+pub(crate) struct Factor {
     /// Its name: `signal`.
     pub name: String,
     /// Its levels, in order.
@@ -30,7 +30,7 @@ pub struct Crossed {
     /// The subjects.
     pub subjects: Vec<String>,
     /// One or two factors.
-    pub factors: Vec<Factor>,
+    pub(crate) factors: Vec<Factor>,
     /// Subject by subject, in each the first factor's levels, in each the second's.
     pub values: Vec<Option<f64>>,
 }

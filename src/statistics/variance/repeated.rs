@@ -18,7 +18,7 @@ pub struct Repeated {
     /// Subjects.
     pub n: usize,
     /// Sum of squares between subjects.
-    pub ss_subjects: f64,
+    pub(crate) ss_subjects: f64,
     /// The factors in order, then their interaction.
     pub effects: Vec<Effect>,
 }

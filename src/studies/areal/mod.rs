@@ -31,7 +31,7 @@ const PROMISED_DB: f64 = 0.05;
 
 /// Economical against areal, on model cloths and a random relief.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ArealStudy;
+pub(crate) struct ArealStudy;
 
 impl Study for ArealStudy {
     fn name(&self) -> &'static str {

@@ -31,7 +31,7 @@ const SAMPLE_S: f64 = 1.0 / SAMPLES_PER_S as f64;
 
 /// Error and cost of four ways to step a contactor, by step, stiffness and quality.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct BimorphStudy;
+pub(crate) struct BimorphStudy;
 
 impl Study for BimorphStudy {
     fn name(&self) -> &'static str {

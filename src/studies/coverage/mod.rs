@@ -19,7 +19,7 @@ const FALSE_POSITIVE_BAND: [f64; 2] = [3.5, 6.5];
 
 /// Coverage of intervals and false positives of tests.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct CoverageStudy;
+pub(crate) struct CoverageStudy;
 
 /// Something that holds or not in one simulated study.
 #[derive(Clone, Copy)]

@@ -30,7 +30,7 @@ const ABOVE_640_HZ: &str = "above_640_hz_db";
 
 /// Out-of-band energy and level error of three ways to change amplitudes, and their cost.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct DriveUpdatesStudy;
+pub(crate) struct DriveUpdatesStudy;
 
 /// When new amplitudes take effect.
 #[derive(Debug, Clone, Copy, PartialEq)]

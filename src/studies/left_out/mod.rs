@@ -9,7 +9,7 @@ mod scenes;
 mod shares;
 mod sinks;
 
-pub use saving::SavingRule;
+pub(crate) use saving::SavingRule;
 use saving::{NeverPlaced, OfRendering};
 use scenes::Case;
 use sinks::Unheard;
@@ -32,7 +32,7 @@ const FEW: usize = 3;
 
 /// What every saving leaves out, and what that saves.
 #[derive(Debug, Default)]
-pub struct LeftOutStudy {
+pub(crate) struct LeftOutStudy {
     others: Vec<Box<dyn SavingRule>>,
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use selvedge_render::{Counters, Rule};
 
 /// A saving: something that is left out because nothing needs it, and how often it was.
-pub trait SavingRule: Debug + Send + Sync {
+pub(crate) trait SavingRule: Debug + Send + Sync {
     /// Who leaves it out: a floor of the program.
     fn floor(&self) -> &'static str;
 

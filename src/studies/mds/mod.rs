@@ -19,7 +19,7 @@ const N_LONGEST_ON_A_LINE: usize = 2000;
 
 /// Stress above the best known against run time, and recovery against noise.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct MdsStudy;
+pub(crate) struct MdsStudy;
 
 /// A way to make a map.
 struct Way {

@@ -13,7 +13,7 @@ const STEP_MM: f64 = 0.1;
 
 /// Error of the Hurst exponent by generator, exponent and size, and what a surface costs.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct BrownianStudy;
+pub(crate) struct BrownianStudy;
 
 impl Study for BrownianStudy {
     fn name(&self) -> &'static str {

@@ -18,7 +18,7 @@ const N_DRAWS: u64 = 100;
 
 /// Error by number of Fourier coefficients, and what a profile of them costs.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct FourierStudy;
+pub(crate) struct FourierStudy;
 
 impl Study for FourierStudy {
     fn name(&self) -> &'static str {

@@ -11,11 +11,11 @@ mod restoration;
 #[cfg(test)]
 mod tests;
 
-pub use brownian::BrownianStudy;
-pub use fourier::FourierStudy;
-pub use probe::ProbeStudy;
-pub use resampling::ResamplingStudy;
-pub use restoration::RestorationStudy;
+pub(crate) use brownian::BrownianStudy;
+pub(crate) use fourier::FourierStudy;
+pub(crate) use probe::ProbeStudy;
+pub(crate) use resampling::ResamplingStudy;
+pub(crate) use restoration::RestorationStudy;
 
 /// Root mean square.
 fn rms(values: impl Iterator<Item = f64>) -> f64 {

@@ -14,7 +14,7 @@ const LENGTH_MM: f64 = 10.0;
 
 /// Error of the virtual probe by step and wave, and what a stroke costs.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ProbeStudy;
+pub(crate) struct ProbeStudy;
 
 impl Study for ProbeStudy {
     fn name(&self) -> &'static str {

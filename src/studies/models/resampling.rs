@@ -14,7 +14,7 @@ const N_FINE: usize = 4600;
 
 /// Error of resampling by the step of the original, and what it costs.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ResamplingStudy;
+pub(crate) struct ResamplingStudy;
 
 /// A way to resample to `N_FINE` samples.
 type Way = fn(&[f64]) -> Vec<f64>;

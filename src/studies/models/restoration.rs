@@ -18,7 +18,7 @@ const AMPLITUDES_UM: [f64; 8] = [10.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5];
 
 /// Errors of period, roughness and waves by harmonics and noise, and what reduction costs.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct RestorationStudy;
+pub(crate) struct RestorationStudy;
 
 impl Study for RestorationStudy {
     fn name(&self) -> &'static str {

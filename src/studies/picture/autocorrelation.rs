@@ -15,7 +15,7 @@ const ALL_UP_TO: usize = 64;
 
 /// Error and cost of the autocorrelation by the picture's side.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct AutocorrelationStudy;
+pub(crate) struct AutocorrelationStudy;
 
 impl Study for AutocorrelationStudy {
     fn name(&self) -> &'static str {

@@ -11,7 +11,7 @@ use selvedge_textile::picture::{Analysis, Basis, SignificantMaxima};
 
 /// Lattices of pictures that are spoilt in seven ways, by five estimates.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct LatticeStudy;
+pub(crate) struct LatticeStudy;
 
 impl Study for LatticeStudy {
     fn name(&self) -> &'static str {

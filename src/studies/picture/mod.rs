@@ -15,10 +15,10 @@ mod sweeps;
 #[cfg(test)]
 mod tests;
 
-pub use autocorrelation::AutocorrelationStudy;
-pub use lattice::LatticeStudy;
-pub use route::PictureRouteStudy;
-pub use scale::PictureScaleStudy;
+pub(crate) use autocorrelation::AutocorrelationStudy;
+pub(crate) use lattice::LatticeStudy;
+pub(crate) use route::PictureRouteStudy;
+pub(crate) use scale::PictureScaleStudy;
 
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::unheard;

@@ -12,7 +12,7 @@ const N_PERIODS: f64 = 22.0;
 
 /// Lattices of pictures that are reduced until nothing is left of the threads.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct PictureScaleStudy;
+pub(crate) struct PictureScaleStudy;
 
 impl Study for PictureScaleStudy {
     fn name(&self) -> &'static str {

@@ -13,7 +13,7 @@ use selvedge_textile::metrology::{
 
 /// Reading time and error of Sq over formats and sizes.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ReadersStudy;
+pub(crate) struct ReadersStudy;
 
 /// A format, and how exactly Sq comes back from it.
 #[derive(Debug, Clone, Copy)]

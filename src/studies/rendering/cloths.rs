@@ -14,7 +14,7 @@ use selvedge_textile::tactile::MAX_SPEED_MM_PER_S;
 use selvedge_textile::{Library, TextileError};
 
 /// The width of every textile of a study, mm.
-pub const WIDTH_MM: f64 = 120.0;
+pub(crate) const WIDTH_MM: f64 = 120.0;
 /// The step of a Kawabata recording, mm.
 const STEP_MM: f64 = 1.0 / 230.0;
 /// Samples of a synthetic profile: 20 mm.
@@ -86,7 +86,11 @@ pub fn scene_of(textiles: Vec<PlacedSurface>, array: ContactorArray) -> RenderSc
 /// Poses anywhere on one textile, with speeds spread evenly over the octaves between two, mm/s.
 /// Three of four head anywhere; the fourth runs along the warp, so fast that a bin sounds within a
 /// ten-thousandth of 1 kHz, where spectra are cut.
-pub fn poses_between(speeds_mm_per_s: [f64; 2], n_poses: usize, random: &mut Random) -> Vec<Pose> {
+pub(crate) fn poses_between(
+    speeds_mm_per_s: [f64; 2],
+    n_poses: usize,
+    random: &mut Random,
+) -> Vec<Pose> {
     let [low, high] = speeds_mm_per_s.map(f64::ln);
     let pose = |n: usize| {
         // One speed in each of so many equal parts, so that none is left out by chance.

@@ -38,7 +38,7 @@ const BUDGETS_DB: [f64; 4] = [0.5, PROMISED_DB, 0.01, 0.002];
 
 /// Reference, banded and tables on four kinds of textile.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct RenderingStudy;
+pub(crate) struct RenderingStudy;
 
 impl Study for RenderingStudy {
     fn name(&self) -> &'static str {

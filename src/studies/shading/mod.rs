@@ -30,7 +30,7 @@ const PROMISED_CORRELATION: f64 = 0.95;
 
 /// Error of heights by method, iterations, light and noise, and what finding them costs.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ShadingStudy;
+pub(crate) struct ShadingStudy;
 
 impl Study for ShadingStudy {
     fn name(&self) -> &'static str {

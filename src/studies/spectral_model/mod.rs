@@ -19,7 +19,7 @@ const PRODUCT: [f64; 2] = [WINDOW_LENGTH_MM, BIN_SPACING_PER_MM];
 
 /// Level error of window lengths, bin spacings and the choice of points, and what they cost.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct SpectralModelStudy;
+pub(crate) struct SpectralModelStudy;
 
 impl Study for SpectralModelStudy {
     fn name(&self) -> &'static str {

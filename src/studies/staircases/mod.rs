@@ -18,7 +18,7 @@ const CHECKPOINTS: [u32; 5] = [20, 40, 80, 160, 320];
 
 /// Threshold error against trials.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct StaircasesStudy;
+pub(crate) struct StaircasesStudy;
 
 impl Study for StaircasesStudy {
     fn name(&self) -> &'static str {

@@ -25,7 +25,7 @@ const FROM_S: f64 = 0.3;
 
 /// Velocity error against delay and cost of the five estimators.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct VelocityStudy;
+pub(crate) struct VelocityStudy;
 
 /// A method on a pointer, over all strokes.
 struct Outcome {

@@ -20,7 +20,7 @@ pub struct Hurst {
 impl Hurst {
     /// The exponent of some lines of even samples; `None` if they are too short (128 samples in
     /// all parts) or level.
-    pub fn of_lines(lines: &[&[f64]]) -> Option<Self> {
+    pub(crate) fn of_lines(lines: &[&[f64]]) -> Option<Self> {
         let exponent = exponent(lines)?;
         let part = |index: usize| {
             let cut = |line: &&[f64]| {

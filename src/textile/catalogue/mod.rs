@@ -60,8 +60,8 @@ pub fn write_figure(figure: &Figure, out: &Path, name: &str) -> Result<(), Texti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_scratch::ScratchFolder;
     use selvedge_foundation::progress::{CancelFlag, unheard};
+    use selvedge_scratch::ScratchFolder;
 
     #[test]
     fn a_sheet_shows_everything_and_is_the_same_twice() {

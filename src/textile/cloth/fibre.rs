@@ -13,7 +13,7 @@ const PIECES: u8 = 5;
 const CLUMP_MM: f64 = 2.5;
 
 /// Adds the loose fibres of `yarn` to a cloth, rooted in the strands with indices `from`….
-pub fn add_hairs(cloth: &mut Cloth, from: usize, yarn: &Yarn, random: &mut Random) {
+pub(crate) fn add_hairs(cloth: &mut Cloth, from: usize, yarn: &Yarn, random: &mut Random) {
     let area = cloth.size_mm[0] * cloth.size_mm[1];
     let n_hairs = count(yarn.hairs_per_mm2 * area);
     let n_roots = cloth.strands.len();

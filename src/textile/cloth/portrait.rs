@@ -9,7 +9,7 @@ use selvedge_foundation::files::Rgb8Image;
 use selvedge_foundation::numerics::quantile;
 
 /// Pixels a millimetre of the finished picture.
-pub const PX_PER_MM: f64 = 10.0;
+pub(crate) const PX_PER_MM: f64 = 10.0;
 /// Points across a pixel that the relief is taken at.
 const FINE: usize = 3;
 /// Towards the light: left, up, out of the cloth.
@@ -27,7 +27,7 @@ const BENEATH: [f64; 3] = [0.16, 0.15, 0.14];
 
 /// The picture of the whole patch, warp to the right, weft upwards, [`PX_PER_MM`] pixels a mm (to
 /// the nearest whole pixel of the patch).
-pub fn portrait(cloth: &Cloth) -> Rgb8Image {
+pub(crate) fn portrait(cloth: &Cloth) -> Rgb8Image {
     let [width, height] = cloth
         .size_mm
         .map(|mm| count((mm * PX_PER_MM).round()).max(1));

@@ -96,7 +96,7 @@ impl Relief {
 ///
 /// # Errors
 /// A step that no height map may have.
-pub fn relief_map(cloth: &Cloth, step_mm: f64) -> Result<HeightMap, SurfaceError> {
+pub(crate) fn relief_map(cloth: &Cloth, step_mm: f64) -> Result<HeightMap, SurfaceError> {
     let n = cloth.size_mm.map(|mm| count((mm / step_mm).round()).max(1));
     let step_mm = [0, 1].map(|axis| cloth.size_mm[axis] / n[axis] as f64);
     let window = Window {

@@ -18,14 +18,14 @@ pub enum Side {
 impl Side {
     /// Whether it is the side that the recipe describes.
     #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-    pub fn is_face(&self) -> bool {
+    pub(crate) fn is_face(&self) -> bool {
         *self == Self::Face
     }
 }
 
 /// Turns strands over about the warp: what was below is above, and the weft runs the other way.
 /// Twist keeps its sense: a helix has the same hand from either side.
-pub fn turn_over(strands: &mut [Strand], width_mm: f64) {
+pub(crate) fn turn_over(strands: &mut [Strand], width_mm: f64) {
     for node in strands.iter_mut().flat_map(|strand| &mut strand.nodes) {
         node.z_um = -node.z_um;
         node.w_mm = width_mm - node.w_mm;
@@ -34,7 +34,7 @@ pub fn turn_over(strands: &mut [Strand], width_mm: f64) {
 
 impl Cloth {
     /// The lowest that a strand reaches, µm; 0 without strands.
-    pub fn lowest_um(&self) -> f64 {
+    pub(crate) fn lowest_um(&self) -> f64 {
         let nodes = self.strands.iter().flat_map(|strand| &strand.nodes);
         let bottoms = nodes.map(|node| node.z_um - node.half_thickness_um);
         bottoms.fold(0.0, f64::min)

@@ -11,24 +11,24 @@ pub struct Node {
     /// Along the weft, mm.
     pub w_mm: f64,
     /// Height of the centre, µm.
-    pub z_um: f64,
+    pub(crate) z_um: f64,
     /// Half the width of the section, mm.
-    pub half_width_mm: f64,
+    pub(crate) half_width_mm: f64,
     /// Half the thickness of the section, µm.
-    pub half_thickness_um: f64,
+    pub(crate) half_thickness_um: f64,
     /// Phase of the twist ridges, radians.
-    pub twist_rad: f64,
+    pub(crate) twist_rad: f64,
 }
 
 /// A yarn or a fibre.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strand {
+pub(crate) struct Strand {
     /// The centre line. It may leave the patch: the cloth repeats.
     pub nodes: Vec<Node>,
     /// Share of the width that is flat, 0 (elliptic) to 0.9.
-    pub flatness: f64,
+    pub(crate) flatness: f64,
     /// Depth of the twist ridges, µm.
-    pub ridge_um: f64,
+    pub(crate) ridge_um: f64,
     /// Colour, red, green, blue 0…1.
     pub colour: [f64; 3],
 }
@@ -39,7 +39,7 @@ pub struct Cloth {
     /// Along the warp and along the weft, mm.
     pub size_mm: [f64; 2],
     /// All strands; where they overlap the highest is seen.
-    pub strands: Vec<Strand>,
+    pub(crate) strands: Vec<Strand>,
     /// What lies beneath the cloth, µm.
     pub floor_um: f64,
 }

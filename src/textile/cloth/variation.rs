@@ -8,7 +8,7 @@ use selvedge_foundation::numerics::Random;
 
 /// Smooth normal noise on a circle, sampled evenly and interpolated.
 #[derive(Debug, Clone)]
-pub struct Drift {
+pub(crate) struct Drift {
     length: f64,
     values: Vec<f64>,
 }

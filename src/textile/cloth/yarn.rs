@@ -19,60 +19,60 @@ pub struct Yarn {
     pub thickness_um: f64,
     /// Share of the width that is flat: 0 elliptic, towards 0.9 a tape.
     #[serde(default)]
-    pub flatness: f64,
+    pub(crate) flatness: f64,
     /// Coefficient of variation of the thickness from yarn to yarn.
     #[serde(default)]
-    pub count_cv: f64,
+    pub(crate) count_cv: f64,
     /// Coefficient of variation of the thickness along a yarn.
     #[serde(default)]
-    pub uneven_cv: f64,
+    pub(crate) uneven_cv: f64,
     /// Correlation length of the variation along a yarn, mm.
     #[serde(default = "default_uneven_mm")]
-    pub uneven_mm: f64,
+    pub(crate) uneven_mm: f64,
     /// Thick places per metre of yarn.
     #[serde(default)]
-    pub slubs_per_m: f64,
+    pub(crate) slubs_per_m: f64,
     /// How much thicker a slub is: 0.5 = half as thick again.
     #[serde(default)]
-    pub slub_gain: f64,
+    pub(crate) slub_gain: f64,
     /// Length of a slub, mm.
     #[serde(default = "default_slub_mm")]
-    pub slub_mm: f64,
+    pub(crate) slub_mm: f64,
     /// Bands (barré): standard deviation of the thickness between groups of yarns.
     #[serde(default)]
-    pub band_cv: f64,
+    pub(crate) band_cv: f64,
     /// Width of a band, mm.
     #[serde(default = "default_band_mm")]
-    pub band_mm: f64,
+    pub(crate) band_mm: f64,
     /// Turns per metre.
     #[serde(default)]
-    pub twist_per_m: f64,
+    pub(crate) twist_per_m: f64,
     /// Plies (or filament bundles) that show as ridges: ridges per turn.
     #[serde(default = "default_plies")]
-    pub plies: u8,
+    pub(crate) plies: u8,
     /// Depth of the ridges, µm.
     #[serde(default)]
-    pub ridge_um: f64,
+    pub(crate) ridge_um: f64,
     /// Loose fibres on the surface, per mm².
     #[serde(default)]
-    pub hairs_per_mm2: f64,
+    pub(crate) hairs_per_mm2: f64,
     /// Length of a loose fibre, mm.
     #[serde(default = "default_hair_mm")]
-    pub hair_mm: f64,
+    pub(crate) hair_mm: f64,
     /// Thickness of a loose fibre, or of a tuft that acts as one, µm.
     #[serde(default = "default_hair_um")]
-    pub hair_um: f64,
+    pub(crate) hair_um: f64,
     /// How far a loose fibre stands off the yarn under the probe's load, µm.
     #[serde(default)]
-    pub hair_lift_um: f64,
+    pub(crate) hair_lift_um: f64,
     /// How unevenly the loose fibres are raised: standard deviation of the logarithm.
     #[serde(default)]
-    pub hair_clump: f64,
+    pub(crate) hair_clump: f64,
     /// Colour of the fibre, `#rrggbb`.
     pub colour: String,
     /// How much the lightness varies from yarn to yarn (standard deviation, share).
     #[serde(default)]
-    pub colour_cv: f64,
+    pub(crate) colour_cv: f64,
 }
 
 /// The numbers of a yarn.
@@ -136,7 +136,7 @@ impl Yarn {
     }
 
     /// The colour of one yarn, red, green and blue 0…1.
-    pub fn colour_of_one(&self, random: &mut Random) -> [f64; 3] {
+    pub(crate) fn colour_of_one(&self, random: &mut Random) -> [f64; 3] {
         let lightness = (1.0 + self.colour_cv * random.normal()).clamp(0.3, 1.7);
         parse_colour(&self.colour)
             .unwrap_or([0.5; 3])
@@ -144,7 +144,7 @@ impl Yarn {
     }
 
     /// The bands that groups of yarns share, over an axis of the cloth.
-    pub fn bands(&self, size_mm: f64, random: &mut Random) -> Drift {
+    pub(crate) fn bands(&self, size_mm: f64, random: &mut Random) -> Drift {
         Drift::new(size_mm, self.band_mm, random)
     }
 }
@@ -159,7 +159,7 @@ fn parse_colour(text: &str) -> Option<[f64; 3]> {
 
 /// One length of yarn that closes on itself: how thick it is and how its ridges lie.
 #[derive(Debug)]
-pub struct YarnRun<'a> {
+pub(crate) struct YarnRun<'a> {
     yarn: &'a Yarn,
     length_mm: f64,
     level: f64,
@@ -225,7 +225,7 @@ impl<'a> YarnRun<'a> {
     }
 
     /// The strand of these nodes.
-    pub fn strand(&self, nodes: Vec<Node>) -> Strand {
+    pub(crate) fn strand(&self, nodes: Vec<Node>) -> Strand {
         let yarn = self.yarn;
         let colour = self.colour;
         Strand {

@@ -11,10 +11,11 @@ mod template;
 #[cfg(test)]
 mod tests;
 
-pub use readings::{Imported, Readings, import};
+pub(crate) use readings::Imported;
+pub use readings::{Readings, import};
 pub use series::FourierSeries;
 pub use template::FourierTemplate;
-pub use template::NUMBERS as TEMPLATE_NUMBERS;
+pub(crate) use template::NUMBERS as TEMPLATE_NUMBERS;
 
 use std::path::Path;
 
@@ -36,7 +37,7 @@ const PICTURE_STEP_MM: f64 = 0.4;
 /// How two profiles become a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Composition {
+pub(crate) enum Composition {
     /// A coefficient of its own for every pair of harmonics: no preferred lines.
     #[default]
     Independent,
@@ -81,7 +82,7 @@ pub struct Fourier {
     pub seed: u32,
     /// How two profiles become a surface.
     #[serde(default)]
-    pub composition: Composition,
+    pub(crate) composition: Composition,
     /// How the paper's sum is read.
     #[serde(default)]
     pub reading: Reading,

@@ -34,11 +34,11 @@ pub struct FourierTemplate {
     /// Mean of the cosines' coefficients, µm.
     pub mean_cos_um: Vec<f64>,
     /// Their standard deviation, µm.
-    pub sd_cos_um: Vec<f64>,
+    pub(crate) sd_cos_um: Vec<f64>,
     /// Mean of the sines' coefficients, µm.
-    pub mean_sin_um: Vec<f64>,
+    pub(crate) mean_sin_um: Vec<f64>,
     /// Their standard deviation, µm.
-    pub sd_sin_um: Vec<f64>,
+    pub(crate) sd_sin_um: Vec<f64>,
 }
 
 /// The numbers of a template beside its coefficients.
@@ -151,7 +151,7 @@ impl FourierTemplate {
 
     /// Mean square of the two coefficients of a harmonic, µm²: what it adds to the variance of the
     /// heights.
-    pub fn variance_um2(&self, n: usize) -> f64 {
+    pub(crate) fn variance_um2(&self, n: usize) -> f64 {
         let [a, b, c, d] = [
             self.mean_cos_um[n - 1],
             self.sd_cos_um[n - 1],
@@ -162,7 +162,7 @@ impl FourierTemplate {
     }
 
     /// Standard deviation of the heights of what is drawn from it within a band, µm.
-    pub fn sd_um(&self, band_per_m: [f64; 2]) -> f64 {
+    pub(crate) fn sd_um(&self, band_per_m: [f64; 2]) -> f64 {
         let harmonics = self.harmonics(band_per_m);
         let sum: f64 = harmonics.iter().map(|&n| self.variance_um2(n)).sum();
         sum.sqrt()

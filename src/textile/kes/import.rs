@@ -106,7 +106,7 @@ impl KesImport {
     }
 
     /// The friction of its section.
-    pub fn friction(&self) -> Result<Option<FrictionTrace>, TextileError> {
+    pub(crate) fn friction(&self) -> Result<Option<FrictionTrace>, TextileError> {
         let (Some(stroke), Some(friction)) =
             (friction_stroke(&self.reading), &self.reading.friction)
         else {

@@ -72,7 +72,7 @@ pub struct KesLook {
     /// The decimal sign that the numbers were read with.
     pub decimal: DecimalSign,
     /// Whether the numbers show it: neither said nor a guess between two readings.
-    pub is_decimal_shown: bool,
+    pub(crate) is_decimal_shown: bool,
     /// Its columns.
     pub columns: Vec<KesColumn>,
     /// The last lines above the table and its first rows.

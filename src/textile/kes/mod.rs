@@ -36,12 +36,16 @@ mod units;
 
 pub use columns::{ClothAxis, ColumnRole, StrokeSide};
 pub use dialect::DecimalSign;
-pub use import::{KesFigures, KesImport};
-pub use look::{KesColumn, KesKnown, KesLine, KesLook};
+pub use import::KesFigures;
+pub use import::KesImport;
+pub use look::KesLine;
+pub use look::{KesColumn, KesKnown, KesLook};
 pub use marks::{Mark, MarkKind};
 pub use origin::KesOrigin;
-pub use reading::{KesFile, KesFriction, KesReading, KesStroke};
-pub use section::{EVALUATED_MM, KesSection};
+pub use reading::KesFriction;
+pub use reading::{KesFile, KesReading, KesStroke};
+pub use section::EVALUATED_MM;
+pub use section::KesSection;
 
 use std::path::{Path, PathBuf};
 

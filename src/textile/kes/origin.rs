@@ -8,7 +8,7 @@ use crate::TextileError;
 use crate::manifest::Checker;
 
 /// The name of the importer in manifests.
-pub const IMPORTER: &str = "kes-f";
+pub(crate) const IMPORTER: &str = "kes-f";
 
 /// `[source.imported]`: which files, which section, what was taken off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,13 +25,13 @@ pub struct KesOrigin {
     pub um_per_volt: Option<f64>,
     /// The evaluated section along the warp, mm on the stroke: from, to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub warp_section_mm: Option<[f64; 2]>,
+    pub(crate) warp_section_mm: Option<[f64; 2]>,
     /// The same along the weft.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub weft_section_mm: Option<[f64; 2]>,
+    pub(crate) weft_section_mm: Option<[f64; 2]>,
     /// Whether the sections were suggested by rule.
     #[serde(default)]
-    pub is_section_suggested: bool,
+    pub(crate) is_section_suggested: bool,
     /// The slope of the line taken off each stroke, µm for every mm of travel, by direction.
     #[serde(default)]
     pub tilt_um_per_mm: BTreeMap<String, f64>,

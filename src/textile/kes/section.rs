@@ -40,7 +40,7 @@ impl KesStroke {
     }
 
     /// The samples of a section in the order of travel; `None` where the stroke does not reach.
-    pub fn samples_of(&self, section: &KesSection) -> Option<std::ops::Range<usize>> {
+    pub(crate) fn samples_of(&self, section: &KesSection) -> Option<std::ops::Range<usize>> {
         let n = n_samples(section.to_mm - section.from_mm, self.step_mm);
         // A section of n samples ends one step after the last.
         let last_mm = section.from_mm + (n - 1) as f64 * self.step_mm;

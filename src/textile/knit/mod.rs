@@ -54,57 +54,57 @@ pub struct Knit {
     /// Which stitch stands where.
     pub structure: Structure,
     /// Wales (columns of loops) per centimetre.
-    pub wales_per_cm: f64,
+    pub(crate) wales_per_cm: f64,
     /// Courses (rows of loops) per centimetre.
-    pub courses_per_cm: f64,
+    pub(crate) courses_per_cm: f64,
     /// Height of a loop in courses: above 1, since loops overlap.
     #[serde(default = "default_loop_height")]
-    pub loop_height: f64,
+    pub(crate) loop_height: f64,
     /// How much the omega bulges at head and feet, share of the wale pitch.
     #[serde(default = "default_bulge")]
-    pub bulge: f64,
+    pub(crate) bulge: f64,
     /// How far the legs of a loop stand apart beyond half a wale, share of the wale pitch: the legs
     /// of neighbouring loops touch before those of one loop do.
     #[serde(default = "default_leg_spread")]
-    pub leg_spread: f64,
+    pub(crate) leg_spread: f64,
     /// How far legs and arcs stand before and behind the middle of the cloth, µm.
-    pub loop_depth_um: f64,
+    pub(crate) loop_depth_um: f64,
     /// Height of the raised above the sunken stitches of a rib (face above back) or a piqué
     /// (tucks above plain ones), µm; below 0 where the others stand out.
     #[serde(default)]
     pub relief_um: f64,
     /// Height of the pile under the probe's load, µm.
     #[serde(default)]
-    pub pile_um: f64,
+    pub(crate) pile_um: f64,
     /// How unevenly the pile stands: standard deviation of the logarithm.
     #[serde(default)]
-    pub pile_clump: f64,
+    pub(crate) pile_clump: f64,
     /// Standard deviation of the loop size from place to place.
     #[serde(default = "usual::tension_drift")]
-    pub tension_drift: f64,
+    pub(crate) tension_drift: f64,
     /// Over what length tension and bow change, mm.
     #[serde(default = "usual::drift_mm")]
-    pub drift_mm: f64,
+    pub(crate) drift_mm: f64,
     /// Standard deviation of the places of wales and courses, share of their pitch.
     #[serde(default = "usual::pitch_cv")]
-    pub pitch_cv: f64,
+    pub(crate) pitch_cv: f64,
     /// Standard deviation of the bow of a course, µm.
     #[serde(default)]
-    pub bow_um: f64,
+    pub(crate) bow_um: f64,
     /// Standard deviation of the height of a wale: needle lines, µm.
     #[serde(default)]
-    pub needle_um: f64,
+    pub(crate) needle_um: f64,
     /// Out-of-plane puckering by lively twist, µm rms.
     #[serde(default)]
-    pub pucker_um: f64,
+    pub(crate) pucker_um: f64,
     /// Size of the puckers, mm.
     #[serde(default = "usual::pucker_mm")]
-    pub pucker_mm: f64,
+    pub(crate) pucker_mm: f64,
     /// Noise of the probe, µm rms.
     #[serde(default = "usual::noise_um")]
     pub noise_um: f64,
     /// The yarn.
-    pub yarn: Yarn,
+    pub(crate) yarn: Yarn,
 }
 
 fn default_loop_height() -> f64 {

@@ -31,7 +31,7 @@ pub enum Structure {
 
 /// What stands out of the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pile {
+pub(crate) enum Pile {
     /// Loops.
     Loops,
     /// Sheared loops.
@@ -40,7 +40,7 @@ pub enum Pile {
 
 /// One stitch of a repeat.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stitch {
+pub(crate) struct Stitch {
     /// +1: legs in front (face), −1: arcs in front (back).
     pub face: f64,
     /// Height of the stitch, in units of the recipe's relief.
@@ -71,7 +71,7 @@ impl Structure {
     }
 
     /// The stitch on a wale of a course.
-    pub fn stitch(self, wale: usize, course: usize) -> Stitch {
+    pub(crate) fn stitch(self, wale: usize, course: usize) -> Stitch {
         let rib = |is_face: bool| {
             if is_face {
                 Stitch { lift: 0.5, ..FACE }
@@ -109,12 +109,12 @@ impl Structure {
     }
 
     /// Whether a second bed of loops lies behind the first.
-    pub fn has_second_bed(self) -> bool {
+    pub(crate) fn has_second_bed(self) -> bool {
         matches!(self, Self::Interlock)
     }
 
     /// The pile that stands out of the ground, if any.
-    pub fn pile(self) -> Option<Pile> {
+    pub(crate) fn pile(self) -> Option<Pile> {
         match self {
             Self::Terry => Some(Pile::Loops),
             Self::Plush => Some(Pile::Cut),
@@ -123,7 +123,7 @@ impl Structure {
     }
 
     /// Whether its fibres were raised on the side that the recipe describes, and only there.
-    pub fn is_brushed(self) -> bool {
+    pub(crate) fn is_brushed(self) -> bool {
         matches!(self, Self::Fleece)
     }
 }

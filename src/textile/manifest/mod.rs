@@ -9,7 +9,7 @@ mod provenance;
 
 pub use checker::Checker;
 pub(crate) use profiles::profile_file_keys;
-pub use profiles::{ProfileFiles, Profiles};
+pub(crate) use profiles::{ProfileFiles, Profiles};
 pub use provenance::{Parent, Provenance};
 
 use std::borrow::Cow;
@@ -154,7 +154,7 @@ impl Source {
     }
 
     /// The profile files that the manifest names; models may name none.
-    pub fn files(&self) -> ProfileFiles {
+    pub(crate) fn files(&self) -> ProfileFiles {
         match self {
             Self::Profiles(keys) => ProfileFiles([
                 keys.warp_forward.clone(),
@@ -186,7 +186,7 @@ impl Source {
     }
 
     /// The file of heights that it is kept as, if it is, and how that is read.
-    pub fn kept_map(&self) -> Option<Cow<'_, Heightmap>> {
+    pub(crate) fn kept_map(&self) -> Option<Cow<'_, Heightmap>> {
         match self {
             Self::Heightmap(keys) => Some(Cow::Borrowed(keys)),
             Self::Picture(keys) => Some(Cow::Owned(keys.map())),
@@ -211,7 +211,7 @@ impl Source {
     }
 
     /// Names a model's profile files and the recipe that they came from.
-    pub fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
+    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
         match self {
             Self::Profiles(_) => {}
             Self::Weave(keys) => keys.set_files(files, recipe_hash),

@@ -48,7 +48,7 @@ impl Default for Profiles {
 
 impl Profiles {
     /// The file of a direction, to be set.
-    pub fn file_mut(&mut self, direction: Direction) -> &mut Option<String> {
+    pub(crate) fn file_mut(&mut self, direction: Direction) -> &mut Option<String> {
         match direction {
             Direction::WarpForward => &mut self.warp_forward,
             Direction::WarpReverse => &mut self.warp_reverse,
@@ -60,7 +60,7 @@ impl Profiles {
 
 /// Profile files by [`Direction::index`], beside the manifest.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct ProfileFiles(pub [Option<String>; 4]);
+pub(crate) struct ProfileFiles(pub [Option<String>; 4]);
 
 impl ProfileFiles {
     /// Whether no file is named.
@@ -79,7 +79,7 @@ macro_rules! profile_file_keys {
     ($keys:ty) => {
         impl $keys {
             /// The profile files that stand for the recipe, if it names them.
-            pub fn files(&self) -> crate::manifest::ProfileFiles {
+            pub(crate) fn files(&self) -> crate::manifest::ProfileFiles {
                 crate::manifest::ProfileFiles([
                     self.warp_forward.clone(),
                     self.warp_reverse.clone(),
@@ -89,7 +89,7 @@ macro_rules! profile_file_keys {
             }
 
             /// Names the profile files, and the recipe that they came from.
-            pub fn set_files(
+            pub(crate) fn set_files(
                 &mut self,
                 files: crate::manifest::ProfileFiles,
                 recipe_hash: Option<String>,

@@ -12,7 +12,7 @@ use selvedge_foundation::files::Rgb8Image;
 use selvedge_foundation::numerics::Grid;
 
 /// The strokes as profile files, those that are there.
-pub fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
+pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
     let mut files = Vec::new();
     for direction in Direction::ALL {
         if let Some(profile) = &profiles[direction.index()] {

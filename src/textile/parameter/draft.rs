@@ -93,7 +93,7 @@ impl Draft {
     }
 
     /// The value that a parameter has where a file does not state it; `None` if it must be stated.
-    pub fn default_of(&self, place: Place) -> Option<KeyValue> {
+    pub(crate) fn default_of(&self, place: Place) -> Option<KeyValue> {
         let mut without = self.clone();
         without.set(place, None);
         let manifest = without.read().ok()?;

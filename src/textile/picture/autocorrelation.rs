@@ -20,7 +20,7 @@ pub struct Autocorrelation {
 }
 
 /// The part of a picture of this size that is correlated: x, y, width, height.
-pub fn correlated_part(width: usize, height: usize) -> [usize; 4] {
+pub(crate) fn correlated_part(width: usize, height: usize) -> [usize; 4] {
     if width * height <= MOST_PIXELS {
         return [0, 0, width, height];
     }

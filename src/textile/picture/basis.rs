@@ -46,7 +46,7 @@ impl Basis {
     }
 
     /// The area of a cell, px²; negative when p2 lies to the left of p1 (y down).
-    pub fn signed_area(&self) -> f64 {
+    pub(crate) fn signed_area(&self) -> f64 {
         self.p1[0] * self.p2[1] - self.p1[1] * self.p2[0]
     }
 

@@ -15,9 +15,9 @@ const LEAST_SPREAD: f64 = 0.01;
 pub struct PeriodicColour {
     /// Standard deviation over a cell of the share of red or of green in all light, the larger one,
     /// over a third: the share in grey.
-    pub colour_spread: f64,
+    pub(crate) colour_spread: f64,
     /// Standard deviation over a cell of the luminance, over its mean.
-    pub brightness_spread: f64,
+    pub(crate) brightness_spread: f64,
 }
 
 impl PeriodicColour {

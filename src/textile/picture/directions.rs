@@ -99,7 +99,7 @@ fn lambda_per_px(places: &[Place], options: DirectionOptions) -> f64 {
 
 /// `n⁻² Σ_ij exp(−λ|x_i − x_j|)`, exactly, in O(n log n): with the offsets sorted,
 /// `S_i = exp(−λ(x_i − x_{i−1}))·(1 + S_{i−1})` sums all terms before i. Sorts in place; 0 of none.
-pub fn mean_concentration(offsets: &mut [f64], lambda: f64) -> f64 {
+pub(crate) fn mean_concentration(offsets: &mut [f64], lambda: f64) -> f64 {
     offsets.sort_by(f64::total_cmp);
     let n = offsets.len() as f64;
     let (mut sum, mut before) = (0.0, 0.0);

@@ -124,7 +124,7 @@ impl Brightness {
 
     /// A light on this as it falls on the picture.
     #[must_use]
-    pub fn light_on_picture(&self, here: Light) -> Light {
+    pub(crate) fn light_on_picture(&self, here: Light) -> Light {
         turned(here, -self.angle_rad.to_degrees())
     }
 

@@ -92,13 +92,13 @@ pub struct Lattice {
     pub method: &'static str,
     /// Whether the directions by mean concentration span the same lattice (or the one it was found
     /// to be a multiple of).
-    pub concentration_agrees: bool,
+    pub(crate) concentration_agrees: bool,
     /// Whether the directions by Hough transform do.
-    pub hough_agrees: bool,
+    pub(crate) hough_agrees: bool,
     /// Mean correlation at its points within a few periods.
     pub level: f64,
     /// The largest of the mean correlations half-way between its points.
-    pub level_between: f64,
+    pub(crate) level_between: f64,
     /// Share of the maxima that it explains.
     pub cover: f64,
     /// Share of its points that are maxima.
@@ -113,7 +113,7 @@ impl Lattice {
 
     /// The same lattice with other vectors, refined ones for example.
     #[must_use]
-    pub fn with_basis(mut self, basis: Basis) -> Self {
+    pub(crate) fn with_basis(mut self, basis: Basis) -> Self {
         (self.p1_px, self.p2_px) = (basis.p1, basis.p2);
         self
     }

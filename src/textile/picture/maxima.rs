@@ -10,7 +10,7 @@ use selvedge_foundation::numerics::quadratic_peak;
 
 /// A local maximum of the autocorrelation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Maximum {
+pub(crate) struct Maximum {
     /// The shift, px, between samples by a quadratic surface.
     pub place: Place,
     /// The correlation there.
@@ -75,12 +75,12 @@ impl Maxima {
     }
 
     /// All of them, highest first.
-    pub fn all(&self) -> &[Maximum] {
+    pub(crate) fn all(&self) -> &[Maximum] {
         &self.all
     }
 
     /// One of d and −d each, without the origin, ranked by dominance.
-    pub fn ranked(&self) -> Vec<Maximum> {
+    pub(crate) fn ranked(&self) -> Vec<Maximum> {
         let mut half: Vec<Maximum> = self
             .all
             .iter()
@@ -92,7 +92,7 @@ impl Maxima {
     }
 
     /// The maximum nearest to a place, and its distance, if within `most` px.
-    pub fn nearest(&self, place: Place, most: f64) -> Option<(&Maximum, f64)> {
+    pub(crate) fn nearest(&self, place: Place, most: f64) -> Option<(&Maximum, f64)> {
         let (i, distance) = self.buckets.nearest(place, most)?;
         Some((self.all.get(i)?, distance))
     }

@@ -30,7 +30,7 @@ pub struct Relief {
 
 /// What a file says of heights that were found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReliefReport {
+pub(crate) struct ReliefReport {
     /// The method's word.
     pub method: &'static str,
     /// Iterations done.
@@ -38,15 +38,15 @@ pub struct ReliefReport {
     /// Rounds of conjugate gradients.
     pub rounds: usize,
     /// Slant and tilt of the light on the picture (tilt from +x, y up, towards the light), degrees.
-    pub light_deg: [f64; 2],
+    pub(crate) light_deg: [f64; 2],
     /// Whether it was estimated.
     pub light_estimated: bool,
     /// How sure the estimate is.
-    pub light_words: Option<String>,
+    pub(crate) light_words: Option<String>,
     /// How much gradients agree on the tilt's side, 0 to 1.
-    pub tilt_agreement: Option<f64>,
+    pub(crate) tilt_agreement: Option<f64>,
     /// How much more brightness changes along the tilt than across it, 0 to 1.
-    pub axis_coherence: Option<f64>,
+    pub(crate) axis_coherence: Option<f64>,
     /// The albedo.
     pub albedo: f64,
     /// Mean of |E/a − R| of a level surface.
@@ -62,9 +62,9 @@ pub struct ReliefReport {
     /// Direction of the rows in the picture, degrees clockwise from +x.
     pub angle_deg: f64,
     /// What the rectangle was sheared by to close, degrees.
-    pub shear_deg: Option<f64>,
+    pub(crate) shear_deg: Option<f64>,
     /// The sideways jump at the upper edge of cloth that has no rectangle, px.
-    pub seam_px: Option<f64>,
+    pub(crate) seam_px: Option<f64>,
     /// From the lowest to the highest height and rms, samples' widths.
     pub height_px: Span,
     /// The same in µm, where the relief is known.
@@ -115,7 +115,7 @@ impl Relief {
     }
 
     /// What files say of it; heights in µm if `relief_um`, from lowest to highest, is known.
-    pub fn report(&self, relief_um: Option<f64>) -> ReliefReport {
+    pub(crate) fn report(&self, relief_um: Option<f64>) -> ReliefReport {
         let shape = &self.shape;
         let heights = &shape.height_px;
         let n = heights.values().len().max(1) as f64;

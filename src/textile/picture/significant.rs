@@ -81,12 +81,12 @@ impl SignificantMaxima {
     }
 
     /// The distance of the farthest, px.
-    pub fn reach_px(&self) -> f64 {
+    pub(crate) fn reach_px(&self) -> f64 {
         self.all.last().map_or(0.0, |m| length(m.place))
     }
 
     /// The distance beyond which no maximum is 0.4 times as high as the highest, px.
-    pub fn fading_px(&self) -> f64 {
+    pub(crate) fn fading_px(&self) -> f64 {
         self.fading_px
     }
 }

@@ -37,7 +37,7 @@ pub struct Rectangle {
     pub angle_rad: f64,
     /// How far the lattice's own axes are from a right angle, radians: what the rectangle is
     /// sheared by.
-    pub shear_rad: f64,
+    pub(crate) shear_rad: f64,
 }
 
 /// Combinations of the vectors that are tried as sides of a rectangle, each way.

@@ -11,7 +11,7 @@ mod reduced;
 #[cfg(test)]
 mod tests;
 
-pub use reduced::NUMBERS as REDUCED_NUMBERS;
+pub(crate) use reduced::NUMBERS as REDUCED_NUMBERS;
 pub use reduced::Reduced;
 
 use serde::{Deserialize, Serialize};
@@ -153,7 +153,7 @@ impl Restoration {
     }
 
     /// The restored profiles of warp and weft, µm.
-    pub fn profiles_um(&self) -> [Vec<f64>; 2] {
+    pub(crate) fn profiles_um(&self) -> [Vec<f64>; 2] {
         let random = Random::new(u64::from(self.seed));
         let n = self.n_samples();
         [(false, "warp"), (true, "weft")].map(|(is_weft, name)| {
@@ -193,7 +193,7 @@ impl Restoration {
 
     /// The composed surface at samples of the two profiles, µm: a row for every one along the
     /// weft, columns along the warp.
-    pub fn composed_um(&self, profiles: [&[f64]; 2], samples: [&[usize]; 2]) -> Grid<f64> {
+    pub(crate) fn composed_um(&self, profiles: [&[f64]; 2], samples: [&[usize]; 2]) -> Grid<f64> {
         let rms = |z: &[f64]| {
             let squares: f64 = z.iter().map(|z| z * z).sum();
             (squares / z.len().max(1) as f64).sqrt()

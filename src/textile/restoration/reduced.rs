@@ -36,12 +36,12 @@ pub struct Reduced {
     pub amplitude_um: Vec<f64>,
     /// Their phases: `A cos(2πkx/p + φ)`, degrees.
     #[serde(default)]
-    pub phase_deg: Vec<f64>,
+    pub(crate) phase_deg: Vec<f64>,
     /// Where the first band of the residual begins, cycles/mm.
-    pub residual_from_per_mm: f64,
+    pub(crate) residual_from_per_mm: f64,
     /// The residual's rms in bands of a third of an octave, µm.
     #[serde(default)]
-    pub residual_um: Vec<f64>,
+    pub(crate) residual_um: Vec<f64>,
 }
 
 /// The numbers of a reduced profile.

@@ -7,13 +7,13 @@
 use std::f64::consts::{LN_2, PI};
 
 /// Waves longer than this are taken off, mm.
-pub const OFFICIAL_CUT_OFF_MM: f64 = 1.0;
+pub(crate) const OFFICIAL_CUT_OFF_MM: f64 = 1.0;
 
 /// Values `step_mm` apart less their Gaussian mean:
 /// `v − s ∗ v`, `s(x) = exp(−π (x/αλ)²)/(αλ)`, `α = √(ln 2/π)`, λ = 1 mm.
 ///
 /// The weights reach λ to either side; at the ends those that are there are made to sum to one.
-pub fn without_long_waves(step_mm: f64, values: &[f64]) -> Vec<f64> {
+pub(crate) fn without_long_waves(step_mm: f64, values: &[f64]) -> Vec<f64> {
     let width_mm = OFFICIAL_CUT_OFF_MM * (LN_2 / PI).sqrt();
     let weight = |i: usize| (-PI * (i as f64 * step_mm / width_mm).powi(2)).exp();
     let n_values = values.len();

@@ -41,7 +41,7 @@ impl FrictionTrace {
     ///
     /// # Errors
     /// As [`FrictionTrace::new`]; uneven places.
-    pub fn from_positions(x_mm: &[f64], mu: Vec<f64>) -> Result<Self, SurfaceError> {
+    pub(crate) fn from_positions(x_mm: &[f64], mu: Vec<f64>) -> Result<Self, SurfaceError> {
         let n_rows = x_mm.len().min(mu.len());
         let step_mm =
             super::profile::even_step_mm(x_mm, n_rows)?.ok_or(SurfaceError::TooFew { n_rows })?;
@@ -75,7 +75,7 @@ impl FrictionTrace {
 }
 
 /// The mean absolute deviation of values from their mean: `(1/n) Σ |v_i − v̄|`. NaN of none.
-pub fn mean_deviation(values: &[f64]) -> f64 {
+pub(crate) fn mean_deviation(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     values.iter().map(|value| (value - mean).abs()).sum::<f64>() / n

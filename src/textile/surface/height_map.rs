@@ -114,7 +114,7 @@ impl HeightMap {
 
     /// The map with the plane taken off that fits it best (least squares over what is there).
     #[must_use]
-    pub fn levelled(&self) -> Self {
+    pub(crate) fn levelled(&self) -> Self {
         let [slope_u, slope_w, offset] = self.plane();
         let mut heights_um = self.heights_um.clone();
         for row in 0..heights_um.height() {

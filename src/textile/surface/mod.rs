@@ -18,12 +18,13 @@ mod spectra;
 mod tracks;
 
 pub use areal::{AREAL_WIRE_MM, Representation};
-pub use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
-pub use friction::{FrictionTrace, mean_deviation};
+pub(crate) use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
+pub(crate) use friction::{FrictionTrace, mean_deviation};
 pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
 pub use profile::Profile;
-pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, SpectralPlan, WINDOW_LENGTH_MM};
+pub(crate) use spectra::SpectralPlan;
+pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, WINDOW_LENGTH_MM};
 
 use std::sync::Arc;
 

@@ -47,7 +47,7 @@ impl Profile {
     ///
     /// # Errors
     /// As [`Profile::new`]; uneven places; fewer than two samples.
-    pub fn from_positions(x_mm: &[f64], heights_um: Vec<f64>) -> Result<Self, SurfaceError> {
+    pub(crate) fn from_positions(x_mm: &[f64], heights_um: Vec<f64>) -> Result<Self, SurfaceError> {
         let n_samples = x_mm.len().min(heights_um.len());
         let too_short = SurfaceError::TooShort {
             n_samples,

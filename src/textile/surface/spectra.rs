@@ -18,7 +18,7 @@ pub const WINDOW_LENGTH_MM: f64 = 1000.0 / 230.0;
 
 /// What the spectra of all profiles with the same step share: window and transform.
 #[derive(Debug, Clone)]
-pub struct SpectralPlan {
+pub(crate) struct SpectralPlan {
     step_mm: f64,
     window: Vec<f64>,
     transform: Transform,
@@ -159,7 +159,7 @@ impl LocalSpectra {
 
     /// The spectra with a constant power density taken off: `P_k ← max(0, P_k − 0.23·density)`.
     #[must_use]
-    pub fn minus_noise_floor(mut self, noise_floor_um2_mm: f64) -> Self {
+    pub(crate) fn minus_noise_floor(mut self, noise_floor_um2_mm: f64) -> Self {
         let floor = BIN_SPACING_PER_MM * noise_floor_um2_mm;
         if floor > 0.0 {
             for power in &mut self.powers_um2 {

@@ -34,7 +34,7 @@ pub struct Perception {
     /// silence.
     pub sensation_db: [f64; 2],
     /// Loudness of the two channels; 0 below threshold, 1 at it.
-    pub loudness: [f64; 2],
+    pub(crate) loudness: [f64; 2],
 }
 
 /// The threshold of a band where `n_active` contactors sound, dB re 1 µm peak.

@@ -5,8 +5,8 @@ use std::fs;
 use super::super::*;
 use crate::surface::Direction;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_scratch::ScratchFolder;
 use selvedge_foundation::progress::unheard;
+use selvedge_scratch::ScratchFolder;
 
 fn brownian(hurst: f64) -> Vec<BuiltFile> {
     let text = format!(

@@ -10,8 +10,8 @@ use crate::build::index_of;
 use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_scratch::ScratchFolder;
 use selvedge_foundation::progress::unheard;
+use selvedge_scratch::ScratchFolder;
 
 fn seventy_four() -> Library {
     Library::named(Path::new(SEVENTY_FOUR), None).unwrap()

@@ -113,7 +113,7 @@ impl Repeat {
     }
 
     /// Picks in a repeat.
-    pub fn n_picks(&self) -> usize {
+    pub(crate) fn n_picks(&self) -> usize {
         self.rows.len()
     }
 
@@ -123,7 +123,7 @@ impl Repeat {
     }
 
     /// Whether the warp lies on top where an end crosses a pick.
-    pub fn is_warp_on_top(&self, end: usize, pick: usize) -> bool {
+    pub(crate) fn is_warp_on_top(&self, end: usize, pick: usize) -> bool {
         self.rows[pick % self.n_picks()][end % self.n_ends()]
     }
 }

@@ -23,7 +23,7 @@ pub struct Setting {
     /// The scene with the gains in force.
     pub scene: RenderScene,
     /// The change of the scene that it is of.
-    pub n_edits: u64,
+    pub(crate) n_edits: u64,
 }
 
 impl Setting {
@@ -41,7 +41,7 @@ impl Setting {
 
 /// A tick as the engine rendered it.
 #[derive(Debug, Clone)]
-pub struct TickSample {
+pub(crate) struct TickSample {
     /// The run of the statistics that it belongs to.
     pub run: u64,
     /// What it was rendered with.
@@ -52,18 +52,18 @@ pub struct TickSample {
     pub is_felt: Vec<bool>,
     /// Amplitudes [A40, A320] of every contactor, display by display, after gains and before output
     /// limits, µm.
-    pub displays_um: Vec<Vec<[f32; 2]>>,
+    pub(crate) displays_um: Vec<Vec<[f32; 2]>>,
 }
 
 /// What was found so far.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct ErrorView {
+pub(crate) struct ErrorView {
     /// The run that it is of.
     pub run: u64,
     /// Ticks checked.
     pub n_ticks: u64,
     /// The largest level error of the last tick, by band, dB; `None` where nothing was loud enough.
-    pub now_db: [Option<f64>; 2],
+    pub(crate) now_db: [Option<f64>; 2],
     /// The errors of the run, by band.
     pub bands: [LevelError; 2],
     /// How many amplitudes of each band lie in each bin between [`edges_db`].
@@ -71,7 +71,7 @@ pub struct ErrorView {
 }
 
 /// The ends of the bins that errors are counted in, dB.
-pub fn edges_db() -> Vec<f64> {
+pub(crate) fn edges_db() -> Vec<f64> {
     let [least, most] = ERRORS_DB;
     let edge = |n: u16| least * 10.0_f64.powf(f64::from(n) / BINS_PER_DECADE);
     let edges = (0..=u16::MAX).map(edge);

@@ -31,12 +31,12 @@ pub struct Wanted {
     /// How the scene is rendered.
     pub rendering: Rendering,
     /// The change of the scene that it is of.
-    pub n_edits: u64,
+    pub(crate) n_edits: u64,
 }
 
 /// A measurement at work.
 #[derive(Debug)]
-pub struct Measuring {
+pub(crate) struct Measuring {
     job: Job<Result<Measured, ReportError>>,
     watch: Watch,
 }
@@ -51,7 +51,7 @@ pub struct Measured {
     /// Along what it was measured.
     pub note: String,
     /// The change of the scene that it is of.
-    pub n_edits: u64,
+    pub(crate) n_edits: u64,
 }
 
 impl Measured {

@@ -12,8 +12,10 @@ mod checker;
 mod measuring;
 mod worker;
 
-pub use checker::{ERRORS_DB, ErrorView, ROUNDING_DB, edges_db};
-pub use measuring::{Measured, Measuring, Wanted};
+pub use checker::{ERRORS_DB, ROUNDING_DB};
+pub(crate) use checker::{ErrorView, edges_db};
+pub use measuring::Measured;
+pub(crate) use measuring::{Measuring, Wanted};
 
 use std::sync::Arc;
 
@@ -32,7 +34,7 @@ use selvedge_studies::ReportError;
 
 /// What can be done about accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum AccuracyCommand {
+pub(crate) enum AccuracyCommand {
     /// Render by this method.
     Method(Method),
     /// The level error that `auto` and `table` may make, dB.
@@ -68,7 +70,7 @@ pub struct Tally {
 
 /// What the engine's clock says since the statistics began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct CostView {
+pub(crate) struct CostView {
     /// Wall time of every tick.
     pub costs: DurationHistogram,
     /// Ticks that began more than 1 ms late.
@@ -82,7 +84,7 @@ type Run = (Method, u64, u64);
 
 /// What the window remembers of accuracy.
 #[derive(Default)]
-pub struct AccuracyWatch {
+pub(crate) struct AccuracyWatch {
     checking: Option<Checking>,
     setting: Option<Arc<Setting>>,
     run: (u64, Option<Run>),
@@ -100,16 +102,16 @@ pub struct AccuracyWatch {
     /// The row of it that is told in words.
     pub chosen: Option<usize>,
     /// Whether methods are shown where there is no room for all.
-    pub shows_methods: bool,
+    pub(crate) shows_methods: bool,
 }
 
 /// What the pane draws.
 #[derive(Debug)]
-pub struct AccuracyView<'a> {
+pub(crate) struct AccuracyView<'a> {
     /// What the user chose.
     pub rendering: Rendering,
     /// Whether that is still on its way to the engine.
-    pub is_preparing: bool,
+    pub(crate) is_preparing: bool,
     /// The method that runs; `None` before the first tick.
     pub method: Option<Method>,
     /// Bound of its level error, dB.
@@ -125,11 +127,11 @@ pub struct AccuracyView<'a> {
     /// The last measurement.
     pub measured: Option<&'a Measured>,
     /// Whether the scene has changed since.
-    pub is_outdated: bool,
+    pub(crate) is_outdated: bool,
     /// The row of it that is told in words.
     pub chosen: Option<usize>,
     /// Whether methods are shown where there is no room for all.
-    pub shows_methods: bool,
+    pub(crate) shows_methods: bool,
 }
 
 impl AccuracyWatch {
@@ -187,7 +189,7 @@ impl AccuracyWatch {
 impl Workbench {
     /// Looks at the tick that the engine did last, and lets it be checked. To be called while the
     /// pane is drawn.
-    pub fn watch_accuracy(&mut self) {
+    pub(crate) fn watch_accuracy(&mut self) {
         let n_sent = self.engine.commands_sent();
         let is_felt = self.transient.audition.contactor_mask(self.n_contactors());
         let snapshot = self.engine.snapshot();
@@ -238,7 +240,7 @@ impl Workbench {
     }
 
     /// What the pane draws.
-    pub fn accuracy_view(&mut self) -> AccuracyView<'_> {
+    pub(crate) fn accuracy_view(&mut self) -> AccuracyView<'_> {
         let watch = &mut self.transient.accuracy;
         watch.found();
         let measured = watch.measured.as_ref();
@@ -259,7 +261,7 @@ impl Workbench {
     }
 
     /// Takes what a measurement found, if it is over.
-    pub fn poll_measuring(&mut self) {
+    pub(crate) fn poll_measuring(&mut self) {
         let watch = &mut self.transient.accuracy;
         match watch.measuring.as_ref().map(Measuring::poll) {
             None | Some(Polled::Working) => return,

@@ -16,7 +16,7 @@ use crate::window::FRAME;
 const MOST_WAITING: usize = 16;
 
 /// Checks ticks, on a thread of its own or at once.
-pub enum Checking {
+pub(crate) enum Checking {
     /// On a thread.
     Thread {
         /// Samples on their way to it.

@@ -24,9 +24,9 @@ pub struct Choice {
     /// How much chance is drawn on.
     pub effort: Effort,
     /// Whether the stress of maps is compared with that of random ranks.
-    pub has_random_data: bool,
+    pub(crate) has_random_data: bool,
     /// Whether who takes part in a session under way counts too.
-    pub with_held: bool,
+    pub(crate) with_held: bool,
 }
 
 impl Default for Choice {
@@ -41,7 +41,7 @@ impl Default for Choice {
 
 /// What is typed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fields {
+pub(crate) struct Fields {
     /// The folder of the logs.
     pub folder: String,
     /// What chance begins with.

@@ -7,7 +7,7 @@ use crate::command::Command;
 
 /// Something to do with the analysis of logs. Never undone.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum AnalysisCommand {
+pub(crate) enum AnalysisCommand {
     /// Analyse the logs in this folder; its pane comes in sight.
     Open(PathBuf),
     /// Choose this.

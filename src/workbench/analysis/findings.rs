@@ -27,7 +27,7 @@ pub struct Findings {
 
 impl Findings {
     /// Where a report goes unless another folder is chosen.
-    pub fn report_folder(&self) -> PathBuf {
+    pub(crate) fn report_folder(&self) -> PathBuf {
         self.asked.folder.join("analysis")
     }
 
@@ -51,7 +51,7 @@ impl Findings {
 ///
 /// # Errors
 /// One line: there is no such folder, it holds no session that can be read, or it was stopped.
-pub fn find_out(
+pub(crate) fn find_out(
     asked: Asked,
     held: Option<&Path>,
     progress: &mut Progress<'_>,

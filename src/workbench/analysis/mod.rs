@@ -15,10 +15,13 @@ mod command;
 mod findings;
 mod pictures;
 
-pub use asked::{Asked, Choice, Effort, Fields};
-pub use command::AnalysisCommand;
-pub use findings::{Findings, find_out};
-pub use pictures::{Pictures, Wanted};
+pub(crate) use asked::Fields;
+pub use asked::{Asked, Choice, Effort};
+pub(crate) use command::AnalysisCommand;
+pub use findings::Findings;
+pub(crate) use findings::find_out;
+pub use pictures::Pictures;
+pub(crate) use pictures::Wanted;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -31,15 +34,15 @@ use selvedge_experiment::analysis::{Drawn, Section, Table};
 
 /// What the window knows of analyses: neither saved nor undoable.
 #[derive(Default)]
-pub struct Analysing {
+pub(crate) struct Analysing {
     /// What is typed.
     pub fields: Fields,
     /// What is chosen.
     pub choice: Choice,
     /// The figure of the section at hand that is being saved.
-    pub saved_figure: usize,
+    pub(crate) saved_figure: usize,
     /// Whether results are shown although a session is held.
-    pub is_uncovered: bool,
+    pub(crate) is_uncovered: bool,
     /// The folder that was offered last.
     offered: PathBuf,
     section: usize,
@@ -53,7 +56,7 @@ pub struct Analysing {
 
 /// An analysis as the pane draws it.
 #[derive(Debug, Clone)]
-pub struct AnalysisView<'a> {
+pub(crate) struct AnalysisView<'a> {
     /// What was found last.
     pub found: Option<&'a Arc<Findings>>,
     /// The section at hand.
@@ -67,7 +70,7 @@ pub struct AnalysisView<'a> {
     /// Why the last one failed.
     pub failure: Option<&'a str>,
     /// Whether something else is asked for than was found.
-    pub is_past: bool,
+    pub(crate) is_past: bool,
     /// How far writing is, 0…1.
     pub writing: Option<f32>,
     /// Where it was written last, or why it was not.
@@ -164,7 +167,7 @@ impl Analysing {
     }
 
     /// Where a report goes unless another folder is chosen.
-    pub fn report_folder(&self) -> Option<PathBuf> {
+    pub(crate) fn report_folder(&self) -> Option<PathBuf> {
         Some(self.found.as_ref()?.report_folder())
     }
 

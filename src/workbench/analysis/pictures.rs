@@ -24,7 +24,7 @@ pub struct Wanted {
 
 impl Wanted {
     /// Whether these are the same figures, of whatever width.
-    pub fn shows_the_same(&self, other: &Self) -> bool {
+    pub(crate) fn shows_the_same(&self, other: &Self) -> bool {
         let is_same = Arc::ptr_eq(&self.findings, &other.findings);
         is_same && self.section == other.section && self.paper == other.paper
     }

@@ -19,8 +19,8 @@ use selvedge_experiment::analysis::analyse_folder;
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::session::Session;
-use selvedge_scratch::ScratchFolder as Folder;
 use selvedge_foundation::progress::unheard;
+use selvedge_scratch::ScratchFolder as Folder;
 use selvedge_textile::Library;
 
 const DESIGN: &str = "odd-one-out";

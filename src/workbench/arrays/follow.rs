@@ -22,7 +22,7 @@ impl Workbench {
     }
 
     /// Lets the engine follow the profile in force as far as the device allows, and keeps files.
-    pub fn follow_array(&mut self, ctx: &egui::Context) {
+    pub(crate) fn follow_array(&mut self, ctx: &egui::Context) {
         let wanted = self.array();
         let held = self.engine.profile();
         // A scene with another display is still on its way to the engine.
@@ -56,7 +56,7 @@ impl Workbench {
     }
 
     /// Takes in what the engine says that concerns the array.
-    pub fn hear_of_array(&mut self, notice: &Notice) {
+    pub(crate) fn hear_of_array(&mut self, notice: &Notice) {
         match notice {
             Notice::ArrayWaits => self.arrays.is_refused = true,
             Notice::Bridge(event) => {

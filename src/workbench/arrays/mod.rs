@@ -9,7 +9,8 @@ mod follow;
 mod tests;
 mod wizard;
 
-pub use wizard::{PULSE_MS, Wizard, WizardCommand};
+pub use wizard::PULSE_MS;
+pub(crate) use wizard::{Wizard, WizardCommand};
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -26,7 +27,7 @@ const PAUSE_S: f64 = 0.5;
 
 /// The user's array profiles.
 #[derive(Debug, Default)]
-pub struct Arrays {
+pub(crate) struct Arrays {
     /// Where they are kept; nowhere in tests and pictures.
     folder: Option<ProfileFolder>,
     own: Vec<ArrayProfile>,
@@ -41,9 +42,9 @@ pub struct Arrays {
     /// The device whose wiring was doubted already.
     doubted: Option<DeviceUid>,
     /// Channels that are being identified.
-    pub wizard: Option<Wizard>,
+    pub(crate) wizard: Option<Wizard>,
     /// What is typed as the name of a copy.
-    pub copy_name: String,
+    pub(crate) copy_name: String,
 }
 
 impl Arrays {
@@ -129,7 +130,7 @@ impl Arrays {
 
     /// Writes what was changed on another thread, once it has rested; sentences when that failed.
     /// To be called every frame; says when to call again.
-    pub fn save_if_changed(
+    pub(crate) fn save_if_changed(
         &mut self,
         ctx: &egui::Context,
         now_s: f64,
@@ -158,7 +159,7 @@ impl Arrays {
     }
 
     /// Writes what is left to write on this thread: at the end of the run.
-    pub fn save_now(&mut self) -> Result<(), BridgeError> {
+    pub(crate) fn save_now(&mut self) -> Result<(), BridgeError> {
         self.work().map_or(Ok(()), |work| work())
     }
 
@@ -182,8 +183,8 @@ impl Arrays {
 #[cfg(test)]
 mod keeping_tests {
     use super::*;
-    use selvedge_scratch::ScratchFolder;
     use selvedge_render::scene::{ArrayLayout, Geometry};
+    use selvedge_scratch::ScratchFolder;
 
     fn display(layout: ArrayLayout) -> Display {
         Display {

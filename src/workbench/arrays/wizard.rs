@@ -10,7 +10,7 @@ pub const PULSE_MS: u16 = 600;
 
 /// What can be done with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WizardCommand {
+pub(crate) enum WizardCommand {
     /// Begin, with a device that is not armed.
     Begin,
     /// Drive the channel that is asked for, or this one, which is asked for again.
@@ -27,7 +27,7 @@ pub enum WizardCommand {
 
 /// A walk over the channels of one device.
 #[derive(Debug)]
-pub struct Wizard {
+pub(crate) struct Wizard {
     /// What was said so far.
     pub walk: WiringWalk,
     /// The device.

@@ -57,7 +57,7 @@ impl Only {
 
 /// What textiles are ordered by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SortBy {
+pub(crate) enum SortBy {
     /// The library's own order.
     #[default]
     Library,

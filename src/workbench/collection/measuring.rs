@@ -35,7 +35,7 @@ pub struct Asked {
 
 /// What was found of a textile, without any gain.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Figures {
+pub(crate) struct Figures {
     /// Its levels at the speed that was asked for.
     pub levels: Levels,
     /// Its level at 100 mm/s, by which compression goes, dB re 1 µm; `None` for silence.
@@ -105,7 +105,7 @@ impl Figures {
 impl Measurements {
     /// Has what is asked of these textiles, as soon as a thread has measured it. To be called while
     /// it is drawn.
-    pub fn catch_up(
+    pub(crate) fn catch_up(
         &mut self,
         ctx: &egui::Context,
         library: &Arc<Library>,
@@ -137,7 +137,7 @@ impl Measurements {
     }
 
     /// What could not be read since this was asked last, each textile once, in words.
-    pub fn take_flaws(&mut self) -> Vec<String> {
+    pub(crate) fn take_flaws(&mut self) -> Vec<String> {
         std::mem::take(&mut self.flaws)
     }
 
@@ -150,7 +150,7 @@ impl Measurements {
     }
 
     /// Stops until something else is asked for, or until it is told to go on.
-    pub fn halt(&mut self) {
+    pub(crate) fn halt(&mut self) {
         self.take();
         self.halted = self.work.take().map(|work| work.asked);
     }
@@ -161,7 +161,7 @@ impl Measurements {
     }
 
     /// Whether it was stopped.
-    pub fn is_halted(&self, asked: &Asked) -> bool {
+    pub(crate) fn is_halted(&self, asked: &Asked) -> bool {
         self.halted.as_ref() == Some(asked)
     }
 

@@ -13,9 +13,11 @@ mod listing;
 mod measure;
 mod measuring;
 
-pub use listing::{Only, Sort, SortBy, smd_um};
+pub(crate) use listing::SortBy;
+pub use listing::{Only, Sort, smd_um};
 pub use measure::Measure;
-pub use measuring::{Asked, Figures, Measurements};
+pub(crate) use measuring::Figures;
+pub use measuring::{Asked, Measurements};
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -31,7 +33,7 @@ pub const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 1000.0];
 
 /// How the library is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Mode {
+pub(crate) enum Mode {
     /// As points of a plot, with a table beside it.
     #[default]
     Plot,
@@ -49,7 +51,7 @@ pub struct Choice {
     /// What the horizontal and the vertical axis show.
     pub axes: [Measure; 2],
     /// Whether gains and compression are applied.
-    pub is_tuned: bool,
+    pub(crate) is_tuned: bool,
     /// The order of table and pieces.
     pub sort: Sort,
     /// Which textiles are shown.
@@ -71,7 +73,7 @@ impl Default for Choice {
 
 /// How a textile joins what is selected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Joining {
+pub(crate) enum Joining {
     /// In the place of what was selected.
     Alone,
     /// Beside it, or taken away from it if it was.
@@ -82,7 +84,7 @@ pub enum Joining {
 
 /// What can be done with the library as a whole. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
-pub enum CollectionCommand {
+pub(crate) enum CollectionCommand {
     /// Show this of it.
     Choose(Choice),
     /// Select these textiles, by their ids.
@@ -113,7 +115,7 @@ pub struct Collection {
     /// The textile under the pointer in the pane, for the next frame.
     pub pointed: Option<String>,
     /// What was measured.
-    pub measurements: Measurements,
+    pub(crate) measurements: Measurements,
 }
 
 /// A textile of the library as the pane draws it.
@@ -128,14 +130,14 @@ pub struct Entry<'a> {
     /// Its first place in the scene's list.
     pub placed: Option<usize>,
     /// Whether it is selected.
-    pub is_selected: bool,
+    pub(crate) is_selected: bool,
     /// Whether the pointer rests on it or it is chosen, in whichever view.
-    pub is_marked: bool,
+    pub(crate) is_marked: bool,
 }
 
 /// The library as the pane draws it.
 #[derive(Debug, Clone)]
-pub struct CollectionView<'a> {
+pub(crate) struct CollectionView<'a> {
     /// What is shown, and how.
     pub choice: &'a Choice,
     /// The textiles that match search and filter, in the chosen order.
@@ -145,9 +147,9 @@ pub struct CollectionView<'a> {
     /// How many of them are measured, while that goes on.
     pub progress: Option<usize>,
     /// Whether measuring was stopped before its end.
-    pub is_halted: bool,
+    pub(crate) is_halted: bool,
     /// How many textiles are selected, shown or not.
-    pub n_selected: usize,
+    pub(crate) n_selected: usize,
 }
 
 impl Entry<'_> {
@@ -226,7 +228,7 @@ impl Collection {
     }
 
     /// Forgets what belongs to a library that is left.
-    pub fn leave_library(&mut self) {
+    pub(crate) fn leave_library(&mut self) {
         self.selected = Arc::default();
         self.pointed = None;
         self.measurements = Measurements::default();

@@ -6,7 +6,7 @@ use selvedge_textile::tactile::Band;
 
 /// Something to do with the array profile in force, or another one.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ArrayCommand {
+pub(crate) enum ArrayCommand {
     /// Let the profile of this name be in force wherever it fits; `None`: the one of the display.
     Choose(Option<String>),
     /// The largest amplitude of a band, µm; never above full scale.

@@ -7,7 +7,7 @@ use selvedge_device::{FaultWords, Skin};
 
 /// What can be done with the device.
 #[derive(Debug, Clone, PartialEq)]
-pub enum DeviceCommand {
+pub(crate) enum DeviceCommand {
     /// Arm it: high voltage on.
     Arm,
     /// End the silence of all off where there is no device to arm.

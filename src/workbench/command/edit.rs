@@ -5,7 +5,7 @@ use selvedge_textile::tactile::{Band, Filters};
 
 /// A change of the scene: undoable, saved.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Edit {
+pub(crate) enum Edit {
     /// Gain of everything, dB.
     MasterGain(f64),
     /// Gain of a band, dB.

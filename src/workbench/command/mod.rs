@@ -7,9 +7,10 @@ mod array;
 mod device;
 mod edit;
 
-pub use array::ArrayCommand;
-pub use device::DeviceCommand;
-pub use edit::{Edit, Target};
+pub(crate) use array::ArrayCommand;
+pub(crate) use device::DeviceCommand;
+pub(crate) use edit::Edit;
+pub use edit::Target;
 
 use std::path::PathBuf;
 
@@ -169,7 +170,7 @@ pub enum Chosen {
 
 /// What can be done with files.
 #[derive(Debug, Clone, PartialEq)]
-pub enum FileCommand {
+pub(crate) enum FileCommand {
     /// Ask for a path: by the desktop's dialog, or by a field where there is none.
     Ask(Purpose),
     /// Use this path for this purpose.
@@ -192,7 +193,7 @@ pub enum FileCommand {
 
 /// What a path is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Purpose {
+pub(crate) enum Purpose {
     /// Open a scene.
     OpenScene,
     /// Save the scene.
@@ -219,7 +220,7 @@ pub enum Purpose {
 
 /// What moves the display, and how that is recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PlayCommand {
+pub(crate) enum PlayCommand {
     /// Play what can be played, or hold it; with the pointer as the source, explore by itself.
     Toggle,
     /// Take positions from here.
@@ -244,7 +245,7 @@ pub enum PlayCommand {
 
 /// What moves the display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PlaySource {
+pub(crate) enum PlaySource {
     /// The pointer.
     Pointer,
     /// The display by itself, along a stroke.
@@ -257,7 +258,7 @@ pub enum PlaySource {
 
 /// What is compared. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
-pub enum CompareCommand {
+pub(crate) enum CompareCommand {
     /// Compare this.
     Choose(Choice),
     /// Hold the present tuning as A, to compare it with what comes.
@@ -272,7 +273,7 @@ pub enum CompareCommand {
 
 /// What is shown how. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ShowCommand {
+pub(crate) enum ShowCommand {
     /// Follow the system's theme, or choose one.
     Theme(egui::ThemePreference),
     /// Choose the colours that stand for numbers.
@@ -330,7 +331,7 @@ pub enum ShowCommand {
 
 /// What a drag in the workspace does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Tool {
+pub(crate) enum Tool {
     /// It feels.
     #[default]
     Explore,
@@ -355,7 +356,7 @@ pub enum Look {
 
 /// How a contactor's two amplitudes are drawn as a dot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-pub enum DotStyle {
+pub(crate) enum DotStyle {
     /// A40 is its size, A320 its glow.
     #[default]
     SizeAndGlow,
@@ -367,7 +368,7 @@ pub enum DotStyle {
 
 /// Something that can be muted or felt alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub(crate) enum Part {
     /// A band.
     Band(Band),
     /// The textile at this place in the scene's list.

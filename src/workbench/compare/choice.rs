@@ -23,7 +23,7 @@ pub enum What {
 
 /// A tuning to compare.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TuningChoice {
+pub(crate) enum TuningChoice {
     /// The one in force.
     Live,
     /// The one that was held.
@@ -61,7 +61,7 @@ impl Default for Choice {
 
 /// Everything that the pane of gains turns, as it was once.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HeldTuning {
+pub(crate) struct HeldTuning {
     tuning: Tuning,
     filters: Filters,
     /// Each textile's id and gain, in the order of the scene, dB.
@@ -95,7 +95,7 @@ impl HeldTuning {
 
 /// The path that both follow.
 #[derive(Debug, Clone)]
-pub enum Route {
+pub(crate) enum Route {
     /// A recorded exploration.
     Take(Arc<ExplorationPath>),
     /// A generated stroke through the scene, this many ticks long.
@@ -140,7 +140,7 @@ impl Route {
 
     /// The place in the scene's list of the textile that the path is on mostly; of equals the one
     /// on top. `None` when it is on none.
-    pub fn mostly_on(&self, scene: &Scene) -> Option<usize> {
+    pub(crate) fn mostly_on(&self, scene: &Scene) -> Option<usize> {
         let n_ticks = self.n_ticks();
         let n_looks = n_ticks.min(N_LOOKS);
         let mut n_on = vec![0_u64; scene.textiles.len()];
@@ -227,7 +227,7 @@ impl Inputs {
 
 impl Choice {
     /// The place whose textile is exchanged.
-    pub fn place_in(&self, scene: &Scene, route: &Route) -> usize {
+    pub(crate) fn place_in(&self, scene: &Scene, route: &Route) -> usize {
         let chosen = self.place.filter(|place| *place < scene.textiles.len());
         chosen.or_else(|| route.mostly_on(scene)).unwrap_or(0)
     }

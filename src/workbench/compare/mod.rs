@@ -6,7 +6,8 @@
 
 mod choice;
 
-pub use choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
+pub use choice::{Choice, Side, What};
+pub(crate) use choice::{HeldTuning, Inputs, Route, TuningChoice};
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -141,7 +142,7 @@ impl Comparison {
     }
 
     /// Forgets what was chosen and found in another scene.
-    pub fn leave_scene(&mut self) {
+    pub(crate) fn leave_scene(&mut self) {
         self.cancel();
         *self = Self {
             n_begun: self.n_begun,
@@ -249,7 +250,7 @@ fn compare(
 
 impl Workbench {
     /// What is asked for now.
-    pub fn comparison_inputs(&self) -> Result<Inputs, &'static str> {
+    pub(crate) fn comparison_inputs(&self) -> Result<Inputs, &'static str> {
         let comparison = &self.transient.comparison;
         let tunings = [self.document.tuning(), self.document.default_tuning()];
         let (choice, held) = (&comparison.choice, comparison.held.as_ref());
@@ -257,7 +258,7 @@ impl Workbench {
     }
 
     /// The recording at hand; without one, once along the stroke that the display explores with.
-    pub fn route(&self) -> Route {
+    pub(crate) fn route(&self) -> Route {
         if let Some(take) = &self.take {
             return Route::Take(Arc::clone(take.path()));
         }
@@ -275,7 +276,7 @@ impl Workbench {
 
     /// Lets the comparison follow what was chosen: to be called while its pane is in sight. Nothing
     /// begins during a gesture, nor by itself along a path that takes long.
-    pub fn follow_comparison(&mut self, ctx: &egui::Context) -> Standing {
+    pub(crate) fn follow_comparison(&mut self, ctx: &egui::Context) -> Standing {
         let asked = self.comparison_inputs();
         let standing = self.transient.comparison.standing(&asked);
         match (&standing, asked) {
@@ -295,19 +296,19 @@ impl Workbench {
     }
 
     /// How the newest comparison stands to what is asked for now.
-    pub fn comparison_standing(&self) -> Standing {
+    pub(crate) fn comparison_standing(&self) -> Standing {
         let asked = self.comparison_inputs();
         self.transient.comparison.standing(&asked)
     }
 
     /// The place in the scene's list whose textile would be exchanged on a path.
-    pub fn compared_place(&self, route: &Route) -> usize {
+    pub(crate) fn compared_place(&self, route: &Route) -> usize {
         let choice = &self.transient.comparison.choice;
         choice.place_in(self.document.scene(), route)
     }
 
     /// Compares what is asked for now, whether it was compared before or not.
-    pub fn compare_now(&mut self, ctx: &egui::Context) {
+    pub(crate) fn compare_now(&mut self, ctx: &egui::Context) {
         if let Ok(inputs) = self.comparison_inputs() {
             self.begin_comparison(ctx, inputs);
         }

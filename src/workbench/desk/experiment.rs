@@ -72,7 +72,11 @@ impl Desk<'_> {
 impl Workbench {
     /// Shows the participant's view in a window of its own, while that is open; where the pointer
     /// feels there, if there is such a place.
-    pub fn show_participants_window(&self, ctx: &Context, wishes: &mut Wishes) -> Option<Felt> {
+    pub(crate) fn show_participants_window(
+        &self,
+        ctx: &Context,
+        wishes: &mut Wishes,
+    ) -> Option<Felt> {
         let window = self.transient.experiment.window;
         if !window.is_open {
             return None;

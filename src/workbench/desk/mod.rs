@@ -31,11 +31,11 @@ pub struct Desk<'a> {
     /// The scene.
     pub scene: &'a SceneView,
     /// What the user wants.
-    pub wishes: &'a mut Wishes,
+    pub(crate) wishes: &'a mut Wishes,
     /// Where the workspace is, if it is shown.
     pub shown: Option<workspace::Shown>,
     /// Whether panes were moved.
-    pub is_rearranged: bool,
+    pub(crate) is_rearranged: bool,
     /// Where titles and the pane's corner have no room side by side, the corner stands in the pane.
     pub row: TabRow,
 }
@@ -262,14 +262,14 @@ impl Workbench {
     }
 
     /// Lets the measurements of the library rest while nobody looks at them.
-    pub fn rest_collection(&mut self) {
+    pub(crate) fn rest_collection(&mut self) {
         if !arrangement::is_shown(&self.tree, Pane::Collection) {
             self.transient.collection.measurements.rest();
         }
     }
 
     /// How the heatmaps are drawn.
-    pub fn heatmap_style(&self) -> HeatmapStyle {
+    pub(crate) fn heatmap_style(&self) -> HeatmapStyle {
         HeatmapStyle {
             map: self.settings.kept.colour_map,
             scale: self.workspace.scale,
@@ -280,7 +280,7 @@ impl Workbench {
     }
 
     /// What drove the chosen contactor in the last two ticks.
-    pub fn drive_wave_view(&self) -> DriveWaveView {
+    pub(crate) fn drive_wave_view(&self) -> DriveWaveView {
         let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
         let contactor = u32::try_from(contactor).unwrap_or(u32::MAX);
         let (history, tick) = (&self.transient.history, self.transient.live.tick);

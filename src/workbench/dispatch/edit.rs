@@ -70,7 +70,7 @@ impl Workbench {
     }
 
     /// Lets the engine render as the user chose, if it does not yet.
-    pub fn render_as_chosen(&mut self, ctx: &egui::Context) {
+    pub(crate) fn render_as_chosen(&mut self, ctx: &egui::Context) {
         if self.rendering != self.settings.kept.rendering || self.preparing.is_busy() {
             let scene = self.document.scene().clone();
             self.prepare(ctx, &scene);
@@ -78,7 +78,7 @@ impl Workbench {
     }
 
     /// Takes what a thread prepared, if it is done.
-    pub fn poll_prepared(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_prepared(&mut self, ctx: &egui::Context) {
         let Some((outcome, next)) = self.preparing.poll() else {
             return;
         };
@@ -132,7 +132,7 @@ impl Workbench {
     }
 
     /// Tells the engine which gains changed, if any.
-    pub fn tell_gains(&mut self) {
+    pub(crate) fn tell_gains(&mut self) {
         let new = self.felt_now(self.document.scene());
         let changes = self.felt.changes(&new);
         if !changes.is_empty() {

@@ -225,7 +225,7 @@ impl Workbench {
     }
 
     /// Takes what threads and the engine have for a session.
-    pub fn poll_experiment(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_experiment(&mut self, ctx: &egui::Context) {
         let form = &mut self.transient.experiment.form;
         match taken(&mut form.listing) {
             Some((Ok(listed), _)) => form.take_listed(listed),

@@ -103,7 +103,7 @@ impl Workbench {
     }
 
     /// Takes the news of exports that have ended. To be called every frame.
-    pub fn poll_exports(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_exports(&mut self, ctx: &egui::Context) {
         for job in std::mem::take(&mut self.transient.exports.jobs) {
             match job.poll() {
                 Polled::Working => self.transient.exports.jobs.push(job),

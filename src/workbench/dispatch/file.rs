@@ -77,7 +77,7 @@ impl Workbench {
     }
 
     /// Shows the field that asks for a path.
-    pub fn show_field(&mut self, purpose: Purpose) {
+    pub(crate) fn show_field(&mut self, purpose: Purpose) {
         let known = self.known_path(purpose);
         self.transient.ask = Some(Ask::new(purpose, known.as_ref()));
     }
@@ -144,7 +144,7 @@ impl Workbench {
     }
 
     /// Takes a scene that was opened; when it was not, says why and keeps the last one.
-    pub fn take_opened(&mut self, outcome: Result<Box<Opened>, AppError>) {
+    pub(crate) fn take_opened(&mut self, outcome: Result<Box<Opened>, AppError>) {
         match outcome {
             Ok(opened) => {
                 if let Some(path) = &opened.path {
@@ -188,7 +188,7 @@ impl Workbench {
     }
 
     /// Takes an exploration that was read: it is replayed next.
-    pub fn take_take(&mut self, outcome: Result<Take, SceneError>) {
+    pub(crate) fn take_take(&mut self, outcome: Result<Take, SceneError>) {
         match outcome {
             Ok(take) => {
                 self.take = Some(take);
@@ -221,7 +221,7 @@ impl Workbench {
     }
 
     /// Takes the news that a recording was saved.
-    pub fn take_saved(&mut self, outcome: Result<Take, SceneError>) {
+    pub(crate) fn take_saved(&mut self, outcome: Result<Take, SceneError>) {
         match outcome {
             Ok(saved) => {
                 // Another exploration may have been recorded meanwhile.

@@ -22,7 +22,7 @@ impl Workbench {
     }
 
     /// Takes textiles that a thread has kept, and lets the next wish begin.
-    pub fn poll_kept(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_kept(&mut self, ctx: &egui::Context) {
         let Some((outcome, next)) = self.transient.keeping.poll() else {
             return;
         };

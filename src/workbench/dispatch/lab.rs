@@ -122,7 +122,7 @@ impl Workbench {
     }
 
     /// Takes what was built to be kept, whether the lab is in sight or not.
-    pub fn poll_lab(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_lab(&mut self, ctx: &egui::Context) {
         let lab = &mut self.transient.lab;
         let Some((task, feels)) = &mut lab.keeping else {
             return;
@@ -148,7 +148,7 @@ impl Workbench {
     }
 
     /// Has what the lab shows, or sends for it: called while it is in sight.
-    pub fn follow_lab(&mut self, ctx: &egui::Context) {
+    pub(crate) fn follow_lab(&mut self, ctx: &egui::Context) {
         let filters = self.document.scene().filters;
         self.transient.lab.feel_through(filters);
         let lab = &self.transient.lab;

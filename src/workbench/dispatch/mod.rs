@@ -18,7 +18,7 @@ mod play;
 mod sessions;
 mod show;
 
-pub use play::resting_stroke;
+pub(crate) use play::resting_stroke;
 
 use eframe::egui;
 
@@ -28,7 +28,7 @@ use super::window::Workbench;
 
 impl Workbench {
     /// Does what the user wants.
-    pub fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
+    pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
         if !self.transient.experiment.allows(&command) {
             let words = "A session is held: end it first, in the Experimenter pane";
             return self.transient.notices.give(words);

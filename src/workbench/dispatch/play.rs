@@ -105,7 +105,7 @@ impl Workbench {
 }
 
 /// The stroke that the display explores a scene with: a circle around its middle.
-pub fn resting_stroke(scene: &Scene) -> Stroke {
+pub(crate) fn resting_stroke(scene: &Scene) -> Stroke {
     let [width_mm, height_mm] = scene.size_mm;
     Stroke::Circle {
         centre: Point::new(width_mm / 2.0, height_mm / 2.0),

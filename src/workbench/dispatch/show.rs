@@ -62,7 +62,7 @@ impl Workbench {
     }
 
     /// Keeps the arrangement as it is now.
-    pub fn keep_arrangement(&mut self) {
+    pub(crate) fn keep_arrangement(&mut self) {
         let perspective = self.settings.kept.perspective;
         self.settings.kept.arrangements[perspective.index()] = arrangement::to_text(&self.tree);
     }

@@ -7,7 +7,7 @@ use crate::command::Command;
 
 /// What becomes of the participant's window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WindowAct {
+pub(crate) enum WindowAct {
     /// It is opened; the participant's view leaves the workbench.
     Open,
     /// It is closed; the view stands in the workbench again.

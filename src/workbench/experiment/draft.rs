@@ -82,7 +82,7 @@ pub enum Draft {
 
 /// How sure somebody is, where that is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Sure {
+pub(crate) struct Sure {
     /// Grades that are offered; 0 asks for none.
     pub n_grades: u8,
     /// What was said, from 1.
@@ -249,7 +249,7 @@ impl Draft {
 
     /// Whether what was said is handed in at once: where one of several is chosen, and nothing
     /// else is asked.
-    pub fn is_handed_in_at_once(&self, task: &Task) -> bool {
+    pub(crate) fn is_handed_in_at_once(&self, task: &Task) -> bool {
         let is_interval = matches!(task, Task::Interval { .. });
         is_interval && self.answer().is_ok()
     }

@@ -60,7 +60,7 @@ impl Chosen {
 
 /// What the next session is to be.
 #[derive(Debug)]
-pub struct Form {
+pub(crate) struct Form {
     /// The design that was chosen.
     pub chosen: Chosen,
     /// The same as it was read.
@@ -80,7 +80,7 @@ pub struct Form {
     /// Who took part there, as far as that was listed.
     pub participants: Participants,
     /// Whether a masking noise lies there.
-    pub has_noise: bool,
+    pub(crate) has_noise: bool,
     /// They are being listed.
     pub listing: Option<Task<Listed>>,
     /// The folder that was listed last.
@@ -97,7 +97,7 @@ pub struct Listed {
     /// Its table of participants.
     pub participants: Participants,
     /// Whether a masking noise was written there.
-    pub has_noise: bool,
+    pub(crate) has_noise: bool,
 }
 
 /// A session that was begun.
@@ -183,7 +183,7 @@ impl Form {
     }
 
     /// Takes up the folder and the design of the last run; a design that is none any more is left.
-    pub fn take_up(&mut self, folder: Option<&str>, design: Option<&str>) {
+    pub(crate) fn take_up(&mut self, folder: Option<&str>, design: Option<&str>) {
         folder.unwrap_or_default().clone_into(&mut self.folder);
         if let Some(chosen) = design.and_then(Chosen::from_word) {
             self.choose(chosen);
@@ -191,13 +191,13 @@ impl Form {
     }
 
     /// The folder as it is kept for the next run.
-    pub fn kept_folder(&self) -> Option<String> {
+    pub(crate) fn kept_folder(&self) -> Option<String> {
         let folder = self.folder.trim();
         (!folder.is_empty()).then(|| folder.to_owned())
     }
 
     /// Whether the folder that was typed is another than the one that was listed.
-    pub fn is_to_be_listed(&self) -> bool {
+    pub(crate) fn is_to_be_listed(&self) -> bool {
         let folder = self.folder.trim();
         !folder.is_empty() && self.listing.is_none() && self.listed.as_deref() != Some(folder)
     }
@@ -209,7 +209,7 @@ impl Form {
     }
 
     /// Takes what a folder holds.
-    pub fn take_listed(&mut self, listed: Listed) {
+    pub(crate) fn take_listed(&mut self, listed: Listed) {
         self.found = listed.found;
         self.unread = listed.unread;
         self.participants = listed.participants;
@@ -249,7 +249,7 @@ impl Told {
     /// # Errors
     /// The session was begun before, other particulars were told of this pseudonym, or the folder
     /// cannot be read or written.
-    pub fn enrolled(&self) -> Result<Subject, String> {
+    pub(crate) fn enrolled(&self) -> Result<Subject, String> {
         let Self { design, folder, .. } = self;
         let mut subject = Subject {
             pseudonym: self.participant.pseudonym().to_owned(),

@@ -4,9 +4,9 @@ use selvedge_experiment::design::{Familiarisation, Movement};
 use selvedge_foundation::geometry::Point;
 
 /// Radius of the circle, mm.
-pub const RADIUS_MM: f64 = 30.0;
+pub(crate) const RADIUS_MM: f64 = 30.0;
 /// Half the length of the line, mm.
-pub const HALF_MM: f64 = 40.0;
+pub(crate) const HALF_MM: f64 = 40.0;
 
 /// Where the guide is so many seconds after the movement began, around `middle`.
 pub fn place(movement: &Familiarisation, middle: Point, t_s: f64) -> Point {

@@ -73,7 +73,7 @@ pub struct Held {
     /// The step of a sequence of vibrations that is played.
     pub vibration: Option<u16>,
     /// How long the last trial took, s.
-    pub last_response_s: Option<f64>,
+    pub(crate) last_response_s: Option<f64>,
     /// When the session was opened.
     opened: Instant,
     /// When the present step began.
@@ -167,12 +167,12 @@ impl Held {
     }
 
     /// Whether a row is on its way to the disk.
-    pub fn is_writing(&self) -> bool {
+    pub(crate) fn is_writing(&self) -> bool {
         self.pending.is_some() || self.writing.is_some()
     }
 
     /// How long the present step has lasted, s.
-    pub fn lasted_s(&self, now_s: f64) -> f64 {
+    pub(crate) fn lasted_s(&self, now_s: f64) -> f64 {
         (now_s - self.began.shown_s).max(0.0)
     }
 
@@ -256,14 +256,14 @@ impl Held {
     }
 
     /// Whether a vibration may be played again: where its strength is asked, once it is over.
-    pub fn may_play_again(&self) -> bool {
+    pub(crate) fn may_play_again(&self) -> bool {
         let is_interval = |trial: &Trial| matches!(trial.task, Asked::Interval { .. });
         let has_any = !self.vibrations().is_empty();
         has_any && self.vibration.is_none() && !self.trial().is_some_and(is_interval)
     }
 
     /// Ends the trial that waits: its row is on its way. Whether anything was ended.
-    pub fn end_trial(&mut self, answer: Option<Answer>, at: Instant) -> bool {
+    pub(crate) fn end_trial(&mut self, answer: Option<Answer>, at: Instant) -> bool {
         if !self.is_open() || self.trial().is_none() {
             return false;
         }
@@ -348,7 +348,7 @@ impl Held {
     }
 
     /// Tries again to write what could not be written.
-    pub fn retry(&mut self) {
+    pub(crate) fn retry(&mut self) {
         self.failure = None;
     }
 

@@ -19,7 +19,7 @@ use selvedge_textile::tactile::Tuning;
 
 /// What a session presents.
 #[derive(Debug)]
-pub struct Materials {
+pub(crate) struct Materials {
     /// Every textile of the design, loaded.
     loaded: LoadedScene,
     cache: TableCache,
@@ -29,7 +29,7 @@ pub struct Materials {
     /// What the textiles were made from.
     pub hash: String,
     /// Their pictures.
-    pub shelf: Shelf,
+    pub(crate) shelf: Shelf,
 }
 
 impl Materials {

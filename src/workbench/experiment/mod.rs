@@ -23,15 +23,20 @@ mod now;
 mod view;
 mod who;
 
-pub use command::{ExperimentCommand, WindowAct};
-pub use draft::{Draft, Mark, Sure};
-pub use form::{Chosen, Form, Row, list, title_of};
-pub use guide::{HALF_MM, RADIUS_MM};
+pub use command::ExperimentCommand;
+pub(crate) use command::WindowAct;
+pub(crate) use draft::Sure;
+pub use draft::{Draft, Mark};
+pub(crate) use form::Form;
+pub use form::{Chosen, Row, list, title_of};
+pub(crate) use guide::{HALF_MM, RADIUS_MM};
 pub use held::Held;
-pub use materials::Materials;
-pub use noise::{NoiseView, write_noise};
-pub use now::{Began, Now, Pause};
-pub use view::{Course, ExperimenterView, Ground, HeldView, Link, ParticipantView, TrialView};
+pub(crate) use materials::Materials;
+pub(crate) use noise::{NoiseView, write_noise};
+pub(crate) use now::Began;
+pub use now::{Now, Pause};
+pub use view::{Course, Link};
+pub(crate) use view::{ExperimenterView, Ground, HeldView, ParticipantView, TrialView};
 pub use who::Who;
 
 use super::command::{Command, FileCommand, Purpose, ShowCommand};
@@ -40,11 +45,11 @@ use selvedge_experiment::session::Session;
 
 /// The window that shows a participant's view and nothing else.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ParticipantsWindow {
+pub(crate) struct ParticipantsWindow {
     /// Whether it is open: the workbench shows no participant's view then.
     pub is_open: bool,
     /// Whether it is to fill its screen.
-    pub fills_screen: bool,
+    pub(crate) fills_screen: bool,
     /// Since when neither window has had the keyboard, s.
     left_since_s: Option<f64>,
 }
@@ -64,7 +69,7 @@ impl ParticipantsWindow {
 
     /// How long the windows must still be without the keyboard until another program is sure to
     /// have it, s; `None` while one of them has it.
-    pub fn left_alone_s(&mut self, now_s: f64, has_keyboard: bool) -> Option<f64> {
+    pub(crate) fn left_alone_s(&mut self, now_s: f64, has_keyboard: bool) -> Option<f64> {
         if has_keyboard {
             self.left_since_s = None;
             return None;
@@ -88,14 +93,14 @@ pub struct Experiment {
     /// A window of the participant's own.
     pub window: ParticipantsWindow,
     /// Whether the participant sees nothing while a trial waits.
-    pub is_blank: bool,
+    pub(crate) is_blank: bool,
     /// Whether the next recording that ends is of a trial that nobody answered.
-    pub lets_recording_go: bool,
+    pub(crate) lets_recording_go: bool,
 }
 
 /// A session that is ready to be held.
 #[derive(Debug)]
-pub struct Begun {
+pub(crate) struct Begun {
     /// The session.
     pub session: Session,
     /// What it presents.

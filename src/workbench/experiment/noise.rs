@@ -7,11 +7,11 @@ use selvedge_experiment::MaskingNoise;
 use selvedge_foundation::progress::Progress;
 
 /// The file in the folder of sessions.
-pub const NOISE_FILE: &str = "masking-noise.wav";
+pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
 
 /// How it stands with the noise.
 #[derive(Debug, Clone, PartialEq)]
-pub enum NoiseView {
+pub(crate) enum NoiseView {
     /// There is none yet.
     Missing,
     /// It is being written; the share done, 0…1.
@@ -32,7 +32,7 @@ impl NoiseView {
 }
 
 /// Writes the noise into a folder, which is made where it is missing.
-pub fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
+pub(crate) fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let folder = folder.display();
         format!("cannot make the folder {folder}: {error}; choose another")

@@ -57,7 +57,7 @@ pub enum Pause {
 
 /// When the present step began.
 #[derive(Debug, Clone, Copy)]
-pub struct Began {
+pub(crate) struct Began {
     /// By the clock on the wall.
     pub utc: SystemTime,
     /// By one that never jumps.

@@ -17,8 +17,8 @@ use crate::view::Live;
 use selvedge_experiment::Task;
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{find, path_file, samples_file};
-use selvedge_scratch::ScratchFolder as Folder;
 use selvedge_render::scene::ExplorationPath;
+use selvedge_scratch::ScratchFolder as Folder;
 
 /// A window in which a session of a design was begun.
 fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {

@@ -16,7 +16,7 @@ use selvedge_foundation::geometry::Point;
 
 /// What the participant sees.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ParticipantView<'a> {
+pub(crate) enum ParticipantView<'a> {
     /// No session is held; whether one is on its way.
     Nobody {
         /// One is being prepared.
@@ -50,7 +50,7 @@ pub enum ParticipantView<'a> {
 
 /// What lies before the participant.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ground {
+pub(crate) struct Ground {
     /// Width and height, mm.
     pub size_mm: [f64; 2],
     /// What lies there.
@@ -71,12 +71,12 @@ pub struct Slot {
     /// Its position, from 1; `None` for one without a number.
     pub number: Option<usize>,
     /// Whether the others are compared with it.
-    pub is_target: bool,
+    pub(crate) is_target: bool,
 }
 
 /// A trial as the participant sees it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TrialView<'a> {
+pub(crate) struct TrialView<'a> {
     /// What lies there.
     pub ground: Ground,
     /// What is asked.
@@ -88,12 +88,12 @@ pub struct TrialView<'a> {
     /// The intervals, and which of them is played.
     pub intervals: Option<(usize, Option<usize>)>,
     /// Whether the vibration may be played again.
-    pub may_play: bool,
+    pub(crate) may_play: bool,
 }
 
 impl TrialView<'_> {
     /// Whether choosing is all: the answer is handed in with it.
-    pub fn ends_at_once(&self) -> bool {
+    pub(crate) fn ends_at_once(&self) -> bool {
         let is_choice = matches!(self.draft, Draft::Choose { sure, .. } if sure.n_grades == 0);
         is_choice && self.intervals.is_some()
     }
@@ -101,7 +101,7 @@ impl TrialView<'_> {
 
 /// What the experimenter sees.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ExperimenterView {
+pub(crate) enum ExperimenterView {
     /// No session is held; how far the next one is prepared, 0…1.
     Nobody {
         /// 0…1; `None` while none is on its way.
@@ -130,7 +130,7 @@ pub enum Course {
 
 /// A session as the experimenter sees it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HeldView {
+pub(crate) struct HeldView {
     /// The design's title.
     pub title: String,
     /// Who takes part, and which session it is.
@@ -144,11 +144,11 @@ pub struct HeldView {
     /// Trials answered and trials there are at most.
     pub progress: (usize, usize),
     /// How long the step has lasted, s.
-    pub lasted_s: f64,
+    pub(crate) lasted_s: f64,
     /// How long a movement or break lasts at least, s.
     pub left_s: f64,
     /// How long the last trial took, s.
-    pub last_response_s: Option<f64>,
+    pub(crate) last_response_s: Option<f64>,
     /// What was answered so far.
     pub answered: String,
     /// What must lie on the table: position and cloth.
@@ -158,7 +158,7 @@ pub struct HeldView {
     /// Whether a pause is wanted or on.
     pub pause: Pause,
     /// Whether a row is on its way to the disk.
-    pub is_writing: bool,
+    pub(crate) is_writing: bool,
     /// Why the last row could not be written.
     pub failure: Option<String>,
 }

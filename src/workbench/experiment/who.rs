@@ -59,7 +59,7 @@ impl Who {
     }
 
     /// Forgets where fields came from: another folder has another table.
-    pub fn leave_table(&mut self) {
+    pub(crate) fn leave_table(&mut self) {
         self.follow(&Participants::default());
     }
 

@@ -55,19 +55,19 @@ fn gather_of(what: Exportable) -> Option<Gather> {
 }
 
 /// Whether a pane has numbers to export.
-pub fn is_exportable(pane: Pane) -> bool {
+pub(crate) fn is_exportable(pane: Pane) -> bool {
     gather_of(Exportable::Pane(pane)).is_some()
 }
 
 /// What is being exported.
 #[derive(Debug, Default)]
-pub struct Exports {
+pub(crate) struct Exports {
     /// What was seen when it was asked for, while its path is.
     pub seen: Option<(Exportable, Exported)>,
     /// Where the last export went, and as what.
     pub last: Option<(PathBuf, Kind)>,
     /// Files on their way, and tables to be copied.
-    pub jobs: Vec<Job<Result<Option<String>, ExportError>>>,
+    pub(crate) jobs: Vec<Job<Result<Option<String>, ExportError>>>,
 }
 
 impl Workbench {
@@ -75,7 +75,7 @@ impl Workbench {
     ///
     /// # Errors
     /// There is nothing, and what to do about it.
-    pub fn exported(&mut self, what: Exportable) -> Result<Exported, &'static str> {
+    pub(crate) fn exported(&mut self, what: Exportable) -> Result<Exported, &'static str> {
         let nothing: Gather = |_| Err("This pane shows no numbers to export");
         gather_of(what).unwrap_or(nothing)(self)
     }

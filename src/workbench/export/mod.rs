@@ -44,12 +44,13 @@ mod timeline;
 mod why;
 mod write;
 
-pub use gather::{Exports, is_exportable};
+pub(crate) use gather::{Exports, is_exportable};
 #[cfg(test)]
 pub use import::measurement;
 pub use origin::Origin;
 pub use sheet::Sheet;
-pub use write::{ExportError, Kind};
+pub(crate) use write::ExportError;
+pub use write::Kind;
 
 use super::arrangement::Pane;
 use crate::theme::ColourMap;
@@ -60,7 +61,7 @@ const N_COLOURS: u8 = 33;
 
 /// Something that can be exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Exportable {
+pub(crate) enum Exportable {
     /// What a pane shows.
     Pane(Pane),
     /// The strips at the bottom.
@@ -91,7 +92,7 @@ impl Exportable {
 
 /// A table and a figure of the same numbers, and where they come from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Exported {
+pub(crate) struct Exported {
     /// The numbers.
     pub sheet: Sheet,
     /// The picture, without provenance.

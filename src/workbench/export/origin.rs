@@ -110,7 +110,7 @@ impl Origin {
     }
 
     /// The same for ticks from the first to the last.
-    pub fn in_ticks(self, ticks: impl Iterator<Item = u64> + Clone) -> Self {
+    pub(crate) fn in_ticks(self, ticks: impl Iterator<Item = u64> + Clone) -> Self {
         let (Some(first), Some(last)) = (ticks.clone().min(), ticks.max()) else {
             return self;
         };
@@ -124,7 +124,7 @@ impl Origin {
     }
 
     /// The same for amplitudes from a rendering method with a bound of its level error, dB.
-    pub fn by_method(self, method: &str, bound_db: f64) -> Self {
+    pub(crate) fn by_method(self, method: &str, bound_db: f64) -> Self {
         let bound = quantity::with_unit(bound_db, 3, "dB");
         let brief = if bound_db > 0.0 {
             format!("method {method}, level error at most {bound}")

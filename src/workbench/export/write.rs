@@ -12,7 +12,7 @@ const WIDTH_PX: u32 = 1720;
 
 /// Why nothing was exported.
 #[derive(Debug, thiserror::Error)]
-pub enum ExportError {
+pub(crate) enum ExportError {
     /// The file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),

@@ -14,7 +14,7 @@ use selvedge_textile::{
 
 /// A file that was chosen, read once.
 #[derive(Debug)]
-pub struct SourceFile {
+pub(crate) struct SourceFile {
     path: PathBuf,
     bytes: OnceLock<Result<Vec<u8>, String>>,
 }
@@ -59,7 +59,7 @@ impl SourceFile {
 
 /// A file and what was said of it.
 #[derive(Debug, Clone)]
-pub struct DraftFile {
+pub(crate) struct DraftFile {
     /// The file.
     pub source: Arc<SourceFile>,
     /// What it holds; `None`: by its columns and its name.
@@ -77,7 +77,7 @@ impl PartialEq for DraftFile {
 
 /// What the tester's files do not say.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct StrokesDraft {
+pub(crate) struct StrokesDraft {
     /// What the columns are.
     pub columns: Option<Vec<ColumnRole>>,
     /// The decimal sign.
@@ -100,7 +100,7 @@ pub struct StrokesDraft {
 
 /// What a file of heights does not say.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct HeightsDraft {
+pub(crate) struct HeightsDraft {
     /// The unit of heights.
     pub height_unit: Option<LengthUnit>,
     /// The unit of places.
@@ -134,7 +134,7 @@ pub struct Told {
 
 /// What is looked at of what was read.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Looked {
+pub(crate) struct Looked {
     /// The evaluated sections of warp and weft, mm; `None`: the one suggested.
     pub sections: [Option<[f64; 2]>; 2],
     /// Whether figures against the official band are asked for.
@@ -145,7 +145,7 @@ pub struct Looked {
 
 /// What is said of the textile.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct WordsDraft {
+pub(crate) struct WordsDraft {
     /// Its name; empty: the one that the file suggests.
     pub name: String,
     /// Its id; empty: from the name.
@@ -194,7 +194,7 @@ pub fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
 
 impl Told {
     /// The tester's options.
-    pub fn kes_options(&self) -> Result<KesOptions, Failure> {
+    pub(crate) fn kes_options(&self) -> Result<KesOptions, Failure> {
         let typed = &self.strokes;
         let number = |text: &str, what: &str| {
             number(text, what).map_err(|line| Failure::at(Step::Meaning, line))
@@ -215,7 +215,7 @@ impl Told {
     }
 
     /// The options of a file of heights.
-    pub fn height_options(&self) -> Result<ImportOptions, Failure> {
+    pub(crate) fn height_options(&self) -> Result<ImportOptions, Failure> {
         let typed = &self.heights;
         let number = |text: &str, what: &str| {
             number(text, what).map_err(|line| Failure::at(Step::Meaning, line))

@@ -6,7 +6,7 @@ const MOST_PIECES: usize = 1500;
 
 /// A curve for the screen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Envelope {
+pub(crate) struct Envelope {
     /// Samples to a piece.
     n_piece: usize,
     /// The lowest and the highest value of every piece, in the order in which they occur.

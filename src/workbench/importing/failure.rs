@@ -29,7 +29,7 @@ impl Step {
 
 /// What is wrong, in one line, and where it is mended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Failure {
+pub(crate) struct Failure {
     /// The step that it belongs to.
     pub step: Step,
     /// The line.

@@ -95,7 +95,7 @@ impl Importing {
 
 impl Workbench {
     /// Begins to make the textiles and keeps them.
-    pub fn keep_import(&mut self, ctx: &egui::Context, is_felt: bool) {
+    pub(crate) fn keep_import(&mut self, ctx: &egui::Context, is_felt: bool) {
         let importing = &mut self.transient.importing;
         if let Some(line) = importing.refusal() {
             importing.kept = Some(Err(Failure::at(Step::Keep, line)));
@@ -120,7 +120,7 @@ impl Workbench {
     }
 
     /// Takes textiles that are made. To be called every frame.
-    pub fn poll_import(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_import(&mut self, ctx: &egui::Context) {
         self.transient.importing.poll();
         let Some(keeping) = self.transient.importing.keeping.take() else {
             return;

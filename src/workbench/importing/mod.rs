@@ -16,10 +16,13 @@ mod failure;
 mod keeping;
 mod work;
 
-pub use draft::{Draft, DraftFile, HeightsDraft, Looked, SourceFile, StrokesDraft, WordsDraft};
-pub use envelope::Envelope;
-pub use failure::{Failure, Step};
-pub use work::{Body, Found, Heights, Inputs, Strokes};
+pub use draft::Draft;
+pub(crate) use draft::{DraftFile, HeightsDraft, Looked, SourceFile, StrokesDraft, WordsDraft};
+pub(crate) use envelope::Envelope;
+pub(crate) use failure::Failure;
+pub use failure::Step;
+pub(crate) use work::Inputs;
+pub use work::{Body, Found, Heights, Strokes};
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,7 +40,7 @@ const MOST_FILES: usize = 8;
 
 /// What can be wanted of an import. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ImportCommand {
+pub(crate) enum ImportCommand {
     /// Take these files to those that are there.
     Add(Vec<PathBuf>),
     /// Choose and type this.
@@ -63,7 +66,7 @@ struct Keeping {
 
 /// An import: what is wanted of it and what was found.
 #[derive(Default)]
-pub struct Importing {
+pub(crate) struct Importing {
     /// What was chosen and typed.
     pub draft: Draft,
     /// The relief as a texture.
@@ -91,7 +94,7 @@ impl Importing {
     }
 
     /// Whether textiles are on their way to the library.
-    pub fn is_keeping(&self) -> bool {
+    pub(crate) fn is_keeping(&self) -> bool {
         self.keeping.is_some()
     }
 
@@ -144,7 +147,7 @@ impl Importing {
     }
 
     /// Takes what was chosen and typed.
-    pub fn take_draft(&mut self, draft: Draft) {
+    pub(crate) fn take_draft(&mut self, draft: Draft) {
         if draft.told != self.draft.told {
             self.kept = None;
             self.picture = ReliefPicture::default();
@@ -153,7 +156,7 @@ impl Importing {
     }
 
     /// Reads the files anew from the disk.
-    pub fn read_again(&mut self) {
+    pub(crate) fn read_again(&mut self) {
         for file in &mut self.draft.told.files {
             file.source = Arc::new(SourceFile::new(file.source.path().to_owned()));
         }
@@ -202,7 +205,7 @@ impl Importing {
 
 impl Workbench {
     /// Lets the import follow what was chosen: to be called while its pane is in sight.
-    pub fn follow_import(&mut self, ctx: &egui::Context) {
+    pub(crate) fn follow_import(&mut self, ctx: &egui::Context) {
         let is_stepped = self.is_stepped;
         self.transient.importing.follow(ctx, is_stepped);
     }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::theme::ColourMap;
-use selvedge_scratch::ScratchFolder;
 use selvedge_foundation::progress::unheard;
 use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress};
+use selvedge_scratch::ScratchFolder;
 use selvedge_textile::KesAsk;
 use selvedge_textile::metrology::{HeightImport, ImportOptions};
 use selvedge_textile::surface::Representation;

@@ -29,7 +29,7 @@ pub struct Inputs {
 #[derive(Debug, Clone)]
 pub struct Found {
     /// Of what.
-    pub inputs: Inputs,
+    pub(crate) inputs: Inputs,
     /// What kind the files are.
     pub kind: Measurement,
     /// What is in them.
@@ -57,7 +57,7 @@ pub struct Strokes {
     /// The strokes, once nothing is left to be asked.
     pub reading: Option<Arc<KesReading>>,
     /// The strokes as they are drawn, in their order.
-    pub envelopes: Arc<Vec<Envelope>>,
+    pub(crate) envelopes: Arc<Vec<Envelope>>,
     /// The friction as it is drawn.
     pub friction: Option<Arc<Envelope>>,
     /// Sections and figures.

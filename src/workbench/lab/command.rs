@@ -6,7 +6,7 @@ use selvedge_textile::surface::Direction;
 
 /// What a recipe begins with.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Beginning {
+pub(crate) enum Beginning {
     /// The example of a kind of recipe.
     Example(&'static str),
     /// A copy of the recipe of a textile of the library.
@@ -17,7 +17,7 @@ pub enum Beginning {
 
 /// Something that is wanted of the lab. Never part of the scene's undo.
 #[derive(Debug, Clone, PartialEq)]
-pub enum LabCommand {
+pub(crate) enum LabCommand {
     /// Begin with this recipe.
     Begin(Beginning),
     /// Set a parameter, or leave it out.

@@ -10,7 +10,7 @@ use selvedge_textile::{Draft, Manifest, Parameter, ParameterKind, Place, groups}
 
 /// What is typed and chosen where a family is planned.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct FamilyFields {
+pub(crate) struct FamilyFields {
     /// The parameter that varies.
     pub place: Option<Place>,
     /// Its first and last value, as typed.
@@ -72,7 +72,7 @@ impl FamilyFields {
 
 /// One of a family.
 #[derive(Debug, Clone)]
-pub struct Member {
+pub(crate) struct Member {
     /// The value that it has, in words: `Hurst exponent 0.3`.
     pub label: String,
     /// The value alone.
@@ -146,7 +146,7 @@ impl Family {
 }
 
 /// A number as a recipe states it.
-pub fn key_value(value: f64, is_whole: bool) -> KeyValue {
+pub(crate) fn key_value(value: f64, is_whole: bool) -> KeyValue {
     if is_whole {
         #[expect(
             clippy::cast_possible_truncation,

@@ -4,7 +4,7 @@ use selvedge_textile::id_of;
 
 /// What is typed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct KeepFields {
+pub(crate) struct KeepFields {
     /// What people call it.
     pub name: String,
     /// What scenes call it: the name of its folder.
@@ -12,7 +12,7 @@ pub struct KeepFields {
     /// One line of description.
     pub notes: String,
     /// Whether the id was typed, and no longer follows the name.
-    pub has_own_id: bool,
+    pub(crate) has_own_id: bool,
 }
 
 impl KeepFields {
@@ -32,7 +32,7 @@ impl KeepFields {
     }
 
     /// The id follows the name until it is typed.
-    pub fn follow_name(&mut self) {
+    pub(crate) fn follow_name(&mut self) {
         if !self.has_own_id {
             self.id = id_of(&self.name);
         }

@@ -15,12 +15,15 @@ mod preview;
 mod recipes;
 mod steps;
 
-pub use command::{Beginning, LabCommand, Look, Page, Plan};
+pub(crate) use command::{Beginning, LabCommand};
+pub use command::{Look, Page, Plan};
+pub use family::Family;
 #[cfg(test)]
-pub use family::Member;
-pub use family::{Family, FamilyFields, key_value};
-pub use fields::KeepFields;
-pub use preview::{Compared, Felt, Preview, SPEEDS_MM_PER_S, Shown, speeds_mm_per_s};
+pub(crate) use family::Member;
+pub(crate) use family::{FamilyFields, key_value};
+pub(crate) use fields::KeepFields;
+pub use preview::{Compared, Felt, SPEEDS_MM_PER_S, speeds_mm_per_s};
+pub(crate) use preview::{Preview, Shown};
 pub use steps::Steps;
 
 use std::path::Path;
@@ -34,7 +37,7 @@ use selvedge_textile::{Draft, Fault, Library, Manifest, Parent, Provenance, Text
 
 /// A recipe that begins.
 #[derive(Debug)]
-pub struct Begun {
+pub(crate) struct Begun {
     draft: Draft,
     /// The textile that it is made from.
     parent: Option<(Parent, Compared)>,
@@ -50,7 +53,7 @@ pub struct Lab {
     /// What it is compared with.
     pub compared: Option<Compared>,
     /// What became of the recipe that was computed last.
-    pub preview: Option<Arc<Preview>>,
+    pub(crate) preview: Option<Arc<Preview>>,
     /// Which stroke is looked at.
     pub look: Look,
     /// Which controls are shown.
@@ -66,7 +69,7 @@ pub struct Lab {
     /// Whether the preview was stopped: nothing is computed until something changes.
     pub is_stopped: bool,
     /// Previews that were begun.
-    pub n_computed: u64,
+    pub(crate) n_computed: u64,
     /// Counts changes of the recipe and of what it is felt through.
     serial: u64,
     recipes: recipes::Recipes,
@@ -81,7 +84,7 @@ pub struct Lab {
 
 impl Lab {
     /// Whether the preview is of the recipe as it is.
-    pub fn is_fresh(&self) -> bool {
+    pub(crate) fn is_fresh(&self) -> bool {
         self.shown_serial == Some(self.serial)
     }
 

@@ -30,7 +30,7 @@ pub struct Felt {
     /// How strong it is as a whole.
     pub levels: Levels,
     /// Amplitudes over [`speeds_mm_per_s`], by [`Direction::index`].
-    pub over_speed: [Vec<PointSpread>; 4],
+    pub(crate) over_speed: [Vec<PointSpread>; 4],
 }
 
 impl Felt {
@@ -127,7 +127,7 @@ fn velocity(direction: Direction, speed_mm_per_s: f64) -> Velocity {
 
 /// A figure as it is shown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shown {
+pub(crate) struct Shown {
     /// What people call it.
     pub name: &'static str,
     /// Its value.
@@ -158,7 +158,7 @@ impl Shown {
 
 /// A recipe and what becomes of it.
 #[derive(Debug, Clone)]
-pub struct Preview {
+pub(crate) struct Preview {
     /// The recipe.
     pub manifest: Manifest,
     /// What is felt of it.

@@ -25,7 +25,7 @@ pub(super) struct Recipes {
 
 impl Lab {
     /// Whether there is a step to take back, and one to bring back.
-    pub fn can_step(&self) -> [bool; 2] {
+    pub(crate) fn can_step(&self) -> [bool; 2] {
         let [back, forth] = self.steps.as_ref().map_or([false; 2], Steps::can_step);
         let recipes = &self.recipes;
         [
@@ -35,7 +35,7 @@ impl Lab {
     }
 
     /// Takes a step back: of the recipe, or to the recipe before.
-    pub fn undo(&mut self) {
+    pub(crate) fn undo(&mut self) {
         match &mut self.steps {
             Some(steps) if steps.can_step()[0] => steps.undo(),
             _ => {
@@ -49,7 +49,7 @@ impl Lab {
     }
 
     /// Brings a step back.
-    pub fn redo(&mut self) {
+    pub(crate) fn redo(&mut self) {
         match &mut self.steps {
             Some(steps) if steps.can_step()[1] => steps.redo(),
             _ => {

@@ -48,7 +48,7 @@ impl Steps {
     }
 
     /// Whether there is a step to take back, and one to bring back.
-    pub fn can_step(&self) -> [bool; 2] {
+    pub(crate) fn can_step(&self) -> [bool; 2] {
         [self.at > 0, self.at + 1 < self.drafts.len()]
     }
 
@@ -92,12 +92,12 @@ impl Steps {
     }
 
     /// Takes a step back.
-    pub fn undo(&mut self) {
+    pub(crate) fn undo(&mut self) {
         self.go(self.at.saturating_sub(1));
     }
 
     /// Brings a step back.
-    pub fn redo(&mut self) {
+    pub(crate) fn redo(&mut self) {
         self.go((self.at + 1).min(self.drafts.len() - 1));
     }
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::*;
-use selvedge_scratch::ScratchFolder;
 use selvedge_foundation::progress::unheard;
+use selvedge_scratch::ScratchFolder;
 use selvedge_textile::Place;
 use selvedge_textile::surface::Direction;
 

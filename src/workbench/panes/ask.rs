@@ -20,11 +20,11 @@ use selvedge_engine::ClipKind;
 
 /// What is said when a path is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AskWords {
+pub(crate) struct AskWords {
     /// What is asked.
     pub title: &'static str,
     /// What the button does.
-    pub verb: &'static str,
+    pub(crate) verb: &'static str,
     /// How an answer looks.
     pub hint: &'static str,
     /// What to do when there is no answer yet.
@@ -163,7 +163,7 @@ pub struct Ask {
     /// The path as typed.
     pub path: String,
     /// Whether the field has had the focus once.
-    pub was_focused: bool,
+    pub(crate) was_focused: bool,
     completing: Option<Completing>,
 }
 

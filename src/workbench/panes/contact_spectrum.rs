@@ -24,9 +24,9 @@ const NARROW_STRIP: f32 = 28.0;
 
 /// What the pane shows.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactSpectrumView<'a> {
+pub(crate) struct ContactSpectrumView<'a> {
     /// The last seconds.
-    pub history: &'a History,
+    pub(crate) history: &'a History,
     /// The contactor of the first display.
     pub contactor: usize,
     /// The filters of the two bands.
@@ -43,20 +43,20 @@ type Key = (u64, u64, usize, ColourMap);
 
 /// The columns that were computed and the texture that holds them.
 #[derive(Debug, Clone, Default)]
-pub struct ContactSpectrogram {
+pub(crate) struct ContactSpectrogram {
     waterfall: Waterfall<Key>,
     columns: ContactColumns,
 }
 
 impl ContactSpectrogram {
     /// Columns computed so far: it stands still while nothing moves or nobody looks.
-    pub fn n_columns_computed(&self) -> u64 {
+    pub(crate) fn n_columns_computed(&self) -> u64 {
         self.waterfall.ring.n_columns_computed()
     }
 
     /// How often its texture was written.
     #[cfg(test)]
-    pub fn n_uploads(&self) -> u64 {
+    pub(crate) fn n_uploads(&self) -> u64 {
         self.waterfall.image.n_uploads()
     }
 

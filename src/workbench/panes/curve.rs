@@ -13,7 +13,7 @@ use selvedge_textile::tactile::{Band, Tuning};
 const HEIGHT: f32 = 90.0;
 
 /// The spread of a library's mean amplitudes, by band, dB.
-pub fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f64) -> [f64; 2] {
+pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f64) -> [f64; 2] {
     Band::ALL.map(|band| {
         let levels = library.iter().map(|dot| {
             quantity::level_db(dot.mean_um[band.index()])
@@ -30,7 +30,7 @@ pub fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f64) -> 
 }
 
 /// The ends of both axes: whole tens of decibels around every level.
-pub fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
+pub(crate) fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
     let levels = library.iter().map(|dot| dot.level_db).chain([reference_db]);
     let (least, most) = levels.fold(
         (f64::INFINITY, f64::NEG_INFINITY),

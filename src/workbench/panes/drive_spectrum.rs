@@ -13,9 +13,9 @@ use selvedge_foundation::quantity;
 
 /// What the pane shows: the contactor that the newest tick of the history watched.
 #[derive(Debug, Clone, Copy)]
-pub struct DriveSpectrumView<'a> {
+pub(crate) struct DriveSpectrumView<'a> {
     /// The last seconds.
-    pub history: &'a History,
+    pub(crate) history: &'a History,
     /// The scale of amplitudes.
     pub scale: AmplitudeScale,
     /// Its colours.
@@ -27,20 +27,20 @@ type Key = (u64, Option<u32>, u64, ColourMap);
 
 /// The columns that were computed and the texture that holds them.
 #[derive(Debug, Clone, Default)]
-pub struct DriveSpectrogram {
+pub(crate) struct DriveSpectrogram {
     waterfall: Waterfall<Key>,
     spectrum: DriveSpectrum,
 }
 
 impl DriveSpectrogram {
     /// Columns computed so far: it stands still while nothing moves or nobody looks.
-    pub fn n_columns_computed(&self) -> u64 {
+    pub(crate) fn n_columns_computed(&self) -> u64 {
         self.waterfall.ring.n_columns_computed()
     }
 
     /// How often its texture was written.
     #[cfg(test)]
-    pub fn n_uploads(&self) -> u64 {
+    pub(crate) fn n_uploads(&self) -> u64 {
         self.waterfall.image.n_uploads()
     }
 

@@ -20,11 +20,11 @@ const PATIENCE_S: f64 = 2.0;
 /// What the pane shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[expect(clippy::struct_field_names, reason = "units are part of names")]
-pub struct DriveWaveView {
+pub(crate) struct DriveWaveView {
     /// [A40, A320] of the tick before, µm.
     pub before_um: [f64; 2],
     /// [A40, A320] of this tick, µm.
-    pub now_um: [f64; 2],
+    pub(crate) now_um: [f64; 2],
     /// The output limits of both bands, µm.
     pub limit_um: [f64; 2],
 }
@@ -41,7 +41,7 @@ impl DriveWaveView {
     }
 
     /// The farthest that the sum of both waves can reach, µm.
-    pub fn reach_um(&self) -> f64 {
+    pub(crate) fn reach_um(&self) -> f64 {
         let reach = |pair: [f64; 2]| pair[0].abs() + pair[1].abs();
         reach(self.before_um).max(reach(self.now_um))
     }
@@ -60,7 +60,7 @@ impl DriveWaveView {
 /// The upper end of the axis: 1, 2 or 5 · 10ⁿ µm. It rises at once, and falls only when a smaller
 /// one has sufficed for two seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WaveScale {
+pub(crate) struct WaveScale {
     most_um: f64,
     /// The largest reach since the axis could have been smaller, and since when, s.
     smaller: Option<(f64, f64)>,

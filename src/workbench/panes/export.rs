@@ -9,7 +9,7 @@ use crate::export::Exportable;
 use crate::theme::Palette;
 
 /// Width and height of the button, points.
-pub const SIZE: f32 = 18.0;
+pub(crate) const SIZE: f32 = 18.0;
 /// Width of its menu, points.
 const MENU: f32 = 196.0;
 

@@ -31,15 +31,15 @@ pub(super) const NUMBER_WIDTH: f32 = 20.0;
 
 /// How the heatmaps are drawn.
 #[derive(Debug, Clone, Copy)]
-pub struct HeatmapStyle {
+pub(crate) struct HeatmapStyle {
     /// The colours.
     pub map: ColourMap,
     /// The scale.
     pub scale: AmplitudeScale,
     /// Whether numbers are written into the cells.
-    pub has_numbers: bool,
+    pub(crate) has_numbers: bool,
     /// Whether cells below the threshold of detection are hollow and grey.
-    pub greys_below: bool,
+    pub(crate) greys_below: bool,
     /// The contactor that is looked at closer.
     pub selected: usize,
 }
@@ -139,7 +139,12 @@ pub fn show(ui: &mut Ui, scene: &SceneView, live: &Live, style: HeatmapStyle, wi
 }
 
 /// What stands over the heatmaps: numbers, the scale's lock and its top.
-pub fn show_corner(ui: &mut Ui, style: HeatmapStyle, audition: &Audition, wishes: &mut Wishes) {
+pub(crate) fn show_corner(
+    ui: &mut Ui,
+    style: HeatmapStyle,
+    audition: &Audition,
+    wishes: &mut Wishes,
+) {
     let scale = style.scale;
     if toggle(ui, "123", style.has_numbers, "Numbers in the cells (N)") {
         wishes.push(ShowCommand::ToggleNumbers.into());

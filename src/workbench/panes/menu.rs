@@ -26,11 +26,11 @@ pub struct Appearance {
     /// The colours that stand for numbers.
     pub map: ColourMap,
     /// Size of everything: 1 is 100 %.
-    pub zoom: f32,
+    pub(crate) zoom: f32,
     /// How contactors are drawn.
     pub dots: DotStyle,
     /// Whether what is below the threshold of detection is greyed.
-    pub greys_below: bool,
+    pub(crate) greys_below: bool,
     /// What is drawn over the cloth.
     pub overlays: Overlays,
     /// The panes with whether each is in sight.
@@ -42,7 +42,7 @@ pub struct Appearance {
 }
 
 /// What can be done with scenes.
-pub fn show_scene_menu(
+pub(crate) fn show_scene_menu(
     ui: &mut Ui,
     scene: &SceneView,
     appearance: &Appearance,
@@ -117,7 +117,7 @@ fn show_recent(ui: &mut Ui, recent: &[PathBuf], wishes: &mut Wishes) {
 }
 
 /// What is shown how.
-pub fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut Wishes) {
+pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut Wishes) {
     ui.menu_button("View", |ui| {
         ui.set_min_width(220.0);
         for perspective in Perspective::ALL {

@@ -24,7 +24,7 @@ pub struct Notice {
 
 /// The notices that nobody has put away yet, old to new.
 #[derive(Debug, Clone, Default)]
-pub struct Notices {
+pub(crate) struct Notices {
     shown: Vec<Notice>,
     n_given: u64,
 }
@@ -45,12 +45,12 @@ impl Notices {
     }
 
     /// Puts one away.
-    pub fn dismiss(&mut self, number: u64) {
+    pub(crate) fn dismiss(&mut self, number: u64) {
         self.shown.retain(|notice| notice.number != number);
     }
 
     /// Puts away those that begin with a name.
-    pub fn forget_about(&mut self, name: &str) {
+    pub(crate) fn forget_about(&mut self, name: &str) {
         self.shown.retain(|notice| !notice.text.starts_with(name));
     }
 

@@ -30,7 +30,7 @@ const SLOWER: f32 = 0.45;
 
 /// Where the pane's numbers come from.
 #[derive(Debug, Clone, Copy)]
-pub struct SpatialSource<'a> {
+pub(crate) struct SpatialSource<'a> {
     /// The scene that the inspector was made for.
     pub scene: &'a RenderScene,
     /// Changes when the scene does.
@@ -46,7 +46,7 @@ type Key = (u64, usize, [f64; 6]);
 
 /// The spectra as they were last computed.
 #[derive(Debug, Clone, Default)]
-pub struct SpatialSpectra {
+pub(crate) struct SpatialSpectra {
     key: Option<Key>,
     view: Option<SpatialView>,
     n_views_computed: u64,
@@ -55,7 +55,7 @@ pub struct SpatialSpectra {
 impl SpatialSpectra {
     /// Views computed so far: it stands still while nothing moves or nobody looks.
     #[cfg(test)]
-    pub fn n_views_computed(&self) -> u64 {
+    pub(crate) fn n_views_computed(&self) -> u64 {
         self.n_views_computed
     }
 
@@ -135,13 +135,17 @@ pub fn wavenumber_per_mm(k: usize) -> f64 {
 }
 
 /// The level of a density in µm² per cycle/mm, dB.
-pub fn density_db(density_um2_mm: f64) -> f64 {
+pub(crate) fn density_db(density_um2_mm: f64) -> f64 {
     10.0 * density_um2_mm.log10()
 }
 
 /// The curve of a density as `[wavenumber, density]`: bins that are drawn nearer to one another
 /// than `least_step` as their mean. `x` is where a wavenumber is drawn.
-pub fn means_of(density_um2_mm: &[f64], least_step: f32, x: impl Fn(f64) -> f32) -> Vec<[f64; 2]> {
+pub(crate) fn means_of(
+    density_um2_mm: &[f64],
+    least_step: f32,
+    x: impl Fn(f64) -> f32,
+) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     let (mut n_bins, mut wavenumbers, mut densities) = (0.0, 0.0, 0.0);
     let mut next_x = f32::NEG_INFINITY;

@@ -45,7 +45,7 @@ pub(super) fn frequency_axis() -> Axis {
 
 /// A column of a spectrogram as it is shown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ShownColumn {
+pub(crate) struct ShownColumn {
     /// Columns to the left of the newest.
     pub ago: u64,
     /// Its tick.

@@ -55,7 +55,7 @@ pub fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
 }
 
 /// What stands over the chain: freeze, copy, and the contactors beside.
-pub fn show_corner(
+pub(crate) fn show_corner(
     ui: &mut Ui,
     is_frozen: bool,
     (why, chosen, n_contactors): (Option<&Why>, Option<usize>, usize),

@@ -34,7 +34,7 @@ impl PartialEq for Chosen {
 
 /// Which part of the picture is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Part {
+pub(crate) enum Part {
     /// All of it.
     #[default]
     Whole,
@@ -46,7 +46,7 @@ pub enum Part {
 
 /// What a scale is typed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ScaleUnit {
+pub(crate) enum ScaleUnit {
     /// Dots to an inch, as scanners count.
     #[default]
     Dpi,
@@ -72,7 +72,7 @@ pub struct Draft {
     /// The part of it.
     pub part: Part,
     /// Whether uneven light is divided out where it matters.
-    pub is_evened: bool,
+    pub(crate) is_evened: bool,
     /// The scale as typed.
     pub scale: String,
     /// In what.
@@ -80,7 +80,7 @@ pub struct Draft {
     /// λ of the mean concentration, 1/px; `None`: from the maxima.
     pub lambda: Option<f64>,
     /// Whether the light is estimated.
-    pub is_light_estimated: bool,
+    pub(crate) is_light_estimated: bool,
     /// The light if it is not.
     pub light: Light,
     /// How heights are found.
@@ -138,7 +138,7 @@ impl Draft {
     }
 
     /// What is known of the height; `None` while it is no positive number.
-    pub fn height_scale(&self) -> Option<HeightScale> {
+    pub(crate) fn height_scale(&self) -> Option<HeightScale> {
         let um = number(&self.height)?;
         Some(match self.known {
             Known::Relief => HeightScale::ReliefUm(um),
@@ -154,7 +154,7 @@ impl Draft {
     }
 
     /// The name that the textile gets.
-    pub fn final_name(&self) -> String {
+    pub(crate) fn final_name(&self) -> String {
         if self.name.trim().is_empty() {
             self.own_name()
         } else {

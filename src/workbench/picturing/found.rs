@@ -27,7 +27,7 @@ pub enum Step {
 
 /// The decoded picture.
 #[derive(Debug)]
-pub struct Loaded {
+pub(crate) struct Loaded {
     pub(super) picture: Picture,
     pub(super) sha256: String,
     /// As it is shown.
@@ -38,7 +38,7 @@ pub struct Loaded {
 
 /// The part that is looked at, and its autocorrelation.
 #[derive(Debug)]
-pub struct Correlated {
+pub(crate) struct Correlated {
     pub(super) picture: Picture,
     pub(super) luminance: Grid<f64>,
     /// Whether its light was evened out.
@@ -64,7 +64,7 @@ pub struct Cloth {
 
 /// Heights in pixels.
 #[derive(Debug)]
-pub struct Shaped {
+pub(crate) struct Shaped {
     /// What they were found on.
     pub brightness: Brightness,
     /// The heights.
@@ -94,7 +94,7 @@ pub struct Made {
 #[derive(Debug, Clone)]
 pub struct Found {
     /// Of what.
-    pub inputs: Draft,
+    pub(crate) inputs: Draft,
     /// Stage by stage.
     pub loaded: Option<Arc<Loaded>>,
     /// See [`Correlated`].

@@ -12,8 +12,10 @@ mod found;
 mod images;
 mod work;
 
-pub use draft::{Chosen, Draft, Known, Part, ScaleUnit};
-pub use found::{Cloth, Found, Made, Shaped, Step};
+pub use draft::{Chosen, Draft, Known};
+pub(crate) use draft::{Part, ScaleUnit};
+pub(crate) use found::Shaped;
+pub use found::{Cloth, Found, Made, Step};
 pub use images::Image;
 
 use std::path::PathBuf;
@@ -27,7 +29,7 @@ use super::window::Workbench;
 
 /// What can be wanted of a picture. Never undoable.
 #[derive(Debug, Clone, PartialEq)]
-pub enum PictureCommand {
+pub(crate) enum PictureCommand {
     /// Take this picture.
     Open(PathBuf),
     /// Choose and type this.
@@ -45,7 +47,7 @@ pub enum PictureCommand {
 
 /// A picture, what is wanted of it and what was made.
 #[derive(Default)]
-pub struct Picturing {
+pub(crate) struct Picturing {
     /// What was chosen and typed.
     pub draft: Draft,
     work: Follower<Found>,
@@ -115,7 +117,7 @@ impl Picturing {
     }
 
     /// Takes what was chosen and typed.
-    pub fn take_draft(&mut self, draft: Draft) {
+    pub(crate) fn take_draft(&mut self, draft: Draft) {
         if draft != self.draft {
             self.kept = None;
         }
@@ -128,7 +130,7 @@ impl Picturing {
     }
 
     /// The textile of what is chosen now, which is kept next.
-    pub fn take_textile(&mut self) -> Option<Arc<Made>> {
+    pub(crate) fn take_textile(&mut self) -> Option<Arc<Made>> {
         if self.refusal().is_some() {
             return None;
         }
@@ -152,7 +154,7 @@ impl Picturing {
 
 impl Workbench {
     /// Lets the stages follow what was chosen: to be called while the pane is in sight.
-    pub fn follow_picture(&mut self, ctx: &egui::Context) {
+    pub(crate) fn follow_picture(&mut self, ctx: &egui::Context) {
         let is_stepped = self.is_stepped;
         self.transient.picturing.follow(ctx, is_stepped);
     }

@@ -30,41 +30,41 @@ pub struct Kept {
     /// Dark, light, or as the system.
     pub theme: ThemePreference,
     /// The colours that stand for numbers.
-    pub colour_map: ColourMap,
+    pub(crate) colour_map: ColourMap,
     /// Size of everything: 1 is 100 %.
-    pub zoom: f32,
+    pub(crate) zoom: f32,
     /// How contactors are drawn.
-    pub dots: DotStyle,
+    pub(crate) dots: DotStyle,
     /// What is drawn over the cloth.
-    pub overlays: Overlays,
+    pub(crate) overlays: Overlays,
     /// Whether heatmaps show numbers.
-    pub has_numbers: bool,
+    pub(crate) has_numbers: bool,
     /// Whether what is below the threshold of detection is greyed.
-    pub greys_below: bool,
+    pub(crate) greys_below: bool,
     /// Whether an armed device stops when the window loses the keyboard.
-    pub stops_on_focus_loss: bool,
+    pub(crate) stops_on_focus_loss: bool,
     /// The scale of amplitudes.
-    pub amplitude: AmplitudeScale,
+    pub(crate) amplitude: AmplitudeScale,
     /// Pixels per millimetre of the screen, once it was calibrated.
-    pub pixels_per_mm: Option<f64>,
+    pub(crate) pixels_per_mm: Option<f64>,
     /// How scenes are rendered.
     pub rendering: Rendering,
     /// What the window is arranged for.
-    pub perspective: Perspective,
+    pub(crate) perspective: Perspective,
     /// Where each pane stands in each perspective, as text that whoever arranges them understands.
-    pub arrangements: [Option<String>; Perspective::ALL.len()],
+    pub(crate) arrangements: [Option<String>; Perspective::ALL.len()],
     /// The array profile that was chosen; `None`: the one of the scene's display.
     pub array: Option<String>,
     /// Where the surfaces of tablets of these names lie in the workspace.
-    pub tablet_areas: BTreeMap<String, Area>,
+    pub(crate) tablet_areas: BTreeMap<String, Area>,
     /// Size of the window, points.
-    pub window_size: Option<[f32; 2]>,
+    pub(crate) window_size: Option<[f32; 2]>,
     /// The folder in which sessions of experiments lie, as it was typed.
-    pub sessions_folder: Option<String>,
+    pub(crate) sessions_folder: Option<String>,
     /// The design that was chosen last: the name of one of the program, or the path of a file.
     pub design: Option<String>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
-    pub recent_scenes: Vec<PathBuf>,
+    pub(crate) recent_scenes: Vec<PathBuf>,
 }
 
 impl Default for Kept {
@@ -95,7 +95,7 @@ impl Default for Kept {
 
 impl Kept {
     /// The same with every value at the nearest bound; what is no number is as at first.
-    pub fn in_bounds(self) -> Self {
+    pub(crate) fn in_bounds(self) -> Self {
         let within = |value: f32, [least, most]: [f32; 2]| {
             let number = if value.is_nan() { least } else { value };
             number.clamp(least, most)
@@ -114,7 +114,7 @@ impl Kept {
     }
 
     /// Remembers that the scene at `path` was opened or saved now.
-    pub fn remember_scene(&mut self, path: &Path) {
+    pub(crate) fn remember_scene(&mut self, path: &Path) {
         let Ok(path) = std::path::absolute(path) else {
             return;
         };

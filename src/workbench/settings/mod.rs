@@ -50,7 +50,7 @@ pub fn build_cache() -> Option<BuildCache> {
 }
 
 /// Where the user's own libraries lie. `None` on a system without such a place.
-pub fn own_libraries() -> Option<PathBuf> {
+pub(crate) fn own_libraries() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "selvedge")?;
     Some(folders.data_dir().to_owned())
 }
@@ -69,12 +69,12 @@ pub fn own_arrays() -> Option<PathBuf> {
 
 impl Settings {
     /// Settings that are neither read nor written: for tests and pictures.
-    pub fn in_memory() -> Self {
+    pub(crate) fn in_memory() -> Self {
         Self::default()
     }
 
     /// The settings of the user, and a sentence when they could not be read.
-    pub fn of_user() -> (Self, Option<String>) {
+    pub(crate) fn of_user() -> (Self, Option<String>) {
         match directories::ProjectDirs::from("", "", "selvedge") {
             Some(folders) => Self::in_folder(folders.config_dir()),
             None => (Self::in_memory(), None),
@@ -150,7 +150,7 @@ impl Settings {
     ///
     /// To be called every frame. Says after how many seconds to call again, when there is
     /// something left to write; a write that failed is told to [`Self::take_failure`].
-    pub fn save_if_changed(&mut self, now_s: f64) -> Option<f64> {
+    pub(crate) fn save_if_changed(&mut self, now_s: f64) -> Option<f64> {
         let file = self.file.as_mut()?;
         if file.held.as_ref() == Some(&self.kept) {
             return None;
@@ -171,7 +171,7 @@ impl Settings {
     }
 
     /// Why the last write failed, once.
-    pub fn take_failure(&mut self) -> Option<String> {
+    pub(crate) fn take_failure(&mut self) -> Option<String> {
         let file = self.file.as_mut()?;
         if !file.writing.as_ref()?.is_finished() {
             return None;
@@ -183,7 +183,7 @@ impl Settings {
     }
 
     /// Writes the settings on this thread when they changed: at the end of the run.
-    pub fn save_now(&mut self) -> Result<(), FileError> {
+    pub(crate) fn save_now(&mut self) -> Result<(), FileError> {
         let Some(file) = &mut self.file else {
             return Ok(());
         };

@@ -7,7 +7,7 @@ use selvedge_render::scene::Pose;
 
 /// Computes columns of the contact spectrogram; reuses what it needs for that.
 #[derive(Debug, Clone, Default)]
-pub struct ContactColumns {
+pub(crate) struct ContactColumns {
     edges: RowEdges,
     bins: Vec<VibrationBin>,
 }

@@ -21,7 +21,7 @@ const N_TRANSFORM: usize = 800;
 
 /// The amplitudes [A40, A320] that drove a contactor at a tick, µm: after gains and before output
 /// limits; 0 where the device was silent, another contactor was watched, or nothing is known.
-pub fn drive_um(history: &History, contactor: u32, tick: u64) -> [f64; 2] {
+pub(crate) fn drive_um(history: &History, contactor: u32, tick: u64) -> [f64; 2] {
     let entries = history.entries();
     let place = entries.partition_point(|entry| entry.glimpse.tick < tick);
     let glimpse = entries.get(place).map(|entry| entry.glimpse);
@@ -42,7 +42,7 @@ pub fn wave_um(amplitudes_um: [f64; 2], t_s: f64) -> [f64; 2] {
 /// One-sided amplitude spectrum, µm peak, the window's gain compensated: a steady amplitude reads
 /// as itself at its carrier.
 #[derive(Debug, Clone)]
-pub struct DriveSpectrum {
+pub(crate) struct DriveSpectrum {
     edges: RowEdges,
     transform: RealTransform,
     window: Vec<f64>,
@@ -66,7 +66,13 @@ impl Default for DriveSpectrum {
 
 impl DriveSpectrum {
     /// The largest amplitude in every row of frequency, µm, of the four ticks up to `tick`.
-    pub fn rows_um(&mut self, history: &History, contactor: u32, tick: u64, rows_um: &mut Rows) {
+    pub(crate) fn rows_um(
+        &mut self,
+        history: &History,
+        contactor: u32,
+        tick: u64,
+        rows_um: &mut Rows,
+    ) {
         for (ago, samples) in (0..N_TICKS as u64)
             .rev()
             .zip(self.samples.chunks_mut(N_TICK))

@@ -21,7 +21,7 @@ pub struct Entry {
 
 /// The last 12 s of exploration.
 #[derive(Debug, Clone, Default)]
-pub struct History {
+pub(crate) struct History {
     entries: VecDeque<Entry>,
     next_column: u64,
     n_clears: u64,
@@ -54,7 +54,7 @@ impl History {
     }
 
     /// How often it was cleared: what was made from it before is void when this changes.
-    pub fn n_clears(&self) -> u64 {
+    pub(crate) fn n_clears(&self) -> u64 {
         self.n_clears
     }
 
@@ -76,7 +76,7 @@ impl History {
     }
 
     /// The tick at a column; `None` in a pause, and for what is forgotten or yet to come.
-    pub fn at_column(&self, column: u64) -> Option<&Entry> {
+    pub(crate) fn at_column(&self, column: u64) -> Option<&Entry> {
         let place = self.place_of(column);
         self.entries
             .get(place)

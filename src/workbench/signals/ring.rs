@@ -9,9 +9,9 @@ use super::history::{Entry, History};
 use super::rows::{N_ROWS, Rows};
 
 /// Columns that are shown: 8 s of felt time.
-pub const N_COLUMNS: usize = 320;
+pub(crate) const N_COLUMNS: usize = 320;
 /// Columns that are held: some more, so that the oldest shown never touches the newest.
-pub const N_SLOTS: usize = 336;
+pub(crate) const N_SLOTS: usize = 336;
 /// Most columns that are computed in one frame.
 const MAX_COLUMNS_A_FRAME: u64 = 120;
 /// What stands where there is no column: pauses, and what is not computed.
@@ -23,12 +23,12 @@ pub struct Progress {
     /// The columns that are new or have become empty.
     pub fresh: Range<u64>,
     /// Whether more columns are due than one frame computes.
-    pub is_behind: bool,
+    pub(crate) is_behind: bool,
 }
 
 /// A ring of columns; a value that is NaN is none.
 #[derive(Debug, Clone)]
-pub struct ColumnRing {
+pub(crate) struct ColumnRing {
     slots: Vec<Rows>,
     next: u64,
     n_columns_computed: u64,
@@ -52,7 +52,7 @@ impl ColumnRing {
     }
 
     /// Computes what the history has and the ring has not, old to new.
-    pub fn catch_up(
+    pub(crate) fn catch_up(
         &mut self,
         history: &History,
         mut fill: impl FnMut(&Entry, &mut Rows),
@@ -94,13 +94,13 @@ impl ColumnRing {
     }
 
     /// Columns computed since it was made: it stands still while nobody looks.
-    pub fn n_columns_computed(&self) -> u64 {
+    pub(crate) fn n_columns_computed(&self) -> u64 {
         self.n_columns_computed
     }
 }
 
 /// Where a column is held.
-pub fn slot_of(column: u64) -> usize {
+pub(crate) fn slot_of(column: u64) -> usize {
     usize::try_from(column % N_SLOTS as u64).unwrap_or(0)
 }
 

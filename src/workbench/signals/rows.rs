@@ -3,11 +3,11 @@
 use selvedge_render::array::VibrationBin;
 
 /// Lowest frequency, Hz.
-pub const LEAST_HZ: f64 = 10.0;
+pub(crate) const LEAST_HZ: f64 = 10.0;
 /// Highest frequency, Hz.
-pub const MOST_HZ: f64 = 1000.0;
+pub(crate) const MOST_HZ: f64 = 1000.0;
 /// Number of rows: 48 a decade, each 4.9 % wide.
-pub const N_ROWS: usize = 96;
+pub(crate) const N_ROWS: usize = 96;
 
 /// One value for every row, low frequencies first.
 pub type Rows = [f32; N_ROWS];
@@ -65,7 +65,7 @@ fn edge_hz(row: usize) -> f64 {
 }
 
 /// The middle of a row on the logarithmic axis, Hz.
-pub fn row_centre_hz(row: usize) -> f64 {
+pub(crate) fn row_centre_hz(row: usize) -> f64 {
     (edge_hz(row) * edge_hz(row + 1)).sqrt()
 }
 

@@ -8,7 +8,7 @@ use super::rows::LEAST_HZ;
 
 /// The spectra of all four directions at the points nearest to a contactor.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SpatialView {
+pub(crate) struct SpatialView {
     /// By [`Direction::index`].
     pub curves: [SpatialCurve; 4],
     /// What is felt along warp and weft.
@@ -17,7 +17,7 @@ pub struct SpatialView {
 
 /// The spectrum of one direction at one point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SpatialCurve {
+pub(crate) struct SpatialCurve {
     /// Which of the four.
     pub direction: Direction,
     /// The direction whose profile it comes from: itself, or its fall-back.
@@ -25,7 +25,7 @@ pub struct SpatialCurve {
     /// The point of its profile, 1 mm apart.
     pub point: usize,
     /// Power density of every bin, µm² per cycle/mm: its power over 0.23 cycles/mm, one-sided.
-    pub density_um2_mm: Vec<f64>,
+    pub(crate) density_um2_mm: Vec<f64>,
 }
 
 /// A direction that a contactor moves in.
@@ -69,7 +69,7 @@ impl SpatialView {
     }
 
     /// What is felt in a direction.
-    pub fn felt_in(&self, direction: Direction) -> Option<Felt> {
+    pub(crate) fn felt_in(&self, direction: Direction) -> Option<Felt> {
         let felt = self.felt.iter().flatten();
         felt.copied().find(|felt| felt.direction == direction)
     }

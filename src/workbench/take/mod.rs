@@ -5,7 +5,8 @@
 
 mod strips;
 
-pub use strips::{Column, Extent, Felt, Strips};
+pub(crate) use strips::Strips;
+pub use strips::{Column, Extent, Felt};
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -29,7 +30,7 @@ impl Take {
     ///
     /// # Errors
     /// Nothing was recorded.
-    pub fn from_recording(recording: &Recording) -> Result<Self, SceneError> {
+    pub(crate) fn from_recording(recording: &Recording) -> Result<Self, SceneError> {
         let path = recording.to_path()?;
         let ticks = recording.ticks().iter().enumerate();
         let strips = Strips::felt(
@@ -45,7 +46,7 @@ impl Take {
     }
 
     /// The exploration of a path file. Walks through all of it: an hour takes some milliseconds.
-    pub fn from_path(file: PathBuf, path: ExplorationPath) -> Self {
+    pub(crate) fn from_path(file: PathBuf, path: ExplorationPath) -> Self {
         Self {
             strips: Arc::new(Strips::moved(&path)),
             path: Arc::new(path),
@@ -66,7 +67,7 @@ impl Take {
     }
 
     /// What is drawn of it over time.
-    pub fn strips(&self) -> &Arc<Strips> {
+    pub(crate) fn strips(&self) -> &Arc<Strips> {
         &self.strips
     }
 
@@ -81,7 +82,7 @@ impl Take {
     }
 
     /// The same once it is in this file.
-    pub fn saved_as(self, file: PathBuf) -> Self {
+    pub(crate) fn saved_as(self, file: PathBuf) -> Self {
         Self {
             name: name_of(&file),
             file: Some(file),

@@ -10,7 +10,7 @@ const MOST_ENTRIES: u64 = 1 << 20;
 
 /// Speed and mean amplitudes of an exploration over time.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Strips {
+pub(crate) struct Strips {
     n_ticks: u64,
     ticks_per_entry: u64,
     speed_mm_per_s: Vec<f32>,
@@ -93,12 +93,12 @@ impl Strips {
     }
 
     /// Whether amplitudes are known.
-    pub fn has_levels(&self) -> bool {
+    pub(crate) fn has_levels(&self) -> bool {
         !self.mean_um.is_empty()
     }
 
     /// The highest speed, mm/s.
-    pub fn fastest_mm_per_s(&self) -> f64 {
+    pub(crate) fn fastest_mm_per_s(&self) -> f64 {
         f64::from(self.fastest_mm_per_s)
     }
 

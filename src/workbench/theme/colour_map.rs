@@ -8,7 +8,7 @@ use eframe::egui::Color32;
 
 /// Which colours stand for numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ColourMap {
+pub(crate) enum ColourMap {
     /// Purple, green, yellow.
     #[default]
     Viridis,
@@ -86,7 +86,7 @@ impl ColourMap {
 /// farther from the ground alike, so that no difference is the calmest colour and the strongest
 /// stand out; violet and yellow are told apart by every colour vision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Diverging {
+pub(crate) struct Diverging {
     below: u32,
     none: u32,
     above: u32,

@@ -7,7 +7,7 @@
 mod colour_map;
 mod style;
 
-pub use colour_map::{ColourMap, Diverging};
+pub(crate) use colour_map::{ColourMap, Diverging};
 pub use style::install;
 
 use eframe::egui::{self, Color32, FontId};
@@ -17,11 +17,11 @@ use selvedge_textile::tactile::Band;
 /// Distances are steps of this many points.
 pub const STEP: f32 = 4.0;
 /// The height of one row of controls, points.
-pub const ROW: f32 = 24.0;
+pub(crate) const ROW: f32 = 24.0;
 
 /// The colours of one theme.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Palette {
+pub(crate) struct Palette {
     /// Behind everything; the floor of the workspace.
     pub floor: Color32,
     /// Panels.
@@ -53,15 +53,15 @@ pub struct Palette {
     /// The rim around what is lit.
     pub rim: Color32,
     /// Armed, fault, all off.
-    pub danger: Color32,
+    pub(crate) danger: Color32,
     /// Text on `danger`.
-    pub on_danger: Color32,
+    pub(crate) on_danger: Color32,
     /// The ground behind a textile's tag and behind tips.
     pub tag: Color32,
     /// Shadows.
     pub shadow: Color32,
     /// How textiles are tinted that are not under the display.
-    pub resting_cloth: Color32,
+    pub(crate) resting_cloth: Color32,
 }
 
 const DARK: Palette = Palette {
@@ -120,12 +120,12 @@ impl Palette {
     }
 
     /// The colours in force in `ui`.
-    pub fn in_ui(ui: &egui::Ui) -> &'static Self {
+    pub(crate) fn in_ui(ui: &egui::Ui) -> &'static Self {
         Self::of_visuals(ui.visuals())
     }
 
     /// The colours that go with the toolkit's own.
-    pub fn of_visuals(visuals: &egui::Visuals) -> &'static Self {
+    pub(crate) fn of_visuals(visuals: &egui::Visuals) -> &'static Self {
         Self::of(if visuals.dark_mode {
             egui::Theme::Dark
         } else {
@@ -172,7 +172,7 @@ pub fn large() -> FontId {
 }
 
 /// Numbers of places and titles, to be read from a metre away.
-pub fn huge() -> FontId {
+pub(crate) fn huge() -> FontId {
     FontId::proportional(34.0)
 }
 
@@ -182,7 +182,7 @@ pub fn number() -> FontId {
 }
 
 /// Small numbers: ticks of rulers and colour bars.
-pub fn small_number() -> FontId {
+pub(crate) fn small_number() -> FontId {
     FontId::monospace(10.0)
 }
 

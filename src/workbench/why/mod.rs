@@ -8,7 +8,8 @@
 
 mod text;
 
-pub use text::{LIMITS, lines, sheet, to_text};
+pub(crate) use text::{LIMITS, to_text};
+pub use text::{lines, sheet};
 
 use super::command::Part;
 use super::sensation::Sensation;
@@ -34,9 +35,9 @@ pub struct Why {
     /// What the textile is called in the scene: label and name.
     pub textile: Option<String>,
     /// Whether the contactor is left out for the moment.
-    pub is_muted: bool,
+    pub(crate) is_muted: bool,
     /// What the whole display feels like, by a model.
-    pub sensation: Sensation,
+    pub(crate) sensation: Sensation,
     /// What becomes of the amplitudes at the output.
     pub output: Output,
 }
@@ -45,7 +46,7 @@ pub struct Why {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Output {
     /// Whether a device is armed; otherwise these are the codes it would get at full gain.
-    pub is_sent: bool,
+    pub(crate) is_sent: bool,
     /// Whether the display is silent, stopped or held, whatever its amplitudes.
     pub is_silent: bool,
     /// The soft-start gain.
@@ -111,7 +112,7 @@ impl Why {
     }
 
     /// Amplitudes before any gain: `√(2 Σ P H²)`, µm.
-    pub fn bare_um(&self) -> [f64; 2] {
+    pub(crate) fn bare_um(&self) -> [f64; 2] {
         let [warp, weft] = self.powers_um2();
         [0, 1].map(|band| (2.0 * (warp[band] + weft[band])).sqrt())
     }

@@ -9,10 +9,10 @@ use selvedge_render::GainTerms;
 use selvedge_render::array::DirectionTrace;
 
 /// The line of the output limits: views mark it when one bites.
-pub const LIMITS: &str = "Limits";
+pub(crate) const LIMITS: &str = "Limits";
 
 /// The terms of a gain with their names, dB.
-pub fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
+pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
     [
         ("master", terms.master_db),
         ("band", terms.band_db),
@@ -136,7 +136,7 @@ fn codes(why: &Why) -> String {
 }
 
 /// All of it as text.
-pub fn to_text(why: &Why) -> String {
+pub(crate) fn to_text(why: &Why) -> String {
     let cell = why.cell.map_or_else(String::new, |(row, column)| {
         format!(", row {row}, column {column}")
     });

@@ -138,12 +138,12 @@ impl Axis {
     }
 
     /// The number at a horizontal place.
-    pub fn value_at_x(&self, range: Rangef, x: f32) -> f64 {
+    pub(crate) fn value_at_x(&self, range: Rangef, x: f32) -> f64 {
         self.value(f64::from((x - range.min) / range.span().max(1e-3)))
     }
 
     /// The number at a vertical place.
-    pub fn value_at_y(&self, range: Rangef, y: f32) -> f64 {
+    pub(crate) fn value_at_y(&self, range: Rangef, y: f32) -> f64 {
         self.value(f64::from((range.max - y) / range.span().max(1e-3)))
     }
 
@@ -187,7 +187,7 @@ impl Axis {
 }
 
 /// The least of 1, 2, 5 · 10ⁿ that is not below `step`; 1 for what is no positive number.
-pub fn round_step(step: f64) -> f64 {
+pub(crate) fn round_step(step: f64) -> f64 {
     if !(step > 0.0 && step.is_finite()) {
         return 1.0;
     }
@@ -209,7 +209,12 @@ fn decimals_of(magnitude: f64) -> usize {
 }
 
 /// Paints hairlines across a plot at the ticks of an axis, and their numbers at its side.
-pub fn paint_ticks(painter: &Painter, plot: Rect, (axis, side): (&Axis, Side), ticks: &[Tick]) {
+pub(crate) fn paint_ticks(
+    painter: &Painter,
+    plot: Rect,
+    (axis, side): (&Axis, Side),
+    ticks: &[Tick],
+) {
     let palette = Palette::of(painter.ctx().theme());
     let hairline = Stroke::new(1.0, palette.hairline);
     for tick in ticks {
@@ -236,7 +241,7 @@ pub fn paint_ticks(painter: &Painter, plot: Rect, (axis, side): (&Axis, Side), t
 
 /// Paints short strokes outside a plot at the ticks of an axis, and their numbers behind them:
 /// beside pictures, which hairlines would cut.
-pub fn paint_outer_ticks(
+pub(crate) fn paint_outer_ticks(
     painter: &Painter,
     plot: Rect,
     (axis, side): (&Axis, Side),
@@ -263,7 +268,7 @@ pub fn paint_outer_ticks(
 
 /// Writes a label at a place on a side of a plot, moved inwards where it would leave the plot's
 /// length.
-pub fn paint_label(
+pub(crate) fn paint_label(
     painter: &Painter,
     plot: Rect,
     (at, side): (Pos2, Side),
@@ -293,7 +298,7 @@ pub fn paint_label(
 }
 
 /// Writes a unit, small and dim.
-pub fn paint_unit(painter: &Painter, at: Pos2, anchor: Align2, unit: &str) {
+pub(crate) fn paint_unit(painter: &Painter, at: Pos2, anchor: Align2, unit: &str) {
     let palette = Palette::of(painter.ctx().theme());
     painter.text(at, anchor, unit, theme::small(), palette.dim);
 }

@@ -13,7 +13,7 @@ const LINE: f32 = 10.0;
 const N_SLICES: u8 = 64;
 
 /// Paints the colours of a scale, by share 0…1, from the bottom up.
-pub fn colour_bar(painter: &Painter, bar: Rect, colour: impl Fn(f64) -> Color32) {
+pub(crate) fn colour_bar(painter: &Painter, bar: Rect, colour: impl Fn(f64) -> Color32) {
     let step = bar.height() / f32::from(N_SLICES);
     for i in 0..N_SLICES {
         let y = bar.bottom() - f32::from(i + 1) * step;
@@ -26,7 +26,7 @@ pub fn colour_bar(painter: &Painter, bar: Rect, colour: impl Fn(f64) -> Color32)
 
 /// Paints the colours of a map on a scale of amplitudes, with its numbers in µm on the right and
 /// the unit above.
-pub fn amplitude_bar(painter: &Painter, bar: Rect, map: ColourMap, scale: AmplitudeScale) {
+pub(crate) fn amplitude_bar(painter: &Painter, bar: Rect, map: ColourMap, scale: AmplitudeScale) {
     let palette = Palette::of(painter.ctx().theme());
     colour_bar(painter, bar, |share| map.colour(share));
     let mut taken: Vec<f32> = Vec::new();

@@ -5,7 +5,7 @@ use eframe::egui::{self, Area, Frame, Id, Margin, Order, Rect, RichText, Stroke,
 use crate::theme::{self, Palette, STEP};
 
 /// Where a card hangs below the upper edge of what it covers, points.
-pub const DROP: f32 = 32.0;
+pub(crate) const DROP: f32 = 32.0;
 /// The room between a card's edge and what is on it, points.
 pub const MARGIN: f32 = 16.0;
 

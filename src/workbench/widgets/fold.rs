@@ -27,7 +27,7 @@ pub fn fold(
 }
 
 /// The same where somebody else knows whether it is open, and takes a click on its name.
-pub fn told_fold(
+pub(crate) fn told_fold(
     ui: &mut Ui,
     (title, is_open): (&'static str, bool),
     summary: &str,

@@ -8,10 +8,10 @@ use crate::theme::Palette;
 use selvedge_device::Bite;
 
 /// Width and height of the mark, points.
-pub const LIMIT_MARK: f32 = 6.0;
+pub(crate) const LIMIT_MARK: f32 = 6.0;
 
 /// Paints the mark around `centre`: an arrow that meets a ceiling.
-pub fn paint_limit_mark(painter: &Painter, centre: Pos2) {
+pub(crate) fn paint_limit_mark(painter: &Painter, centre: Pos2) {
     let palette = Palette::of(painter.ctx().theme());
     let rect = Rect::from_center_size(centre, vec2(LIMIT_MARK, LIMIT_MARK));
     // Told apart from cloth and colours of any brightness, in both themes.
@@ -31,7 +31,7 @@ pub fn paint_limit_mark(painter: &Painter, centre: Pos2) {
 }
 
 /// What bites a contactor, in words behind the mark; `None` when nothing does.
-pub fn limit_words(bite: Bite) -> Option<String> {
+pub(crate) fn limit_words(bite: Bite) -> Option<String> {
     let whose = |band: usize| {
         if bite.by_device[band] {
             "the device's own limit"
@@ -63,7 +63,7 @@ pub fn limit_words(bite: Bite) -> Option<String> {
 }
 
 /// Whether what bites concerns a band.
-pub fn bites_band(bite: Bite, band: usize) -> bool {
+pub(crate) fn bites_band(bite: Bite, band: usize) -> bool {
     bite.guarded || bite.off || bite.non_finite || bite.limited.get(band) == Some(&true)
 }
 

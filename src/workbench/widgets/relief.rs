@@ -24,7 +24,7 @@ const BEYOND: f64 = 0.005;
 /// How much light and shade change a colour.
 const DEPTH: f64 = 0.4;
 /// Width of a bar with its numbers, points.
-pub const BAR_ROOM: f32 = 58.0;
+pub(crate) const BAR_ROOM: f32 = 58.0;
 
 /// Heights as they are drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +81,7 @@ impl Relief {
     }
 
     /// The height at a place in mm, µm; `None` off the map and where it is missing.
-    pub fn height_at(&self, place_mm: [f64; 2]) -> Option<f64> {
+    pub(crate) fn height_at(&self, place_mm: [f64; 2]) -> Option<f64> {
         let n = [self.heights_um.width(), self.heights_um.height()];
         let cell = |axis: usize| {
             let share = place_mm[axis] / self.size_mm[axis];
@@ -238,7 +238,7 @@ fn range_of(heights: &Grid<f64>) -> [f64; 2] {
 
 /// A relief as a texture, made when it is first drawn and again for other colours.
 #[derive(Default)]
-pub struct ReliefPicture {
+pub(crate) struct ReliefPicture {
     texture: Option<(TextureHandle, ColourMap, bool)>,
 }
 
@@ -277,7 +277,7 @@ impl std::fmt::Debug for ReliefPicture {
 }
 
 /// Paints the bar of heights, its numbers on the right and the unit above.
-pub fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, map: ColourMap) {
+pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, map: ColourMap) {
     colour_bar(painter, bar, |share| map.colour(share));
     let [low, high] = relief.range_um();
     let axis = Axis::linear(low, high);

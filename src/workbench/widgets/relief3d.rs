@@ -40,7 +40,7 @@ const KEY_ZOOM: f32 = 1.15;
 
 /// Heights to be looked at, averaged.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Relief3d {
+pub(crate) struct Relief3d {
     heights_um: Grid<f64>,
     step_mm: [f64; 2],
     range_um: [f64; 2],
@@ -87,20 +87,20 @@ impl Relief3d {
 
 /// From where a relief is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct View3d {
+pub(crate) struct View3d {
     /// Turned counter-clockwise about the vertical, degrees.
-    pub yaw_deg: f32,
+    pub(crate) yaw_deg: f32,
     /// From how far above the level it is seen, degrees: 90 is from straight above.
-    pub pitch_deg: f32,
+    pub(crate) pitch_deg: f32,
     /// How near: 1 shows all of it.
-    pub zoom: f32,
+    pub(crate) zoom: f32,
     /// How many times heights are drawn too high.
-    pub exaggeration: f64,
+    pub(crate) exaggeration: f64,
 }
 
 impl View3d {
     /// From a corner, so much exaggerated that the relief shows.
-    pub fn for_relief(relief: &Relief3d) -> Self {
+    pub(crate) fn for_relief(relief: &Relief3d) -> Self {
         let [u, w] = relief.size_mm();
         let wanted = FIRST_SHARE * u.min(w) * 1000.0 / relief.relief_um();
         let exaggeration = if wanted.is_finite() { wanted } else { 1.0 };
@@ -136,7 +136,7 @@ fn round_half(x: f64) -> f64 {
 /// Shows a relief in all the room there is, with a slider for its exaggeration below; says the
 /// view that the user turned it to. `name` is what it is called; no two in a window are called
 /// alike.
-pub fn relief3d(ui: &mut Ui, name: &str, relief: &Relief3d, view: View3d) -> Option<View3d> {
+pub(crate) fn relief3d(ui: &mut Ui, name: &str, relief: &Relief3d, view: View3d) -> Option<View3d> {
     let size = vec2(
         ui.available_width(),
         (ui.available_height() - ROW - ui.spacing().item_spacing.y).max(4.0 * ROW),

@@ -55,7 +55,7 @@ impl Scale {
     }
 
     /// The same with the change that is just noticed.
-    pub fn with_noticed(self, noticed: Option<f64>) -> Self {
+    pub(crate) fn with_noticed(self, noticed: Option<f64>) -> Self {
         Self { noticed, ..self }
     }
 

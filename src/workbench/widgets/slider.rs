@@ -25,15 +25,15 @@ const FINE: f64 = 0.1;
 
 /// How a row with a slider is laid out, and what may be typed in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RowShape {
+pub(crate) struct RowShape {
     /// Width of the name, points.
     pub name: f32,
     /// Whether a number beyond the rail may be typed: whoever takes it says what is wrong with it.
-    pub takes_any: bool,
+    pub(crate) takes_any: bool,
 }
 
 /// Shows the slider; says the new value when the user changed it.
-pub fn slider_row(
+pub(crate) fn slider_row(
     ui: &mut Ui,
     name: &str,
     ink: Color32,
@@ -48,7 +48,7 @@ pub fn slider_row(
 }
 
 /// The same in a row of another shape.
-pub fn slider_row_as(
+pub(crate) fn slider_row_as(
     ui: &mut Ui,
     (name, ink): (&str, Color32),
     (shape, scale): (RowShape, Scale),
@@ -94,7 +94,7 @@ pub fn slider_row_as(
 
 /// Tells of a slider beside its pane: below it the tip would cover the next slider, which the hand
 /// may want next.
-pub fn tip_beside(ui: &Ui, response: &Response, words: impl Into<WidgetText>) {
+pub(crate) fn tip_beside(ui: &Ui, response: &Response, words: impl Into<WidgetText>) {
     let beside = Rect::from_x_y_ranges(ui.max_rect().x_range(), response.rect.y_range());
     let mut tip = Tooltip::for_enabled(response);
     tip.popup = tip.popup.anchor(beside).align(RectAlign::LEFT).gap(16.0);
@@ -129,7 +129,7 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
 }
 
 /// Steps asked for by the arrow keys and by assistive tools: up less down.
-pub fn key_steps(ui: &Ui, response: &Response) -> i32 {
+pub(crate) fn key_steps(ui: &Ui, response: &Response) -> i32 {
     let requests =
         |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action));
     let mut ups = requests(accesskit::Action::Increment);
@@ -148,7 +148,7 @@ pub fn key_steps(ui: &Ui, response: &Response) -> i32 {
 }
 
 /// The number that an assistive tool asks for.
-pub fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
+pub(crate) fn asked_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|input| {
         let requests = input.accesskit_action_requests(id, accesskit::Action::SetValue);
         requests
@@ -200,7 +200,7 @@ fn paint_marks(ui: &Ui, rail: Rect, scale: &Scale, marks: &[f64]) {
 
 /// Tells assistive tools what numbers a widget takes, and where a gesture began with what is just
 /// noticed.
-pub fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
+pub(crate) fn declare(ui: &Ui, id: Id, scale: &Scale, gesture: Option<(f64, f64)>) {
     let noticed = |change: f64| {
         let change = quantity::with_unit(change * scale.factor, scale.decimals, scale.unit);
         format!("Just noticeable difference {change}, by a model")

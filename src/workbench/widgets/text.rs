@@ -21,7 +21,11 @@ pub fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Re
 }
 
 /// The same, as high as a field that one types in.
-pub fn field_row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Response {
+pub(crate) fn field_row<R>(
+    ui: &mut Ui,
+    name: &str,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> Response {
     row_of(ui, (name, ROW), content)
 }
 
@@ -39,7 +43,7 @@ fn row_of<R>(
 }
 
 /// A number in fixed digits with its unit after a small, dim name.
-pub fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
+pub(crate) fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
     let palette = Palette::in_ui(ui);
     let name = RichText::new(name).font(theme::small()).color(palette.dim);
     let size = vec2(ui.available_width(), 20.0);
@@ -74,7 +78,7 @@ pub fn button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool
 }
 
 /// A small square button that is on or off: mute, solo. Read out as `label`, which is its tip.
-pub fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> bool {
+pub(crate) fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> bool {
     let palette = Palette::in_ui(ui);
     let font = theme::small();
     let galley = ui
@@ -115,7 +119,7 @@ pub fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {
 
 /// Paints as much of a line as there is room for, and … where it breaks off; its left end is at
 /// `left`, halfway up.
-pub fn paint_line(ui: &Ui, left: Pos2, width: f32, text: RichText) {
+pub(crate) fn paint_line(ui: &Ui, left: Pos2, width: f32, text: RichText) {
     let job = egui::WidgetText::from(text).into_galley(
         ui,
         Some(egui::TextWrapMode::Truncate),
@@ -127,7 +131,7 @@ pub fn paint_line(ui: &Ui, left: Pos2, width: f32, text: RichText) {
 }
 
 /// Paints a number, right-aligned in `rect`, its unit dimmer behind it.
-pub fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, unit: &str) {
+pub(crate) fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, unit: &str) {
     let palette = Palette::in_ui(ui);
     let right = pos2(rect.right(), rect.center().y);
     let painter = ui.painter();

@@ -18,7 +18,7 @@ const IN_SIGHT: f64 = 48.0;
 
 /// What is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Camera {
+pub(crate) enum Camera {
     /// All of the workspace, as large as fits.
     #[default]
     Fit,

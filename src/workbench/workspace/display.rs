@@ -16,7 +16,7 @@ use crate::widgets::paint_limit_mark;
 use selvedge_foundation::geometry::Point;
 
 /// How long the trail is, s.
-pub const TRAIL_S: f64 = 0.8;
+pub(crate) const TRAIL_S: f64 = 0.8;
 
 /// Dots closer together than this have no room for a ring, points per mm.
 const LEAST_FOR_RING: f32 = 4.0;

@@ -12,7 +12,7 @@ use selvedge_foundation::quantity;
 
 /// A textile of the library that is carried by the pointer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LibraryItem {
+pub(crate) struct LibraryItem {
     /// Its place in the library.
     pub id: String,
 }

@@ -23,13 +23,15 @@ mod tools;
 mod trail;
 mod transform;
 
-pub use camera::Camera;
-pub use drop::LibraryItem;
-pub use overlay::{Lattice, Layers, Overlay, Overlays};
-pub use state::{Place, WorkspaceState};
-pub use tools::show as show_tools;
-pub use trail::Trail;
-pub use transform::ViewTransform;
+pub(crate) use camera::Camera;
+pub(crate) use drop::LibraryItem;
+pub use overlay::{Lattice, Overlay};
+pub(crate) use overlay::{Layers, Overlays};
+pub use state::Place;
+pub(crate) use state::WorkspaceState;
+pub(crate) use tools::show as show_tools;
+pub(crate) use trail::Trail;
+pub(crate) use transform::ViewTransform;
 
 use eframe::egui::{
     self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Response, Sense, Stroke, StrokeKind, Ui,
@@ -44,7 +46,7 @@ use selvedge_foundation::geometry::Point;
 
 /// What came of showing the workspace.
 #[derive(Debug, Clone, Copy)]
-pub struct Shown {
+pub(crate) struct Shown {
     /// How mm are laid on the screen.
     pub view: ViewTransform,
     /// The part of the screen where the pointer feels.
@@ -171,7 +173,7 @@ fn paint(ui: &Ui, stage: &Stage<'_>, trail: &Trail) -> Option<usize> {
 }
 
 /// Draws a cloth that lies straight, with nothing on it that tells which it is.
-pub fn paint_plain_cloth(
+pub(crate) fn paint_plain_cloth(
     painter: &Painter,
     view: &ViewTransform,
     (origin_mm, size_mm): (Point, [f64; 2]),

@@ -9,7 +9,7 @@ use crate::probe::Probe;
 
 /// How the workspace is looked at and what is chosen in it. Never undoable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WorkspaceState {
+pub(crate) struct WorkspaceState {
     /// Which part of it is in sight.
     pub camera: Camera,
     /// What a drag does.
@@ -21,17 +21,17 @@ pub struct WorkspaceState {
     /// The scale on which dots are drawn.
     pub scale: AmplitudeScale,
     /// What the dots show by what.
-    pub dot_style: DotStyle,
+    pub(crate) dot_style: DotStyle,
     /// Whether what is below the threshold of detection is greyed.
-    pub greys_below: bool,
+    pub(crate) greys_below: bool,
     /// What is drawn over the cloth.
     pub overlays: Overlays,
     /// The velocity at which textiles are asked what they would give.
     pub probe: Probe,
     /// Whether the screen is being calibrated to true size.
-    pub is_calibrating: bool,
+    pub(crate) is_calibrating: bool,
     /// Physical pixels per millimetre of the screen, once it is calibrated.
-    pub true_pixels_per_mm: Option<f64>,
+    pub(crate) true_pixels_per_mm: Option<f64>,
 }
 
 /// Where the workspace is shown, which some commands need to know.
@@ -70,7 +70,7 @@ impl WorkspaceState {
     }
 
     /// Points per millimetre at true size, once the screen is calibrated.
-    pub fn true_points_per_mm(&self, pixels_per_point: f32) -> Option<f64> {
+    pub(crate) fn true_points_per_mm(&self, pixels_per_point: f32) -> Option<f64> {
         self.true_pixels_per_mm
             .map(|pixels_per_mm| pixels_per_mm / f64::from(pixels_per_point))
     }

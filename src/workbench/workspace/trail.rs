@@ -14,7 +14,7 @@ const JUMP_MM: f64 = 120.0;
 
 /// The places of the last ticks, old to new.
 #[derive(Debug, Clone, Default)]
-pub struct Trail {
+pub(crate) struct Trail {
     places: VecDeque<(u64, Point)>,
     now: u64,
 }
@@ -46,12 +46,12 @@ impl Trail {
     }
 
     /// Whether there is anything to draw.
-    pub fn is_visible(&self) -> bool {
+    pub(crate) fn is_visible(&self) -> bool {
         self.places.len() > 1
     }
 
     /// `(age in s, place)`, old to new.
-    pub fn aged(&self) -> impl Iterator<Item = (f64, Point)> {
+    pub(crate) fn aged(&self) -> impl Iterator<Item = (f64, Point)> {
         let places = self.places.iter();
         places.map(|&(tick, place)| (self.age_s(tick), place))
     }

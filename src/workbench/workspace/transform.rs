@@ -8,7 +8,7 @@ use selvedge_foundation::geometry::Point;
 
 /// How a part of the workspace is laid on a rectangle of the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ViewTransform {
+pub(crate) struct ViewTransform {
     /// The rectangle, points.
     rect: Rect,
     /// The place in the workspace shown at the middle of the rectangle.
@@ -40,7 +40,7 @@ impl ViewTransform {
     }
 
     /// Points per millimetre.
-    pub fn points_per_mm(&self) -> f64 {
+    pub(crate) fn points_per_mm(&self) -> f64 {
         self.points_per_mm
     }
 

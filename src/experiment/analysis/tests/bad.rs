@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::session::{Circumstances, Session, find};
 use crate::simulate::simulated_subject;
-use selvedge_scratch::ScratchFolder as Scratch;
 use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_scratch::ScratchFolder as Scratch;
 
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
     title = \"Odd cloth\"\ntextiles = [\"a\", \"b\", \"c\", \"d\", \"e\"]\n[odd_one_out]\n";

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::*;
 use crate::session::tests::any_answer;
-use selvedge_scratch::ScratchFolder as Scratch;
 use selvedge_foundation::numerics::Random;
+use selvedge_scratch::ScratchFolder as Scratch;
 
 fn files_of(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap();

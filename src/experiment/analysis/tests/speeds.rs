@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::session::path_file;
-use selvedge_scratch::ScratchFolder as Scratch;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity::level_db;
 use selvedge_render::scene::{ExplorationPath, PathRow};
+use selvedge_scratch::ScratchFolder as Scratch;
 use selvedge_statistics::pearson_r;
 use selvedge_textile::Library;
 use selvedge_textile::tactile::{Filters, Levels};

@@ -32,7 +32,7 @@ const MOST_SQUARINGS: i32 = 200;
 const MOST_SWEEPS: usize = 20;
 
 /// `e^matrix`; `None` when a number is not finite, in the matrix or in the result.
-pub fn exponential<const N: usize>(matrix: &Matrix<N, N>) -> Option<Matrix<N, N>> {
+pub(crate) fn exponential<const N: usize>(matrix: &Matrix<N, N>) -> Option<Matrix<N, N>> {
     if !norm(matrix).is_finite() {
         return None;
     }

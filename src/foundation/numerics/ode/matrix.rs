@@ -6,7 +6,7 @@ use std::ops::{Div, Mul, Sub};
 use crate::numerics::Complex;
 
 /// `R` rows of `C` numbers.
-pub type Matrix<const R: usize, const C: usize> = [[f64; C]; R];
+pub(crate) type Matrix<const R: usize, const C: usize> = [[f64; C]; R];
 
 /// A number that elimination works with.
 pub(super) trait Number:
@@ -62,10 +62,7 @@ pub(super) fn combination<const R: usize, const C: usize, const K: usize>(
 }
 
 /// `factor · matrix`.
-pub(super) fn scaled<const R: usize, const C: usize>(
-    factor: f64,
-    matrix: &Matrix<R, C>,
-) -> Matrix<R, C> {
+pub fn scaled<const R: usize, const C: usize>(factor: f64, matrix: &Matrix<R, C>) -> Matrix<R, C> {
     combination([(factor, matrix)])
 }
 

@@ -18,8 +18,8 @@ mod matrix;
 mod propagator;
 mod response;
 
-pub use exponential::exponential;
-pub use matrix::Matrix;
+pub(crate) use exponential::exponential;
+pub(crate) use matrix::Matrix;
 pub use propagator::{LinearSystem, Propagator, StepMethod};
 
 #[cfg(test)]

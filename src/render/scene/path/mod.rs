@@ -130,7 +130,7 @@ impl ExplorationPath {
     }
 
     /// Whether the path carries its own velocities.
-    pub fn has_velocity(&self) -> bool {
+    pub(crate) fn has_velocity(&self) -> bool {
         self.has_velocity
     }
 

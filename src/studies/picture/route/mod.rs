@@ -14,7 +14,7 @@ use ways::Subject;
 
 /// What is felt of model cloths by four routes.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct PictureRouteStudy;
+pub(crate) struct PictureRouteStudy;
 
 impl Study for PictureRouteStudy {
     fn name(&self) -> &'static str {

@@ -25,7 +25,7 @@ pub struct Light {
 
 impl Light {
     /// `[cos tilt, sin tilt]·tan slant`: how far the light leans, y up.
-    pub fn lean(self) -> [f64; 2] {
+    pub(crate) fn lean(self) -> [f64; 2] {
         let (sin, cos) = self.tilt_deg.to_radians().sin_cos();
         let tan = self.slant_deg.to_radians().tan();
         [cos * tan, sin * tan]
@@ -68,10 +68,10 @@ pub struct LightEstimate {
     pub albedo: f64,
     /// How much the gradients of brightness agree on the tilt: 0 not at all, 1 wholly. A tile
     /// that repeats is near 0.
-    pub tilt_agreement: f64,
+    pub(crate) tilt_agreement: f64,
     /// How much more the brightness changes along the tilt than across it: 0 no more, 1 along it
     /// alone. An even surface gives 0.5; a weave has directions of its own and misleads it.
-    pub axis_coherence: f64,
+    pub(crate) axis_coherence: f64,
     /// How sure all this is, in a sentence or two.
     pub words: String,
 }

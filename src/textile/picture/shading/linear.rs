@@ -16,12 +16,12 @@ const REGULARISER: f64 = 0.1;
 /// What a light cannot show: wave vectors so nearly across it that less than half of their height
 /// comes back.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Blind {
+pub(crate) struct Blind {
     /// Their share of all wave vectors.
-    pub share_of_vectors: f64,
+    pub(crate) share_of_vectors: f64,
     /// Their share of the picture's energy (its variance): what the linear inversion leaves out.
     /// A matt surface without noise has next to none there.
-    pub share_of_energy: f64,
+    pub(crate) share_of_energy: f64,
 }
 
 /// H of every wave vector of a half transform, and ε.

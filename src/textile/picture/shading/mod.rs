@@ -28,13 +28,14 @@ mod tsai_shah;
 mod variational;
 
 pub use light::{Light, LightEstimate, estimate_light};
-pub use linear::Blind;
+pub(crate) use linear::Blind;
 pub use reflectance::picture_of;
 pub use scale::HeightScale;
 pub use scale::{mean_smd_um, scaled};
-pub use source::PictureSource;
-pub use textile::{PictureTextile, relief_um_of, to_textile};
-pub use tsai_shah::Edges;
+pub(crate) use source::PictureSource;
+pub(crate) use textile::to_textile;
+pub use textile::{PictureTextile, relief_um_of};
+pub(crate) use tsai_shah::Edges;
 
 use serde::{Deserialize, Serialize};
 
@@ -80,7 +81,7 @@ impl Method {
     }
 
     /// Iterations unless stated.
-    pub fn default_iterations(self) -> usize {
+    pub(crate) fn default_iterations(self) -> usize {
         match self {
             Self::TsaiShah => 50,
             Self::Linear => 1,
@@ -110,7 +111,7 @@ pub struct ShadingOptions {
 }
 
 /// Most iterations.
-pub const MOST_ITERATIONS: usize = 10_000;
+pub(crate) const MOST_ITERATIONS: usize = 10_000;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -129,7 +130,7 @@ pub struct Shape {
     /// their share of the points; 0 by the others.
     pub n_rounds: usize,
     /// What the light cannot show.
-    pub blind: Blind,
+    pub(crate) blind: Blind,
     /// How far the method can be trusted under this light, in a sentence or two.
     pub reliability: String,
 }
@@ -360,7 +361,7 @@ fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), Shading
 /// The rows in the other order: from a picture's, which come from the top, to those of heights,
 /// which come from the lowest y, and back.
 #[must_use]
-pub fn rows_turned_over(grid: &Grid<f64>) -> Grid<f64> {
+pub(crate) fn rows_turned_over(grid: &Grid<f64>) -> Grid<f64> {
     let mut turned = grid.clone();
     let height = grid.height();
     for row in 0..height {

@@ -90,7 +90,10 @@ impl PictureTextile {
 /// # Errors
 /// Heights without a scale; a flat shape; less than 2 × 2 px; a scale out of range; an SMD that
 /// the tester never reads on it.
-pub fn to_textile(shape: &Shape, about: &PictureTextile) -> Result<Vec<BuiltFile>, TextileError> {
+pub(crate) fn to_textile(
+    shape: &Shape,
+    about: &PictureTextile,
+) -> Result<Vec<BuiltFile>, TextileError> {
     let path = Path::new(MAP);
     let mut keys = keys(shape, about);
     let step_mm = about.step_mm([shape.height_px.width(), shape.height_px.height()]);

@@ -18,8 +18,8 @@ use crate::compare::Standing;
 use crate::headless::Headless;
 use crate::lab::{Beginning, LabCommand};
 use crate::workspace::Overlay;
-use selvedge_foundation::quantity;
 use selvedge_foundation::files::{self, Table};
+use selvedge_foundation::quantity;
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Band;
 
@@ -277,10 +277,7 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
     let path = folder.join("WAVE.SVG");
     desk.file(FileCommand::Use(purpose, path.clone()));
-    assert!(
-        is_well_formed(&fs::read_to_string(path).unwrap()),
-        "mended"
-    );
+    assert!(is_well_formed(&fs::read_to_string(path).unwrap()), "mended");
     let nowhere = folder.join("missing/wave.csv");
     desk.file(FileCommand::Use(purpose, nowhere));
     assert!(

@@ -7,7 +7,7 @@ use crate::picturing::PictureCommand;
 
 impl Headless {
     /// Reads strokes of the tester.
-    pub(super) fn import(&mut self) {
+    pub fn import(&mut self) {
         let folder = ScratchFolder::made("strokes");
         let path = folder.write("twill.txt", export());
         self.dispatch(ImportCommand::Add(vec![path]));

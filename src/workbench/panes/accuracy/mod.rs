@@ -71,7 +71,7 @@ fn show_histograms(ui: &mut Ui, rect: Rect, view: &AccuracyView<'_>) {
 
 /// What stands beside the title: begin anew, and which plots there are where there is no room for
 /// all.
-pub fn show_corner(ui: &mut Ui, shows_methods: bool, wishes: &mut Wishes) {
+pub(crate) fn show_corner(ui: &mut Ui, shows_methods: bool, wishes: &mut Wishes) {
     let tip = "Begin the statistics of errors and costs anew";
     if toggle(ui, "reset", false, tip) {
         wishes.push(AccuracyCommand::Reset.into());

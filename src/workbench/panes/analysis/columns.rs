@@ -31,7 +31,7 @@ const UNITS: [(&str, &str); 8] = [
 
 /// How a table is laid out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TableLook {
+pub(crate) struct TableLook {
     /// Its columns.
     pub(super) columns: Vec<ColumnLook>,
     /// All of them with the space between, points.

@@ -21,7 +21,7 @@ use crate::theme::{self, Palette, STEP};
 use crate::widgets::button;
 use selvedge_chart::Paper;
 
-pub use section::Looks;
+pub(crate) use section::Looks;
 
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 640.0;
@@ -37,7 +37,7 @@ const EMPTY: [&str; 3] = [
 ];
 
 /// What is typed in the pane, and what it keeps from frame to frame.
-pub struct AnalysisHands<'a> {
+pub(crate) struct AnalysisHands<'a> {
     /// Folder and seed.
     pub fields: &'a mut Fields,
     /// Tables and figures as they are laid out.
@@ -46,7 +46,7 @@ pub struct AnalysisHands<'a> {
 
 /// How the figures in sight are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Sight {
+pub(crate) struct Sight {
     /// How wide, px of the screen.
     pub width_px: u32,
     /// What is behind them.

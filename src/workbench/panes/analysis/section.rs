@@ -18,7 +18,7 @@ const BAR: f32 = 12.0;
 
 /// Tables and figures of the section at hand as they are laid out.
 #[derive(Default)]
-pub struct Looks {
+pub(crate) struct Looks {
     of: Option<(Arc<Findings>, usize)>,
     /// By their place in the section.
     pub(super) tables: Vec<Option<TableLook>>,

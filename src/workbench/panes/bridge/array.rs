@@ -20,7 +20,7 @@ use selvedge_textile::tactile::Band;
 const CHOICE: f32 = 168.0;
 
 /// The array as the pane shows it.
-pub struct ArrayView<'a> {
+pub(crate) struct ArrayView<'a> {
     /// The profile in force.
     pub profile: &'a ArrayProfile,
     /// Where its contactors are, mm; none where it is too large to be shown.
@@ -34,7 +34,7 @@ pub struct ArrayView<'a> {
     /// The contactor that is looked at closer.
     pub contactor: Option<usize>,
     /// Channels that are being identified.
-    pub wizard: Option<&'a Wizard>,
+    pub(crate) wizard: Option<&'a Wizard>,
     /// Where the user's profiles are kept.
     pub folder: Option<&'a Path>,
 }

@@ -17,7 +17,7 @@ mod surface;
 mod timing;
 mod wiring;
 
-pub use array::ArrayView;
+pub(crate) use array::ArrayView;
 
 use eframe::egui::Ui;
 
@@ -30,10 +30,11 @@ use crate::view::Live;
 use crate::widgets::fold;
 use selvedge_device::FaultWords;
 
-pub use back::{BACK, notice as back_notice};
+pub use back::BACK;
+pub(crate) use back::notice as back_notice;
 
 /// What the pane is drawn from.
-pub struct BridgePane<'a> {
+pub(crate) struct BridgePane<'a> {
     /// The engine and the device.
     pub live: &'a Live,
     /// What the link was opened to.
@@ -49,15 +50,15 @@ pub struct BridgePane<'a> {
     /// What goes wrong with the emulator that is connected; `None` for other devices.
     pub faults: Option<&'a FaultWords>,
     /// Whether an armed device stops when the window loses the keyboard.
-    pub stops_on_focus_loss: bool,
+    pub(crate) stops_on_focus_loss: bool,
 }
 
 /// What is typed in the pane.
-pub struct BridgeTyped<'a> {
+pub(crate) struct BridgeTyped<'a> {
     /// A port.
     pub port: &'a mut String,
     /// The name of a copy of the array profile.
-    pub copy_name: &'a mut String,
+    pub(crate) copy_name: &'a mut String,
     /// What is to go wrong with the emulator next.
     pub faults: &'a mut FaultWords,
 }

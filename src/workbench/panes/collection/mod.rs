@@ -29,7 +29,7 @@ const TABLE: f32 = 416.0;
 const STATUS: f32 = 22.0;
 
 /// What the pane changes by itself: what is typed, and where the pointer rests.
-pub struct Typed<'a> {
+pub(crate) struct Typed<'a> {
     /// What is typed in the field that searches.
     pub search: &'a mut String,
     /// The textile under the pointer.

@@ -35,7 +35,7 @@ const KINDS: [(What, &str, &str); 3] = [
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
 /// What stands over the pane: hold A, compare or stop.
-pub fn show_corner(ui: &mut Ui, standing: &Standing, wishes: &mut Wishes) {
+pub(crate) fn show_corner(ui: &mut Ui, standing: &Standing, wishes: &mut Wishes) {
     if matches!(standing, Standing::Running(_)) {
         if toggle(ui, "stop", false, "Stop comparing") {
             wishes.push(CompareCommand::Cancel.into());

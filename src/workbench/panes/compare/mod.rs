@@ -6,7 +6,7 @@ mod controls;
 mod maps;
 mod over_time;
 
-pub use controls::show_corner;
+pub(crate) use controls::show_corner;
 
 use eframe::egui::{Align, Align2, Label, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
@@ -25,11 +25,11 @@ const LINE: f32 = 14.0;
 const WIDE: f32 = 300.0;
 
 /// What the pane is drawn from, besides what was found.
-pub struct CompareView<'a> {
+pub(crate) struct CompareView<'a> {
     /// The scene.
     pub scene: &'a SceneView,
     /// The textiles of the library.
-    pub shelf: &'a [ShelfItem],
+    pub(crate) shelf: &'a [ShelfItem],
     /// The place in the scene's list whose textile is exchanged.
     pub place: usize,
     /// The path that a comparison would follow now.
@@ -172,7 +172,7 @@ fn alone_words(tally: &Tally) -> &'static str {
 
 /// Half the range of a scale of differences: the least of 1, 2, 5 · 10ⁿ that holds the largest;
 /// 1 dB where there are none.
-pub fn scale_db(differences_db: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn scale_db(differences_db: impl Iterator<Item = f64>) -> f64 {
     let largest = differences_db.map(f64::abs).fold(0.0, f64::max);
     if largest > 1e-6 {
         round_step(largest.max(1e-4))

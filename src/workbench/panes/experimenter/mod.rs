@@ -15,7 +15,7 @@ use crate::theme::{self, Palette, STEP};
 use crate::widgets::{button, section};
 
 /// What is typed in the pane.
-pub struct ExperimenterHands<'a> {
+pub(crate) struct ExperimenterHands<'a> {
     /// The form of the next session.
     pub form: &'a mut Form,
     /// The note on the trial under way.
@@ -25,7 +25,7 @@ pub struct ExperimenterHands<'a> {
 }
 
 /// Whether the participant's view is in a window of its own, and whether it is blank in trials.
-pub type Screen = (ParticipantsWindow, bool);
+pub(crate) type Screen = (ParticipantsWindow, bool);
 
 /// Shows the pane.
 pub fn show(
@@ -131,7 +131,7 @@ fn show_window(ui: &mut Ui, window: ParticipantsWindow, wishes: &mut Wishes) {
 }
 
 /// What stands in the place of a pane that would tell too much.
-pub fn show_veil(ui: &mut Ui) {
+pub(crate) fn show_veil(ui: &mut Ui) {
     let words = "Hidden while a session is held: what lies under the finger is not to be seen.";
     let ink = Palette::in_ui(ui).dim;
     ui.add_space(2.0 * STEP);

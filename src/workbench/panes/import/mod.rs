@@ -34,7 +34,7 @@ const KEEP: f32 = 164.0;
 #[derive(Debug, Clone, Copy)]
 pub struct ImportView<'a> {
     /// The textiles of the library.
-    pub shelf: &'a [ShelfItem],
+    pub(crate) shelf: &'a [ShelfItem],
     /// The colours of heights.
     pub map: ColourMap,
 }

@@ -14,7 +14,7 @@ mod recipe;
 mod rows;
 mod weave;
 
-pub use pictures::LabPictures;
+pub(crate) use pictures::LabPictures;
 
 use eframe::egui::{
     self, Align, Layout, ProgressBar, Rect, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2,
@@ -43,7 +43,7 @@ const STALE: f32 = 0.45;
 
 /// What the pane shows.
 #[derive(Debug, Clone, Copy)]
-pub struct LabView<'a> {
+pub(crate) struct LabView<'a> {
     /// The lab.
     pub lab: &'a Lab,
     /// The textiles of the library.
@@ -58,7 +58,7 @@ pub struct LabView<'a> {
 
 /// What is typed in the pane.
 #[derive(Debug, Default)]
-pub struct LabHands {
+pub(crate) struct LabHands {
     /// How the textile is called.
     pub keep: crate::lab::KeepFields,
     /// How a family is planned.

@@ -33,7 +33,7 @@ const READ: TextureOptions = TextureOptions {
 
 /// The pictures as they were drawn last.
 #[derive(Default)]
-pub struct LabPictures {
+pub(crate) struct LabPictures {
     relief: Option<(Arc<Preview>, TextureHandle)>,
     spectra: Option<(Key, TextureHandle)>,
     n_made: u64,

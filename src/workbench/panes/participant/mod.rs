@@ -102,7 +102,7 @@ pub(in crate::panes) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, wishes: &
 }
 
 /// Stands in a window of the participant's own while no session is held.
-pub fn show_before(ui: &mut Ui, is_coming: bool) {
+pub(crate) fn show_before(ui: &mut Ui, is_coming: bool) {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));
@@ -115,7 +115,7 @@ pub fn show_before(ui: &mut Ui, is_coming: bool) {
 }
 
 /// Stands where the view was before it went to a window of its own.
-pub fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
+pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     ui.painter().rect_filled(ui.max_rect(), 0, palette.floor);
     let height = ui.available_height();

@@ -39,7 +39,7 @@ const TITLES: [&str; 8] = [
 
 /// Stages as textures, and from where the relief is looked at.
 #[derive(Default)]
-pub struct PictureTextures {
+pub(crate) struct PictureTextures {
     textures: BTreeMap<usize, (Image, TextureHandle)>,
     view: Option<View3d>,
     made: Option<Arc<Made>>,

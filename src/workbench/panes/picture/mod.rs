@@ -19,7 +19,7 @@ use crate::command::{FileCommand, Purpose};
 use crate::picturing::{PictureCommand, Picturing};
 use crate::theme::{self, Palette, STEP};
 use crate::widgets::button;
-pub use cards::PictureTextures;
+pub(crate) use cards::PictureTextures;
 
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 560.0;

@@ -34,7 +34,7 @@ const MEAN: f32 = 0.6;
 
 /// What the pane shows.
 #[derive(Debug, Clone, Copy)]
-pub struct ResponseView<'a> {
+pub(crate) struct ResponseView<'a> {
     /// What the scene calls the textile: label and name.
     pub textile: &'a str,
     /// How it is turned, degrees counter-clockwise.
@@ -81,7 +81,7 @@ pub fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes) {
 }
 
 /// What stands over the plots: whether they follow the display.
-pub fn show_corner(ui: &mut Ui, probe: Probe, wishes: &mut Wishes) {
+pub(crate) fn show_corner(ui: &mut Ui, probe: Probe, wishes: &mut Wishes) {
     let tip = "Ask at the display's own velocity, to two digits and 5°";
     if toggle(ui, "follow", probe.follows, tip) {
         let probe = probe.with_follow(!probe.follows);
@@ -133,7 +133,7 @@ fn velocity_words(probe: Probe) -> String {
 }
 
 /// The ends of the levels, dB re 1 µm.
-pub fn ends_db(scale: AmplitudeScale) -> [f64; 2] {
+pub(crate) fn ends_db(scale: AmplitudeScale) -> [f64; 2] {
     let most_db = quantity::level_db(scale.most_um());
     [most_db - SPAN_DB, most_db]
 }
@@ -185,7 +185,11 @@ fn fill_between(painter: &Painter, lower: &[egui::Pos2], upper: &[egui::Pos2], i
 }
 
 /// Fills between two rows of places with an ink.
-pub fn fill_range(painter: &Painter, (lower, upper): (&[egui::Pos2], &[egui::Pos2]), ink: Color32) {
+pub(crate) fn fill_range(
+    painter: &Painter,
+    (lower, upper): (&[egui::Pos2], &[egui::Pos2]),
+    ink: Color32,
+) {
     let mut mesh = egui::Mesh::default();
     for (low, high) in lower.iter().zip(upper) {
         mesh.colored_vertex(*low, ink);

@@ -18,7 +18,8 @@ use std::fmt;
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 pub use self::plot::LEVELS_DB;
-pub use self::strip::{StripTick, Timeline};
+pub(crate) use self::strip::StripTick;
+pub use self::strip::Timeline;
 
 use self::picture::Picture;
 use super::Wishes;
@@ -41,7 +42,7 @@ const TICK_MS: u64 = 25;
 
 /// What the bar shows.
 #[derive(Debug, Clone, Copy)]
-pub struct TransportView<'a> {
+pub(crate) struct TransportView<'a> {
     /// What moves the display.
     pub source: PlaySource,
     /// The tablet or program that was chosen.
@@ -53,7 +54,7 @@ pub struct TransportView<'a> {
     /// Whether everything was switched off and nothing was armed since.
     pub is_stopped: bool,
     /// Ticks recorded so far; `None` when nothing records.
-    pub recorded_ticks: Option<u64>,
+    pub(crate) recorded_ticks: Option<u64>,
     /// The tick of the recording or stroke that is shown.
     pub tick: u64,
     /// How fast the display moves, mm/s.
@@ -66,7 +67,7 @@ pub struct TransportView<'a> {
 
 /// What the bar remembers from frame to frame.
 #[derive(Default)]
-pub struct TransportState {
+pub(crate) struct TransportState {
     picture: Option<Picture>,
     /// The tick that was asked for last in the drag that goes on.
     asked: Option<u64>,

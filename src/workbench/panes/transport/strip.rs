@@ -8,7 +8,7 @@ use selvedge_render::scene::TICKS_PER_S;
 
 /// A tick of the timeline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StripTick {
+pub(crate) struct StripTick {
     /// Its tick: of the engine, or of the recording.
     pub tick: u64,
     /// Where it stands, s: before the newest, or after the first of a recording.
@@ -25,13 +25,13 @@ pub struct Timeline {
     /// What people call the exploration.
     pub name: String,
     /// What its time is counted from.
-    pub time_label: &'static str,
+    pub(crate) time_label: &'static str,
     /// From where to where it reaches, s.
-    pub range_s: [f64; 2],
+    pub(crate) range_s: [f64; 2],
     /// The end of the speed axis, mm/s.
-    pub top_mm_per_s: f64,
+    pub(crate) top_mm_per_s: f64,
     /// Whether amplitudes are known.
-    pub has_levels: bool,
+    pub(crate) has_levels: bool,
     /// Which contactors a mean is of: "the contactors that …".
     pub which: &'static str,
     /// The ticks, old to new.
@@ -40,7 +40,7 @@ pub struct Timeline {
 
 impl TransportView<'_> {
     /// What the timeline shows.
-    pub fn timeline(&self) -> Timeline {
+    pub(crate) fn timeline(&self) -> Timeline {
         self.shown_take().map_or_else(|| self.felt_last(), of_take)
     }
 

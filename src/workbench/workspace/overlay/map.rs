@@ -45,7 +45,11 @@ pub(super) fn paint(
 
 /// Draws what the colours mean, and at which velocity: beside the ground where there is room, else
 /// on it.
-pub fn paint_legend(painter: &Painter, stage: &Stage<'_>, (beside, band): (Option<Rect>, Band)) {
+pub(crate) fn paint_legend(
+    painter: &Painter,
+    stage: &Stage<'_>,
+    (beside, band): (Option<Rect>, Band),
+) {
     let palette = Palette::of(painter.ctx().theme());
     let size = vec2(LEGEND[0], LEGEND[1]);
     let card = if let Some(room) = beside {
@@ -98,7 +102,7 @@ fn paint_heading(painter: &Painter, middle: Pos2, probe: Probe, ink: Color32) {
 }
 
 /// What a map shows at a place of the workspace on a textile, in words; empty without a map.
-pub fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Point) -> String {
+pub(crate) fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Point) -> String {
     let own = cloth.workspace_from_textile.into_point(place);
     let found = stage.layers.maps.amplitude_um(index, [own.x_mm, own.y_mm]);
     let Some((band, amplitude_um)) = stage.state.overlays.map().zip(found) else {

@@ -37,7 +37,7 @@ pub enum Overlay {
 
 /// What is drawn over the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Overlays {
+pub(crate) struct Overlays {
     points: bool,
     chosen_points: bool,
     motion: bool,
@@ -85,7 +85,7 @@ impl Overlays {
     }
 
     /// Whether anything is drawn that needs to know what contactors read.
-    pub fn need_readings(self) -> bool {
+    pub(crate) fn need_readings(self) -> bool {
         self.chosen_points || self.motion
     }
 
@@ -102,7 +102,7 @@ impl Overlays {
     }
 
     /// What settings kept; `None` when a word is not known.
-    pub fn from_words(words: &[String]) -> Option<Self> {
+    pub(crate) fn from_words(words: &[String]) -> Option<Self> {
         words.iter().try_fold(Self::default(), |overlays, word| {
             let place = WORDS.iter().position(|known| known == word)?;
             let (overlay, _) = Self::ALL[place];
@@ -118,7 +118,7 @@ impl Overlays {
 
 /// What overlays are drawn from.
 #[derive(Debug, Clone, Copy)]
-pub struct Layers<'a> {
+pub(crate) struct Layers<'a> {
     /// What the contactors read and how they move; empty while that is not drawn.
     pub readings: &'a [ContactorReading],
     /// Maps of the textiles.

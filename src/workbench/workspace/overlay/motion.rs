@@ -22,7 +22,7 @@ const MARK_MM: f64 = 0.9;
 const LEAST_ARROW: f32 = 3.0;
 
 /// Draws how the contactors move, below them.
-pub fn paint_velocities(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+pub(crate) fn paint_velocities(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
     if !stage.state.overlays.shows(Overlay::Motion) {
         return;
     }
@@ -33,7 +33,7 @@ pub fn paint_velocities(painter: &Painter, view: &ViewTransform, stage: &Stage<'
 
 /// Draws what the contactors read, over them: the directions in use, and, where there is room, the
 /// points.
-pub fn paint_readings(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+pub(crate) fn paint_readings(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
     let overlays = stage.state.overlays;
     let has_room = view.length(1.0) >= LEAST_FOR_POINTS;
     let has_points = has_room && overlays.shows(Overlay::ChosenPoints);
