@@ -39,8 +39,6 @@ mod text;
 mod ticks;
 
 pub use look::Paper;
-#[cfg(test)]
-use pixels::is_well_formed;
 pub use pixels::{FigureError, Pixels};
 pub use plot::{Axis, Ink, Plot, Scale, Series, Style, Weight};
 pub use sheet::{At, ColourBar, Extent, Figure, Panel, Raster, Row, Rule, Tone, Upright, Words};

@@ -171,12 +171,6 @@ impl From<Pixmap> for Pixels {
     }
 }
 
-/// Whether a text is SVG that can be drawn.
-#[cfg(test)]
-pub(crate) fn is_well_formed(svg: &str) -> bool {
-    Tree::from_str(svg, &Options::default()).is_ok()
-}
-
 /// The program's own fonts: a sans-serif, and one with more signs to fall back to.
 fn fonts() -> &'static Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();

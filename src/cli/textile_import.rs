@@ -107,7 +107,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// Makes the textiles.
-pub fn import(args: &ImportArgs) -> Result<(), CliError> {
+pub(crate) fn import(args: &ImportArgs) -> Result<(), CliError> {
     let bytes = selvedge_textile::read_measurement(&args.file)?;
     let options = ImportOptions {
         asked: args.asked.asked(),

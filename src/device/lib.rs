@@ -53,29 +53,31 @@ mod wire;
 
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
-pub(crate) use device::{AppliedFrame, DeviceSink, Load, Miswiring, SampledTick};
+pub use device::AppliedFrame;
+pub use device::DeviceSink;
+pub use device::Load;
+pub use device::Miswiring;
+pub use device::SampledTick;
 pub use device::{CoreCounters, DeviceCore, DeviceModel, Lie, Moment, SampleCount, Sense};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
-pub(crate) use emulator::{DeviceLog, EmulatorThread};
 pub use error::BridgeError;
 pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, SampleStream, Target};
 pub use hjif::{HjifSpec, HjifWriter};
+pub use host::HostSession;
 pub use host::{
     ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
     SentFrame, Waveform,
 };
-pub(crate) use host::{CutSamples, HostSession, SOFT_START_TICKS, Sequence};
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, Arm, Caps, Clear, Config, DeviceMessage, DeviceState, Fault, Hello, Ident,
     LARGEST_CHANNELS, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, fault_bit, frame, kind,
     samples,
 };
-pub(crate) use message::{AckCode, ChannelMask, LogText, Unreadable};
-pub(crate) use plant::{Amplifier, PlantFeed, SAMPLES_PER_TICK, plant_watch};
+pub use plant::Amplifier;
 pub use plant::{
     Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantReading, PlantWatch,
     SAMPLES_PER_S, Skin,
@@ -84,17 +86,18 @@ pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
 };
 pub use port::{PairPort, SerialLink, UsbIdentity};
-pub(crate) use self_test::SelfTestStep;
+pub use self_test::SelfTestStep;
 pub use self_test::{SelfTestReport, self_test};
-pub(crate) use session_log::LogFeed;
+pub use session_log::LogFeed;
 pub use session_log::{LogBound, SessionLog};
 pub use sink::SinkError;
-pub(crate) use wav::WavWriter;
 pub use wav::{SampleFormat, WavSpec};
 pub use wav_parts::WavParts;
+pub use wire::Injection;
 pub use wire::Simulation;
+pub use wire::SimulationLog;
+pub use wire::WiredDevice;
 pub use wire::{
     Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, InjectionKind, LaneFaults,
     Latency, OneOff, OneOffKind,
 };
-pub(crate) use wire::{Injection, WiredDevice};

@@ -150,7 +150,7 @@ pub(crate) struct WavWriter<W: Write + Seek> {
 
 impl<W: Write + Seek> WavWriter<W> {
     /// Writes the header to `out`, which must be at its start.
-    pub fn new(mut out: W, spec: WavSpec) -> Result<Self, BridgeError> {
+    pub(crate) fn new(mut out: W, spec: WavSpec) -> Result<Self, BridgeError> {
         // The block size field has 16 bits.
         if spec.n_channels == 0 || spec.sample_rate_hz == 0 || spec.frame_bytes() > 0xffff {
             let WavSpec {
@@ -176,7 +176,7 @@ impl<W: Write + Seek> WavWriter<W> {
     }
 
     /// The same for a file of at most so many bytes.
-    pub fn with_limit(out: W, spec: WavSpec, most_bytes: u32) -> Result<Self, BridgeError> {
+    pub(crate) fn with_limit(out: W, spec: WavSpec, most_bytes: u32) -> Result<Self, BridgeError> {
         let mut writer = Self::new(out, spec)?;
         let around = HEADER_LEN + spec.info().len() as u64;
         let most = u64::from(most_bytes).saturating_sub(around);
@@ -190,7 +190,7 @@ impl<W: Write + Seek> WavWriter<W> {
     }
 
     /// Frames written.
-    pub fn n_frames(&self) -> u64 {
+    pub(crate) fn n_frames(&self) -> u64 {
         self.data_bytes / u64::from(self.spec.frame_bytes())
     }
 
@@ -198,7 +198,7 @@ impl<W: Write + Seek> WavWriter<W> {
     ///
     /// Refuses what would make the file 4 GiB or larger; what was written before stays a valid
     /// file.
-    pub fn write(&mut self, interleaved: &[f32]) -> Result<(), BridgeError> {
+    pub(crate) fn write(&mut self, interleaved: &[f32]) -> Result<(), BridgeError> {
         let n_channels = self.spec.n_channels;
         if !interleaved.len().is_multiple_of(usize::from(n_channels)) {
             return Err(BridgeError::WavFrame {
@@ -224,7 +224,7 @@ impl<W: Write + Seek> WavWriter<W> {
     }
 
     /// Writes the scale, fills in the sizes, and gives the output back, flushed.
-    pub fn finish(mut self) -> Result<W, BridgeError> {
+    pub(crate) fn finish(mut self) -> Result<W, BridgeError> {
         self.close().map_err(BridgeError::Wav)?;
         Ok(self.out)
     }

@@ -61,21 +61,20 @@ pub use input::{
 };
 pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::PATIENCE;
-pub(crate) use pacer::{Due, Pacer};
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
-pub(crate) use recording::RecordedTick;
+pub use recording::RecordedTick;
 pub use recording::{RecordedSample, Recording};
 pub use sample::{PointerSample, SampleCounters};
+pub use snapshot::EngineCounters;
+pub use snapshot::Playback;
+pub use snapshot::RecordingView;
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, LinkView, PointerView, Snapshot, SourceKind,
 };
-pub(crate) use snapshot::{EngineCounters, Playback, RecordingView};
 pub use stop::StopSwitch;
 pub use synth::DeviceWaveform;
-pub(crate) use synth::SampleSynth;
 pub use tap::Tap;
-pub(crate) use velocity::REST;
 pub use velocity::{Estimate, VelocityEstimator};
 pub use vibration::VibrationStep;
 

@@ -53,7 +53,7 @@ struct DeviceTick {
 
 impl Pacer {
     /// A pacer whose own clock ticks from `start` on.
-    pub fn new(start: Instant) -> Self {
+    pub(crate) fn new(start: Instant) -> Self {
         Self {
             own_due: start,
             last_own: None,
@@ -66,7 +66,7 @@ impl Pacer {
     }
 
     /// A STATUS with this tick number arrived; its answer is `due` then or later.
-    pub fn device_tick(&mut self, number: u32, received: Instant, due: Instant) -> Due {
+    pub(crate) fn device_tick(&mut self, number: u32, received: Instant, due: Instant) -> Due {
         if let Some(last) = self.last_device {
             let step = number.wrapping_sub(last.number);
             if step == 0 {
@@ -135,7 +135,7 @@ impl Pacer {
     }
 
     /// When [`own_tick`](Self::own_tick) has something to do.
-    pub fn deadline(&self) -> Instant {
+    pub(crate) fn deadline(&self) -> Instant {
         self.put_off
             .map_or(self.own_due, |due| due.min(self.own_due))
     }
@@ -146,12 +146,12 @@ impl Pacer {
     }
 
     /// Ticks that never were because the engine came a whole tick too late.
-    pub fn missed(&self) -> u64 {
+    pub(crate) fn missed(&self) -> u64 {
         self.missed
     }
 
     /// Times that the own clock took over.
-    pub fn fallbacks(&self) -> u64 {
+    pub(crate) fn fallbacks(&self) -> u64 {
         self.fallbacks
     }
 }

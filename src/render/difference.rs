@@ -29,7 +29,7 @@ pub(crate) enum Contrast {
 
 impl Contrast {
     /// Of two amplitudes in µm; what is no number is silence.
-    pub fn of(a_um: f64, b_um: f64) -> Self {
+    pub(crate) fn of(a_um: f64, b_um: f64) -> Self {
         let sounds = |um: f64| um >= SILENT_UM && um.is_finite();
         match (sounds(a_um), sounds(b_um)) {
             (false, false) => Self::Silent,

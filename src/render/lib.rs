@@ -25,13 +25,10 @@ mod running_error;
 pub mod scene;
 mod stats;
 
-pub(crate) use difference::{Contrast, SILENT_UM};
 pub use difference::{DifferenceMeter, Largest, LevelDifference, Spread, Tally};
 pub use gains::GainTerms;
-pub(crate) use gains::MAX_TOTAL_GAIN_DB;
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 pub use plan::{Counters, Rule, Rules};
-pub(crate) use replay::{FrameSink, PairSink};
 pub use replay::{Replay, replay, replay_pair};
 pub use running_error::RunningError;
 pub use stats::{ErrorMeter, Histogram, LevelError, RunStats};

@@ -30,12 +30,8 @@ mod wilcoxon;
 pub use binomial::exact_binomial;
 pub use bootstrap::{Bootstrap, Resampling, bootstrap, bootstrap_errors, jackknife_errors};
 pub use correlation::{pearson, pearson_r, spearman};
-pub(crate) use distribution::{
-    binomial_at_least, binomial_at_most, binomial_mass, chi_squared_upper, normal_density,
-    normal_upper, t_two_sided, t_upper,
-};
+pub(crate) use distribution::{chi_squared_upper, normal_density};
 pub use distribution::{f_upper, normal_lower, normal_quantile, t_quantile_upper};
-pub(crate) use equivalence::power_of_tost;
 pub use equivalence::{Equivalence, power_of_t, tost};
 pub use interval::{fisher_z, wilson};
 pub use outcome::{Freedom, Interval, Named, Outcome, Sides};

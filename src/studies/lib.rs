@@ -60,7 +60,7 @@ pub(crate) use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
 pub use findings::{Findings, Row};
 pub(crate) use growth::GrowthStudy;
-pub(crate) use left_out::{LeftOutStudy, SavingRule};
+pub(crate) use left_out::LeftOutStudy;
 pub(crate) use machine::Machine;
 pub(crate) use mds::MdsStudy;
 pub(crate) use models::{

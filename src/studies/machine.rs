@@ -25,7 +25,7 @@ pub(crate) struct Machine {
 
 impl Machine {
     /// This machine and this program.
-    pub fn here() -> Self {
+    pub(crate) fn here() -> Self {
         let release = first_line("/proc/sys/kernel/osrelease").unwrap_or_default();
         let (os, arch) = (std::env::consts::OS, std::env::consts::ARCH);
         Self {

@@ -33,12 +33,12 @@ pub(super) fn error_and_cost(row: &Row) -> Option<(f64, f64)> {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::Timing;
 
     /// A row of a case with an error and a cost.
-    pub fn row(case: &str, error: f64, cpu_s: f64) -> Row {
+    pub(crate) fn row(case: &str, error: f64, cpu_s: f64) -> Row {
         Row {
             case: case.to_owned(),
             error: Some(error),

@@ -20,7 +20,7 @@ use selvedge_foundation::files::{
 use selvedge_foundation::progress::{Progress, unheard};
 
 /// The name of the picture.
-pub const PICTURE: &str = "appearance.png";
+pub(crate) const PICTURE: &str = "appearance.png";
 
 /// A file of a built textile.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -142,7 +142,7 @@ pub fn build_library(
 }
 
 /// The files of a textile of a library, as they are; recipes of a file are built.
-pub fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
     let store = from.files_of(id)?;
     let manifest = read_manifest(&store, id)?;
     let mut names = content_names(&manifest);
@@ -221,7 +221,7 @@ pub(crate) fn index_of(
 }
 
 /// The hash that the index of a library states: of what its figures are made from, in order.
-pub fn hash_of(library: &Library) -> Result<String, TextileError> {
+pub(crate) fn hash_of(library: &Library) -> Result<String, TextileError> {
     let contents = library
         .ids()
         .iter()
@@ -231,7 +231,7 @@ pub fn hash_of(library: &Library) -> Result<String, TextileError> {
 }
 
 /// Mean amplitude of both bands as an index states it, to six digits, µm.
-pub fn means_um(surface: &Surface) -> [f64; 2] {
+pub(crate) fn means_um(surface: &Surface) -> [f64; 2] {
     let levels = Levels::of(surface, &Filters::default());
     levels.mean_um.map(six_digits)
 }

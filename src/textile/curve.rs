@@ -5,7 +5,7 @@ const MOST_STRETCHES: usize = 700;
 
 /// Values at `places`, `[place, value]`, with no more corners than a picture shows: of every
 /// stretch the least and the greatest value, in their order.
-pub fn corners(place: impl Fn(usize) -> f64, values: &[f64]) -> Vec<[f64; 2]> {
+pub(crate) fn corners(place: impl Fn(usize) -> f64, values: &[f64]) -> Vec<[f64; 2]> {
     let n_stretch = values.len().div_ceil(MOST_STRETCHES).max(1);
     let at = |index: usize| [place(index), values[index]];
     if n_stretch < 3 {

@@ -48,20 +48,23 @@ mod words;
 mod workers;
 
 pub use brought::{Measurement, read_measurement};
-pub(crate) use brownian::Tip;
+pub use brownian::Tip;
 pub use brownian::{Brownian, Generator, Hurst};
 pub use build::{BuiltFile, build, build_library, make, write};
 pub use cache::BuildCache;
 pub use catalogue::{sheet, write_catalogue, write_figure};
+pub use cloth::Cloth;
 pub use cloth::Side;
-pub(crate) use cloth::Yarn;
+pub use cloth::Yarn;
+pub use drawn::Drawn;
 pub use drawn::lit;
-pub(crate) use fourier::{Composition, Imported};
+pub use fourier::Imported;
 pub use fourier::{
     Fourier, FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
     templates_from_toml, templates_to_toml,
 };
-pub(crate) use index::{Index, IndexEntry};
+pub use index::Index;
+pub use index::IndexEntry;
 pub use kes::{
     ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesAsk, KesColumn, KesFile, KesImport,
     KesKnown, KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind,
@@ -71,9 +74,11 @@ pub use kes::{EVALUATED_MM, KesFigures, KesFriction, KesLine, KesOrigin};
 pub use knit::{Knit, Structure};
 pub use library::{Library, is_of_the_program};
 pub use loaded::{Appearance, Textile};
-pub(crate) use manifest::{AppearanceKeys, ProfileFiles, Profiles};
+pub use manifest::AppearanceKeys;
+pub use manifest::Checker;
+pub use manifest::Profiles;
 pub use manifest::{Construction, Manifest, Parent, Provenance, Source};
-pub(crate) use measured::KnownFigure;
+pub use measured::KnownFigure;
 pub use measured::{
     Figure as MeasuredFigure, all_known as known_figures, figures as measured_figures,
 };
@@ -81,10 +86,10 @@ pub use parameter::{
     Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
 };
 pub use profile_file::read as read_profile;
-pub(crate) use recipes::SEVENTY_FOUR;
 pub use restoration::{Reduced, Restoration, Rule};
 pub use selection::{kind_of, most_typical};
 pub use trial::Trial;
+pub use weave::Repeat;
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 pub use words::{Words, id_of, nth_id};
 pub use workers::n_threads;

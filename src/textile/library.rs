@@ -238,7 +238,7 @@ pub fn is_of_the_program(name: &Path) -> bool {
 }
 
 /// There is no textile of that id.
-pub fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError {
+pub(crate) fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError {
     let known = match ids.split_at_checked(NAMED) {
         _ if ids.is_empty() => "no textiles".to_owned(),
         Some((named, rest)) if !rest.is_empty() => {
@@ -255,7 +255,7 @@ pub fn unknown(id: &str, library: &Path, ids: &[String]) -> TextileError {
 
 impl Store {
     /// The text of a file of a textile.
-    pub fn text(&self, id: &str, name: &str) -> Result<String, FileError> {
+    pub(crate) fn text(&self, id: &str, name: &str) -> Result<String, FileError> {
         match self {
             Self::Folder(_) => read_text(&self.path(id, name)),
             Self::Shipped | Self::Recipes(_) | Self::Built(..) => self
@@ -274,12 +274,12 @@ impl Store {
     }
 
     /// How a file of a textile is called in messages.
-    pub fn path(&self, id: &str, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, id: &str, name: &str) -> PathBuf {
         self.root().join(id).join(name)
     }
 
     /// The bytes of a file of a textile.
-    pub fn read(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, FileError> {
+    pub(crate) fn read(&self, id: &str, name: &str) -> Result<Cow<'static, [u8]>, FileError> {
         let path = self.path(id, name);
         let found = match self {
             Self::Folder(_) => return read(&path).map(Cow::Owned),

@@ -144,7 +144,7 @@ pub(crate) fn read_appearance(
 }
 
 /// The name of a manifest in its textile's folder.
-pub const MANIFEST: &str = "textile.toml";
+pub(crate) const MANIFEST: &str = "textile.toml";
 
 /// Reads the manifest of a textile.
 pub(crate) fn read_manifest(store: &Store, id: &str) -> Result<Manifest, TextileError> {

@@ -22,7 +22,7 @@ const RELIEF_STEP_MM: f64 = 0.02;
 const MODEL: &str = "selvedge models 2";
 
 /// Says which models build: other models, other text.
-pub fn version() -> String {
+pub(crate) fn version() -> String {
     let program = env!("CARGO_PKG_VERSION");
     let shipped = sha256_hex([shipped::INDEX.as_bytes()]);
     format!("{MODEL}\n{program}\n{shipped}\n")
@@ -30,7 +30,7 @@ pub fn version() -> String {
 
 /// A model, ready to be felt.
 #[derive(Debug)]
-pub enum Model {
+pub(crate) enum Model {
     /// A model cloth under the virtual tester.
     Cloth {
         cloth: Box<Cloth>,
@@ -43,7 +43,7 @@ pub enum Model {
 
 impl Model {
     /// The model of a source; `None` if it was measured.
-    pub fn of(source: &Source) -> Result<Option<Self>, TextileError> {
+    pub(crate) fn of(source: &Source) -> Result<Option<Self>, TextileError> {
         let (cloth, seed, noise_um, side) = match source {
             Source::Profiles(_) | Source::Heightmap(_) | Source::Picture(_) => return Ok(None),
             Source::Weave(weave) => (weave.cloth(), weave.seed, weave.noise_um, weave.side),
@@ -92,7 +92,7 @@ impl Model {
 
     /// The relief of the whole cloth, which repeats: heights of the model itself, without a probe;
     /// `None` of what is no cloth.
-    pub fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+    pub(crate) fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
         match self {
             Self::Cloth { cloth, .. } => Some(relief_map(cloth, RELIEF_STEP_MM)),
             Self::Drawn(_) => None,
@@ -101,7 +101,7 @@ impl Model {
 
     /// Heights over an area to look at: a cloth's relief with points about so far apart, or the
     /// patch of what was drawn.
-    pub fn relief(&self, step_mm: f64) -> Result<HeightMap, SurfaceError> {
+    pub(crate) fn relief(&self, step_mm: f64) -> Result<HeightMap, SurfaceError> {
         match self {
             Self::Cloth { cloth, .. } => relief_map(cloth, step_mm),
             Self::Drawn(drawn) => Ok(drawn.patch.clone()),
@@ -109,7 +109,7 @@ impl Model {
     }
 
     /// The picture, and pixels a mm.
-    pub fn picture(&self) -> (Rgb8Image, f64) {
+    pub(crate) fn picture(&self) -> (Rgb8Image, f64) {
         match self {
             Self::Cloth { cloth, .. } => (portrait(cloth), PX_PER_MM),
             Self::Drawn(drawn) => drawn.picture(),
@@ -117,7 +117,7 @@ impl Model {
     }
 
     /// Figures that the model found on its own surface, beside the roughness.
-    pub fn measured(&self) -> &[(&'static str, f64)] {
+    pub(crate) fn measured(&self) -> &[(&'static str, f64)] {
         match self {
             Self::Cloth { .. } => &[],
             Self::Drawn(drawn) => &drawn.measured,

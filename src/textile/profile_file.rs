@@ -58,7 +58,7 @@ pub(crate) fn write_friction(trace: &FrictionTrace, path: &Path) -> Result<Strin
 
 /// Writes heights in µm, `step_mm` apart: places to a nanometre, heights to a nanometre. What the
 /// rounding hides cannot differ from machine to machine.
-pub fn write(heights_um: &[f64], step_mm: f64, path: &Path) -> Result<String, FileError> {
+pub(crate) fn write(heights_um: &[f64], step_mm: f64, path: &Path) -> Result<String, FileError> {
     written(heights_um, step_mm, 1e3, (path, COLUMNS))
 }
 

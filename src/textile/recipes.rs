@@ -27,7 +27,7 @@ const BACK: &str = "-back";
 
 /// The recipes of a file, in its order.
 #[derive(Debug)]
-pub struct Recipes {
+pub(crate) struct Recipes {
     path: PathBuf,
     surfaces: Vec<Recipe>,
     index: Option<Index>,
@@ -59,7 +59,7 @@ impl Recipes {
 
     /// The recipes of a file, with the index `NAME.library.toml` beside it if that is there and
     /// lists the same textiles.
-    pub fn read(path: &Path, cache: Option<BuildCache>) -> Result<Self, TextileError> {
+    pub(crate) fn read(path: &Path, cache: Option<BuildCache>) -> Result<Self, TextileError> {
         let mut recipes = Self::parse(&read_text(path)?, path, cache)?;
         let beside = index_path(path);
         if beside.is_file() {
@@ -101,12 +101,12 @@ impl Recipes {
     }
 
     /// The file, or the name of the library.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// The ids, in order.
-    pub fn ids(&self) -> Vec<String> {
+    pub(crate) fn ids(&self) -> Vec<String> {
         self.surfaces
             .iter()
             .map(|recipe| recipe.id.clone())
@@ -114,18 +114,18 @@ impl Recipes {
     }
 
     /// Levels that were measured before.
-    pub fn index(&self) -> Option<&Index> {
+    pub(crate) fn index(&self) -> Option<&Index> {
         self.index.as_ref()
     }
 
     /// The manifest of a textile before it is built; `None` if there is none of that id.
-    pub fn manifest(&self, id: &str) -> Option<&Manifest> {
+    pub(crate) fn manifest(&self, id: &str) -> Option<&Manifest> {
         let recipe = self.surfaces.iter().find(|recipe| recipe.id == id)?;
         Some(&recipe.manifest)
     }
 
     /// The files of a textile: from the cache, or built now and kept there.
-    pub fn built(&self, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+    pub(crate) fn built(&self, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
         let path = self.path.join(id);
         let Some(manifest) = self.manifest(id) else {
             return Err(super::library::unknown(id, &self.path, &self.ids()));

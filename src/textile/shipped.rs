@@ -6,7 +6,7 @@
 pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
 
 /// The recipes of the seventy-four.
-pub const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
+pub(crate) const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
 
 /// What was measured on the seventy-four, as a `library.toml`.
 pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");

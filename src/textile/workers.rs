@@ -14,7 +14,7 @@ pub use selvedge_foundation::numerics::n_threads;
 ///
 /// # Errors
 /// Of the ids that failed, the error of the first in order that was reached; cancelling.
-pub fn for_each<T: Send>(
+pub(crate) fn for_each<T: Send>(
     ids: &[String],
     n_threads: usize,
     progress: &mut Progress<'_>,

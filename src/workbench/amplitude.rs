@@ -57,18 +57,18 @@ impl AmplitudeScale {
     }
 
     /// Lower end, µm.
-    pub fn least_um(self) -> f64 {
+    pub(crate) fn least_um(self) -> f64 {
         self.most_um / SPAN
     }
 
     /// Upper end, µm.
-    pub fn most_um(self) -> f64 {
+    pub(crate) fn most_um(self) -> f64 {
         self.most_um
     }
 
     /// The scale after the largest amplitude seen lately, µm: it rises at once and falls when only
     /// its lower half is used.
-    pub fn following(self, largest_um: f64) -> Self {
+    pub(crate) fn following(self, largest_um: f64) -> Self {
         let is_too_low = largest_um > self.most_um;
         let is_too_high = largest_um > 0.0 && largest_um < self.most_um / 5.0;
         if self.is_locked || !(is_too_low || is_too_high) || !largest_um.is_finite() {
@@ -81,7 +81,7 @@ impl AmplitudeScale {
     }
 
     /// Where an amplitude stands, 0…1; beyond the ends the nearest end, NaN at the lower.
-    pub fn share(self, amplitude_um: f64) -> f64 {
+    pub(crate) fn share(self, amplitude_um: f64) -> f64 {
         let share = (amplitude_um / self.least_um()).ln() / SPAN.ln();
         share.clamp(0.0, 1.0).max(0.0)
     }

@@ -78,7 +78,7 @@ pub(crate) enum Pane {
 
 impl Pane {
     /// Every pane, in the order in which they are listed.
-    pub const ALL: [Self; 20] = [
+    pub(crate) const ALL: [Self; 20] = [
         Self::Workspace,
         Self::Library,
         Self::Tuning,
@@ -102,7 +102,7 @@ impl Pane {
     ];
 
     /// Its title.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Workspace => "Workspace",
             Self::Library => "Library",
@@ -154,7 +154,7 @@ impl Pane {
     }
 
     /// Its place in [`Self::ALL`].
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         Self::ALL
             .iter()
             .position(|pane| *pane == self)
@@ -241,7 +241,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
 }
 
 /// Panes behind each other, the first in front.
-pub fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
+pub(crate) fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
     let children: Vec<TileId> = panes.iter().map(|pane| tiles.insert_pane(*pane)).collect();
     let front = children.first().copied();
     let id = tiles.insert_tab_tile(children);
@@ -253,7 +253,11 @@ pub fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
 }
 
 /// Tiles beside or below each other, with their shares.
-pub fn linear(tiles: &mut Tiles<Pane>, direction: LinearDir, parts: &[(TileId, f32)]) -> TileId {
+pub(crate) fn linear(
+    tiles: &mut Tiles<Pane>,
+    direction: LinearDir,
+    parts: &[(TileId, f32)],
+) -> TileId {
     let mut linear = Linear::new(direction, parts.iter().map(|(id, _)| *id).collect());
     for &(id, share) in parts {
         linear.shares.set_share(id, share);
@@ -268,7 +272,7 @@ pub(crate) fn to_text(tree: &Tree<Pane>) -> Option<String> {
 
 /// The arrangement of a perspective from text, with every pane in it; `None` when it is not a sound
 /// one.
-pub fn from_text(text: &str, perspective: Perspective) -> Option<Tree<Pane>> {
+pub(crate) fn from_text(text: &str, perspective: Perspective) -> Option<Tree<Pane>> {
     let mut tree: Tree<Pane> = files::from_json_str(text, Path::new("arrangement")).ok()?;
     let found = panes_of(&tree)?;
     for pane in Pane::ALL.into_iter().filter(|pane| !found.contains(pane)) {
@@ -349,7 +353,7 @@ fn has_sizes(container: &Container) -> bool {
 }
 
 /// The tile that holds a pane.
-pub fn tile_of(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
+pub(crate) fn tile_of(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
     tree.tiles.find_pane(&pane)
 }
 
@@ -367,7 +371,7 @@ pub(crate) fn toggle(tree: &mut Tree<Pane>, pane: Pane) {
 }
 
 /// Whether a pane is neither hidden nor behind others.
-pub fn is_shown(tree: &Tree<Pane>, pane: Pane) -> bool {
+pub(crate) fn is_shown(tree: &Tree<Pane>, pane: Pane) -> bool {
     let is_active = |id| tree.is_visible(id) && tree.active_tiles().contains(&id);
     tile_of(tree, pane).is_some_and(is_active)
 }

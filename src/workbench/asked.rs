@@ -12,7 +12,7 @@ use selvedge_foundation::geometry::Velocity;
 
 /// What the Response pane shows curves of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// The textile's place in the scene's list.
     pub textile: usize,
     /// The amplitude factors of its gains, by band.

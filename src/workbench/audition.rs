@@ -37,19 +37,19 @@ impl Audition {
     }
 
     /// Whether anything is left out at all.
-    pub fn is_any(&self) -> bool {
+    pub(crate) fn is_any(&self) -> bool {
         !(self.muted.is_empty() && self.solo.is_empty())
     }
 
     /// Whether it is felt.
-    pub fn is_felt(&self, part: Part) -> bool {
+    pub(crate) fn is_felt(&self, part: Part) -> bool {
         let is_kin = |other: &Part| std::mem::discriminant(other) == std::mem::discriminant(&part);
         let has_solo = self.solo.iter().any(is_kin);
         !self.is_muted(part) && (!has_solo || self.is_solo(part))
     }
 
     /// The tuning with the bands silenced that are not felt.
-    pub fn tuning(&self, mut tuning: Tuning) -> Tuning {
+    pub(crate) fn tuning(&self, mut tuning: Tuning) -> Tuning {
         for band in Band::ALL {
             if !self.is_felt(Part::Band(band)) {
                 match band {
@@ -82,7 +82,7 @@ impl Audition {
 
     /// Follows textiles that changed their places in the scene's list; those that went are
     /// forgotten.
-    pub fn follow(&mut self, before: &Scene, after: &Scene) {
+    pub(crate) fn follow(&mut self, before: &Scene, after: &Scene) {
         let moved = |part: Part| match part {
             Part::Cloth(index) => editing::place_after(before, after, index).map(Part::Cloth),
             other => Some(other),

@@ -23,7 +23,7 @@ pub(crate) struct Backlog {
 
 impl Backlog {
     /// An empty queue.
-    pub fn new(now: Instant) -> Self {
+    pub(crate) fn new(now: Instant) -> Self {
         Self {
             waiting: Vec::new(),
             clear_since: now,
@@ -37,14 +37,14 @@ impl Backlog {
     }
 
     /// The thread has been woken.
-    pub fn wakes(&mut self, now: Instant) {
+    pub(crate) fn wakes(&mut self, now: Instant) {
         if now.saturating_duration_since(self.asleep_since) > ASLEEP {
             self.clear_since = self.clear_since.max(now.checked_sub(ASLEEP).unwrap_or(now));
         }
     }
 
     /// The pointer is said to have moved.
-    pub fn moved(&mut self, pixel: [f64; 2]) {
+    pub(crate) fn moved(&mut self, pixel: [f64; 2]) {
         self.waiting.push(pixel);
     }
 

@@ -21,7 +21,7 @@ pub(crate) const CLIPS: [(ClipKind, &str); 4] = [
 
 /// A file on its way.
 #[derive(Debug, Default)]
-pub struct Clips {
+pub(crate) struct Clips {
     task: Option<Task<Written>>,
     /// Where the last one went.
     last: Option<PathBuf>,
@@ -37,7 +37,7 @@ pub(crate) struct ClipsView {
 }
 
 /// How the names of such files end, without the dot.
-pub fn ending(kind: ClipKind) -> &'static str {
+pub(crate) fn ending(kind: ClipKind) -> &'static str {
     match kind {
         ClipKind::Wav { .. } => "wav",
         ClipKind::Hjif => "hjif",

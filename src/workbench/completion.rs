@@ -22,7 +22,7 @@ pub(crate) struct Completing {
 
 impl Completing {
     /// Begins to complete `typed` to a folder or a file with this ending; `ctx` is woken then.
-    pub fn start(typed: &str, ending: &'static str, ctx: &egui::Context) -> Option<Self> {
+    pub(crate) fn start(typed: &str, ending: &'static str, ctx: &egui::Context) -> Option<Self> {
         let (sender, result) = sync_channel(1);
         let (path, ctx) = (typed.to_owned(), ctx.clone());
         let job = thread::Builder::new().name("selvedge-complete".to_owned());
@@ -40,7 +40,7 @@ impl Completing {
     }
 
     /// The path, once it is there: longer, or as it was typed.
-    pub fn poll(&self) -> Option<String> {
+    pub(crate) fn poll(&self) -> Option<String> {
         match self.result.try_recv() {
             Ok(path) => Some(path),
             Err(TryRecvError::Empty) => None,

@@ -18,7 +18,7 @@ const N_SPEEDS: u8 = 97;
 
 /// What curves are wanted for.
 #[derive(Debug, Clone)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     /// The textile.
     pub response: TextileResponse,
     /// The points of the chosen place, one for each direction of the surface.
@@ -98,7 +98,7 @@ impl Wanted {
 }
 
 /// The speeds of a curve, rising, mm/s.
-pub fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
+pub(crate) fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
     let [least, most] = SPEEDS_MM_PER_S;
     let share = |i: u8| f64::from(i) / f64::from(N_SPEEDS - 1);
     (0..N_SPEEDS).map(move |i| least * (most / least).powf(share(i)))
@@ -168,7 +168,7 @@ impl Curves {
 
     /// Amplitudes before gains over the direction of movement, evenly apart all around,
     /// counter-clockwise from the warp; empty until they are computed.
-    pub fn around(&self) -> &[PointSpread] {
+    pub(crate) fn around(&self) -> &[PointSpread] {
         values(self.around.as_ref())
     }
 
@@ -178,7 +178,7 @@ impl Curves {
     }
 
     /// The same at the chosen velocity itself.
-    pub fn here(&self) -> Option<&PointSpread> {
+    pub(crate) fn here(&self) -> Option<&PointSpread> {
         values(self.here.as_ref()).first()
     }
 

@@ -34,7 +34,7 @@ const UNSEEN: Duration = Duration::from_secs(2);
 
 /// What became of a dialog.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Answer {
+pub(crate) enum Answer {
     /// This path was chosen for this purpose.
     Path(Purpose, PathBuf),
     /// The user put the dialog away.
@@ -77,7 +77,7 @@ impl Dialogs {
     }
 
     /// Asks for a path, beginning at `start`; `ctx` is woken when there is an answer.
-    pub fn ask(&mut self, purpose: Purpose, start: Option<&Path>, ctx: &egui::Context) {
+    pub(crate) fn ask(&mut self, purpose: Purpose, start: Option<&Path>, ctx: &egui::Context) {
         let unanswered = self.open.take();
         let is_again = unanswered.is_some();
         if let Some(open) = unanswered.filter(|open| open.since.elapsed() < UNSEEN) {
@@ -95,7 +95,7 @@ impl Dialogs {
     }
 
     /// The answer, once it is there. To be called every frame.
-    pub fn poll(&mut self) -> Option<Answer> {
+    pub(crate) fn poll(&mut self) -> Option<Answer> {
         if let Some(answer) = self.ready.take() {
             return Some(answer);
         }

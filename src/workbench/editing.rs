@@ -13,7 +13,7 @@ pub(crate) const LEAST_SIDE_MM: f64 = 2.0;
 
 /// Makes the edit in `scene`, whose tuning is `tuning` as long as it states none. An edit of a
 /// textile that is not there changes nothing.
-pub fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
+pub(crate) fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
     let before = tuning;
     match edit {
         Edit::MasterGain(db) => tuning.gain_db = *db,
@@ -80,7 +80,7 @@ fn turn(cloth: &mut PlacedTextile, angle_deg: f64) {
 }
 
 /// The middle of a textile in the workspace.
-pub fn middle(cloth: &PlacedTextile) -> Point {
+pub(crate) fn middle(cloth: &PlacedTextile) -> Point {
     let [width_mm, height_mm] = cloth.size_mm;
     let half = Point::new(width_mm / 2.0, height_mm / 2.0);
     cloth.workspace_from_textile().point(half)

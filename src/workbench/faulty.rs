@@ -44,7 +44,7 @@ pub(crate) const PRESETS: [(&str, &[(&str, &str)]); 6] = [
 ///
 /// # Errors
 /// One line: which of them cannot be read, or cannot be had by an array of so many channels.
-pub fn target(words: &FaultWords, n_channels: usize) -> Result<Target, String> {
+pub(crate) fn target(words: &FaultWords, n_channels: usize) -> Result<Target, String> {
     let faults = words
         .faults()
         .map_err(|(option, why)| format!("{}: {why}", option.label))?;

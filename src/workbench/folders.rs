@@ -26,7 +26,7 @@ pub(crate) struct Folders {
 impl Folders {
     /// Asks the desktop to show a folder. Programs that show one may run as long as they do: nobody
     /// waits for them but a thread.
-    pub fn open(&mut self, ctx: &egui::Context, folder: &Path) {
+    pub(crate) fn open(&mut self, ctx: &egui::Context, folder: &Path) {
         self.open_by(ctx, OPENER, folder.to_owned());
     }
 
@@ -36,7 +36,7 @@ impl Folders {
     }
 
     /// Why the folder was not shown, once. To be called every frame.
-    pub fn poll(&mut self) -> Option<String> {
+    pub(crate) fn poll(&mut self) -> Option<String> {
         let failure = match self.opening.as_ref()?.poll() {
             Polled::Working => return None,
             Polled::Done(outcome) => outcome.err(),

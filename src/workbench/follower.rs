@@ -18,7 +18,7 @@ use selvedge_foundation::progress::{Cancelled, Progress};
 const LOOK: Duration = Duration::from_millis(100);
 
 /// A result that knows what it was asked for.
-pub trait Answer: Send + Sync + Sized + 'static {
+pub(crate) trait Answer: Send + Sync + Sized + 'static {
     /// What is asked for.
     type Inputs: Clone + PartialEq + Send + 'static;
     /// What the thread is called.
@@ -43,7 +43,7 @@ pub trait Answer: Send + Sync + Sized + 'static {
 
 /// How a result stands to what is asked for now.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Standing {
+pub(crate) enum Standing {
     /// Nothing is asked for.
     Empty,
     /// It is of what is asked for.
@@ -82,17 +82,17 @@ impl<A: Answer> Default for Follower<A> {
 
 impl<A: Answer> Follower<A> {
     /// The last result, whatever has changed since.
-    pub fn found(&self) -> Option<&Arc<A>> {
+    pub(crate) fn found(&self) -> Option<&Arc<A>> {
         self.found.as_ref()
     }
 
     /// Runs that were begun.
-    pub fn n_begun(&self) -> u64 {
+    pub(crate) fn n_begun(&self) -> u64 {
         self.n_begun
     }
 
     /// How the last result stands to `inputs`.
-    pub fn standing(&self, inputs: &A::Inputs) -> Standing {
+    pub(crate) fn standing(&self, inputs: &A::Inputs) -> Standing {
         let is_asked = |found: &Arc<A>| found.inputs() == inputs;
         if self.found.as_ref().is_some_and(is_asked) {
             return Standing::Fresh;
@@ -105,7 +105,7 @@ impl<A: Answer> Follower<A> {
     }
 
     /// Stops until something else is asked for.
-    pub fn stop(&mut self) {
+    pub(crate) fn stop(&mut self) {
         if let Some(running) = &self.running {
             running.watch.stop();
             self.stopped = Some(running.inputs.clone());
@@ -113,12 +113,12 @@ impl<A: Answer> Follower<A> {
     }
 
     /// Forgets that anything was stopped.
-    pub fn go_on(&mut self) {
+    pub(crate) fn go_on(&mut self) {
         self.stopped = None;
     }
 
     /// Takes what a thread has made, if it is done.
-    pub fn poll(&mut self) {
+    pub(crate) fn poll(&mut self) {
         let Some(running) = self.running.take() else {
             return;
         };
@@ -132,7 +132,7 @@ impl<A: Answer> Follower<A> {
 
     /// Begins the work that is due; with `is_at_once` it is done here and now. `ctx` is woken as it
     /// goes on.
-    pub fn follow(&mut self, ctx: &egui::Context, is_at_once: bool, inputs: A::Inputs) {
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, is_at_once: bool, inputs: A::Inputs) {
         if !matches!(self.standing(&inputs), Standing::Working(_)) {
             return;
         }

@@ -27,7 +27,7 @@ const ARMED_FRAME: f32 = 5.0;
 const HEADER: f32 = 44.0;
 
 /// Shows one frame; says what the user wants.
-pub fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
+pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
     let mut wishes = Wishes::new();
     let scene = bench.scene_view();
     show_header(bench, ui, &scene, &mut wishes);
@@ -244,7 +244,7 @@ impl Workbench {
 }
 
 /// What the pointer feels on: where it is shown, in which window, and its pixels per point.
-pub type Felt = (workspace::Shown, Pointed, f32);
+pub(crate) type Felt = (workspace::Shown, Pointed, f32);
 
 /// Tells the tap where the workspace is, and feeds it when nobody else does.
 fn feel(bench: &Workbench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {

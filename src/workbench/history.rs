@@ -12,7 +12,7 @@ const MAX_STEPS: usize = 200;
 
 /// When an edit happens: the pointer's press that it belongs to, and the time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Moment {
+pub(crate) struct Moment {
     /// Counts presses of the pointer.
     pub press: u64,
     /// Whether the pointer is down now.
@@ -45,7 +45,7 @@ struct Open<K> {
 
 impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     /// Nothing to undo.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             past: Vec::new(),
             future: Vec::new(),
@@ -54,7 +54,7 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     }
 
     /// Says that `state` is about to be edited; what could be redone is gone.
-    pub fn begin(&mut self, state: &S, target: K, name: &'static str, now: Moment) {
+    pub(crate) fn begin(&mut self, state: &S, target: K, name: &'static str, now: Moment) {
         let joins = self.open.as_ref().is_some_and(|open| {
             let same_press = open.last.press == now.press && (open.last.is_down || now.is_down);
             let follows =
@@ -75,7 +75,7 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
     }
 
     /// Ends the step: the next edit begins another, whatever it is.
-    pub fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         self.open = None;
     }
 

@@ -29,7 +29,7 @@ impl<T: Send + 'static> Job<T> {
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn start(
+    pub(crate) fn start(
         name: &str,
         ctx: &egui::Context,
         work: impl FnOnce() -> T + Send + 'static,
@@ -48,7 +48,7 @@ impl<T: Send + 'static> Job<T> {
     }
 
     /// The result, once it is there.
-    pub fn poll(&self) -> Polled<T> {
+    pub(crate) fn poll(&self) -> Polled<T> {
         match self.result.try_recv() {
             Ok(result) => Polled::Done(result),
             Err(TryRecvError::Empty) => Polled::Working,

@@ -28,7 +28,7 @@ pub(crate) struct NewTextile {
 
 /// What can be done with new textiles.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Keep {
+pub(crate) enum Keep {
     /// Keep them in the library.
     Save(Arc<Vec<NewTextile>>),
     /// Keep them, and lay the first under the display.
@@ -37,7 +37,7 @@ pub enum Keep {
 
 /// Textiles that were kept.
 #[derive(Debug)]
-pub struct Kept {
+pub(crate) struct Kept {
     /// The library that has them now.
     pub library: Arc<Library>,
     /// Its textiles.
@@ -69,7 +69,7 @@ impl Keeping {
 
     /// Begins to keep textiles in `library`, or queues the wish. With `is_at_once` it is done here
     /// and now.
-    pub fn ask(
+    pub(crate) fn ask(
         &mut self,
         keep: Keep,
         library: &Arc<Library>,
@@ -101,7 +101,7 @@ impl Keeping {
     }
 
     /// What came of the last wish, once it is there, and the wish that waits next.
-    pub fn poll(&mut self) -> Option<(Result<Kept, AppError>, Option<Keep>)> {
+    pub(crate) fn poll(&mut self) -> Option<(Result<Kept, AppError>, Option<Keep>)> {
         let outcome = match self.job.as_ref()?.poll() {
             Polled::Working => return None,
             Polled::Done(outcome) => outcome,

@@ -95,10 +95,16 @@ mod widgets;
 mod window;
 mod workspace;
 
+pub use document::Document;
 pub use error::AppError;
+pub use felt::Felt;
 pub use native::{EndSwitch, run};
 pub use raster::{Picture, Rasteriser};
+pub use rendering::Rendering;
 pub use screenshot::{Screenshot, Theme, screenshot};
+pub use settings::Kept;
+pub use settings::Settings;
 pub use settings::{build_cache, own_arrays};
 pub use study::studies;
+pub use take::Take;
 pub use window::{Drive, Workbench};

@@ -27,7 +27,7 @@ const OPTIONS: TextureOptions = TextureOptions {
 
 /// What maps are wanted for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     /// The velocity in the workspace.
     pub velocity: Velocity,
     /// Which amplitude.
@@ -40,7 +40,7 @@ pub struct Wanted {
 
 /// The maps of a scene's textiles, by their place in its list.
 #[derive(Default)]
-pub struct Maps {
+pub(crate) struct Maps {
     slots: Vec<Option<Slot>>,
     job: Option<Job<Vec<Made>>>,
     n_computed: u64,
@@ -162,21 +162,21 @@ impl Maps {
     }
 
     /// Forgets all maps, and what is on its way.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.slots.clear();
         self.job = None;
     }
 
     /// The picture of a textile's map and the points along warp and weft that it holds; `None`
     /// while there is none, and for a textile that is not felt at all.
-    pub fn picture(&self, textile: usize) -> Option<(egui::TextureId, [usize; 2])> {
+    pub(crate) fn picture(&self, textile: usize) -> Option<(egui::TextureId, [usize; 2])> {
         let slot = self.slots.get(textile)?.as_ref()?;
         let factor = slot.key.response.factors()[slot.key.wanted.band.index()];
         (factor > 0.0).then(|| (slot.texture.id(), slot.map.n_points()))
     }
 
     /// The map of a textile; `None` while there is none, and for a textile that is not felt at all.
-    pub fn shown(&self, textile: usize) -> Option<ShownMap<'_>> {
+    pub(crate) fn shown(&self, textile: usize) -> Option<ShownMap<'_>> {
         self.picture(textile)?;
         let slot = self.slots.get(textile)?.as_ref()?;
         Some(ShownMap {
@@ -186,7 +186,7 @@ impl Maps {
     }
 
     /// The amplitude that a textile's map shows at a place along its warp and weft, mm; in µm.
-    pub fn amplitude_um(&self, textile: usize, place_mm: [f64; 2]) -> Option<f64> {
+    pub(crate) fn amplitude_um(&self, textile: usize, place_mm: [f64; 2]) -> Option<f64> {
         let slot = self.slots.get(textile)?.as_ref()?;
         let amplitudes_um = slot.map.amplitudes_um(place_mm);
         Some(amplitudes_um[slot.key.wanted.band.index()])

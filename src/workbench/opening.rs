@@ -23,7 +23,7 @@ const EMPTY: &str =
 
 /// Where a scene comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Origin {
+pub(crate) enum Origin {
     /// Nowhere: it has no textiles yet.
     New,
     /// The program.
@@ -34,7 +34,7 @@ pub enum Origin {
 
 /// A scene that is ready to be shown and felt.
 #[derive(Debug)]
-pub struct Opened {
+pub(crate) struct Opened {
     /// Where it came from.
     pub path: Option<PathBuf>,
     /// The scene with its textiles.
@@ -51,14 +51,14 @@ pub struct Opened {
 
 /// A scene on its way.
 #[derive(Debug)]
-pub struct Opening {
+pub(crate) struct Opening {
     origin: Origin,
     job: Job<Result<Box<Opened>, AppError>>,
 }
 
 impl Opening {
     /// Begins to open a scene; `ctx` is woken when that is done.
-    pub fn start(
+    pub(crate) fn start(
         origin: Origin,
         rendering: Rendering,
         ctx: &egui::Context,
@@ -70,7 +70,7 @@ impl Opening {
     }
 
     /// The outcome, once it is there.
-    pub fn poll(&self) -> Option<Result<Box<Opened>, AppError>> {
+    pub(crate) fn poll(&self) -> Option<Result<Box<Opened>, AppError>> {
         match self.job.poll() {
             Polled::Done(result) => Some(result),
             Polled::Working => None,
@@ -88,7 +88,7 @@ impl Opening {
 }
 
 /// Opens a scene on this thread.
-pub fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppError> {
+pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppError> {
     let loaded = match &origin {
         Origin::New => LoadedScene::from_toml(EMPTY, Path::new("new scene"))?,
         Origin::Shipped => LoadedScene::shipped()?,

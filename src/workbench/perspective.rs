@@ -28,16 +28,16 @@ pub(crate) enum Perspective {
 
 impl Perspective {
     /// All, in the order in which they are offered.
-    pub const ALL: [Self; 3] = [Self::Explore, Self::Cloth, Self::Experiment];
+    pub(crate) const ALL: [Self; 3] = [Self::Explore, Self::Cloth, Self::Experiment];
 
     /// Its place in [`Self::ALL`].
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         let mut all = Self::ALL.into_iter();
         all.position(|one| one == self).unwrap_or_default()
     }
 
     /// What people call it.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Explore => "Explore",
             Self::Cloth => "Cloth",
@@ -46,7 +46,7 @@ impl Perspective {
     }
 
     /// What it is for.
-    pub fn what(self) -> &'static str {
+    pub(crate) fn what(self) -> &'static str {
         match self {
             Self::Explore => "Feel a scene",
             Self::Cloth => "Make cloth: the library and the textile lab",
@@ -55,7 +55,7 @@ impl Perspective {
     }
 
     /// The word that files use.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Explore => "explore",
             Self::Cloth => "cloth",

@@ -40,7 +40,7 @@ impl Default for PlantPeek {
 
 /// What the section shows.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct PlantView {
+pub(crate) struct PlantView {
     /// Whether it is open.
     pub is_open: bool,
     /// Columns of the array.

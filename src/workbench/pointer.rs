@@ -45,7 +45,7 @@ pub(crate) struct PointerTap {
 
 impl PointerTap {
     /// A tap that feeds this ring.
-    pub fn new(sender: Option<PointerSender>) -> Self {
+    pub(crate) fn new(sender: Option<PointerSender>) -> Self {
         Self {
             sender,
             ground: None,

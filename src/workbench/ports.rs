@@ -36,7 +36,7 @@ pub(crate) struct Ports {
 
 impl Ports {
     /// Begins to list the ports, unless that is under way; `ctx` is woken when it is done.
-    pub fn list(&mut self, ctx: &egui::Context) {
+    pub(crate) fn list(&mut self, ctx: &egui::Context) {
         let ctx = ctx.clone();
         self.list_by(list_ports, move || ctx.request_repaint());
     }
@@ -66,7 +66,7 @@ impl Ports {
     }
 
     /// Takes what was found, once it is there. To be called every frame.
-    pub fn poll(&mut self) {
+    pub(crate) fn poll(&mut self) {
         let Some(listing) = &self.listing else {
             return;
         };
@@ -92,7 +92,7 @@ impl Ports {
     }
 
     /// A link is opened to `target`, or to none any more.
-    pub fn hold(&mut self, target: Option<&Target>) {
+    pub(crate) fn hold(&mut self, target: Option<&Target>) {
         self.view.back = None;
         match target {
             Some(Target::Port(path)) => self.replug.hold(path.clone()),
@@ -102,7 +102,7 @@ impl Ports {
 
     /// Follows the link: while it is lost its device is looked for, off this thread. Gives what is
     /// back, once. To be called every frame.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,
         is_lost: bool,
@@ -117,7 +117,7 @@ impl Ports {
     }
 
     /// What is known of them.
-    pub fn view(&self) -> &PortsView {
+    pub(crate) fn view(&self) -> &PortsView {
         &self.view
     }
 }

@@ -15,7 +15,7 @@ use selvedge_render::scene::{LoadedScene, PlacedTextile, Scene};
 
 /// A scene that is ready for the engine.
 #[derive(Debug)]
-pub struct Ready {
+pub(crate) struct Ready {
     /// The scene with its textiles.
     pub loaded: LoadedScene,
     /// The same as the engine takes it.
@@ -42,7 +42,7 @@ pub(crate) struct Preparing {
 
 impl Preparing {
     /// With the tables that the first scene was prepared with, and how it was.
-    pub fn new(cache: TableCache, rendering: Rendering) -> Self {
+    pub(crate) fn new(cache: TableCache, rendering: Rendering) -> Self {
         Self {
             cache,
             rendering,
@@ -57,7 +57,7 @@ impl Preparing {
 
     /// Prepares a scene whose textiles are mostly those of `loaded`. What takes no time, or must be
     /// done at once, comes back now.
-    pub fn ask(
+    pub(crate) fn ask(
         &mut self,
         loaded: &LoadedScene,
         (scene, rendering): (Scene, Rendering),
@@ -90,7 +90,7 @@ impl Preparing {
     }
 
     /// What a thread prepared, if it is done, and the scene that waited meanwhile.
-    pub fn poll(&mut self) -> Option<(Result<Ready, AppError>, Option<Scene>)> {
+    pub(crate) fn poll(&mut self) -> Option<(Result<Ready, AppError>, Option<Scene>)> {
         let done = match self.job.as_ref()?.poll() {
             Polled::Done(done) => done,
             Polled::Working => return None,
@@ -122,7 +122,7 @@ fn prepare(
 }
 
 /// Whether two scenes differ in anything but gains, so that the engine needs a new one.
-pub fn differs(before: &Scene, after: &Scene) -> bool {
+pub(crate) fn differs(before: &Scene, after: &Scene) -> bool {
     // What gains and labels are does not matter here.
     let placed = |scene: &Scene| -> Vec<PlacedTextile> {
         let bare = |cloth: &PlacedTextile| PlacedTextile {

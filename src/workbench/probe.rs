@@ -4,13 +4,13 @@
 use selvedge_foundation::geometry::{Rotation, Velocity};
 
 /// Least and largest speed that can be chosen, mm/s.
-pub const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 2000.0];
+pub(crate) const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 2000.0];
 /// Directions are chosen and followed in steps of this, degrees.
 pub(crate) const STEP_DEG: f64 = 5.0;
 
 /// A velocity in the workspace.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Probe {
+pub(crate) struct Probe {
     /// How fast, mm/s.
     pub speed_mm_per_s: f64,
     /// Where to, degrees counter-clockwise from the workspace's x, 0 to below 360.
@@ -32,7 +32,7 @@ impl Default for Probe {
 
 impl Probe {
     /// As a vector in the workspace; exact along its axes.
-    pub fn velocity(self) -> Velocity {
+    pub(crate) fn velocity(self) -> Velocity {
         let along_x = Velocity::new(self.speed_mm_per_s, 0.0);
         Rotation::from_degrees(self.direction_deg).turn_velocity(along_x)
     }
@@ -68,7 +68,7 @@ impl Probe {
 
     /// What it is while the display moves like this: speed to two digits, direction to 5°, so that
     /// not every tremor counts as another velocity. A display at rest leaves it as it was.
-    pub fn after(self, display: Velocity) -> Self {
+    pub(crate) fn after(self, display: Velocity) -> Self {
         let speed_mm_per_s = display.speed_mm_per_s();
         if !self.follows || !display.is_finite() || speed_mm_per_s < SPEEDS_MM_PER_S[0] {
             return self;

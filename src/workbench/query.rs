@@ -234,7 +234,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
 }
 
 /// What a device is called: its path, or what it is.
-pub fn device_name(target: &Target) -> String {
+pub(crate) fn device_name(target: &Target) -> String {
     match target {
         Target::Emulator => "Emulator".to_owned(),
         Target::FaultyEmulator(_) => "Emulator with faults".to_owned(),
@@ -243,7 +243,7 @@ pub fn device_name(target: &Target) -> String {
 }
 
 /// What may be done with a device in this state.
-pub fn phase(state: BridgeState) -> BridgePhase {
+pub(crate) fn phase(state: BridgeState) -> BridgePhase {
     match state {
         BridgeState::Opening | BridgeState::Greeting | BridgeState::Configuring => {
             BridgePhase::Opening
@@ -259,7 +259,7 @@ pub fn phase(state: BridgeState) -> BridgePhase {
 
 /// The sentence for something that the user ought to know; `None` for what panes show anyway.
 /// `device` is what the device is called.
-pub fn words(notice: &Notice, device: &str) -> Option<String> {
+pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
     match notice {
         Notice::Bridge(event) => bridge_words(event, device),
         Notice::Refused(why) | Notice::RecordingEnded(why) => Some(capitalised(why)),
@@ -315,7 +315,7 @@ pub(crate) struct IntervalMeter {
 
 impl IntervalMeter {
     /// Takes in the device's last tick and its clock in µs (modulo 2³²).
-    pub fn take(&mut self, status: Option<(u32, u32)>) -> Option<f64> {
+    pub(crate) fn take(&mut self, status: Option<(u32, u32)>) -> Option<f64> {
         let before = std::mem::replace(&mut self.last, status);
         match (before, status) {
             (Some((tick0, us0)), Some((tick1, us1))) if tick1 != tick0 => {

@@ -53,7 +53,7 @@ impl Drop for Search {
 
 impl Replug {
     /// A port was opened: what it is recognised by is asked for while it is there.
-    pub fn hold(&mut self, path: PathBuf) {
+    pub(crate) fn hold(&mut self, path: PathBuf) {
         let (sender, identity) = sync_channel(1);
         let job = thread::Builder::new().name("selvedge-ports".to_owned());
         let asked = job.spawn(move || {
@@ -68,13 +68,13 @@ impl Replug {
     }
 
     /// No port is of interest any more.
-    pub fn let_go(&mut self) {
+    pub(crate) fn let_go(&mut self) {
         self.phase = Phase::Nothing;
     }
 
     /// Follows the link: a search begins when it is lost, `wake` is called when the device is
     /// back. Gives the find once. To be called every frame.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         is_lost: bool,
         uid: Option<[u8; 12]>,
@@ -97,7 +97,7 @@ impl Replug {
     }
 
     /// The device that is back, if it is.
-    pub fn back(&self) -> Option<&FoundPort> {
+    pub(crate) fn back(&self) -> Option<&FoundPort> {
         match &self.phase {
             Phase::Back(found) => Some(found),
             _ => None,

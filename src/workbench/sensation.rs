@@ -35,7 +35,7 @@ impl Default for Sensation {
 
 impl Sensation {
     /// Of a display with these amplitudes [A40, A320], µm.
-    pub fn of(amplitudes_um: impl Iterator<Item = [f64; 2]>) -> Self {
+    pub(crate) fn of(amplitudes_um: impl Iterator<Item = [f64; 2]>) -> Self {
         let (n_vibrating, mean_um) = vibrating_mean_um(amplitudes_um);
         Self {
             n_vibrating,
@@ -45,7 +45,7 @@ impl Sensation {
     }
 
     /// Levels of one contactor above the thresholds, dB; −∞ for silence.
-    pub fn above_db(&self, amplitudes_um: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn above_db(&self, amplitudes_um: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|band| {
             let um = amplitudes_um[band];
             let level = if um > 0.0 {
@@ -58,7 +58,7 @@ impl Sensation {
     }
 
     /// Whether each band of one contactor is too weak to be felt.
-    pub fn is_below(&self, amplitudes_um: [f64; 2]) -> [bool; 2] {
+    pub(crate) fn is_below(&self, amplitudes_um: [f64; 2]) -> [bool; 2] {
         self.above_db(amplitudes_um).map(|above_db| above_db < 0.0)
     }
 
@@ -94,7 +94,11 @@ pub(crate) fn felt_words(felt: &Perception) -> String {
 
 /// What a placed textile feels like on average at 100 mm/s with the gains in force, by all the
 /// contactors of a display at once; `None` when nobody knows its level.
-pub fn of_textile(scene: &SceneView, cloth: usize, n_contactors: usize) -> Option<Perception> {
+pub(crate) fn of_textile(
+    scene: &SceneView,
+    cloth: usize,
+    n_contactors: usize,
+) -> Option<Perception> {
     let cloth = scene.cloths.get(cloth)?;
     let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
     let compression_db = scene.reference_db.map_or(0.0, |reference_db| {

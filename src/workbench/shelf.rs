@@ -33,7 +33,7 @@ pub(crate) struct Shelf {
 
 impl Shelf {
     /// The textiles of a library, without pictures yet.
-    pub fn new(library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
+    pub(crate) fn new(library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
         Self {
             library,
             items: items.into(),
@@ -55,7 +55,7 @@ impl Shelf {
     }
 
     /// The textiles, in the library's order.
-    pub fn items(&self) -> &[ShelfItem] {
+    pub(crate) fn items(&self) -> &[ShelfItem] {
         &self.items
     }
 
@@ -65,17 +65,17 @@ impl Shelf {
     }
 
     /// The library that they stand in.
-    pub fn library(&self) -> &Arc<Library> {
+    pub(crate) fn library(&self) -> &Arc<Library> {
         &self.library
     }
 
     /// The textile with this id.
-    pub fn item(&self, id: &str) -> Option<&ShelfItem> {
+    pub(crate) fn item(&self, id: &str) -> Option<&ShelfItem> {
         self.items.iter().find(|item| item.id == id)
     }
 
     /// How a textile looks, once its picture is there.
-    pub fn picture(&self, id: &str) -> Option<ClothPicture> {
+    pub(crate) fn picture(&self, id: &str) -> Option<ClothPicture> {
         self.pictures.get(id).map(|(_, picture)| *picture)
     }
 
@@ -88,7 +88,7 @@ impl Shelf {
 
     /// Takes pictures that came and sends for those that are wanted; says what could not be read.
     /// With `is_at_once` they are read here and now.
-    pub fn work(&mut self, ctx: &egui::Context, is_at_once: bool) -> Vec<String> {
+    pub(crate) fn work(&mut self, ctx: &egui::Context, is_at_once: bool) -> Vec<String> {
         let mut flaws = Vec::new();
         match self.coming.as_ref().map(Job::poll) {
             Some(Polled::Done(read)) => {
@@ -150,7 +150,7 @@ impl std::fmt::Debug for Shelf {
 impl ShelfItem {
     /// Whether all words of a search are found in its name, its id or what it is, in any order and
     /// in letters of any size.
-    pub fn matches(&self, sought: &str) -> bool {
+    pub(crate) fn matches(&self, sought: &str) -> bool {
         let structure = self.structure.unwrap_or_default();
         let texts = [&self.name, &self.id, &self.kind, structure].map(str::to_lowercase);
         let sought = sought.to_lowercase();

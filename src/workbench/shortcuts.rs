@@ -23,7 +23,7 @@ pub(crate) struct Shortcut {
 }
 
 /// Every key of the window. Esc stands first: nothing may come before it.
-pub fn table() -> Vec<Shortcut> {
+pub(crate) fn table() -> Vec<Shortcut> {
     let mut table = scene_keys();
     table.extend(file_keys());
     table.extend(play_keys());
@@ -207,7 +207,7 @@ const TURN_DEG: f64 = 5.0;
 ///
 /// Esc works whatever has the focus and with any modifier held; the others wait while text is
 /// being typed, and Space while a widget has the focus, since there it presses that widget.
-pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
+pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let is_typing = ctx.text_edit_focused();
     let has_focus = ctx.memory(|memory| memory.focused().is_some());
     let mut commands = Vec::new();
@@ -237,7 +237,7 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
 }
 
 /// How the key of a command is written, for tips; empty when it has none.
-pub fn hint(ctx: &egui::Context, command: &Command) -> String {
+pub(crate) fn hint(ctx: &egui::Context, command: &Command) -> String {
     let found = table()
         .into_iter()
         .find(|shortcut| shortcut.command == *command);

@@ -84,7 +84,7 @@ pub(crate) struct Sources {
 
 impl Sources {
     /// What is shown.
-    pub fn view(&self) -> SourcesView {
+    pub(crate) fn view(&self) -> SourcesView {
         let link = self.link.as_ref();
         SourcesView {
             is_busy: self.listing.is_some() || self.opening.is_some(),
@@ -107,7 +107,7 @@ impl Sources {
     }
 
     /// What was chosen last, to be chosen again.
-    pub fn chosen(&self) -> Option<&SourceCommand> {
+    pub(crate) fn chosen(&self) -> Option<&SourceCommand> {
         self.chosen.as_ref().map(|(chosen, _)| chosen)
     }
 

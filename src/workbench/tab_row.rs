@@ -26,7 +26,7 @@ pub(crate) enum TabRow {
 
 impl TabRow {
     /// For a row this wide, points.
-    pub fn of(ui: &Ui, titles: &[Pane], corner: f32) -> Self {
+    pub(crate) fn of(ui: &Ui, titles: &[Pane], corner: f32) -> Self {
         let width = |title: &str| {
             let ink = Color32::PLACEHOLDER;
             let galley = ui

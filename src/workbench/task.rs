@@ -14,14 +14,18 @@ const NEWS: Duration = Duration::from_millis(100);
 
 /// How far work is and the flag that stops it: what the window and the thread both hold.
 #[derive(Debug, Clone, Default)]
-pub struct Watch {
+pub(crate) struct Watch {
     cancel: CancelFlag,
     done_permille: Arc<AtomicU32>,
 }
 
 impl Watch {
     /// Does `work`, which says how far it is; `ctx` is woken as it goes on.
-    pub fn over<T>(&self, ctx: &egui::Context, work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
+    pub(crate) fn over<T>(
+        &self,
+        ctx: &egui::Context,
+        work: impl FnOnce(&mut Progress<'_>) -> T,
+    ) -> T {
         let mut heard = |share: f64, _: &str| {
             #[expect(
                 clippy::cast_possible_truncation,
@@ -36,25 +40,25 @@ impl Watch {
     }
 
     /// How far it is, 0…1.
-    pub fn share(&self) -> f32 {
+    pub(crate) fn share(&self) -> f32 {
         let permille = self.done_permille.load(Ordering::Relaxed).min(1000);
         u16::try_from(permille).map_or(1.0, |permille| f32::from(permille) / 1000.0)
     }
 
     /// Asks it to stop.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.cancel.cancel();
     }
 
     /// Whether it was asked to stop.
-    pub fn is_stopped(&self) -> bool {
+    pub(crate) fn is_stopped(&self) -> bool {
         self.cancel.is_cancelled()
     }
 }
 
 /// Work under way.
 #[derive(Debug)]
-pub struct Task<T> {
+pub(crate) struct Task<T> {
     at: At<T>,
     watch: Watch,
 }
@@ -70,7 +74,7 @@ enum At<T> {
 impl<T: Send + 'static> Task<T> {
     /// Begins `work` on a thread called `name`; with `is_at_once` it is done here and now. `ctx` is
     /// woken as it goes on.
-    pub fn start(
+    pub(crate) fn start(
         (name, ctx): (&str, &egui::Context),
         is_at_once: bool,
         work: impl FnOnce(&mut Progress<'_>) -> Result<T, String> + Send + 'static,
@@ -90,17 +94,17 @@ impl<T: Send + 'static> Task<T> {
     }
 
     /// How far it is, 0…1.
-    pub fn share(&self) -> f32 {
+    pub(crate) fn share(&self) -> f32 {
         self.watch.share()
     }
 
     /// Asks it to stop.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.watch.stop();
     }
 
     /// Whether it was asked to stop.
-    pub fn is_stopped(&self) -> bool {
+    pub(crate) fn is_stopped(&self) -> bool {
         self.watch.is_stopped()
     }
 
@@ -118,7 +122,9 @@ impl<T: Send + 'static> Task<T> {
 }
 
 /// Takes what came of a task that is over; `None` while there is none or it is at work.
-pub fn taken<T: Send + 'static>(task: &mut Option<Task<T>>) -> Option<(Result<T, String>, bool)> {
+pub(crate) fn taken<T: Send + 'static>(
+    task: &mut Option<Task<T>>,
+) -> Option<(Result<T, String>, bool)> {
     let under_way = task.as_mut()?;
     let outcome = under_way.outcome()?;
     let was_stopped = under_way.is_stopped();

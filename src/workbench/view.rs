@@ -73,7 +73,7 @@ pub(crate) struct Hovered {
 
 impl Hovered {
     /// Takes in what a view says that the pointer rests on.
-    pub fn take(&mut self, part: Part) {
+    pub(crate) fn take(&mut self, part: Part) {
         match part {
             Part::Cloth(index) => self.cloth = Some(index),
             Part::Contactor(index) => self.contactor = Some(index),
@@ -84,7 +84,7 @@ impl Hovered {
 
 impl SceneView {
     /// The first textile in the scene's list that is this one of the library.
-    pub fn placed(&self, id: &str) -> Option<usize> {
+    pub(crate) fn placed(&self, id: &str) -> Option<usize> {
         self.cloths.iter().position(|cloth| cloth.id == id)
     }
 
@@ -112,7 +112,7 @@ impl SceneView {
 
 /// A textile that lies in the workspace.
 #[derive(Debug, Clone)]
-pub struct Cloth {
+pub(crate) struct Cloth {
     /// Its textile in the library.
     pub id: String,
     /// The scene's name for it: a number or a letter.
@@ -186,7 +186,7 @@ pub(crate) struct LibraryDot {
 
 /// What the engine did last.
 #[derive(Debug, Clone, Default)]
-pub struct Live {
+pub(crate) struct Live {
     /// Ticks since the engine started.
     pub tick: u64,
     /// The middle of the display; `None` before the pointer was ever in the workspace.
@@ -228,7 +228,7 @@ pub(crate) struct InputView {
 
 /// A contactor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Dot {
+pub(crate) struct Dot {
     /// Where it is in the workspace.
     pub position: Point,
     /// The textile under it: its place in the scene's list.
@@ -243,7 +243,7 @@ pub struct Dot {
 
 /// What moves the display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Source {
+pub(crate) enum Source {
     /// The pointer.
     #[default]
     Pointer,
@@ -278,7 +278,7 @@ pub(crate) struct PlayView {
 
 /// Rendering: method and cost.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Status {
+pub(crate) struct Status {
     /// The rendering method.
     pub method: &'static str,
     /// Cost of a tick, s; `None` where nobody measures.
@@ -363,7 +363,7 @@ impl Live {
     }
 
     /// Whether high voltage is on, or about to be.
-    pub fn is_armed(&self) -> bool {
+    pub(crate) fn is_armed(&self) -> bool {
         self.bridge
             .as_ref()
             .is_some_and(|bridge| bridge.phase == BridgePhase::Armed)

@@ -34,7 +34,7 @@ use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::LoadedScene;
 
 /// The time between two frames while something moves: 30 frames a second.
-pub const FRAME: Duration = Duration::from_nanos(33_333_333);
+pub(crate) const FRAME: Duration = Duration::from_nanos(33_333_333);
 
 /// How much the log of links may take: five files of 1 MB.
 const LOG_BOUND: LogBound = LogBound {

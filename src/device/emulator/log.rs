@@ -28,7 +28,7 @@ pub(crate) struct DeviceLog {
 
 impl DeviceLog {
     /// Creates the file and writes the header for `n_channels` channels.
-    pub fn create(path: &Path, n_channels: usize) -> Result<Self, BridgeError> {
+    pub(crate) fn create(path: &Path, n_channels: usize) -> Result<Self, BridgeError> {
         let file = File::create(path).map_err(BridgeError::file("create the log", path))?;
         let mut log = Self {
             out: BufWriter::new(file),
@@ -45,7 +45,7 @@ impl DeviceLog {
     }
 
     /// A FRAME took effect.
-    pub fn frame(&mut self, frame: &AppliedFrame<'_>) {
+    pub(crate) fn frame(&mut self, frame: &AppliedFrame<'_>) {
         self.moment("frame", &frame.moment, Some(frame.seq));
         for [code_40, code_320] in frame.codes {
             self.text(format_args!(",{code_40},{code_320}"));
@@ -54,7 +54,7 @@ impl DeviceLog {
     }
 
     /// A tick of samples is over (mode B).
-    pub fn samples(&mut self, tick: &SampledTick<'_>) {
+    pub(crate) fn samples(&mut self, tick: &SampledTick<'_>) {
         let SampleCount {
             packets,
             received,
@@ -75,7 +75,7 @@ impl DeviceLog {
     }
 
     /// The state changed. Changes are rare and matter: they reach the disk at once.
-    pub fn change(&mut self, moment: &Moment) {
+    pub(crate) fn change(&mut self, moment: &Moment) {
         self.moment("state", moment, None);
         self.end_row_without_codes();
         let flushed = self.out.flush();
@@ -83,7 +83,7 @@ impl DeviceLog {
     }
 
     /// A fault was injected: `event` says which and how much of it.
-    pub fn injected(&mut self, moment: &Moment, injection: &Injection) {
+    pub(crate) fn injected(&mut self, moment: &Moment, injection: &Injection) {
         self.moment(&injection.to_string(), moment, None);
         self.end_row_without_codes();
         if injection.is_rare() {
@@ -93,7 +93,7 @@ impl DeviceLog {
     }
 
     /// Writes what is left.
-    pub fn finish(mut self) -> Result<(), BridgeError> {
+    pub(crate) fn finish(mut self) -> Result<(), BridgeError> {
         let flushed = self.out.flush();
         self.keep(flushed);
         match self.failed {

@@ -31,7 +31,7 @@ pub(crate) struct EmulatorThread;
 impl EmulatorThread {
     /// Boots a device and gives the host's end of its link; the thread ends when all copies of that
     /// end are gone.
-    pub fn start(model: DeviceModel) -> Result<PairPort, BridgeError> {
+    pub(crate) fn start(model: DeviceModel) -> Result<PairPort, BridgeError> {
         Self::start_with(model, &Faults::default(), None)
     }
 

@@ -29,7 +29,7 @@ pub(crate) enum DelaySource {
 
 impl DelaySource {
     /// A word for the log.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::LastSeq => "last-seq",
             Self::Ring => "ring",

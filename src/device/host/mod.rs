@@ -38,6 +38,7 @@ pub use clock::ClockFit;
 use clock::DeviceClock;
 pub(super) use delays::DelaySource;
 use delays::Evidence;
+#[cfg(test)]
 pub(crate) use frames::SOFT_START_TICKS;
 use ident::Identifying;
 use latching::Latching;
@@ -58,7 +59,7 @@ pub(crate) struct Sequence(Arc<AtomicU16>);
 
 impl Sequence {
     /// The next number; wraps.
-    pub fn next(&self) -> u16 {
+    pub(crate) fn next(&self) -> u16 {
         self.0.fetch_add(1, Ordering::Relaxed)
     }
 }

@@ -16,7 +16,7 @@ const FEWEST_TICKS: u8 = 3;
 /// Ticks that a larger depth may leave out, and that are then played as the next one.
 const MOST_BETWEEN: u32 = 1;
 /// Ticks of samples that one call may make.
-pub const MOST_TICKS: usize = MOST_BETWEEN as usize + 1;
+pub(crate) const MOST_TICKS: usize = MOST_BETWEEN as usize + 1;
 
 /// Makes the drive waveform of codes, for a device that plays samples.
 pub trait Waveform: Debug + Send {

@@ -16,7 +16,7 @@ pub(crate) struct ChannelMask {
 
 impl ChannelMask {
     /// Channels `0..n_channels` on, the others off.
-    pub fn first(n_channels: usize) -> Self {
+    pub(crate) fn first(n_channels: usize) -> Self {
         let mut mask = Self::default();
         for channel in 0..n_channels.min(32 * MASK_WORDS) {
             mask.words[channel / 32] |= 1 << (channel % 32);
@@ -25,14 +25,14 @@ impl ChannelMask {
     }
 
     /// Whether a channel may sound.
-    pub fn contains(&self, channel: usize) -> bool {
+    pub(crate) fn contains(&self, channel: usize) -> bool {
         let word = self.words.get(channel / 32).copied().unwrap_or(0);
         word >> (channel % 32) & 1 == 1
     }
 
     /// The channels of both masks.
     #[must_use]
-    pub fn and(mut self, other: &Self) -> Self {
+    pub(crate) fn and(mut self, other: &Self) -> Self {
         for (word, other) in self.words.iter_mut().zip(other.words) {
             *word &= other;
         }

@@ -144,7 +144,7 @@ impl AckCode {
     ];
 
     /// The byte on the wire.
-    pub fn code(self) -> u8 {
+    pub(crate) fn code(self) -> u8 {
         match self {
             Self::Ok => 0,
             Self::BadSession => 1,
@@ -166,7 +166,7 @@ impl AckCode {
     }
 
     /// A few words for people.
-    pub fn describe(self) -> String {
+    pub(crate) fn describe(self) -> String {
         let words = match self {
             Self::Ok => "accepted",
             Self::BadSession => "wrong session",

@@ -25,7 +25,7 @@ mod skin;
 mod synth;
 mod watch;
 
-pub(crate) use amplifier::Amplifier;
+pub use amplifier::Amplifier;
 pub use bimorph::Bimorph;
 pub use contactor::{ContactorModel, MOST_QUALITY};
 pub use lanes::Plant;

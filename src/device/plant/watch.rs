@@ -101,7 +101,7 @@ impl PlantWatch {
 impl PlantFeed {
     /// What the contactors take of their amplifiers, by the model that the feed was made with:
     /// whoever looks, and whatever finger is laid on them since, the device tells the same.
-    pub fn load(&self) -> Load {
+    pub(crate) fn load(&self) -> Load {
         self.load
     }
 
@@ -109,7 +109,7 @@ impl PlantFeed {
     /// puts out now comes next.
     ///
     /// While nothing changes that is done once a tick, after its STATUS is on its way.
-    pub fn stepped(&mut self, device: &DeviceCore) {
+    pub(crate) fn stepped(&mut self, device: &DeviceCore) {
         if !self.is_looked_at.load(Ordering::Relaxed) {
             if self.until_us.take().is_some() {
                 self.rail_v = 0.0;

@@ -10,7 +10,7 @@ use crate::message::{AckCode, Caps, Config, Fault, StopHow};
 
 /// One thing that happened on a link.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub(crate) struct Entry {
     pub at: Instant,
     /// The device's tick and its clock in µs, wraps undone, as far as they are known.
     pub tick: Option<u32>,

@@ -18,11 +18,12 @@ mod parse;
 mod simulation;
 mod wired;
 
-pub(crate) use faults::Injection;
+pub use faults::Injection;
 pub use faults::{Direction, Faults, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind};
 pub use options::{FaultGroup, FaultKind, FaultOption, FaultWords};
 pub use simulation::Simulation;
-pub(crate) use wired::WiredDevice;
+pub use simulation::SimulationLog;
+pub use wired::WiredDevice;
 
 #[cfg(test)]
 mod tests;

@@ -51,7 +51,7 @@ pub(crate) struct FeedInput {
 }
 
 /// Both ends of a feed of this kind.
-pub fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
+pub(crate) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
     let (sender, ring) = RingBuffer::new(CAPACITY);
     let shared = Arc::new(Shared::default());
     let input = FeedInput {
@@ -70,12 +70,12 @@ pub fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
 
 impl FeedSender {
     /// Hands over an item; it comes back when there is no room.
-    pub fn offer(&mut self, item: FeedItem) -> Result<(), FeedItem> {
+    pub(crate) fn offer(&mut self, item: FeedItem) -> Result<(), FeedItem> {
         self.ring.push(item).map_err(|PushError::Full(item)| item)
     }
 
     /// Hands over an item, or drops and counts it when there is no room.
-    pub fn push(&mut self, item: FeedItem) {
+    pub(crate) fn push(&mut self, item: FeedItem) {
         if self.offer(item).is_err() {
             self.shared.overflowed.fetch_add(1, Ordering::Relaxed);
         }
@@ -93,12 +93,12 @@ impl FeedSender {
     }
 
     /// Whether nobody listens any more.
-    pub fn is_abandoned(&self) -> bool {
+    pub(crate) fn is_abandoned(&self) -> bool {
         self.ring.is_abandoned()
     }
 
     /// Nothing will follow.
-    pub fn end(&self) {
+    pub(crate) fn end(&self) {
         self.shared.has_ended.store(true, Ordering::Release);
     }
 }

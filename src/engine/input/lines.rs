@@ -59,14 +59,14 @@ fn push_patiently(sender: &mut FeedSender, mut item: FeedItem) {
 
 /// What a line says.
 #[derive(Debug, PartialEq)]
-pub enum Said {
+pub(crate) enum Said {
     Item(FeedItem),
     Aside,
     Bad,
 }
 
 /// A stream of lines with its clock.
-pub struct Lines<R> {
+pub(crate) struct Lines<R> {
     stream: R,
     text: Vec<u8>,
     /// The stream's first time, s, and when it arrived.
@@ -87,7 +87,7 @@ enum Line {
 }
 
 impl<R: BufRead> Lines<R> {
-    pub fn new(lines: R) -> Self {
+    pub(crate) fn new(lines: R) -> Self {
         Self {
             stream: lines,
             text: Vec::new(),
@@ -97,7 +97,7 @@ impl<R: BufRead> Lines<R> {
 
     /// What the next line says, with its time on the engine's clock, waited for if that is a
     /// little ahead; `None` at the end.
-    pub fn next(&mut self) -> Option<Said> {
+    pub(crate) fn next(&mut self) -> Option<Said> {
         if !self.read_line().unwrap_or(false) {
             return None;
         }

@@ -53,7 +53,7 @@ pub(crate) struct ReplayInput {
 
 impl ReplayInput {
     /// A replay that is held before its first tick.
-    pub fn new(path: Arc<ExplorationPath>) -> Self {
+    pub(crate) fn new(path: Arc<ExplorationPath>) -> Self {
         Self {
             path,
             cursor: PathCursor::default(),
@@ -141,7 +141,7 @@ pub(crate) struct StrokeInput {
 
 impl StrokeInput {
     /// A stroke that is held before its first tick.
-    pub fn new(stroke: Stroke) -> Self {
+    pub(crate) fn new(stroke: Stroke) -> Self {
         Self {
             stroke,
             motion: Motion::Held,

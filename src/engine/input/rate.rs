@@ -53,7 +53,7 @@ impl Default for RateMeter {
 
 impl RateMeter {
     /// Takes a sample whose stamp follows that of the last.
-    pub fn add(&mut self, stamp: Instant, position: Point) {
+    pub(crate) fn add(&mut self, stamp: Instant, position: Point) {
         let Some((last, from)) = self.last.replace((stamp, position)) else {
             return;
         };
@@ -79,12 +79,12 @@ impl RateMeter {
     }
 
     /// What comes next does not follow what came last.
-    pub fn pause(&mut self) {
+    pub(crate) fn pause(&mut self) {
         self.last = None;
     }
 
     /// What is known so far.
-    pub fn rate(&self) -> InputRate {
+    pub(crate) fn rate(&self) -> InputRate {
         self.rate
     }
 

@@ -27,7 +27,7 @@ impl SampleSynth {
     /// # Errors
     /// A rate at which a tick is no whole number of samples, or that [`DriveSynth`] refuses; no
     /// channel.
-    pub fn prepare(rate_hz: u32, n_channels: usize) -> Result<Self, RenderError> {
+    pub(crate) fn prepare(rate_hz: u32, n_channels: usize) -> Result<Self, RenderError> {
         if !rate_hz.is_multiple_of(TICKS_PER_S) {
             return Err(RenderError::Drive {
                 key: "rate_hz",
@@ -47,7 +47,7 @@ impl SampleSynth {
     }
 
     /// The samples of the next tick, interleaved. Allocates nothing.
-    pub fn tick(&mut self, codes: &[[u16; 2]]) -> &[i16] {
+    pub(crate) fn tick(&mut self, codes: &[[u16; 2]]) -> &[i16] {
         for (amplitude, code) in self.amplitudes.iter_mut().zip(codes) {
             *amplitude = code.map(f32::from);
         }

@@ -206,7 +206,7 @@ pub(super) fn figure(
 }
 
 /// Dots and lines by name over two axes.
-pub fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Series>) -> Drawn {
+pub(crate) fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Series>) -> Drawn {
     let columns = [
         ("series", "series"),
         ("x", axes[0].label.as_str()),

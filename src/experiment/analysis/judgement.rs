@@ -15,14 +15,14 @@ use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_fli
     reason = "what was said is told from what is"
 )]
 /// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
-pub struct Said {
+pub(crate) struct Said {
     pub item: usize,
     pub is_real: bool,
     pub(crate) said_real: bool,
     pub confidence: Option<u8>,
 }
 
-pub fn said(record: &Record) -> Vec<Said> {
+pub(crate) fn said(record: &Record) -> Vec<Said> {
     match (&record.trial.task, record.answer()) {
         (
             Task::Judge { item, is_real },

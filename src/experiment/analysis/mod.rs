@@ -46,7 +46,7 @@ use std::path::Path;
 
 pub(super) use draw::scatter;
 pub(super) use judgement::said as judged;
-pub(crate) use map_chance::RandomData;
+pub use map_chance::RandomData;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(super) use odd_one_out::{triad as triad_answer, weights as grade_weights};
 pub(super) use ranking::ranking as rank_trial;

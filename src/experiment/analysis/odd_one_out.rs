@@ -22,7 +22,7 @@ use selvedge_statistics::{
 const CHANCE: f64 = 1.0 / 3.0;
 const CHANCE_PERCENT: f64 = 100.0 / 3.0;
 /// The answer to a triad.
-pub fn triad(record: &Record) -> Option<TriadAnswer> {
+pub(crate) fn triad(record: &Record) -> Option<TriadAnswer> {
     let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
         (&record.trial.task, record.answer())
     else {
@@ -51,7 +51,7 @@ fn percent(answers: &[TriadAnswer]) -> f64 {
     100.0 * n_right(answers) as f64 / answers.len() as f64
 }
 
-pub fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
+pub(crate) fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
     GradeWeights { easy, normal, hard }
 }
 

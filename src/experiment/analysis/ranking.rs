@@ -63,7 +63,7 @@ pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
 }
 
 /// A ranking as it was given; `None` of another task or without an answer.
-pub fn ranking(record: &crate::Record) -> Option<RankTrial> {
+pub(crate) fn ranking(record: &crate::Record) -> Option<RankTrial> {
     let (
         Task::Rank {
             target,

@@ -107,10 +107,10 @@ pub(crate) enum Tunable {
 
 impl Tunable {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Gain, Self::Gain40, Self::Gain320, Self::Compression];
+    pub(crate) const ALL: [Self; 4] = [Self::Gain, Self::Gain40, Self::Gain320, Self::Compression];
 
     /// As files and logs spell it, with its unit.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Gain => "gain_db",
             Self::Gain40 => "gain_40_db",
@@ -120,7 +120,7 @@ impl Tunable {
     }
 
     /// Sets it in a tuning.
-    pub fn set(self, tuning: &mut Tuning, value: f64) {
+    pub(crate) fn set(self, tuning: &mut Tuning, value: f64) {
         match self {
             Self::Gain => tuning.gain_db = value,
             Self::Gain40 => tuning.gain_40_db = value,

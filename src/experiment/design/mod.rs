@@ -14,14 +14,19 @@ mod tables;
 
 use std::path::PathBuf;
 
-pub(crate) use method::{
-    Adjusting, Choosing, Judging, QuestPlusTrack, Ranking, StaircaseTrack, Tunable,
-};
+pub use method::Adjusting;
+pub use method::Choosing;
+pub use method::Judging;
+pub use method::QuestPlusTrack;
+pub use method::Ranking;
+pub use method::StaircaseTrack;
+pub(crate) use method::Tunable;
 pub use method::{
     JudgingProtocol, Levels, Method, Rating, Scale, Standard, Stopping, Track, TunedParameter,
 };
+pub use stimulus::Medium;
 pub use stimulus::Source;
-pub(crate) use stimulus::{Medium, Stimulus};
+pub use stimulus::Stimulus;
 
 use selvedge_textile::tactile::Tuning;
 

@@ -23,11 +23,9 @@ mod strength;
 mod times;
 
 pub use answer::Participant;
-pub(crate) use answer::Reply;
 pub use measure::Stimuli;
 pub use percept::{Strategy, Weighting};
 pub use scale::Jnd;
-pub(crate) use scale::NOISE_JND;
 
 use super::ExperimentError;
 

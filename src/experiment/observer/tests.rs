@@ -31,7 +31,7 @@ fn ids(design: &Design) -> Vec<String> {
     ids.collect()
 }
 
-pub fn stimuli(design: &Design) -> Stimuli {
+pub(crate) fn stimuli(design: &Design) -> Stimuli {
     let known = ids(design);
     let of = |id: &str| Some((levels_of(&known, id), 0.0));
     Stimuli::from_levels(design, Tuning::default(), of).unwrap()

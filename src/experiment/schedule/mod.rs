@@ -9,9 +9,9 @@ mod ranking;
 mod rounds;
 mod triads;
 
-pub(crate) use plane::LINE_POINTS;
 pub use plane::Lines;
-pub(crate) use ranking::{RankingSchedule, RankingTrial, ScheduleError, is_ranked};
+pub use ranking::ScheduleError;
+pub(crate) use ranking::{RankingSchedule, is_ranked};
 pub use rounds::rounds;
 pub use triads::Triad;
 pub use triads::triads;

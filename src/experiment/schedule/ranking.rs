@@ -29,7 +29,7 @@ pub(crate) struct RankingTrial {
 
 impl RankingTrial {
     /// The position of the correct alternative, from 0.
-    pub fn correct(&self) -> usize {
+    pub(crate) fn correct(&self) -> usize {
         let found = self.alternatives.iter().position(|&a| a == self.target);
         found.unwrap_or(N_ALTERNATIVES)
     }
@@ -64,7 +64,7 @@ impl RankingSchedule {
     ///
     /// # Errors
     /// The number of textiles less one is no multiple of three, or is 0.
-    pub fn of(n_textiles: usize, subject: &Random) -> Result<Self, ScheduleError> {
+    pub(crate) fn of(n_textiles: usize, subject: &Random) -> Result<Self, ScheduleError> {
         if !is_ranked(n_textiles) {
             return Err(ScheduleError::NoTriples { n: n_textiles });
         }

@@ -20,7 +20,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-pub(crate) use found::Unread;
+pub use found::Unread;
 pub use found::{Found, find, find_readable};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};

@@ -6,7 +6,7 @@ use super::*;
 use crate::design::Method;
 use crate::{Grade, Task};
 use selvedge_foundation::numerics::Random;
-pub use selvedge_scratch::ScratchFolder as Folder;
+pub(crate) use selvedge_scratch::ScratchFolder as Folder;
 
 pub(super) fn subject() -> Subject {
     Subject {

@@ -49,7 +49,7 @@ pub use keys::{
 pub use matrix::NamedMatrix;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
-pub(crate) use rgb16::Rgb16Image;
+pub use rgb16::Rgb16Image;
 pub use rgb16::decode_picture;
 pub use staged::Staged;
 pub use table::{Table, TableWriter};

@@ -19,7 +19,7 @@ mod simplex;
 pub use correlation::overlap_autocorrelation;
 pub use fft::{ChirpTransform, Complex, RealTransform};
 pub use grid::Grid;
-pub(crate) use maxima::QuadraticPeak;
+pub use maxima::QuadraticPeak;
 pub use maxima::quadratic_peak;
 pub use parallel::{in_pieces, n_threads};
 pub use plane::PlaneTransform;

@@ -21,12 +21,12 @@ mod trace;
 
 pub use drive::DriveSynth;
 pub use frame::DisplayFrame;
-pub(crate) use method::UnknownMethod;
+pub use method::UnknownMethod;
 pub use method::{Accuracy, ErrorBound, Method};
 pub use reading::{ContactorReading, Reading};
 pub use response::{PointSpread, TextileResponse, VelocityMap};
 pub use table::TableCache;
-pub(crate) use trace::BinTrace;
+pub use trace::BinTrace;
 pub use trace::{ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 
 use std::hint::black_box;

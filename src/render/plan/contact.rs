@@ -31,7 +31,7 @@ pub(crate) struct Placing {
 
 /// How the contactors of a display move in a textile's frame.
 #[derive(Debug, Clone, Copy)]
-pub enum Motion<'a> {
+pub(crate) enum Motion<'a> {
     /// All alike.
     Together(Velocity),
     /// Each its own way: components along warp and weft, mm/s.
@@ -57,7 +57,7 @@ pub(crate) struct Contacts<'a> {
 
 /// What a contactor feels along one axis.
 #[derive(Debug, Clone, Copy)]
-pub struct Feel {
+pub(crate) struct Feel {
     /// Which spectra of the pool.
     pub spectra: usize,
     /// The point of these spectra that it touches.
@@ -70,7 +70,7 @@ impl Contacts<'_> {
     /// What a contactor feels along an axis; `None`, counted, where it does not move along it or
     /// too fast.
     #[inline]
-    pub fn feel(
+    pub(crate) fn feel(
         &self,
         textile: &TextilePlan,
         axis: Axis,
@@ -141,7 +141,7 @@ impl Contacts<'_> {
 
     /// Whether a contactor lies on this textile.
     #[inline]
-    pub fn owns(&self, contactor: usize) -> bool {
+    pub(crate) fn owns(&self, contactor: usize) -> bool {
         usize::from(self.owners[contactor]) == self.textile
     }
 
@@ -183,13 +183,13 @@ impl Contacts<'_> {
 
     /// A contactor's velocity component along an axis.
     #[inline]
-    pub fn component(&self, axis: Axis, contactor: usize) -> Component {
+    pub(crate) fn component(&self, axis: Axis, contactor: usize) -> Component {
         Component::of(self.velocity_mm_per_s(contactor)[axis as usize])
     }
 
     /// A contactor's velocity along warp and weft, mm/s.
     #[inline]
-    pub fn velocity_mm_per_s(&self, contactor: usize) -> [f64; 2] {
+    pub(crate) fn velocity_mm_per_s(&self, contactor: usize) -> [f64; 2] {
         match self.motion {
             Motion::Together(velocity) => [velocity.x_mm_per_s, velocity.y_mm_per_s],
             Motion::Turning(along_warp, along_weft) => {

@@ -30,7 +30,7 @@ pub(crate) struct DisplayPlan {
 }
 
 impl DisplayPlan {
-    pub fn new(array: &ContactorArray) -> Self {
+    pub(crate) fn new(array: &ContactorArray) -> Self {
         let zeros = vec![0.0; array.offsets.len()];
         let longest = |far: f64, by: &Displacement| far.max(by.length_mm());
         // A hair more than the farthest contactor, for what turning rounds.
@@ -68,19 +68,19 @@ impl DisplayPlan {
         self.spare = vec![OUTSIDE; n_spare];
     }
 
-    pub fn n_contactors(&self) -> usize {
+    pub(crate) fn n_contactors(&self) -> usize {
         self.owners.len()
     }
 
     /// Where a contactor sits in the display's own frame; `None` when there is no such contactor.
-    pub fn offset(&self, contactor: usize) -> Option<Displacement> {
+    pub(crate) fn offset(&self, contactor: usize) -> Option<Displacement> {
         let (x_mm, y_mm) = (self.x_mm.get(contactor)?, self.y_mm.get(contactor)?);
         Some(Displacement::new(*x_mm, *y_mm))
     }
 
     /// Whether the display rests where it rested the tick before: then its frame stands, silent as
     /// it is, whatever became of gains. Counted.
-    pub fn stands(&mut self, pose: &Pose, counters: &mut Counters) -> bool {
+    pub(crate) fn stands(&mut self, pose: &Pose, counters: &mut Counters) -> bool {
         let rested = is_at_rest(pose).then_some((pose.position, pose.angle_deg));
         let before = std::mem::replace(&mut self.rested, rested);
         let (Some(before), Some(now)) = (before, rested) else {
@@ -101,17 +101,17 @@ impl DisplayPlan {
     }
 
     /// Whether textiles beneath those that were claimed need not be asked.
-    pub fn is_taken(&self) -> bool {
+    pub(crate) fn is_taken(&self) -> bool {
         self.n_owned == self.owners.len() && self.rules.has(Rule::Beneath)
     }
 
     /// Forgets where it rested: its frame is no longer that of the last tick.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.rested = None;
     }
 
     /// Begins a tick: nobody owns a contactor yet. Returns how the display is turned.
-    pub fn begin(&mut self, path_angle_deg: f64, counters: &mut Counters) -> Rotation {
+    pub(crate) fn begin(&mut self, path_angle_deg: f64, counters: &mut Counters) -> Rotation {
         self.owners.fill(OUTSIDE);
         self.n_owned = 0;
         let angle_deg = self.rotation_deg + path_angle_deg;
@@ -127,7 +127,7 @@ impl DisplayPlan {
 
     /// Gives a textile the contactors that lie on it and that nobody above it took. `None` when
     /// there are none.
-    pub fn claim(
+    pub(crate) fn claim(
         &mut self,
         (textile, number): (&TextilePlan, usize),
         placing: &Placing,

@@ -15,7 +15,7 @@ pub(crate) struct PointIndex {
 }
 
 impl PointIndex {
-    pub fn new(n_points: usize) -> Self {
+    pub(crate) fn new(n_points: usize) -> Self {
         let n_points = n_points.max(1) as u64;
         Self {
             n_points,
@@ -34,7 +34,7 @@ impl PointIndex {
         reason = "the result is below n_points"
     )]
     #[inline]
-    pub fn nearest(self, place_mm: f64) -> usize {
+    pub(crate) fn nearest(self, place_mm: f64) -> usize {
         let whole = nearest_mm(place_mm);
         let fraction = self.reciprocal.wrapping_mul(u64::from(whole));
         ((u128::from(fraction) * u128::from(self.n_points)) >> 64) as usize
@@ -44,7 +44,7 @@ impl PointIndex {
 /// The whole millimetre nearest to a place in mm, at or right of −½: where the point that it reads
 /// lies on the cloth.
 #[inline]
-pub fn nearest_mm(place_mm: f64) -> u32 {
+pub(crate) fn nearest_mm(place_mm: f64) -> u32 {
     whole_part(place_mm + 0.5 + BORDER_MM)
 }
 
@@ -59,7 +59,7 @@ pub(crate) struct PointGrid {
 
 impl PointGrid {
     /// For so many points along and across.
-    pub fn new([n_along, n_across]: [usize; 2]) -> Self {
+    pub(crate) fn new([n_along, n_across]: [usize; 2]) -> Self {
         Self {
             along: PointIndex::new(n_along),
             across: PointIndex::new(n_across),
@@ -69,24 +69,24 @@ impl PointGrid {
 
     /// The number of the point nearest to a place in mm.
     #[inline]
-    pub fn nearest(self, along_mm: f64, across_mm: f64) -> usize {
+    pub(crate) fn nearest(self, along_mm: f64, across_mm: f64) -> usize {
         self.number(self.indices(along_mm, across_mm))
     }
 
     /// The point nearest to a place in mm: which along, which across.
     #[inline]
-    pub fn indices(self, along_mm: f64, across_mm: f64) -> [usize; 2] {
+    pub(crate) fn indices(self, along_mm: f64, across_mm: f64) -> [usize; 2] {
         [self.along.nearest(along_mm), self.across.nearest(across_mm)]
     }
 
     /// Points along and across.
-    pub fn n_points(self) -> [usize; 2] {
+    pub(crate) fn n_points(self) -> [usize; 2] {
         [self.along.n_points(), self.across.n_points()]
     }
 
     /// The number of a point: so many along, so many across.
     #[inline]
-    pub fn number(self, [along, across]: [usize; 2]) -> usize {
+    pub(crate) fn number(self, [along, across]: [usize; 2]) -> usize {
         across * self.n_along + along
     }
 }

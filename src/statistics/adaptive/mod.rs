@@ -21,11 +21,11 @@ mod tests;
 
 pub use constant::ConstantStimuli;
 pub use interleaved::Interleaved;
+pub use quest_plus::QuestSummary;
+pub use quest_plus::Reckoned;
 pub use quest_plus::{QuestGrid, QuestPlus};
-pub(crate) use quest_plus::{QuestSummary, Reckoned};
-pub(crate) use rule::GARCIA_PEREZ_RATIOS;
 pub use rule::{Rule, StepScale};
-pub(crate) use staircase::Reversal;
+pub use staircase::Reversal;
 pub use staircase::{Limit, ReversalMean, Stage, Staircase, StaircasePlan};
 pub use stationary::Stationary;
 pub use stationary::stationary;

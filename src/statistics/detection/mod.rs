@@ -9,11 +9,9 @@ mod roc;
 mod triangle;
 mod yes_no;
 
-pub(crate) use forced_choice::d_prime_of_share;
 pub use forced_choice::{forced_choice, share_of_d_prime};
-pub(crate) use roc::RocPoint;
+pub use roc::RocPoint;
 pub use roc::{Roc, roc};
-pub(crate) use triangle::triangle_share;
 pub use triangle::{triangle, triangle_d_prime};
 pub use yes_no::YesNo;
 pub use yes_no::{Answers, yes_no};

@@ -19,7 +19,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bootstrap::Resampled;
+pub use bootstrap::Resampled;
 pub use dissimilarities::{Dissimilarities, Pair};
 pub use elbow::Elbow;
 pub use fit::Loss;

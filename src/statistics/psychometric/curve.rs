@@ -107,7 +107,7 @@ impl Psychometric {
 }
 
 /// F and 1 − F with guesses and lapses.
-pub fn scaled([low, high]: [f64; 2], guess: f64, lapse: f64) -> [f64; 2] {
+pub(crate) fn scaled([low, high]: [f64; 2], guess: f64, lapse: f64) -> [f64; 2] {
     let span = 1.0 - guess - lapse;
     [guess + span * low, lapse + span * high]
 }

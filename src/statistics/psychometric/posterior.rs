@@ -22,7 +22,7 @@ pub(crate) struct Marginal {
 
 impl Marginal {
     /// Its mean.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.values
             .iter()
             .zip(&self.masses)
@@ -31,7 +31,7 @@ impl Marginal {
     }
 
     /// Its standard deviation.
-    pub fn sd(&self) -> f64 {
+    pub(crate) fn sd(&self) -> f64 {
         let mean = self.mean();
         let both = self.values.iter().zip(&self.masses);
         both.map(|(v, m)| m * (v - mean).powi(2))

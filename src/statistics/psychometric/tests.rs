@@ -1,5 +1,6 @@
 //! Fits against known functions, brute force and simulation.
 
+use super::prior::{Lapse, MOST_LAPSE};
 use super::*;
 use crate::{Computed, Resampling};
 use selvedge_foundation::numerics::Random;

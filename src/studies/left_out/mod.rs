@@ -39,7 +39,7 @@ pub(crate) struct LeftOutStudy {
 impl LeftOutStudy {
     /// The same study with a saving of another floor listed.
     #[must_use]
-    pub fn with(mut self, saving: Box<dyn SavingRule>) -> Self {
+    pub(crate) fn with(mut self, saving: Box<dyn SavingRule>) -> Self {
         self.others.push(saving);
         self
     }

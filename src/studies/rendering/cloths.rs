@@ -21,18 +21,18 @@ const STEP_MM: f64 = 1.0 / 230.0;
 const N_SAMPLES: u32 = 4600;
 
 /// A surface of the shipped library.
-pub fn shipped(id: &str) -> Result<Arc<Surface>, ReportError> {
+pub(crate) fn shipped(id: &str) -> Result<Arc<Surface>, ReportError> {
     Ok(Arc::clone(Library::shipped()?.load(id)?.surface()))
 }
 
 /// One wave that fits the window: a single line at this bin, as good as alone.
-pub fn line(bin: u16) -> Result<Arc<Surface>, ReportError> {
+pub(crate) fn line(bin: u16) -> Result<Arc<Surface>, ReportError> {
     let per_mm = BIN_SPACING_PER_MM * f64::from(bin);
     of_heights("a single line", |x_mm| 5.0 * (TAU * per_mm * x_mm).cos())
 }
 
 /// White noise: the same power in every bin but for chance.
-pub fn noise(seed: u64) -> Result<Arc<Surface>, ReportError> {
+pub(crate) fn noise(seed: u64) -> Result<Arc<Surface>, ReportError> {
     let mut random = Random::new(seed).branch("noise");
     of_heights("noise", |_| 5.0 * random.normal())
 }
@@ -52,7 +52,7 @@ fn of_heights(
 }
 
 /// A surface of a study's width with a corner at `origin`, without any gain.
-pub fn placed(surface: &Arc<Surface>, origin: Point) -> PlacedSurface {
+pub(crate) fn placed(surface: &Arc<Surface>, origin: Point) -> PlacedSurface {
     PlacedSurface {
         workspace_from_textile: Frame {
             origin,
@@ -67,7 +67,7 @@ pub fn placed(surface: &Arc<Surface>, origin: Point) -> PlacedSurface {
 }
 
 /// The 24 contactors.
-pub fn exeter() -> ContactorArray {
+pub(crate) fn exeter() -> ContactorArray {
     ContactorArray {
         offsets: Geometry::Array(ArrayLayout::Exeter24).contactors(),
         rotation_deg: 0.0,
@@ -75,7 +75,7 @@ pub fn exeter() -> ContactorArray {
 }
 
 /// Textiles under one display, without gains.
-pub fn scene_of(textiles: Vec<PlacedSurface>, array: ContactorArray) -> RenderScene {
+pub(crate) fn scene_of(textiles: Vec<PlacedSurface>, array: ContactorArray) -> RenderScene {
     RenderScene {
         textiles,
         displays: vec![array],

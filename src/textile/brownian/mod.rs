@@ -107,7 +107,7 @@ pub struct Brownian {
 profile_file_keys!(Brownian);
 
 /// The numbers of a Brownian surface that are always there, and its two amplitudes.
-pub const NUMBERS: &[Number<Brownian>] = numbers! { Brownian;
+pub(crate) const NUMBERS: &[Number<Brownian>] = numbers! { Brownian;
     hurst "Hurst exponent" 0.01..=0.99 "" "Low is jagged, high gently rolling";
     length_mm "Side" 5.0..=50.0 "mm" "Side of the patch";
     step_mm "Step" 0.005..=0.2 "mm" "Distance of its points: 1000 along a side are the most";

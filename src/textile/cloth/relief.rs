@@ -7,7 +7,7 @@ use selvedge_foundation::numerics::Grid;
 
 /// Which way the columns of a window run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
+pub(super) enum Axis {
     /// Columns along the warp (u), rows along the weft (w).
     Warp,
     /// Columns along the weft (w), rows along the warp (u).
@@ -16,7 +16,7 @@ pub enum Axis {
 
 /// Where a cloth is looked at: grid points `start + index · step`, columns along `axis`.
 #[derive(Debug, Clone, Copy)]
-pub struct Window {
+pub(super) struct Window {
     pub axis: Axis,
     /// Column and row of point (0, 0), mm.
     pub start_mm: [f64; 2],
@@ -28,7 +28,7 @@ pub struct Window {
 
 /// The upper surface within a window.
 #[derive(Debug, Clone)]
-pub struct Relief {
+pub(super) struct Relief {
     /// Heights, µm.
     pub height_um: Grid<f64>,
     /// Index of the strand on top; `u32::MAX` where there is none.
@@ -54,7 +54,7 @@ struct Piece<'a> {
 
 impl Relief {
     /// The upper surface of `cloth` within `window`.
-    pub fn of(cloth: &Cloth, window: &Window) -> Self {
+    pub(super) fn of(cloth: &Cloth, window: &Window) -> Self {
         let [columns, rows] = window.n;
         let mut relief = Self {
             height_um: Grid::filled(columns, rows, cloth.floor_um),

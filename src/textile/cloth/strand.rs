@@ -5,7 +5,7 @@
 
 /// A place on the centre line of a strand, and the section there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Node {
+pub(crate) struct Node {
     /// Along the warp, mm.
     pub u_mm: f64,
     /// Along the weft, mm.

@@ -16,7 +16,7 @@ const N_TRACKS: usize = 80;
 ///
 /// Forward and reverse run over the same strip, as the instrument's do; the instrument is zeroed at
 /// the mean height of the strip.
-pub fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
+pub(crate) fn profiles(cloth: &Cloth, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
     let mut heights: [Vec<f64>; 4] = Default::default();
     for (axis, pair) in [
         (Axis::Warp, [Direction::WarpForward, Direction::WarpReverse]),

@@ -21,6 +21,6 @@ pub(crate) fn pucker_mm() -> f64 {
 }
 
 /// Noise of the probe, µm rms.
-pub fn noise_um() -> f64 {
+pub(crate) fn noise_um() -> f64 {
     0.2
 }

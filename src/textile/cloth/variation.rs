@@ -16,7 +16,7 @@ pub(crate) struct Drift {
 impl Drift {
     /// Noise on a circle of `length` whose autocorrelation falls to 1/e after about
     /// `correlation` (the same unit).
-    pub fn new(length: f64, correlation: f64, random: &mut Random) -> Self {
+    pub(crate) fn new(length: f64, correlation: f64, random: &mut Random) -> Self {
         let n = count(8.0 * length / correlation.max(1e-3 * length)).clamp(8, 4096);
         let white: Vec<f64> = (0..n).map(|_| random.normal()).collect();
         let spacing = length / n as f64;
@@ -27,7 +27,7 @@ impl Drift {
     }
 
     /// The noise at a place of the circle.
-    pub fn at(&self, place: f64) -> f64 {
+    pub(crate) fn at(&self, place: f64) -> f64 {
         let (i, share) = cell(place / self.length, self.values.len());
         let next = self.values[(i + 1) % self.values.len()];
         self.values[i] + (next - self.values[i]) * share
@@ -36,14 +36,14 @@ impl Drift {
 
 /// Smooth normal noise over a torus.
 #[derive(Debug, Clone)]
-pub struct Field {
+pub(crate) struct Field {
     size: [f64; 2],
     rows: Vec<Vec<f64>>,
 }
 
 impl Field {
     /// Noise over a torus of `size` with a correlation length (all mm).
-    pub fn new(size: [f64; 2], correlation: f64, random: &mut Random) -> Self {
+    pub(crate) fn new(size: [f64; 2], correlation: f64, random: &mut Random) -> Self {
         let n = size.map(|length| count(5.0 * length / correlation).clamp(6, 160));
         let deviation = |axis: usize| correlation * n[axis] as f64 / (2.0 * size[axis]);
         let white: Vec<Vec<f64>> = (0..n[1])
@@ -61,7 +61,7 @@ impl Field {
     }
 
     /// The noise at (u, w), mm.
-    pub fn at(&self, u_mm: f64, w_mm: f64) -> f64 {
+    pub(crate) fn at(&self, u_mm: f64, w_mm: f64) -> f64 {
         let (y, share_y) = cell(w_mm / self.size[1], self.rows.len());
         let (x, share_x) = cell(u_mm / self.size[0], self.rows[0].len());
         let in_row = |row: &[f64]| row[x] + (row[(x + 1) % row.len()] - row[x]) * share_x;
@@ -102,7 +102,7 @@ fn cell(turns: f64, n: usize) -> (usize, f64) {
     clippy::cast_sign_loss,
     reason = "saturates, as wanted"
 )]
-pub fn count(x: f64) -> usize {
+pub(crate) fn count(x: f64) -> usize {
     x.ceil().max(0.0) as usize
 }
 

@@ -76,7 +76,7 @@ pub struct Yarn {
 }
 
 /// The numbers of a yarn.
-pub const NUMBERS: &[Number<Yarn>] = numbers! { Yarn;
+pub(crate) const NUMBERS: &[Number<Yarn>] = numbers! { Yarn;
     width_um "Width" 10.0..=5000.0 "µm" "Width of the section as it lies in the cloth";
     thickness_um "Thickness" 10.0..=5000.0 "µm" "Thickness of the section as it lies in the cloth";
     flatness "Flatness" 0.0..=0.9 "" "Share of the width that is flat: 0 elliptic, 0.9 a tape";
@@ -172,7 +172,7 @@ pub(crate) struct YarnRun<'a> {
 
 impl<'a> YarnRun<'a> {
     /// A run of `length_mm`; `band` is the value of its band (see [`Yarn::bands`]).
-    pub fn new(yarn: &'a Yarn, length_mm: f64, band: f64, random: &mut Random) -> Self {
+    pub(crate) fn new(yarn: &'a Yarn, length_mm: f64, band: f64, random: &mut Random) -> Self {
         let level = yarn.count_cv * random.normal() + yarn.band_cv * band;
         let uneven = Drift::new(length_mm, yarn.uneven_mm, random);
         let expected = yarn.slubs_per_m * length_mm / 1000.0;
@@ -201,7 +201,7 @@ impl<'a> YarnRun<'a> {
     }
 
     /// Thickness over the yarn's mean thickness at a place along the run, mm.
-    pub fn thickness(&self, along_mm: f64) -> f64 {
+    pub(crate) fn thickness(&self, along_mm: f64) -> f64 {
         let own = 1.0 + self.level + self.yarn.uneven_cv * self.uneven.at(along_mm);
         let slub = |&(place, gain): &(f64, f64)| {
             let apart = (along_mm - place).rem_euclid(self.length_mm);
@@ -212,7 +212,7 @@ impl<'a> YarnRun<'a> {
     }
 
     /// A node of this run at a place in the cloth.
-    pub fn node(&self, place: [f64; 2], z_um: f64, along_mm: f64) -> Node {
+    pub(crate) fn node(&self, place: [f64; 2], z_um: f64, along_mm: f64) -> Node {
         let thick = self.thickness(along_mm);
         Node {
             u_mm: place[0],

@@ -11,7 +11,7 @@ mod template;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use readings::Imported;
+pub use readings::Imported;
 pub use readings::{Readings, import};
 pub use series::FourierSeries;
 pub use template::FourierTemplate;
@@ -108,7 +108,7 @@ pub struct Fourier {
 profile_file_keys!(Fourier);
 
 /// The numbers of a surface from a template.
-pub const NUMBERS: &[Number<Fourier>] = numbers! { Fourier;
+pub(crate) const NUMBERS: &[Number<Fourier>] = numbers! { Fourier;
     length_mm "Mirrored beyond" 5.0..=100.0 "mm" "Beyond this the surface is mirrored";
     step_mm "Step" 0.004..=0.5 "mm" "Distance of the samples";
     lowest_per_m "From" 0.0..=1e5 "/m" "Harmonics below this are left out, cycles per metre";

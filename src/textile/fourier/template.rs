@@ -42,7 +42,7 @@ pub struct FourierTemplate {
 }
 
 /// The numbers of a template beside its coefficients.
-pub const NUMBERS: &[Number<FourierTemplate>] = numbers! { FourierTemplate;
+pub(crate) const NUMBERS: &[Number<FourierTemplate>] = numbers! { FourierTemplate;
     fundamental_per_m "Harmonic 1" 0.1..=10_000.0 "/m" "Harmonic 1, cycles per metre";
 };
 

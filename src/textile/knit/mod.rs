@@ -120,7 +120,7 @@ fn default_leg_spread() -> f64 {
 profile_file_keys!(Knit);
 
 /// The numbers of a knit.
-pub const NUMBERS: &[Number<Knit>] = numbers! { Knit;
+pub(crate) const NUMBERS: &[Number<Knit>] = numbers! { Knit;
     wales_per_cm "Wales" 1.0..=40.0 "/cm" "Columns of loops per centimetre";
     courses_per_cm "Courses" 1.0..=50.0 "/cm" "Rows of loops per centimetre";
     loop_height "Height of loops" 1.0..=3.0 ""

@@ -8,8 +8,9 @@ mod profiles;
 mod provenance;
 
 pub use checker::Checker;
+pub(crate) use profiles::ProfileFiles;
+pub use profiles::Profiles;
 pub(crate) use profiles::profile_file_keys;
-pub(crate) use profiles::{ProfileFiles, Profiles};
 pub use provenance::{Parent, Provenance};
 
 use std::borrow::Cow;

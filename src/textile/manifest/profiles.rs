@@ -64,12 +64,12 @@ pub(crate) struct ProfileFiles(pub [Option<String>; 4]);
 
 impl ProfileFiles {
     /// Whether no file is named.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.iter().all(Option::is_none)
     }
 
     /// The file of a direction.
-    pub fn of(&self, direction: Direction) -> Option<&str> {
+    pub(crate) fn of(&self, direction: Direction) -> Option<&str> {
         self.0[direction.index()].as_deref()
     }
 }

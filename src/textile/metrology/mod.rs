@@ -33,7 +33,7 @@ mod tests;
 
 pub use import::{HeightImport, HeightPlace, ImportOptions};
 pub use reading::{About, Measured};
-pub(crate) use source::Heightmap;
+pub use source::Heightmap;
 pub use unit::LengthUnit;
 pub use x3p::{Coding, write as write_x3p};
 

@@ -25,7 +25,7 @@ pub const RECIPES: [(&str, &str); 5] = [
 
 /// A number of a recipe: what the reader checks and a window offers.
 #[derive(Debug)]
-pub struct Number<R: 'static> {
+pub(crate) struct Number<R: 'static> {
     /// The key in its table.
     pub key: &'static str,
     /// What people call it.
@@ -44,7 +44,7 @@ pub struct Number<R: 'static> {
 
 impl<R> Number<R> {
     /// Refuses the first number of a recipe that is out of its bounds; `table` is where they stand.
-    pub fn check(
+    pub(crate) fn check(
         numbers: &[Self],
         recipe: &R,
         (checker, table): (&Checker<'_>, &str),
@@ -77,7 +77,7 @@ macro_rules! numbers {
 pub(crate) use numbers;
 
 /// What a key of a recipe may hold a number as.
-pub trait Figure {
+pub(crate) trait Figure {
     /// The number; `None` if it is left out.
     fn figure(&self) -> Option<f64>;
 }

@@ -91,7 +91,7 @@ pub struct Restoration {
 profile_file_keys!(Restoration);
 
 /// The numbers of a restored surface beside those of its profiles.
-pub const NUMBERS: &[Number<Restoration>] = numbers! { Restoration;
+pub(crate) const NUMBERS: &[Number<Restoration>] = numbers! { Restoration;
     length_mm "Side" 5.0..=100.0 "mm" "Side of the patch";
     step_mm "Step" 0.002..=0.1 "mm" "Distance of the samples";
 };

@@ -45,7 +45,7 @@ pub struct Reduced {
 }
 
 /// The numbers of a reduced profile.
-pub const NUMBERS: &[Number<Reduced>] = numbers! { Reduced;
+pub(crate) const NUMBERS: &[Number<Reduced>] = numbers! { Reduced;
     smd_um "Roughness SMD" 0.0..=1e5 "µm" "What the restored profile is brought to";
     period_mm "Period" 1e-3..=1e3 "mm" "The period of its harmonics";
     residual_from_per_mm "Residual from" 1e-4..=1e3 "/mm"

@@ -19,7 +19,8 @@ mod tracks;
 
 pub use areal::{AREAL_WIRE_MM, Representation};
 pub(crate) use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
-pub(crate) use friction::{FrictionTrace, mean_deviation};
+pub use friction::FrictionTrace;
+pub(crate) use friction::mean_deviation;
 pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
 pub use profile::Profile;

@@ -34,7 +34,7 @@ enum Transform {
 
 impl SpectralPlan {
     /// The plan for profiles sampled every `step_mm`.
-    pub fn new(step_mm: f64) -> Self {
+    pub(crate) fn new(step_mm: f64) -> Self {
         Self::with_bins(step_mm, N_BINS)
     }
 
@@ -63,7 +63,7 @@ impl SpectralPlan {
     }
 
     /// Number of samples in one window.
-    pub fn n_window(&self) -> usize {
+    pub(crate) fn n_window(&self) -> usize {
         self.window.len()
     }
 

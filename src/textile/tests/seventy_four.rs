@@ -7,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::build::index_of;
+use crate::recipes::SEVENTY_FOUR;
 use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_foundation::files::sha256_hex;

@@ -11,6 +11,7 @@
 mod crossing;
 mod interlacing;
 
+pub use interlacing::Repeat;
 pub use interlacing::{Interlacing, NAMES};
 
 use serde::{Deserialize, Serialize};
@@ -103,7 +104,7 @@ fn default_compaction() -> f64 {
 profile_file_keys!(Weave);
 
 /// The numbers of a weave.
-pub const NUMBERS: &[Number<Weave>] = numbers! { Weave;
+pub(crate) const NUMBERS: &[Number<Weave>] = numbers! { Weave;
     warp_per_cm "Ends" 2.0..=100.0 "/cm" "Ends per centimetre";
     weft_per_cm "Picks" 2.0..=100.0 "/cm" "Picks per centimetre";
     crimp_share "Crimp of the warp" 0.0..=1.0 "" "Share of the crimp that the warp takes";

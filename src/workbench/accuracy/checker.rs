@@ -11,15 +11,15 @@ use selvedge_render::scene::Pose;
 use selvedge_render::{LevelError, RenderScene, RunningError};
 
 /// The level error of an amplitude rounded to single precision, at most: `20 log₁₀(1 + 2⁻²⁴)` dB.
-pub const ROUNDING_DB: f64 = 5.2e-7;
+pub(crate) const ROUNDING_DB: f64 = 5.2e-7;
 /// The ends of the axis that errors are counted on, dB.
-pub const ERRORS_DB: [f64; 2] = [1e-8, 10.0];
+pub(crate) const ERRORS_DB: [f64; 2] = [1e-8, 10.0];
 /// Bins a decade of that axis.
 const BINS_PER_DECADE: f64 = 8.0;
 
 /// What ticks are rendered with: scene, filters, gains.
 #[derive(Debug, Clone)]
-pub struct Setting {
+pub(super) struct Setting {
     /// The scene with the gains in force.
     pub scene: RenderScene,
     /// The change of the scene that it is of.
@@ -28,7 +28,7 @@ pub struct Setting {
 
 impl Setting {
     /// Whether this is the setting of a scene after so many edits.
-    pub fn is_of(&self, scene: &RenderScene, n_edits: u64) -> bool {
+    pub(super) fn is_of(&self, scene: &RenderScene, n_edits: u64) -> bool {
         let gains = |scene: &RenderScene| -> Vec<u64> {
             let of_textiles = scene.textiles.iter().map(|placed| placed.scene_gain_db);
             of_textiles.map(f64::to_bits).collect()
@@ -80,7 +80,7 @@ pub(crate) fn edges_db() -> Vec<f64> {
 
 /// Renders samples anew and collects their errors.
 #[derive(Debug, Default)]
-pub struct Checker {
+pub(super) struct Checker {
     run: u64,
     reference: Option<(Arc<Setting>, ArrayRenderer)>,
     error: RunningError,
@@ -91,7 +91,7 @@ pub struct Checker {
 
 impl Checker {
     /// Checks a tick.
-    pub fn take(&mut self, sample: &TickSample) {
+    pub(super) fn take(&mut self, sample: &TickSample) {
         if sample.run != self.run {
             *self = Self {
                 run: sample.run,
@@ -137,7 +137,7 @@ impl Checker {
     }
 
     /// What was found so far.
-    pub fn view(&self) -> ErrorView {
+    pub(super) fn view(&self) -> ErrorView {
         let edges = edges_db();
         ErrorView {
             run: self.run,

@@ -21,7 +21,7 @@ const SEED: u64 = 1;
 const MOST_TICKS: u64 = 600;
 
 /// What is measured.
-pub struct Wanted {
+pub(crate) struct Wanted {
     /// What people call the scene.
     pub name: String,
     /// The scene with the gains in force.
@@ -43,7 +43,7 @@ pub(crate) struct Measuring {
 
 /// A measurement that is over.
 #[derive(Debug, Clone, Default)]
-pub struct Measured {
+pub(crate) struct Measured {
     /// A row a method.
     pub rows: Vec<Row>,
     /// Whether nothing beats a row in both error and cost.
@@ -66,7 +66,7 @@ impl Measured {
     }
 
     /// The row of the method that ran.
-    pub fn running(&self) -> Option<usize> {
+    pub(crate) fn running(&self) -> Option<usize> {
         self.rows.iter().position(ThisSceneStudy::is_running)
     }
 }
@@ -76,7 +76,11 @@ impl Measuring {
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn start(wanted: Wanted, effort: Effort, ctx: &egui::Context) -> std::io::Result<Self> {
+    pub(crate) fn start(
+        wanted: Wanted,
+        effort: Effort,
+        ctx: &egui::Context,
+    ) -> std::io::Result<Self> {
         let watch = Watch::default();
         let (own, waker) = (watch.clone(), ctx.clone());
         let work = move || own.over(&waker, |progress| measure(wanted, effort, progress));
@@ -87,17 +91,17 @@ impl Measuring {
     }
 
     /// How far it is, 0…1.
-    pub fn share(&self) -> f32 {
+    pub(crate) fn share(&self) -> f32 {
         self.watch.share()
     }
 
     /// Asks it to stop.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.watch.stop();
     }
 
     /// What it found, once it is over.
-    pub fn poll(&self) -> Polled<Result<Measured, ReportError>> {
+    pub(crate) fn poll(&self) -> Polled<Result<Measured, ReportError>> {
         self.job.poll()
     }
 }

@@ -12,9 +12,9 @@ mod checker;
 mod measuring;
 mod worker;
 
-pub use checker::{ERRORS_DB, ROUNDING_DB};
+pub(crate) use checker::{ERRORS_DB, ROUNDING_DB};
 pub(crate) use checker::{ErrorView, edges_db};
-pub use measuring::Measured;
+pub(crate) use measuring::Measured;
 pub(crate) use measuring::{Measuring, Wanted};
 
 use std::sync::Arc;
@@ -59,7 +59,7 @@ impl From<AccuracyCommand> for Command {
 
 /// Ticks that were seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
+pub(crate) struct Tally {
     /// Handed on to be checked.
     pub sampled: u64,
     /// Left out because earlier ones still waited.
@@ -136,7 +136,7 @@ pub(crate) struct AccuracyView<'a> {
 
 impl AccuracyWatch {
     /// Begins the statistics anew.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.run.0 += 1;
         self.last = None;
         self.tally = Tally::default();
@@ -144,12 +144,12 @@ impl AccuracyWatch {
     }
 
     /// Ticks that were seen.
-    pub fn tally(&self) -> Tally {
+    pub(crate) fn tally(&self) -> Tally {
         self.tally
     }
 
     /// Errors found in this run; none of those before.
-    pub fn found(&mut self) -> &ErrorView {
+    pub(crate) fn found(&mut self) -> &ErrorView {
         if let Some(checking) = &mut self.checking {
             self.found = checking.found();
         }

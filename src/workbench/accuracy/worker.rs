@@ -33,7 +33,7 @@ impl Checking {
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn start(ctx: &egui::Context) -> std::io::Result<Self> {
+    pub(super) fn start(ctx: &egui::Context) -> std::io::Result<Self> {
         let (samples, waiting) = sync_channel(MOST_WAITING);
         let (publish, found) = triple_buffer::triple_buffer(&ErrorView::default());
         let ctx = ctx.clone();
@@ -44,7 +44,7 @@ impl Checking {
     }
 
     /// Checks a tick, or hands it to the thread. Says whether there was room for it.
-    pub fn take(&mut self, sample: TickSample) -> bool {
+    pub(super) fn take(&mut self, sample: TickSample) -> bool {
         match self {
             Self::Thread { samples, .. } => !matches!(
                 samples.try_send(sample),
@@ -58,7 +58,7 @@ impl Checking {
     }
 
     /// What was found last.
-    pub fn found(&mut self) -> ErrorView {
+    pub(super) fn found(&mut self) -> ErrorView {
         match self {
             Self::Thread { found, .. } => found.read().clone(),
             Self::AtOnce(checker) => checker.view(),

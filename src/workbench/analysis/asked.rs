@@ -10,7 +10,7 @@ const N_RANDOM_DATA: usize = 100;
 
 /// How much chance is drawn on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Effort {
+pub(crate) enum Effort {
     /// Little: for a look.
     Quick,
     /// As much as reports have.
@@ -20,7 +20,7 @@ pub enum Effort {
 
 /// What is chosen.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Choice {
+pub(crate) struct Choice {
     /// How much chance is drawn on.
     pub effort: Effort,
     /// Whether the stress of maps is compared with that of random ranks.
@@ -59,20 +59,20 @@ impl Default for Fields {
 
 impl Fields {
     /// The folder of the logs, if one is typed.
-    pub fn folder(&self) -> Option<PathBuf> {
+    pub(crate) fn folder(&self) -> Option<PathBuf> {
         let folder = self.folder.trim();
         (!folder.is_empty()).then(|| PathBuf::from(folder))
     }
 
     /// The seed, if it is one.
-    pub fn seed(&self) -> Option<u64> {
+    pub(crate) fn seed(&self) -> Option<u64> {
         self.seed.trim().parse().ok()
     }
 }
 
 /// What an analysis is asked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// The folder of the logs.
     pub folder: PathBuf,
     /// What chance begins with.
@@ -83,7 +83,7 @@ pub struct Asked {
 
 impl Asked {
     /// The same for the analysis.
-    pub fn options(&self) -> Options {
+    pub(crate) fn options(&self) -> Options {
         let usual = Options::default();
         let n_random_data = match self.choice.has_random_data {
             true if usual.n_random_data > 0 => usual.n_random_data,

@@ -12,7 +12,7 @@ use selvedge_foundation::progress::Progress;
 
 /// What was found, and of what.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Findings {
+pub(crate) struct Findings {
     /// What was asked for.
     pub asked: Asked,
     /// What was found.
@@ -33,7 +33,7 @@ impl Findings {
 
     /// Writes tables, figures and the page to read into a folder; says where. Beside the logs a
     /// table would be taken for one: there it is a folder within.
-    pub fn write(&self, folder: PathBuf) -> Result<PathBuf, String> {
+    pub(crate) fn write(&self, folder: PathBuf) -> Result<PathBuf, String> {
         let same = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let folder = if same(&folder) == same(&self.asked.folder) {
             self.report_folder()

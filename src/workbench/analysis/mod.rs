@@ -16,11 +16,11 @@ mod findings;
 mod pictures;
 
 pub(crate) use asked::Fields;
-pub use asked::{Asked, Choice, Effort};
+pub(crate) use asked::{Asked, Choice, Effort};
 pub(crate) use command::AnalysisCommand;
-pub use findings::Findings;
+pub(crate) use findings::Findings;
 pub(crate) use findings::find_out;
-pub use pictures::Pictures;
+pub(crate) use pictures::Pictures;
 pub(crate) use pictures::Wanted;
 
 use std::path::{Path, PathBuf};
@@ -85,7 +85,7 @@ pub(crate) struct AnalysisView<'a> {
 
 impl Analysing {
     /// What is asked for; `None` while something is missing.
-    pub fn asked(&self) -> Option<Asked> {
+    pub(crate) fn asked(&self) -> Option<Asked> {
         Some(Asked {
             folder: self.fields.folder()?,
             seed: self.fields.seed()?,
@@ -102,22 +102,22 @@ impl Analysing {
     }
 
     /// The last result.
-    pub fn found(&self) -> Option<&Arc<Findings>> {
+    pub(crate) fn found(&self) -> Option<&Arc<Findings>> {
         self.found.as_ref()
     }
 
     /// The section at hand.
-    pub fn section(&self) -> Option<&Section> {
+    pub(crate) fn section(&self) -> Option<&Section> {
         self.found.as_ref()?.analysis.sections.get(self.section)
     }
 
     /// A table of the section at hand.
-    pub fn table(&self, nth: usize) -> Option<&Table> {
+    pub(crate) fn table(&self, nth: usize) -> Option<&Table> {
         self.section()?.tables.get(nth)
     }
 
     /// The figure of the section at hand that is being saved.
-    pub fn figure(&self) -> Option<(&Section, &Drawn)> {
+    pub(crate) fn figure(&self) -> Option<(&Section, &Drawn)> {
         let section = self.section()?;
         Some((section, section.figures.get(self.saved_figure)?))
     }
@@ -129,12 +129,12 @@ impl Analysing {
     }
 
     /// Shows a section.
-    pub fn select(&mut self, section: usize) {
+    pub(crate) fn select(&mut self, section: usize) {
         self.section = section;
     }
 
     /// Offers a folder where none is typed; the same folder is offered once.
-    pub fn offer(&mut self, folder: Option<&Path>) {
+    pub(crate) fn offer(&mut self, folder: Option<&Path>) {
         let Some(folder) = folder.filter(|folder| *folder != self.offered) else {
             return;
         };
@@ -146,7 +146,7 @@ impl Analysing {
 
     /// Begins the analysis that is asked for, unless one is under way. `held` is the log of the
     /// session that this window holds.
-    pub fn begin(&mut self, ctx: &egui::Context, is_at_once: bool, held: Option<PathBuf>) {
+    pub(crate) fn begin(&mut self, ctx: &egui::Context, is_at_once: bool, held: Option<PathBuf>) {
         let Some(asked) = self.asked().filter(|_| self.task.is_none()) else {
             return;
         };
@@ -160,7 +160,7 @@ impl Analysing {
     }
 
     /// Stops the analysis under way; the last result stays.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         if let Some(task) = &self.task {
             task.stop();
         }
@@ -172,7 +172,7 @@ impl Analysing {
     }
 
     /// Writes the report of the last result into a folder.
-    pub fn write(&mut self, ctx: &egui::Context, is_at_once: bool, folder: PathBuf) {
+    pub(crate) fn write(&mut self, ctx: &egui::Context, is_at_once: bool, folder: PathBuf) {
         let Some(found) = self.found.clone().filter(|_| self.writing.is_none()) else {
             return;
         };
@@ -183,7 +183,7 @@ impl Analysing {
     }
 
     /// Takes what threads have found, written and drawn. To be called every frame.
-    pub fn poll(&mut self) {
+    pub(crate) fn poll(&mut self) {
         match taken(&mut self.task) {
             Some((Ok(found), _)) => self.take(found),
             Some((Err(line), false)) => self.failure = Some(line),
@@ -207,7 +207,7 @@ impl Analysing {
     }
 
     /// Has figures drawn as they are wanted: to be called while they are in sight.
-    pub fn draw(&mut self, ctx: &egui::Context, is_at_once: bool, wanted: Wanted) {
+    pub(crate) fn draw(&mut self, ctx: &egui::Context, is_at_once: bool, wanted: Wanted) {
         let before = self.pictures.n_begun();
         self.pictures.follow(ctx, is_at_once, wanted);
         if is_at_once && self.pictures.n_begun() > before {
@@ -217,7 +217,7 @@ impl Analysing {
 
     /// Who is left out of the next analysis and what is covered follow from the session that is
     /// held in this window, if one is: who takes part.
-    pub fn view<'a>(&'a self, held: Option<&'a str>) -> AnalysisView<'a> {
+    pub(crate) fn view<'a>(&'a self, held: Option<&'a str>) -> AnalysisView<'a> {
         let found = self.found.as_ref();
         let is_past = found.is_some_and(|found| self.asked().as_ref() != Some(&found.asked));
         AnalysisView {

@@ -11,7 +11,7 @@ use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// Which figures are drawn, and how.
 #[derive(Debug, Clone)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     /// What they show.
     pub findings: Arc<Findings>,
     /// Of which section.
@@ -38,7 +38,7 @@ impl PartialEq for Wanted {
 
 /// Figures as they were drawn, or why one was not.
 #[derive(Debug)]
-pub struct Pictures {
+pub(crate) struct Pictures {
     /// Which figures.
     pub wanted: Wanted,
     /// Their pixels, in the order of the section.

@@ -9,7 +9,7 @@ mod follow;
 mod tests;
 mod wizard;
 
-pub use wizard::PULSE_MS;
+pub(crate) use wizard::PULSE_MS;
 pub(crate) use wizard::{Wizard, WizardCommand};
 
 use std::collections::BTreeSet;
@@ -49,7 +49,7 @@ pub(crate) struct Arrays {
 
 impl Arrays {
     /// The profiles in the user's folder, and sentences on those that cannot be read.
-    pub fn in_folder(path: &Path) -> (Self, Vec<String>) {
+    pub(crate) fn in_folder(path: &Path) -> (Self, Vec<String>) {
         let folder = ProfileFolder::new(path);
         let (mut own, mut flaws) = (Vec::new(), Vec::new());
         for read in folder.read() {
@@ -67,13 +67,13 @@ impl Arrays {
     }
 
     /// Where profiles are kept.
-    pub fn folder(&self) -> Option<&Path> {
+    pub(crate) fn folder(&self) -> Option<&Path> {
         self.folder.as_ref().map(ProfileFolder::path)
     }
 
     /// The profile in force for a display: the one that was chosen, if it has as many contactors,
     /// else the one of the display's name, else the display itself.
-    pub fn in_force(&self, chosen: Option<&str>, display: &Display) -> ArrayProfile {
+    pub(crate) fn in_force(&self, chosen: Option<&str>, display: &Display) -> ArrayProfile {
         let plain = array_of(display);
         let n = plain.n_contactors();
         let fits = |profile: &ArrayProfile| profile.n_contactors() == n;
@@ -83,7 +83,7 @@ impl Arrays {
     }
 
     /// The profiles for a display of `n` contactors: names, and whether they are the user's.
-    pub fn choices(&self, n: usize) -> Vec<(String, bool)> {
+    pub(crate) fn choices(&self, n: usize) -> Vec<(String, bool)> {
         let fits = |profile: &&ArrayProfile| profile.n_contactors() == n;
         let own = self.own.iter().filter(fits);
         let mut choices: Vec<(String, bool)> =
@@ -99,12 +99,12 @@ impl Arrays {
     }
 
     /// Whether a profile of this name is the user's.
-    pub fn is_own(&self, name: &str) -> bool {
+    pub(crate) fn is_own(&self, name: &str) -> bool {
         self.own.iter().any(|profile| profile.name == name)
     }
 
     /// Takes a changed or new profile in under its name; one that is as the program's is that.
-    pub fn keep(&mut self, profile: ArrayProfile) {
+    pub(crate) fn keep(&mut self, profile: ArrayProfile) {
         let name = profile.name.clone();
         let is_shipped = ArrayProfile::shipped(&name).as_ref() == Some(&profile);
         self.own.retain(|own| own.name != name);
@@ -117,7 +117,7 @@ impl Arrays {
     }
 
     /// Lets go of the user's own profile of this name: the program's is there again, if it has one.
-    pub fn forget(&mut self, name: &str) {
+    pub(crate) fn forget(&mut self, name: &str) {
         self.own.retain(|own| own.name != name);
         self.unsaved.insert(name.to_owned());
         self.changed_s = None;

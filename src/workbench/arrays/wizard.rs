@@ -6,7 +6,7 @@ use selvedge_device::{BridgeEvent, DeviceUid};
 /// Part of the limit at 320 Hz that a channel is driven with.
 const SHARE: f64 = 0.5;
 /// How long a channel is driven, ms.
-pub const PULSE_MS: u16 = 600;
+pub(crate) const PULSE_MS: u16 = 600;
 
 /// What can be done with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub(crate) struct Wizard {
 
 impl Wizard {
     /// A walk over `n` channels of a device, at the first.
-    pub fn new(n: usize, uid: DeviceUid) -> Self {
+    pub(crate) fn new(n: usize, uid: DeviceUid) -> Self {
         Self {
             walk: WiringWalk::new(n),
             uid,
@@ -50,7 +50,7 @@ impl Wizard {
     }
 
     /// Takes in what the device says.
-    pub fn hear(&mut self, event: &BridgeEvent) {
+    pub(crate) fn hear(&mut self, event: &BridgeEvent) {
         match event {
             BridgeEvent::Identified { channel } => {
                 self.driven = Some(usize::from(*channel));
@@ -66,7 +66,7 @@ impl Wizard {
 
     /// The amplitude that a channel is driven with under this limit at 320 Hz, µm.
     #[expect(clippy::cast_possible_truncation, reason = "amplitudes travel as f32")]
-    pub fn amplitude_um(limit_320_um: f64) -> f32 {
+    pub(crate) fn amplitude_um(limit_320_um: f64) -> f32 {
         (SHARE * limit_320_um) as f32
     }
 }

@@ -8,7 +8,7 @@ use selvedge_textile::tactile::Band;
 
 /// Which textiles are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Only {
+pub(crate) enum Only {
     /// All of them.
     #[default]
     All,
@@ -21,7 +21,7 @@ pub enum Only {
 impl Only {
     /// What can be chosen among these textiles: constructions, then weaves and knits, in the order
     /// in which they first come.
-    pub fn all(items: &[ShelfItem]) -> Vec<Self> {
+    pub(crate) fn all(items: &[ShelfItem]) -> Vec<Self> {
         let constructions = items.iter().map(|item| item.construction);
         let named = constructions.filter(|word| !word.is_empty());
         let structures = items.iter().filter_map(|item| item.structure);
@@ -38,7 +38,7 @@ impl Only {
     }
 
     /// Its name for people.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::All => "all kinds",
             Self::Construction(word) | Self::Structure(word) => word,
@@ -46,7 +46,7 @@ impl Only {
     }
 
     /// Whether a textile is one of them.
-    pub fn takes(self, item: &ShelfItem) -> bool {
+    pub(crate) fn takes(self, item: &ShelfItem) -> bool {
         match self {
             Self::All => true,
             Self::Construction(word) => item.construction == word,
@@ -75,7 +75,7 @@ pub(crate) enum SortBy {
 
 /// An order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Sort {
+pub(crate) struct Sort {
     /// By what.
     pub by: SortBy,
     /// From the largest down.
@@ -84,7 +84,7 @@ pub struct Sort {
 
 impl Sort {
     /// The order after its heading was clicked: rising first, then falling, then the library's.
-    pub fn after(self, by: SortBy) -> Self {
+    pub(crate) fn after(self, by: SortBy) -> Self {
         match (self.by == by, self.is_falling) {
             (false, _) => Self {
                 by,
@@ -99,7 +99,7 @@ impl Sort {
     }
 
     /// Puts textiles in order; of equals the library's stays, and those without a value come last.
-    pub fn order(self, entries: &mut [Entry<'_>], is_tuned: bool) {
+    pub(crate) fn order(self, entries: &mut [Entry<'_>], is_tuned: bool) {
         let numbers = |measure: Measure| {
             move |one: &Entry<'_>, other: &Entry<'_>| {
                 let [one, other] = [one, other].map(|entry| entry.value(&measure, is_tuned));
@@ -146,7 +146,7 @@ impl Sort {
 }
 
 /// The SMD of a textile, µm, and whether its manifest states it; else it is that of the heights.
-pub fn smd_um(entry: &Entry<'_>) -> (Option<f64>, bool) {
+pub(crate) fn smd_um(entry: &Entry<'_>) -> (Option<f64>, bool) {
     let measured = entry.value(&Measure::Figure("SMD".to_owned()), false);
     let of_heights = || entry.value(&Measure::Roughness, false);
     (measured.or_else(of_heights), measured.is_some())

@@ -7,7 +7,7 @@ use selvedge_textile::tactile::Band;
 
 /// A number that textiles have.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Measure {
+pub(crate) enum Measure {
     /// Mean amplitude of a band at the chosen speed, µm.
     Amplitude(Band),
     /// Mean of both levels at the chosen speed, dB re 1 µm.
@@ -24,7 +24,7 @@ pub enum Measure {
 
 impl Measure {
     /// What can be shown of these textiles.
-    pub fn all(items: &[ShelfItem]) -> Vec<Self> {
+    pub(crate) fn all(items: &[ShelfItem]) -> Vec<Self> {
         let bands = |of: fn(Band) -> Self| Band::ALL.map(of);
         let mut all = bands(Self::Amplitude).to_vec();
         all.push(Self::Level);
@@ -41,7 +41,7 @@ impl Measure {
     }
 
     /// Its name for people, without a unit.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let hz = |band: &Band| match band {
             Band::Low => "40",
             Band::High => "320",
@@ -57,7 +57,7 @@ impl Measure {
     }
 
     /// Its unit; empty where it has none.
-    pub fn unit(&self, items: &[ShelfItem]) -> &'static str {
+    pub(crate) fn unit(&self, items: &[ShelfItem]) -> &'static str {
         match self {
             Self::Amplitude(_) | Self::Roughness => "µm",
             Self::Level => "dB re 1 µm",
@@ -73,7 +73,7 @@ impl Measure {
     }
 
     /// What an axis of it is called: name and unit.
-    pub fn label(&self, items: &[ShelfItem]) -> String {
+    pub(crate) fn label(&self, items: &[ShelfItem]) -> String {
         let unit = self.unit(items);
         if unit.is_empty() {
             self.name()
@@ -83,12 +83,12 @@ impl Measure {
     }
 
     /// Whether its axis is logarithmic.
-    pub fn is_log(&self) -> bool {
+    pub(crate) fn is_log(&self) -> bool {
         matches!(self, Self::Amplitude(_))
     }
 
     /// The band that it is of, if it is the band's own amplitude.
-    pub fn band(&self) -> Option<Band> {
+    pub(crate) fn band(&self) -> Option<Band> {
         match self {
             Self::Amplitude(band) => Some(*band),
             _ => None,
@@ -97,7 +97,7 @@ impl Measure {
 
     /// Its value for a textile, after gains in dB by band; `None` where it was not measured or has
     /// no place on the axis, as silence has none among levels.
-    pub fn value(
+    pub(crate) fn value(
         &self,
         item: &ShelfItem,
         figures: Option<&Figures>,

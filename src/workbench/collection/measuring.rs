@@ -26,7 +26,7 @@ const NEWS: Duration = Duration::from_millis(50);
 
 /// What is asked of every textile.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// The speed along one axis, mm/s.
     pub speed_mm_per_s: f64,
     /// The filters.
@@ -49,7 +49,7 @@ type Found = BTreeMap<String, Option<Figures>>;
 
 /// What was measured so far.
 #[derive(Debug, Default)]
-pub struct Measurements {
+pub(crate) struct Measurements {
     /// The newest last.
     found: Vec<(Asked, Found)>,
     surfaces: BTreeMap<String, Arc<Surface>>,
@@ -82,7 +82,7 @@ impl Drop for Work {
 
 impl Figures {
     /// Of a surface.
-    pub fn of(surface: &Surface, asked: &Asked) -> Self {
+    pub(crate) fn of(surface: &Surface, asked: &Asked) -> Self {
         let Asked {
             speed_mm_per_s,
             filters,
@@ -142,7 +142,7 @@ impl Measurements {
     }
 
     /// Ends what is at work and lets surfaces go: nobody looks.
-    pub fn rest(&mut self) {
+    pub(crate) fn rest(&mut self) {
         self.take();
         self.work = None;
         self.surfaces.clear();
@@ -156,7 +156,7 @@ impl Measurements {
     }
 
     /// Goes on after it was stopped.
-    pub fn go_on(&mut self) {
+    pub(crate) fn go_on(&mut self) {
         self.halted = None;
     }
 
@@ -166,18 +166,18 @@ impl Measurements {
     }
 
     /// How many textiles are measured, while it is at work on this.
-    pub fn progress(&self, asked: &Asked) -> Option<usize> {
+    pub(crate) fn progress(&self, asked: &Asked) -> Option<usize> {
         let work = self.work.as_ref().filter(|work| work.asked == *asked)?;
         Some(self.of(&work.asked).map_or(0, BTreeMap::len))
     }
 
     /// What was found of a textile.
-    pub fn figures(&self, asked: &Asked, id: &str) -> Option<&Figures> {
+    pub(crate) fn figures(&self, asked: &Asked, id: &str) -> Option<&Figures> {
         self.of(asked)?.get(id)?.as_ref()
     }
 
     /// Textiles measured so far: it stands still while nothing changes or nobody looks.
-    pub fn n_measured(&self) -> u64 {
+    pub(crate) fn n_measured(&self) -> u64 {
         self.n_measured
     }
 

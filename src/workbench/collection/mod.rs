@@ -14,10 +14,10 @@ mod measure;
 mod measuring;
 
 pub(crate) use listing::SortBy;
-pub use listing::{Only, Sort, smd_um};
-pub use measure::Measure;
+pub(crate) use listing::{Only, Sort, smd_um};
+pub(crate) use measure::Measure;
 pub(crate) use measuring::Figures;
-pub use measuring::{Asked, Measurements};
+pub(crate) use measuring::{Asked, Measurements};
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ use selvedge_render::GainTerms;
 use selvedge_textile::tactile::{Band, LEVEL_SPEED_MM_PER_S};
 
 /// Least and largest speed that can be chosen, mm/s.
-pub const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 1000.0];
+pub(crate) const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 1000.0];
 
 /// How the library is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,7 +43,7 @@ pub(crate) enum Mode {
 
 /// What is shown of the library, and how.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
+pub(crate) struct Choice {
     /// As a plot or as pieces of cloth.
     pub mode: Mode,
     /// The speed along one axis at which textiles are felt, mm/s.
@@ -105,7 +105,7 @@ impl From<CollectionCommand> for Command {
 
 /// What the window knows of the library as a whole.
 #[derive(Debug, Default)]
-pub struct Collection {
+pub(crate) struct Collection {
     /// What is shown, and how.
     pub choice: Choice,
     /// What is typed in the field that searches it.
@@ -120,7 +120,7 @@ pub struct Collection {
 
 /// A textile of the library as the pane draws it.
 #[derive(Debug, Clone, Copy)]
-pub struct Entry<'a> {
+pub(crate) struct Entry<'a> {
     /// What it is.
     pub item: &'a ShelfItem,
     /// What it gives without any gain; `None` until it is measured.
@@ -154,13 +154,13 @@ pub(crate) struct CollectionView<'a> {
 
 impl Entry<'_> {
     /// The value of a measure, with the tuning or without; `None` where there is none.
-    pub fn value(&self, measure: &Measure, is_tuned: bool) -> Option<f64> {
+    pub(crate) fn value(&self, measure: &Measure, is_tuned: bool) -> Option<f64> {
         let gains_db = if is_tuned { self.gains_db } else { [0.0; 2] };
         measure.value(self.item, self.figures, gains_db)
     }
 
     /// Mean amplitudes [A40, A320] with the tuning or without, µm; zeros for silence.
-    pub fn mean_um(&self, is_tuned: bool) -> Option<[f64; 2]> {
+    pub(crate) fn mean_um(&self, is_tuned: bool) -> Option<[f64; 2]> {
         let gains_db = if is_tuned { self.gains_db } else { [0.0; 2] };
         let mean_um = self.figures?.levels.mean_um;
         Some([0, 1].map(|b| mean_um[b] * factor_of_gain(gains_db[b])))
@@ -169,7 +169,7 @@ impl Entry<'_> {
 
 impl<'a> CollectionView<'a> {
     /// The entries that are selected, or all where none of them is.
-    pub fn listed(&self) -> Vec<Entry<'a>> {
+    pub(crate) fn listed(&self) -> Vec<Entry<'a>> {
         let selected: Vec<Entry<'a>> = self.selected().collect();
         if selected.is_empty() {
             return self.entries.clone();
@@ -178,19 +178,19 @@ impl<'a> CollectionView<'a> {
     }
 
     /// The entries that are selected.
-    pub fn selected(&self) -> impl Iterator<Item = Entry<'a>> {
+    pub(crate) fn selected(&self) -> impl Iterator<Item = Entry<'a>> {
         self.entries.iter().filter(|one| one.is_selected).copied()
     }
 
     /// What can be chosen for an axis.
-    pub fn measures(&self) -> Vec<Measure> {
+    pub(crate) fn measures(&self) -> Vec<Measure> {
         Measure::all(self.items)
     }
 }
 
 impl Collection {
     /// What is asked of every textile: the chosen speed and the scene's filters.
-    pub fn asked(&self, scene: &SceneView) -> Asked {
+    pub(crate) fn asked(&self, scene: &SceneView) -> Asked {
         Asked {
             speed_mm_per_s: self.choice.speed_mm_per_s,
             filters: scene.filters,
@@ -198,7 +198,7 @@ impl Collection {
     }
 
     /// Makes the choice, with a speed that can be chosen.
-    pub fn choose(&mut self, choice: Choice) {
+    pub(crate) fn choose(&mut self, choice: Choice) {
         let [least, most] = SPEEDS_MM_PER_S;
         let speed_mm_per_s = if choice.speed_mm_per_s.is_nan() {
             self.choice.speed_mm_per_s
@@ -212,7 +212,7 @@ impl Collection {
     }
 
     /// Selects textiles.
-    pub fn select(&mut self, ids: Vec<String>, joining: Joining) {
+    pub(crate) fn select(&mut self, ids: Vec<String>, joining: Joining) {
         let selected = Arc::make_mut(&mut self.selected);
         match joining {
             Joining::Alone => *selected = ids.into_iter().collect(),
@@ -241,7 +241,7 @@ impl Collection {
     }
 
     /// The library as it is drawn in a scene. `search` is what is typed in the field.
-    pub fn view<'a>(
+    pub(crate) fn view<'a>(
         &'a self,
         items: &'a [ShelfItem],
         scene: &SceneView,

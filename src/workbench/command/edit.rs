@@ -36,7 +36,7 @@ pub(crate) enum Edit {
 
 /// What an edit turns: edits of the same target in one gesture are one step of undo.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Target {
+pub(crate) enum Target {
     /// Gain of everything.
     MasterGain,
     /// Gain of a band.
@@ -67,7 +67,7 @@ pub enum Target {
 
 impl Edit {
     /// What it turns.
-    pub fn target(&self) -> Target {
+    pub(crate) fn target(&self) -> Target {
         match *self {
             Self::MasterGain(_) => Target::MasterGain,
             Self::BandGain(band, _) => Target::BandGain(band),
@@ -88,7 +88,7 @@ impl Edit {
 
 impl Target {
     /// Its name in the undo list.
-    pub fn label(self) -> &'static str {
+    pub(crate) fn label(self) -> &'static str {
         match self {
             Self::MasterGain => "master gain",
             Self::BandGain(Band::Low) => "40 Hz gain",
@@ -108,7 +108,7 @@ impl Target {
     }
 
     /// Whether further edits of the same target may join the step.
-    pub fn joins(self) -> bool {
+    pub(crate) fn joins(self) -> bool {
         !matches!(
             self,
             Self::Add | Self::AddSeveral | Self::Remove | Self::Order

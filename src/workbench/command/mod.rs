@@ -10,7 +10,7 @@ mod edit;
 pub(crate) use array::ArrayCommand;
 pub(crate) use device::DeviceCommand;
 pub(crate) use edit::Edit;
-pub use edit::Target;
+pub(crate) use edit::Target;
 
 use std::path::PathBuf;
 
@@ -38,7 +38,7 @@ use selvedge_textile::tactile::Band;
 
 /// Something that the user wants.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Command {
+pub(crate) enum Command {
     /// Everything off, at once, from anywhere.
     AllOff,
     /// Change the scene.
@@ -157,7 +157,7 @@ impl From<Edit> for Command {
 
 /// What keys do with the chosen textile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Chosen {
+pub(crate) enum Chosen {
     /// Take it away.
     Remove,
     /// Mute it, or feel it again.
@@ -341,7 +341,7 @@ pub(crate) enum Tool {
 
 /// Which part of the workspace is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Look {
+pub(crate) enum Look {
     /// All of it.
     Fit,
     /// One millimetre is one millimetre on the screen.

@@ -11,7 +11,7 @@ const N_LOOKS: u64 = 128;
 
 /// What differs between A and B.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum What {
+pub(crate) enum What {
     /// Gains, compression, filters.
     #[default]
     Tunings,
@@ -34,7 +34,7 @@ pub(crate) enum TuningChoice {
 
 /// What the user chose.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
+pub(crate) struct Choice {
     /// What differs.
     pub what: What,
     /// The tunings of A and B.
@@ -70,7 +70,7 @@ pub(crate) struct HeldTuning {
 
 impl HeldTuning {
     /// As it is now.
-    pub fn of(scene: &Scene, tuning: Tuning) -> Self {
+    pub(crate) fn of(scene: &Scene, tuning: Tuning) -> Self {
         let gains = scene.textiles.iter();
         Self {
             tuning,
@@ -114,7 +114,7 @@ impl PartialEq for Route {
 
 impl Route {
     /// Its ticks.
-    pub fn n_ticks(&self) -> u64 {
+    pub(crate) fn n_ticks(&self) -> u64 {
         match self {
             Self::Take(path) => path.n_ticks(),
             Self::Stroke(_, n_ticks) => *n_ticks,
@@ -122,7 +122,7 @@ impl Route {
     }
 
     /// Every tick with its pose.
-    pub fn ticks(&self) -> Box<dyn Iterator<Item = (u64, Pose)> + '_> {
+    pub(crate) fn ticks(&self) -> Box<dyn Iterator<Item = (u64, Pose)> + '_> {
         match self {
             Self::Take(path) => Box::new(path.ticks()),
             Self::Stroke(stroke, n_ticks) => {
@@ -162,7 +162,7 @@ fn pose_of(stroke: &Stroke, tick: u64) -> Pose {
 
 /// One of the two.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Side {
+pub(crate) struct Side {
     /// The scene, with its tuning.
     pub scene: Scene,
     /// The method.
@@ -171,7 +171,7 @@ pub struct Side {
 
 /// Everything that a comparison depends on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Inputs {
+pub(crate) struct Inputs {
     /// A and B.
     pub sides: [Side; 2],
     /// The path that both follow.
@@ -183,7 +183,7 @@ impl Inputs {
     ///
     /// # Errors
     /// A sentence that says what is missing and what to do.
-    pub fn of(
+    pub(crate) fn of(
         choice: &Choice,
         held: Option<&HeldTuning>,
         scene: &Scene,

@@ -6,7 +6,7 @@
 
 mod choice;
 
-pub use choice::{Choice, Side, What};
+pub(crate) use choice::{Choice, Side, What};
 pub(crate) use choice::{HeldTuning, Inputs, Route, TuningChoice};
 
 use std::ops::ControlFlow;
@@ -56,7 +56,7 @@ enum End {
 
 /// What is compared, and what came of it.
 #[derive(Default)]
-pub struct Comparison {
+pub(crate) struct Comparison {
     /// What the user chose.
     pub choice: Choice,
     /// The tuning that was held.
@@ -70,7 +70,7 @@ pub struct Comparison {
 
 /// How the newest comparison stands to what is chosen now.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Standing {
+pub(crate) enum Standing {
     /// It is of what is chosen.
     Fresh,
     /// It is of something that has changed since.
@@ -87,12 +87,12 @@ pub enum Standing {
 
 impl Comparison {
     /// Comparisons that were begun.
-    pub fn n_begun(&self) -> u64 {
+    pub(crate) fn n_begun(&self) -> u64 {
         self.n_begun
     }
 
     /// What was found last, whatever has changed since.
-    pub fn found(&self) -> Option<&LevelDifference> {
+    pub(crate) fn found(&self) -> Option<&LevelDifference> {
         match &self.ended {
             Some((_, End::Found(found))) => Some(found),
             _ => None,
@@ -100,17 +100,17 @@ impl Comparison {
     }
 
     /// A and B of what was found last.
-    pub fn sides(&self) -> Option<&[Side; 2]> {
+    pub(crate) fn sides(&self) -> Option<&[Side; 2]> {
         self.ended.as_ref().map(|(inputs, _)| &inputs.sides)
     }
 
     /// The path of what was found last.
-    pub fn route(&self) -> Option<&Route> {
+    pub(crate) fn route(&self) -> Option<&Route> {
         self.ended.as_ref().map(|(inputs, _)| &inputs.route)
     }
 
     /// What was found over time, in at most so many columns; kept until that changes.
-    pub fn columns(&mut self, n_columns: usize) -> &[[Spread; 2]] {
+    pub(crate) fn columns(&mut self, n_columns: usize) -> &[[Spread; 2]] {
         let n_entries = self.found().map_or(0, |found| found.over_time.len());
         let wanted = n_columns.min(n_entries);
         if self
@@ -124,7 +124,7 @@ impl Comparison {
     }
 
     /// How it stands to what is asked for now.
-    pub fn standing(&self, asked: &Result<Inputs, &'static str>) -> Standing {
+    pub(crate) fn standing(&self, asked: &Result<Inputs, &'static str>) -> Standing {
         let inputs = match asked {
             Ok(inputs) => inputs,
             Err(words) => return Standing::Impossible((*words).to_owned()),
@@ -187,14 +187,14 @@ impl Comparison {
     }
 
     /// Asks the comparison under way to stop.
-    pub fn cancel(&self) {
+    pub(crate) fn cancel(&self) {
         if let Some(running) = &self.running {
             running.watch.stop();
         }
     }
 
     /// Takes what a thread has found, if it is done.
-    pub fn poll(&mut self) {
+    pub(crate) fn poll(&mut self) {
         let Some(running) = self.running.take() else {
             return;
         };

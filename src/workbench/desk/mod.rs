@@ -25,7 +25,7 @@ use super::window::Workbench;
 use super::workspace;
 
 /// Everything that panes are drawn from, and what came of drawing them.
-pub struct Desk<'a> {
+pub(crate) struct Desk<'a> {
     /// The window.
     pub bench: &'a mut Workbench,
     /// The scene.

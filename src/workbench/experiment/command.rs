@@ -18,7 +18,7 @@ pub(crate) enum WindowAct {
 
 /// Something to do with experiments. Never undone.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ExperimentCommand {
+pub(crate) enum ExperimentCommand {
     /// Take this design of the program for the next session.
     Choose(&'static str),
     /// Take the design in this file.

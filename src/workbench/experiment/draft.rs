@@ -6,7 +6,7 @@ use selvedge_foundation::quantity;
 
 /// A part of an answer.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Mark {
+pub(crate) enum Mark {
     /// This position is the next in rank, or is chosen.
     Place(usize),
     /// This position has this rank, from 0.
@@ -31,7 +31,7 @@ pub enum Mark {
 
 /// An answer on its way.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub enum Draft {
+pub(crate) enum Draft {
     /// Nothing is asked.
     #[default]
     Nothing,
@@ -110,7 +110,7 @@ impl Sure {
 
 impl Draft {
     /// An answer to a trial in which nothing was said yet.
-    pub fn of(design: &Design, trial: &Trial) -> Self {
+    pub(crate) fn of(design: &Design, trial: &Trial) -> Self {
         let grades = match &design.method {
             Method::Judgement(judging) => judging.confidence_grades,
             _ => 0,
@@ -154,7 +154,7 @@ impl Draft {
 
     /// Takes a part of the answer, given so many ms after the trial began; what does not belong to
     /// it is ignored.
-    pub fn take(&mut self, mark: &Mark, at_ms: f64) {
+    pub(crate) fn take(&mut self, mark: &Mark, at_ms: f64) {
         match (self, mark) {
             (Self::Ranks(order), mark) => take_rank(order, mark),
             (Self::Odd { position, .. }, Mark::Place(at)) if *at < N_TRIAD => *position = Some(*at),
@@ -201,7 +201,7 @@ impl Draft {
     }
 
     /// The answer; in its place, what is missing.
-    pub fn answer(&self) -> Result<Answer, &'static str> {
+    pub(crate) fn answer(&self) -> Result<Answer, &'static str> {
         match self {
             Self::Nothing => Err("Nothing is asked now"),
             Self::Ranks(order) => ranks(order),
@@ -255,7 +255,7 @@ impl Draft {
     }
 
     /// What was said so far, for the experimenter.
-    pub fn told(&self) -> String {
+    pub(crate) fn told(&self) -> String {
         match self {
             Self::Ranks(order) => {
                 let name = |at: &Option<usize>| {

@@ -13,7 +13,7 @@ use selvedge_experiment::{Course, Participant, Participants};
 
 /// Which design is taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Chosen {
+pub(crate) enum Chosen {
     /// One of the program.
     Shipped(&'static str),
     /// The one in a file.
@@ -22,7 +22,7 @@ pub enum Chosen {
 
 impl Chosen {
     /// What its library is relative to.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Shipped(name) => Path::new(name),
             Self::File(path) => path,
@@ -30,7 +30,7 @@ impl Chosen {
     }
 
     /// The same as a word that is kept for the next run, where it can be written as one.
-    pub fn word(&self) -> Option<String> {
+    pub(crate) fn word(&self) -> Option<String> {
         match self {
             Self::Shipped(name) => Some((*name).to_owned()),
             Self::File(path) => std::path::absolute(path).ok()?.to_str().map(str::to_owned),
@@ -89,7 +89,7 @@ pub(crate) struct Form {
 
 /// What a folder holds.
 #[derive(Debug, Default)]
-pub struct Listed {
+pub(crate) struct Listed {
     /// Its sessions.
     pub found: Vec<Row>,
     /// Its logs that cannot be read, a line each.
@@ -102,7 +102,7 @@ pub struct Listed {
 
 /// A session that was begun.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Row {
+pub(crate) struct Row {
     /// Its log.
     pub log: PathBuf,
     /// The design's title.
@@ -136,14 +136,14 @@ impl Default for Form {
 
 impl Form {
     /// Takes another design.
-    pub fn choose(&mut self, chosen: Chosen) {
+    pub(crate) fn choose(&mut self, chosen: Chosen) {
         self.design = chosen.read().map(Box::new);
         self.chosen = chosen;
         self.failure = None;
     }
 
     /// Why no session can begin yet, if so.
-    pub fn refusal(&self) -> Option<String> {
+    pub(crate) fn refusal(&self) -> Option<String> {
         if let Err(line) = &self.design {
             return Some(line.clone());
         }
@@ -170,7 +170,7 @@ impl Form {
     }
 
     /// What begins, if nothing is missing.
-    pub fn told(&self) -> Option<Told> {
+    pub(crate) fn told(&self) -> Option<Told> {
         if self.refusal().is_some() {
             return None;
         }
@@ -203,7 +203,7 @@ impl Form {
     }
 
     /// The folder is being listed.
-    pub fn lists(&mut self, task: Task<Listed>) {
+    pub(crate) fn lists(&mut self, task: Task<Listed>) {
         self.listed = Some(self.folder.trim().to_owned());
         self.listing = Some(task);
     }
@@ -219,7 +219,7 @@ impl Form {
     }
 
     /// Where sessions lie.
-    pub fn folder(&self) -> PathBuf {
+    pub(crate) fn folder(&self) -> PathBuf {
         PathBuf::from(self.folder.trim())
     }
 
@@ -231,7 +231,7 @@ impl Form {
 
 /// A session that is to begin, and with whom.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Told {
+pub(crate) struct Told {
     /// By which design.
     pub design: Design,
     /// Who takes part.
@@ -272,7 +272,7 @@ impl Told {
 }
 
 /// What a folder holds; one that is not there yet holds nothing, unless it was asked for.
-pub fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
+pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
     if !folder.exists() {
         if !is_asked {
             return Ok(Listed::default());
@@ -302,7 +302,7 @@ fn row(found: Found) -> Row {
 }
 
 /// What people call a design.
-pub fn title_of(design: &Design) -> String {
+pub(crate) fn title_of(design: &Design) -> String {
     if design.title.is_empty() {
         design.experiment.clone()
     } else {

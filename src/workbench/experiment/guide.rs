@@ -9,7 +9,7 @@ pub(crate) const RADIUS_MM: f64 = 30.0;
 pub(crate) const HALF_MM: f64 = 40.0;
 
 /// Where the guide is so many seconds after the movement began, around `middle`.
-pub fn place(movement: &Familiarisation, middle: Point, t_s: f64) -> Point {
+pub(super) fn place(movement: &Familiarisation, middle: Point, t_s: f64) -> Point {
     let way_mm = movement.speed_mm_per_s * t_s;
     match movement.movement {
         Movement::Circular => {

@@ -41,7 +41,7 @@ struct Written {
 
 /// A session that is being held.
 #[derive(Debug)]
-pub struct Held {
+pub(crate) struct Held {
     /// Away while a row is written.
     session: Option<Session>,
     writing: Option<Task<Written>>,
@@ -85,7 +85,12 @@ pub struct Held {
 
 impl Held {
     /// A session that was just opened.
-    pub fn new(session: Session, materials: Materials, device: String, began: Began) -> Self {
+    pub(crate) fn new(
+        session: Session,
+        materials: Materials,
+        device: String,
+        began: Began,
+    ) -> Self {
         let mut held = Self {
             design: session.design().clone(),
             subject: session.subject().clone(),
@@ -119,7 +124,7 @@ impl Held {
     }
 
     /// Sees what happens now.
-    pub fn look(&mut self, began: Began) {
+    pub(crate) fn look(&mut self, began: Began) {
         let Some(session) = &self.session else {
             return;
         };
@@ -148,7 +153,7 @@ impl Held {
     }
 
     /// The trial that waits for an answer and is shown.
-    pub fn trial(&self) -> Option<&Trial> {
+    pub(crate) fn trial(&self) -> Option<&Trial> {
         match &self.now {
             Now::Trial(trial) if self.pause != Pause::On => Some(trial),
             _ => None,
@@ -156,13 +161,13 @@ impl Held {
     }
 
     /// Whether something can be felt now.
-    pub fn is_felt(&self) -> bool {
+    pub(crate) fn is_felt(&self) -> bool {
         let is_practised = matches!(self.now, Now::Familiarisation(_)) && self.pause != Pause::On;
         (self.is_open() && self.trial().is_some()) || is_practised
     }
 
     /// Whether an answer is taken now: none is on its way.
-    pub fn is_open(&self) -> bool {
+    pub(crate) fn is_open(&self) -> bool {
         self.pending.is_none() && self.writing.is_none() && self.session.is_some()
     }
 
@@ -177,7 +182,7 @@ impl Held {
     }
 
     /// How long a movement or break still lasts at least, s; 0 elsewhere.
-    pub fn left_s(&self, now_s: f64) -> f64 {
+    pub(crate) fn left_s(&self, now_s: f64) -> f64 {
         let least_s = match &self.now {
             Now::Familiarisation(movement) => movement.for_s,
             Now::Break { least_s, .. } => *least_s,
@@ -187,7 +192,7 @@ impl Held {
     }
 
     /// Goes on from what is no trial. Whether anything changed.
-    pub fn pass(&mut self, began: Began) -> bool {
+    pub(crate) fn pass(&mut self, began: Began) -> bool {
         if matches!(self.now, Now::Trial(_) | Now::Finished) || !self.is_open() {
             return false;
         }
@@ -207,13 +212,13 @@ impl Held {
     }
 
     /// Pauses before the next trial, or at once where no trial is under way.
-    pub fn pause(&mut self) {
+    pub(crate) fn pause(&mut self) {
         let is_trial = matches!(self.now, Now::Trial(_));
         self.pause = if is_trial { Pause::Wanted } else { Pause::On };
     }
 
     /// Takes a part of an answer. The tuning that follows, if it changes.
-    pub fn mark(&mut self, mark: &Mark, at: Instant) -> Option<Tuning> {
+    pub(crate) fn mark(&mut self, mark: &Mark, at: Instant) -> Option<Tuning> {
         if !self.is_open() || self.trial().is_none() {
             return None;
         }
@@ -223,7 +228,7 @@ impl Held {
     }
 
     /// The tuning in force now.
-    pub fn tuning(&self) -> Tuning {
+    pub(crate) fn tuning(&self) -> Tuning {
         let tuning = self.materials.tuning();
         match (&self.draft, &self.design.method) {
             (Draft::Adjust { values, .. }, Method::Adjustment(adjusting)) => {
@@ -234,7 +239,7 @@ impl Held {
     }
 
     /// What is played at the beginning of this trial: silence first.
-    pub fn vibrations(&self) -> Vec<VibrationStep> {
+    pub(crate) fn vibrations(&self) -> Vec<VibrationStep> {
         let Some(trial) = self.trial() else {
             return Vec::new();
         };
@@ -250,7 +255,7 @@ impl Held {
     }
 
     /// The interval that is played now, from 0.
-    pub fn interval(&self) -> Option<usize> {
+    pub(crate) fn interval(&self) -> Option<usize> {
         let step = usize::from(self.vibration?);
         (step % 2 == 1).then_some(step / 2)
     }
@@ -288,24 +293,24 @@ impl Held {
     }
 
     /// The engine began to record the exploration of this trial.
-    pub fn records(&mut self) {
+    pub(crate) fn records(&mut self) {
         self.is_recording = true;
         self.recording = None;
     }
 
     /// Whether the engine still records.
-    pub fn is_recording(&self) -> bool {
+    pub(crate) fn is_recording(&self) -> bool {
         self.is_recording
     }
 
     /// The engine's recording came to its end.
-    pub fn take_recording(&mut self, recording: Recording) {
+    pub(crate) fn take_recording(&mut self, recording: Recording) {
         self.is_recording = false;
         self.recording = Some(recording);
     }
 
     /// Begins to write what waits, once its recording is there. Whether it begins now.
-    pub fn write(&mut self, (ctx, is_at_once): (&egui::Context, bool), has_engine: bool) {
+    pub(crate) fn write(&mut self, (ctx, is_at_once): (&egui::Context, bool), has_engine: bool) {
         let is_due = self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
         let is_complete = !self.is_recording || !has_engine;
         if !(is_due && is_complete) {
@@ -356,7 +361,7 @@ impl Held {
     ///
     /// # Errors
     /// The thread broke off and the session with it: it must be resumed.
-    pub fn poll(&mut self, began: Began) -> Result<bool, String> {
+    pub(crate) fn poll(&mut self, began: Began) -> Result<bool, String> {
         let Some((outcome, _)) = taken(&mut self.writing) else {
             return Ok(false);
         };

@@ -34,7 +34,7 @@ pub(crate) struct Materials {
 
 impl Materials {
     /// Loads the textiles of a design whose file is `path`, and makes their tables: takes a while.
-    pub fn gather(
+    pub(crate) fn gather(
         design: &Design,
         path: &Path,
         (display, rendering): (Display, Rendering),
@@ -63,12 +63,12 @@ impl Materials {
 
     /// Gains and compression of the session. What compression leaves alone is the same in every
     /// trial, whatever lies there.
-    pub fn tuning(&self) -> Tuning {
+    pub(crate) fn tuning(&self) -> Tuning {
         self.tuning
     }
 
     /// What lies in a layout, ready for the engine.
-    pub fn prepare(
+    pub(crate) fn prepare(
         &mut self,
         design: &Design,
         layout: &Layout,

@@ -23,21 +23,21 @@ mod now;
 mod view;
 mod who;
 
-pub use command::ExperimentCommand;
+pub(crate) use command::ExperimentCommand;
 pub(crate) use command::WindowAct;
 pub(crate) use draft::Sure;
-pub use draft::{Draft, Mark};
+pub(crate) use draft::{Draft, Mark};
 pub(crate) use form::Form;
-pub use form::{Chosen, Row, list, title_of};
+pub(crate) use form::{Chosen, Row, list, title_of};
 pub(crate) use guide::{HALF_MM, RADIUS_MM};
-pub use held::Held;
+pub(crate) use held::Held;
 pub(crate) use materials::Materials;
 pub(crate) use noise::{NoiseView, write_noise};
 pub(crate) use now::Began;
-pub use now::{Now, Pause};
-pub use view::{Course, Link};
+pub(crate) use now::{Now, Pause};
+pub(crate) use view::{Course, Link};
 pub(crate) use view::{ExperimenterView, Ground, HeldView, ParticipantView, TrialView};
-pub use who::Who;
+pub(crate) use who::Who;
 
 use super::command::{Command, FileCommand, Purpose, ShowCommand};
 use super::task::Task;
@@ -59,7 +59,7 @@ const PASSING_S: f64 = 0.25;
 
 impl ParticipantsWindow {
     /// What becomes of it.
-    pub fn act(&mut self, act: WindowAct) {
+    pub(crate) fn act(&mut self, act: WindowAct) {
         match act {
             WindowAct::Open => self.is_open = true,
             WindowAct::Close => *self = Self::default(),
@@ -81,7 +81,7 @@ impl ParticipantsWindow {
 
 /// Experiments, as the window knows them: neither saved nor undoable.
 #[derive(Debug, Default)]
-pub struct Experiment {
+pub(crate) struct Experiment {
     /// What the next session is to be.
     pub form: Form,
     /// A session on its way.
@@ -109,17 +109,17 @@ pub(crate) struct Begun {
 
 impl Experiment {
     /// Whether a session is held.
-    pub fn is_held(&self) -> bool {
+    pub(crate) fn is_held(&self) -> bool {
         self.held.is_some()
     }
 
     /// Width and height of what lies before the participant, mm.
-    pub fn size_mm(&self) -> Option<[f64; 2]> {
+    pub(crate) fn size_mm(&self) -> Option<[f64; 2]> {
         self.held.as_ref().map(|held| held.layout.size_mm)
     }
 
     /// How it stands with a masking noise, where the design asks for one.
-    pub fn noise(&self) -> Option<NoiseView> {
+    pub(crate) fn noise(&self) -> Option<NoiseView> {
         let form = &self.form;
         let is_asked = match &self.held {
             Some(held) => held.design.course.masking_noise,
@@ -130,7 +130,7 @@ impl Experiment {
     }
 
     /// Whether a command leaves what is felt to the session.
-    pub fn allows(&self, command: &Command) -> bool {
+    pub(crate) fn allows(&self, command: &Command) -> bool {
         if !self.is_held() {
             return true;
         }

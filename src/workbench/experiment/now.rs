@@ -7,7 +7,7 @@ use selvedge_experiment::{Step, Trial};
 
 /// What happens now, kept while the session is away to be written.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Now {
+pub(crate) enum Now {
     /// The participant reads.
     Instructions(String),
     /// A movement is practised.
@@ -45,7 +45,7 @@ impl Now {
 
 /// Whether the session rests between two trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pause {
+pub(crate) enum Pause {
     /// No.
     #[default]
     None,

@@ -65,7 +65,7 @@ pub(crate) struct Ground {
 
 /// One cloth of those that look alike.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slot {
+pub(crate) struct Slot {
     /// Its lower left corner, mm.
     pub origin_mm: Point,
     /// Its position, from 1; `None` for one without a number.
@@ -113,7 +113,7 @@ pub(crate) enum ExperimenterView {
 
 /// Where a session is in its course.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
+pub(crate) enum Course {
     /// The participant reads.
     Instructions,
     /// A movement is practised.
@@ -165,7 +165,7 @@ pub(crate) struct HeldView {
 
 /// The device as the experimenter sees it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Link {
+pub(crate) struct Link {
     /// What it is called.
     pub name: String,
     /// Where the connection stands.
@@ -180,7 +180,7 @@ pub struct Link {
 
 impl Link {
     /// The device that is connected, if one is.
-    pub fn of(
+    pub(crate) fn of(
         (bridge, name): (Option<&BridgeView>, Option<&str>),
         is_stopped: bool,
         limit_um: [f64; 2],
@@ -197,7 +197,7 @@ impl Link {
 
 impl Experiment {
     /// What the participant sees.
-    pub fn participant(&self, live: &Live, now_s: f64) -> ParticipantView<'_> {
+    pub(crate) fn participant(&self, live: &Live, now_s: f64) -> ParticipantView<'_> {
         match &self.held {
             None => ParticipantView::Nobody {
                 is_coming: self.beginning.is_some(),
@@ -212,7 +212,7 @@ impl Experiment {
     }
 
     /// What the experimenter sees.
-    pub fn experimenter(&self, link: Link, now_s: f64) -> ExperimenterView {
+    pub(crate) fn experimenter(&self, link: Link, now_s: f64) -> ExperimenterView {
         match &self.held {
             None => ExperimenterView::Nobody {
                 share: self.beginning.as_ref().map(super::super::task::Task::share),
@@ -224,7 +224,7 @@ impl Experiment {
 
 impl Held {
     /// The trial whose answer the experimenter types, while the participant sees nothing.
-    pub fn typed(&self, now_s: f64) -> Option<TrialView<'_>> {
+    pub(crate) fn typed(&self, now_s: f64) -> Option<TrialView<'_>> {
         match self.participant(None, now_s) {
             ParticipantView::Trial(trial) => Some(trial),
             _ => None,

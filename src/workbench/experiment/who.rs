@@ -5,7 +5,7 @@ use selvedge_experiment::{Participant, Participants, Particulars};
 
 /// Fields of the form that tell of a participant.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Who {
+pub(crate) struct Who {
     /// Pseudonym.
     pub pseudonym: String,
     /// Age, years.
@@ -25,7 +25,7 @@ pub struct Who {
 impl Who {
     /// Fills in what is known of the pseudonym that was typed; takes it out again once another is
     /// typed. What was typed since stays.
-    pub fn follow(&mut self, known: &Participants) {
+    pub(crate) fn follow(&mut self, known: &Participants) {
         let told = self.pseudonym.trim();
         if self
             .filled
@@ -54,7 +54,7 @@ impl Who {
     }
 
     /// Whether the table knows the pseudonym.
-    pub fn is_known(&self) -> bool {
+    pub(crate) fn is_known(&self) -> bool {
         self.filled.is_some()
     }
 
@@ -67,7 +67,7 @@ impl Who {
     ///
     /// # Errors
     /// What is wrong with what was typed, and how to mend it.
-    pub fn told(&self) -> Result<Participant, String> {
+    pub(crate) fn told(&self) -> Result<Participant, String> {
         let word = |typed: &'_ str| Some(typed.trim().to_owned()).filter(|word| !word.is_empty());
         let age_years = match word(&self.age).map(|age| age.parse()) {
             None => None,

@@ -13,7 +13,7 @@ const WIDTH_PX: f64 = 720.0;
 const MOST_HIGH_PX: f64 = 620.0;
 
 /// What the pane shows of what was read; nothing before anything was.
-pub fn measurement(found: &Found, map: ColourMap) -> Option<Exported> {
+pub(crate) fn measurement(found: &Found, map: ColourMap) -> Option<Exported> {
     let name = found.own_name();
     match &found.body {
         Body::Nothing => None,

@@ -46,11 +46,11 @@ mod write;
 
 pub(crate) use gather::{Exports, is_exportable};
 #[cfg(test)]
-pub use import::measurement;
-pub use origin::Origin;
-pub use sheet::Sheet;
+pub(crate) use import::measurement;
+pub(crate) use origin::Origin;
+pub(crate) use sheet::Sheet;
 pub(crate) use write::ExportError;
-pub use write::Kind;
+pub(crate) use write::Kind;
 
 use super::arrangement::Pane;
 use crate::theme::ColourMap;
@@ -72,7 +72,7 @@ pub(crate) enum Exportable {
 
 impl Exportable {
     /// What people call it.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Pane(Pane::Tuning) => "Compression curve",
             Self::Pane(Pane::Workspace) => "Map over the cloth",
@@ -84,7 +84,7 @@ impl Exportable {
     }
 
     /// What its file is called: `contact-spectrum.png`.
-    pub fn file_name(self, kind: Kind) -> String {
+    pub(crate) fn file_name(self, kind: Kind) -> String {
         let stem = self.title().to_lowercase().replace(' ', "-");
         format!("{stem}.{}", kind.ending())
     }
@@ -103,7 +103,13 @@ pub(crate) struct Exported {
 
 impl Exported {
     /// A table and the rows of its figure. `note` says what is drawn how.
-    pub fn new(title: String, sheet: Sheet, rows: Vec<Row>, note: &str, origin: Origin) -> Self {
+    pub(crate) fn new(
+        title: String,
+        sheet: Sheet,
+        rows: Vec<Row>,
+        note: &str,
+        origin: Origin,
+    ) -> Self {
         let figure = Figure {
             title,
             rows,

@@ -23,14 +23,14 @@ struct Fact {
 
 /// Where numbers come from, in the order in which it is told.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Origin {
+pub(crate) struct Origin {
     facts: Vec<Fact>,
 }
 
 impl Origin {
     /// The program and the scene: which one by its content, what lies in it, filters and tuning.
     /// `reference_db` is the level that compression leaves alone.
-    pub fn of(scene: &Scene, tuning: &Tuning, reference_db: Option<f64>) -> Self {
+    pub(crate) fn of(scene: &Scene, tuning: &Tuning, reference_db: Option<f64>) -> Self {
         let program = selvedge_foundation::PROGRAM;
         let hash = identity(scene);
         let short: String = hash.chars().take(BRIEF_HASH).collect();
@@ -88,7 +88,7 @@ impl Origin {
     }
 
     /// The same with one thing more; nothing is added where there is no value.
-    pub fn and(mut self, key: &'static str, value: &str, brief: &str) -> Self {
+    pub(crate) fn and(mut self, key: &'static str, value: &str, brief: &str) -> Self {
         let line = |text: &str| -> String {
             let is_break = |c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}';
             text.replace(is_break, " ").trim().to_owned()
@@ -104,7 +104,7 @@ impl Origin {
     }
 
     /// The same for one contactor.
-    pub fn of_contactor(self, contactor: usize) -> Self {
+    pub(crate) fn of_contactor(self, contactor: usize) -> Self {
         let value = contactor.to_string();
         self.and("contactor", &value, &format!("contactor {value}"))
     }
@@ -136,13 +136,13 @@ impl Origin {
     }
 
     /// Every key with its value.
-    pub fn pairs(&self) -> Vec<(String, String)> {
+    pub(crate) fn pairs(&self) -> Vec<(String, String)> {
         let pair = |fact: &Fact| (fact.key.to_owned(), fact.value.clone());
         self.facts.iter().map(pair).collect()
     }
 
     /// In lines for people, none of them broken within a fact.
-    pub fn lines(&self) -> Vec<String> {
+    pub(crate) fn lines(&self) -> Vec<String> {
         let briefs = self.facts.iter().map(|fact| fact.brief.as_str());
         let mut lines: Vec<String> = Vec::new();
         for brief in briefs.filter(|brief| !brief.is_empty()) {

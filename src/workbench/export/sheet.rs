@@ -8,13 +8,13 @@ use selvedge_foundation::files::{FileError, TableWriter};
 
 /// A table: named columns of one length.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Sheet {
+pub(crate) struct Sheet {
     columns: Vec<(Cow<'static, str>, Values)>,
 }
 
 /// What a column holds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Values {
+pub(crate) enum Values {
     /// Whole numbers.
     Whole(Vec<u64>),
     /// Numbers in single precision; a cell is empty where one is not finite.
@@ -72,13 +72,17 @@ impl Values {
 
 impl Sheet {
     /// The same with another column, whose name holds its unit.
-    pub fn with(mut self, name: impl Into<Cow<'static, str>>, values: impl Into<Values>) -> Self {
+    pub(crate) fn with(
+        mut self,
+        name: impl Into<Cow<'static, str>>,
+        values: impl Into<Values>,
+    ) -> Self {
         self.columns.push((name.into(), values.into()));
         self
     }
 
     /// Rows that every column has.
-    pub fn n_rows(&self) -> usize {
+    pub(crate) fn n_rows(&self) -> usize {
         let lengths = self.columns.iter().map(|(_, values)| values.len());
         lengths.min().unwrap_or(0)
     }
@@ -87,7 +91,7 @@ impl Sheet {
     ///
     /// # Errors
     /// None that a text in memory could have.
-    pub fn to_csv(&self, origin: &Origin, path: &Path) -> Result<Vec<u8>, FileError> {
+    pub(crate) fn to_csv(&self, origin: &Origin, path: &Path) -> Result<Vec<u8>, FileError> {
         let mut told = String::new();
         for (key, value) in origin.pairs() {
             told.extend(["# ", &key, " = ", &value, "\n"]);

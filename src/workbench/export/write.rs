@@ -26,7 +26,7 @@ pub(crate) enum ExportError {
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A picture of pixels.
     #[default]
     Png,
@@ -38,13 +38,13 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind, in the order in which they are offered.
-    pub const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Csv];
+    pub(crate) const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Csv];
 
     /// The kind that a file's name ends in.
     ///
     /// # Errors
     /// It ends in none that is known.
-    pub fn of(path: &Path) -> Result<Self, ExportError> {
+    pub(crate) fn of(path: &Path) -> Result<Self, ExportError> {
         let ending = path.extension().map(OsStr::to_ascii_lowercase);
         let is_meant = |kind: &Self| ending.as_deref() == Some(kind.ending().as_ref());
         let known = Self::ALL.into_iter().find(is_meant);
@@ -52,7 +52,7 @@ impl Kind {
     }
 
     /// How names of such files end, without the dot.
-    pub fn ending(self) -> &'static str {
+    pub(crate) fn ending(self) -> &'static str {
         match self {
             Self::Png => "png",
             Self::Svg => "svg",
@@ -66,7 +66,7 @@ impl Exported {
     ///
     /// # Errors
     /// The figure cannot be drawn.
-    pub fn bytes(&self, kind: Kind, path: &Path) -> Result<Vec<u8>, ExportError> {
+    pub(crate) fn bytes(&self, kind: Kind, path: &Path) -> Result<Vec<u8>, ExportError> {
         Ok(match kind {
             Kind::Csv => self.sheet.to_csv(&self.origin, path)?,
             Kind::Svg => self.figure.to_svg()?.into_bytes(),
@@ -81,7 +81,7 @@ impl Exported {
     ///
     /// # Errors
     /// The figure cannot be drawn, or the file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), ExportError> {
+    pub(crate) fn write(&self, path: &Path) -> Result<(), ExportError> {
         let bytes = self.bytes(Kind::of(path)?, path)?;
         Ok(files::write_atomic(path, &bytes)?)
     }
@@ -90,7 +90,7 @@ impl Exported {
     ///
     /// # Errors
     /// None that a text in memory could have.
-    pub fn to_csv(&self) -> Result<String, ExportError> {
+    pub(crate) fn to_csv(&self) -> Result<String, ExportError> {
         let bytes = self.sheet.to_csv(&self.origin, Path::new("table"))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }

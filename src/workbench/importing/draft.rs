@@ -21,7 +21,7 @@ pub(crate) struct SourceFile {
 
 impl SourceFile {
     /// A file that is not read yet.
-    pub fn new(path: PathBuf) -> Self {
+    pub(crate) fn new(path: PathBuf) -> Self {
         Self {
             path,
             bytes: OnceLock::new(),
@@ -29,30 +29,30 @@ impl SourceFile {
     }
 
     /// Where it lies.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// Its name without folders.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let name = self.path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
     }
 
     /// The same as a path: where it lies is nobody's business in errors.
-    pub fn file_name(&self) -> &Path {
+    pub(crate) fn file_name(&self) -> &Path {
         self.path.file_name().map_or(&*self.path, Path::new)
     }
 
     /// Its content, read on the first call; why it cannot be read, in one line.
-    pub fn bytes(&self) -> Result<&[u8], &str> {
+    pub(crate) fn bytes(&self) -> Result<&[u8], &str> {
         let read = || read_measurement(&self.path).map_err(|error| error.to_string());
         let bytes = self.bytes.get_or_init(read);
         bytes.as_deref().map_err(String::as_str)
     }
 
     /// How many bytes it has, if it was read.
-    pub fn n_bytes(&self) -> Option<usize> {
+    pub(crate) fn n_bytes(&self) -> Option<usize> {
         self.bytes.get()?.as_ref().ok().map(Vec::len)
     }
 }
@@ -121,7 +121,7 @@ pub(crate) struct HeightsDraft {
 
 /// Everything that the readers are told.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Told {
+pub(crate) struct Told {
     /// The files.
     pub files: Vec<DraftFile>,
     /// What they are; `None`: by their content.
@@ -164,7 +164,7 @@ pub(crate) struct WordsDraft {
 
 /// All of it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Draft {
+pub(crate) struct Draft {
     /// What the readers are told.
     pub told: Told,
     /// What is looked at.
@@ -174,7 +174,7 @@ pub struct Draft {
 }
 
 /// A number that was typed, or none; `what` names it, with its unit.
-pub fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
+pub(super) fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
     let plain = text.trim().replace(',', ".").replace('\u{2212}', "-");
     if plain.is_empty() {
         return Ok(None);
@@ -238,13 +238,13 @@ impl Told {
 
 impl WordsDraft {
     /// The name: as typed, or the one suggested.
-    pub fn name<'a>(&'a self, suggested: &'a str) -> &'a str {
+    pub(crate) fn name<'a>(&'a self, suggested: &'a str) -> &'a str {
         let typed = self.name.trim();
         if typed.is_empty() { suggested } else { typed }
     }
 
     /// The id: as typed, or from the name.
-    pub fn id(&self, suggested: &str) -> String {
+    pub(crate) fn id(&self, suggested: &str) -> String {
         let typed = self.id.trim();
         let from = if typed.is_empty() {
             self.name(suggested)
@@ -255,7 +255,7 @@ impl WordsDraft {
     }
 
     /// The words; why not, in one line.
-    pub fn words(&self, suggested: &str, kind: Measurement) -> Result<Words, Failure> {
+    pub(crate) fn words(&self, suggested: &str, kind: Measurement) -> Result<Words, Failure> {
         let mut figures = BTreeMap::new();
         for (key, text) in &self.figures {
             let figure = known_figures().find(|figure| figure.key == *key);

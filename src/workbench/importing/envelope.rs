@@ -15,7 +15,7 @@ pub(crate) struct Envelope {
 
 impl Envelope {
     /// The envelope of a curve.
-    pub fn of(values: &[f64]) -> Self {
+    pub(crate) fn of(values: &[f64]) -> Self {
         let n_piece = values.len().div_ceil(MOST_PIECES).max(1);
         let piece = |piece: &[f64]| {
             let mut ends = [0, 0];
@@ -38,7 +38,7 @@ impl Envelope {
 
     /// Values with the samples that they are of, in order: all of a short curve, two of every piece
     /// of a long one.
-    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub(crate) fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let each: u8 = if self.n_piece == 1 { 1 } else { 2 };
         self.pieces.iter().enumerate().flat_map(move |(nth, ends)| {
             let first = (nth * self.n_piece) as f64;
@@ -50,7 +50,7 @@ impl Envelope {
     }
 
     /// Lowest and highest value.
-    pub fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         let all = self.pieces.iter().flatten();
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
             [low.min(*value), high.max(*value)]

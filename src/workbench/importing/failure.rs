@@ -4,7 +4,7 @@ use selvedge_textile::{KesAsk, TextileError};
 
 /// A step of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Step {
+pub(crate) enum Step {
     /// Which files.
     Files,
     /// What they mean.
@@ -17,7 +17,7 @@ pub enum Step {
 
 impl Step {
     /// Its number in the pane.
-    pub fn number(self) -> u8 {
+    pub(crate) fn number(self) -> u8 {
         match self {
             Self::Files => 1,
             Self::Meaning => 2,
@@ -42,7 +42,7 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// A line at a step.
-    pub fn at(step: Step, line: impl Into<String>) -> Self {
+    pub(crate) fn at(step: Step, line: impl Into<String>) -> Self {
         Self {
             step,
             line: line.into(),

@@ -62,7 +62,7 @@ pub(super) fn textiles(found: &Found, said: &WordsDraft) -> Result<Vec<NewTextil
 
 impl Importing {
     /// Why nothing can be kept now; `None` if it can.
-    pub fn refusal(&self) -> Option<String> {
+    pub(crate) fn refusal(&self) -> Option<String> {
         match self.standing() {
             Standing::Empty => return Some("Choose files first".to_owned()),
             Standing::Working(_) => return Some("The files are being read".to_owned()),
@@ -83,7 +83,7 @@ impl Importing {
     }
 
     /// An id that the library has already; what is kept gets the next free one.
-    pub fn taken(&self, is_known: impl Fn(&str) -> bool) -> Option<String> {
+    pub(crate) fn taken(&self, is_known: impl Fn(&str) -> bool) -> Option<String> {
         let found = self.found()?;
         let id = self.draft.words.id(&found.own_name());
         let n = found.heights().map_or(1, |heights| heights.places.len());

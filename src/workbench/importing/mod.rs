@@ -16,13 +16,13 @@ mod failure;
 mod keeping;
 mod work;
 
-pub use draft::Draft;
+pub(crate) use draft::Draft;
 pub(crate) use draft::{DraftFile, HeightsDraft, Looked, SourceFile, StrokesDraft, WordsDraft};
 pub(crate) use envelope::Envelope;
 pub(crate) use failure::Failure;
-pub use failure::Step;
+pub(crate) use failure::Step;
 pub(crate) use work::Inputs;
-pub use work::{Body, Found, Heights, Strokes};
+pub(crate) use work::{Body, Found, Heights, Strokes};
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -79,17 +79,17 @@ pub(crate) struct Importing {
 
 impl Importing {
     /// What was found last, whatever has changed since.
-    pub fn found(&self) -> Option<&Arc<Found>> {
+    pub(crate) fn found(&self) -> Option<&Arc<Found>> {
         self.reading.found()
     }
 
     /// Readings that were begun.
-    pub fn n_read(&self) -> u64 {
+    pub(crate) fn n_read(&self) -> u64 {
         self.reading.n_begun()
     }
 
     /// What was kept last, or why nothing was.
-    pub fn kept(&self) -> Option<Result<&str, &Failure>> {
+    pub(crate) fn kept(&self) -> Option<Result<&str, &Failure>> {
         self.kept.as_ref().map(|kept| kept.as_deref())
     }
 
@@ -106,7 +106,7 @@ impl Importing {
     }
 
     /// How what was found stands to what is chosen.
-    pub fn standing(&self) -> Standing {
+    pub(crate) fn standing(&self) -> Standing {
         if self.draft.told.files.is_empty() {
             return Standing::Empty;
         }
@@ -114,7 +114,7 @@ impl Importing {
     }
 
     /// Takes files to those that are there; says why not, in one line.
-    pub fn add(&mut self, paths: Vec<PathBuf>) -> Result<(), String> {
+    pub(crate) fn add(&mut self, paths: Vec<PathBuf>) -> Result<(), String> {
         let mut draft = self.draft.clone();
         let is_first = draft.told.files.is_empty();
         for path in paths {
@@ -165,12 +165,12 @@ impl Importing {
     }
 
     /// Stops reading until something else is chosen.
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         self.reading.stop();
     }
 
     /// Takes what a thread has read, if it is done.
-    pub fn poll(&mut self) {
+    pub(crate) fn poll(&mut self) {
         let before = self.relief();
         self.reading.poll();
         self.renew_picture(before.as_ref());

@@ -18,7 +18,7 @@ use selvedge_textile::{
 
 /// Everything that a reading depends on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Inputs {
+pub(crate) struct Inputs {
     /// What the readers are told.
     pub told: Told,
     /// What is looked at.
@@ -27,7 +27,7 @@ pub struct Inputs {
 
 /// What was read.
 #[derive(Debug, Clone)]
-pub struct Found {
+pub(crate) struct Found {
     /// Of what.
     pub(crate) inputs: Inputs,
     /// What kind the files are.
@@ -40,7 +40,7 @@ pub struct Found {
 
 /// What is in the files.
 #[derive(Debug, Clone)]
-pub enum Body {
+pub(crate) enum Body {
     /// Nothing that could be read.
     Nothing,
     /// Strokes of the tester.
@@ -51,7 +51,7 @@ pub enum Body {
 
 /// Strokes of the tester.
 #[derive(Debug, Clone)]
-pub struct Strokes {
+pub(crate) struct Strokes {
     /// Every file's first lines, or why they cannot be shown.
     pub looks: Vec<Result<KesLook, String>>,
     /// The strokes, once nothing is left to be asked.
@@ -66,7 +66,7 @@ pub struct Strokes {
 
 /// Heights.
 #[derive(Debug, Clone)]
-pub struct Heights {
+pub(crate) struct Heights {
     /// The heights, once nothing is left to be asked.
     pub import: Arc<HeightImport>,
     /// The same as they are drawn; a profile has none.
@@ -88,7 +88,7 @@ impl Found {
     }
 
     /// The strokes, if these are strokes.
-    pub fn strokes(&self) -> Option<&Strokes> {
+    pub(crate) fn strokes(&self) -> Option<&Strokes> {
         match &self.body {
             Body::Strokes(strokes) => Some(strokes),
             _ => None,
@@ -96,7 +96,7 @@ impl Found {
     }
 
     /// The heights, if these are heights.
-    pub fn heights(&self) -> Option<&Heights> {
+    pub(crate) fn heights(&self) -> Option<&Heights> {
         match &self.body {
             Body::Heights(heights) => Some(heights),
             _ => None,
@@ -104,7 +104,7 @@ impl Found {
     }
 
     /// Its roughness, a line for every stroke or every place.
-    pub fn figures(&self) -> Vec<String> {
+    pub(crate) fn figures(&self) -> Vec<String> {
         let of_strokes = self.strokes().and_then(|strokes| strokes.import.as_ref());
         let of_strokes = of_strokes
             .into_iter()
@@ -120,7 +120,7 @@ impl Found {
     }
 
     /// The name that the files suggest.
-    pub fn own_name(&self) -> String {
+    pub(crate) fn own_name(&self) -> String {
         if let Some(heights) = self.heights() {
             return heights.import.own_name();
         }

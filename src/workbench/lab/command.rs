@@ -51,7 +51,7 @@ pub(crate) enum LabCommand {
 
 /// Which controls are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Page {
+pub(crate) enum Page {
     /// The parameters.
     #[default]
     Recipe,
@@ -63,7 +63,7 @@ pub enum Page {
 
 impl Page {
     /// All three, with their titles.
-    pub const ALL: [(Self, &'static str); 3] = [
+    pub(crate) const ALL: [(Self, &'static str); 3] = [
         (Self::Recipe, "Recipe"),
         (Self::Family, "Family"),
         (Self::Keep, "Keep"),
@@ -72,7 +72,7 @@ impl Page {
 
 /// Which stroke is looked at, and how much of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
+pub(crate) struct Look {
     /// The stroke.
     pub direction: Direction,
     /// Where the view begins, mm.
@@ -93,7 +93,7 @@ impl Default for Look {
 
 /// A family: one parameter over several values, evenly apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// The parameter.
     pub place: Place,
     /// Its first and its last value.
@@ -104,10 +104,10 @@ pub struct Plan {
 
 impl Plan {
     /// Most textiles of a family.
-    pub const MOST: u8 = 12;
+    pub(crate) const MOST: u8 = 12;
 
     /// The values, evenly apart from end to end.
-    pub fn values(&self) -> Vec<f64> {
+    pub(crate) fn values(&self) -> Vec<f64> {
         let n = self.n.clamp(2, Self::MOST);
         let [first, last] = self.ends;
         let share = |i: u8| f64::from(i) / f64::from(n - 1);

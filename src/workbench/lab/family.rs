@@ -21,7 +21,7 @@ pub(crate) struct FamilyFields {
 
 impl FamilyFields {
     /// Varies a parameter over a reasonable range about its value.
-    pub fn vary(&mut self, parameter: &Parameter, value: Option<f64>) {
+    pub(crate) fn vary(&mut self, parameter: &Parameter, value: Option<f64>) {
         self.place = Some(parameter.place);
         let (ParameterKind::Number { least, most, .. }
         | ParameterKind::Optional { least, most, .. }) = parameter.kind
@@ -51,7 +51,7 @@ impl FamilyFields {
     }
 
     /// The plan, or what is wrong with what was typed.
-    pub fn plan(&self) -> Result<Plan, &'static str> {
+    pub(crate) fn plan(&self) -> Result<Plan, &'static str> {
         let place = self.place.ok_or("Choose the parameter that varies")?;
         let number = |text: &String| {
             let plain = text.trim().replace('−', "-").replace(',', ".");
@@ -85,7 +85,7 @@ pub(crate) struct Member {
 
 /// A family that was tried.
 #[derive(Debug, Clone)]
-pub struct Family {
+pub(crate) struct Family {
     /// The name and the unit of the parameter.
     pub parameter: [&'static str; 2],
     /// From the first to the last value.
@@ -97,7 +97,7 @@ impl Family {
     ///
     /// # Errors
     /// A value that the reader of recipes refuses; the work was stopped.
-    pub fn of(
+    pub(crate) fn of(
         draft: &Draft,
         plan: &Plan,
         filters: &Filters,

@@ -17,7 +17,7 @@ pub(crate) struct KeepFields {
 
 impl KeepFields {
     /// For a recipe of this name, or a copy of it.
-    pub fn of(name: &str, is_copy: bool) -> Self {
+    pub(crate) fn of(name: &str, is_copy: bool) -> Self {
         let name = if is_copy {
             format!("{name}, changed")
         } else {
@@ -39,7 +39,7 @@ impl KeepFields {
     }
 
     /// Why no textile can be kept under this name and id in a library with these ids.
-    pub fn refusal(&self, known: &[String]) -> Option<String> {
+    pub(crate) fn refusal(&self, known: &[String]) -> Option<String> {
         let id = self.id.trim();
         if self.name.trim().is_empty() {
             return Some("The name is empty; give the textile a name".to_owned());

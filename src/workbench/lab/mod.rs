@@ -16,15 +16,15 @@ mod recipes;
 mod steps;
 
 pub(crate) use command::{Beginning, LabCommand};
-pub use command::{Look, Page, Plan};
-pub use family::Family;
+pub(crate) use command::{Look, Page, Plan};
+pub(crate) use family::Family;
 #[cfg(test)]
 pub(crate) use family::Member;
 pub(crate) use family::{FamilyFields, key_value};
 pub(crate) use fields::KeepFields;
-pub use preview::{Compared, Felt, SPEEDS_MM_PER_S, speeds_mm_per_s};
+pub(crate) use preview::{Compared, Felt, SPEEDS_MM_PER_S, speeds_mm_per_s};
 pub(crate) use preview::{Preview, Shown};
-pub use steps::Steps;
+pub(crate) use steps::Steps;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub(crate) struct Begun {
 
 /// The lab.
 #[derive(Debug, Default)]
-pub struct Lab {
+pub(crate) struct Lab {
     /// The recipe; `None` before one has begun.
     pub steps: Option<Steps>,
     /// The textile of the library that it is made from.
@@ -89,12 +89,12 @@ impl Lab {
     }
 
     /// What is wrong with the recipe.
-    pub fn fault(&self) -> Option<&Fault> {
+    pub(crate) fn fault(&self) -> Option<&Fault> {
         self.steps.as_ref().and_then(Steps::fault)
     }
 
     /// How far what is computed is, 0…1; `None` while nothing is.
-    pub fn share(&self) -> Option<f32> {
+    pub(crate) fn share(&self) -> Option<f32> {
         let preview = self.previewing.as_ref().and_then(|(_, task)| task.as_ref());
         let share = preview.map(Task::share);
         share

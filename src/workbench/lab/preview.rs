@@ -11,12 +11,12 @@ use selvedge_textile::tactile::{Band, Filters, Levels};
 use selvedge_textile::{Manifest, Textile, Trial};
 
 /// Least and largest speed of the curves, mm/s.
-pub const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 1000.0];
+pub(crate) const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 1000.0];
 /// Speeds of a curve, evenly apart on a logarithmic axis.
 const N_SPEEDS: u8 = 49;
 
 /// The speeds of a curve, rising, mm/s.
-pub fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
+pub(crate) fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
     let [least, most] = SPEEDS_MM_PER_S;
     let share = |i: u8| f64::from(i) / f64::from(N_SPEEDS - 1);
     (0..N_SPEEDS).map(move |i| least * (most / least).powf(share(i)))
@@ -24,7 +24,7 @@ pub fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
 
 /// A surface and what is felt of it, without gains.
 #[derive(Debug, Clone)]
-pub struct Felt {
+pub(crate) struct Felt {
     /// Profiles and local spectra.
     pub surface: Arc<Surface>,
     /// How strong it is as a whole.
@@ -38,7 +38,7 @@ impl Felt {
     ///
     /// # Errors
     /// The work was stopped.
-    pub fn of(
+    pub(crate) fn of(
         surface: &Arc<Surface>,
         filters: &Filters,
         progress: &mut Progress<'_>,
@@ -58,14 +58,17 @@ impl Felt {
     }
 
     /// The profile of a direction, or of the direction that it is taken from.
-    pub fn profile(&self, direction: Direction) -> Option<&selvedge_textile::surface::Profile> {
+    pub(crate) fn profile(
+        &self,
+        direction: Direction,
+    ) -> Option<&selvedge_textile::surface::Profile> {
         let taken_from = self.surface.taken_from(direction);
         let own = self.surface.profile(direction);
         own.or_else(|| self.surface.profile(taken_from))
     }
 
     /// Its figures, in the order in which they are shown.
-    pub fn figures(&self) -> Vec<Shown> {
+    pub(crate) fn figures(&self) -> Vec<Shown> {
         let surface = &self.surface;
         let mean = |of: &dyn Fn(&selvedge_textile::surface::Profile) -> f64| {
             let profiles = Direction::ALL.map(|direction| surface.profile(direction));
@@ -174,7 +177,7 @@ impl Preview {
     ///
     /// # Errors
     /// What is wrong, in one line; the work was stopped.
-    pub fn of(
+    pub(crate) fn of(
         manifest: Manifest,
         filters: &Filters,
         progress: &mut Progress<'_>,
@@ -201,7 +204,7 @@ impl Preview {
     }
 
     /// Its figures, in the order in which they are shown.
-    pub fn figures(&self) -> Vec<Shown> {
+    pub(crate) fn figures(&self) -> Vec<Shown> {
         let mut figures = self.felt.figures();
         let relief = [
             Shown::of("Sa", self.relief.sa_um(), 2, "µm").said(
@@ -224,7 +227,7 @@ impl Preview {
 
 /// A textile of the library that the recipe is compared with.
 #[derive(Debug, Clone)]
-pub struct Compared {
+pub(crate) struct Compared {
     /// Its id.
     pub id: String,
     /// What people call it.
@@ -238,7 +241,7 @@ impl Compared {
     ///
     /// # Errors
     /// The work was stopped.
-    pub fn of(
+    pub(crate) fn of(
         textile: &Textile,
         filters: &Filters,
         progress: &mut Progress<'_>,

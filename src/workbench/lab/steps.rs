@@ -8,7 +8,7 @@ const MOST: usize = 200;
 
 /// A recipe while it is edited, and how it came to be.
 #[derive(Debug, Clone)]
-pub struct Steps {
+pub(crate) struct Steps {
     drafts: Vec<Draft>,
     at: usize,
     /// The parameter that is being dragged: its changes are one step.
@@ -18,7 +18,7 @@ pub struct Steps {
 
 impl Steps {
     /// The first step.
-    pub fn new(draft: Draft) -> Self {
+    pub(crate) fn new(draft: Draft) -> Self {
         Self {
             read: draft.read(),
             drafts: vec![draft],
@@ -28,22 +28,22 @@ impl Steps {
     }
 
     /// The draft as it is.
-    pub fn now(&self) -> &Draft {
+    pub(crate) fn now(&self) -> &Draft {
         &self.drafts[self.at]
     }
 
     /// The draft that it began with.
-    pub fn first(&self) -> &Draft {
+    pub(crate) fn first(&self) -> &Draft {
         &self.drafts[0]
     }
 
     /// The recipe, or what is wrong with it.
-    pub fn read(&self) -> &Result<Manifest, Fault> {
+    pub(crate) fn read(&self) -> &Result<Manifest, Fault> {
         &self.read
     }
 
     /// What is wrong with the recipe.
-    pub fn fault(&self) -> Option<&Fault> {
+    pub(crate) fn fault(&self) -> Option<&Fault> {
         self.read.as_ref().err()
     }
 
@@ -54,7 +54,7 @@ impl Steps {
 
     /// Sets a parameter. While `is_held` the pointer has hold of it, and all its changes are one
     /// step.
-    pub fn set(&mut self, place: Place, value: Option<KeyValue>, is_held: bool) {
+    pub(crate) fn set(&mut self, place: Place, value: Option<KeyValue>, is_held: bool) {
         let mut draft = self.now().clone();
         let stands_in = value.is_some().then(|| excluded(&draft, place)).flatten();
         draft.set(place, value);
@@ -73,7 +73,7 @@ impl Steps {
     }
 
     /// Back to what it began with: a step of its own, which can be taken back.
-    pub fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         let first = self.first().clone();
         if first != *self.now() {
             self.push(first);

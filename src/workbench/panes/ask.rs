@@ -37,7 +37,7 @@ pub(crate) struct AskWords {
 
 impl AskWords {
     /// The words for a purpose.
-    pub fn of(purpose: Purpose) -> Self {
+    pub(crate) fn of(purpose: Purpose) -> Self {
         let scene = Self {
             title: "Open scene",
             verb: "Open",
@@ -157,7 +157,7 @@ fn clip_words(kind: ClipKind) -> AskWords {
 
 /// What is asked, and what was typed so far.
 #[derive(Debug)]
-pub struct Ask {
+pub(crate) struct Ask {
     /// What the path is for.
     pub purpose: Purpose,
     /// The path as typed.
@@ -169,7 +169,7 @@ pub struct Ask {
 
 impl Ask {
     /// A question with the path that is known already.
-    pub fn new(purpose: Purpose, known: Option<&PathBuf>) -> Self {
+    pub(crate) fn new(purpose: Purpose, known: Option<&PathBuf>) -> Self {
         let path = known
             .map(|path| path.display().to_string())
             .unwrap_or_default();
@@ -204,7 +204,7 @@ impl Ask {
 }
 
 /// Shows the question at the upper edge of `over`; `recent` are the scenes that were opened last.
-pub fn show(ui: &Ui, over: Rect, ask: &mut Ask, recent: &[PathBuf], wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, ask: &mut Ask, recent: &[PathBuf], wishes: &mut Wishes) {
     let words = AskWords::of(ask.purpose);
     card(ui, over, 560.0, words.title, |ui, title| {
         let is_entered = show_field(ui, title, ask, words);

@@ -16,7 +16,7 @@ use selvedge_render::array::ContactInspector;
 use selvedge_textile::tactile::{Band, Filters};
 
 /// Ends of the colour scale, dB re 1 µm.
-pub const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
+pub(crate) const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
 /// Width of the filters' strip, points.
 const STRIP: f32 = 40.0;
 /// The same where the pane is narrow.
@@ -61,7 +61,7 @@ impl ContactSpectrogram {
     }
 
     /// The columns that are shown, old to new, all of them caught up.
-    pub fn shown(
+    pub(crate) fn shown(
         &mut self,
         ctx: &egui::Context,
         inspector: &mut ContactInspector,
@@ -93,7 +93,7 @@ impl ContactSpectrogram {
 }
 
 /// Shows the spectrogram in the space that is left; `inspector` is the scene's.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     state: &mut ContactSpectrogram,
     inspector: &mut ContactInspector,
@@ -131,7 +131,7 @@ pub fn show(
 }
 
 /// Where a level stands on the colour scale, 0…1.
-pub fn share_of(level_db: f32) -> f64 {
+pub(crate) fn share_of(level_db: f32) -> f64 {
     let [least_db, most_db] = LEVELS_DB;
     (f64::from(level_db) - least_db) / (most_db - least_db)
 }

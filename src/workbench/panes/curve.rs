@@ -43,7 +43,7 @@ pub(crate) fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
 }
 
 /// Shows the curve, or what it waits for; a click on a dot chooses its textile, if it is placed.
-pub fn show(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+pub(super) fn show(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());

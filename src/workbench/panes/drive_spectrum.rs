@@ -45,7 +45,11 @@ impl DriveSpectrogram {
     }
 
     /// The columns that are shown, old to new, all of them caught up.
-    pub fn shown(&mut self, ctx: &egui::Context, view: &DriveSpectrumView<'_>) -> Vec<ShownColumn> {
+    pub(crate) fn shown(
+        &mut self,
+        ctx: &egui::Context,
+        view: &DriveSpectrumView<'_>,
+    ) -> Vec<ShownColumn> {
         while self.catch_up(ctx, view) {}
         self.waterfall.shown(view.history)
     }
@@ -74,7 +78,7 @@ impl DriveSpectrogram {
 }
 
 /// Shows the spectrogram in the space that is left.
-pub fn show(ui: &mut Ui, state: &mut DriveSpectrogram, view: &DriveSpectrumView<'_>) {
+pub(crate) fn show(ui: &mut Ui, state: &mut DriveSpectrogram, view: &DriveSpectrumView<'_>) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let name = "Drive spectrum of the selected contactor over time, 10 Hz to 1 kHz";
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));

@@ -31,7 +31,7 @@ pub(crate) struct DriveWaveView {
 
 impl DriveWaveView {
     /// Amplitudes and limits with 0 for what is no number.
-    pub fn finite(self) -> Self {
+    pub(crate) fn finite(self) -> Self {
         let finite = |pair: [f64; 2]| pair.map(|um| if um.is_finite() { um } else { 0.0 });
         Self {
             before_um: finite(self.before_um),
@@ -47,7 +47,7 @@ impl DriveWaveView {
     }
 
     /// Both waves at a time of the window, µm.
-    pub fn waves_um(&self, t_ms: f64) -> [f64; 2] {
+    pub(crate) fn waves_um(&self, t_ms: f64) -> [f64; 2] {
         let amplitudes_um = if t_ms < TICK_MS {
             self.before_um
         } else {
@@ -77,12 +77,12 @@ impl Default for WaveScale {
 
 impl WaveScale {
     /// Its upper end, µm.
-    pub fn most_um(self) -> f64 {
+    pub(crate) fn most_um(self) -> f64 {
         self.most_um
     }
 
     /// The scale after a reach at a time.
-    pub fn following(self, reach_um: f64, time_s: f64) -> Self {
+    pub(crate) fn following(self, reach_um: f64, time_s: f64) -> Self {
         let round = |um: f64| round_step(um.clamp(LEAST_TOP_UM, 1e9));
         if !(reach_um > 0.0 && reach_um.is_finite()) {
             // Silence says nothing of what comes after it.
@@ -114,7 +114,7 @@ impl WaveScale {
 }
 
 /// Shows the waveform in the space that is left.
-pub fn show(ui: &mut Ui, scale: &mut WaveScale, view: &DriveWaveView) {
+pub(crate) fn show(ui: &mut Ui, scale: &mut WaveScale, view: &DriveWaveView) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let name = "Drive waveform of the selected contactor, the last 50 ms";
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));

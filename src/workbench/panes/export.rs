@@ -14,7 +14,7 @@ pub(crate) const SIZE: f32 = 18.0;
 const MENU: f32 = 196.0;
 
 /// Shows the button; its menu opens on a click.
-pub fn show(ui: &mut Ui, what: Exportable, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, what: Exportable, wishes: &mut Wishes) {
     let name = format!("Export {}", what.title());
     let (rect, response) = ui.allocate_exact_size(vec2(SIZE, SIZE), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &name));

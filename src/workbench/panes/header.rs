@@ -20,7 +20,7 @@ const ROOM_FOR_STATUS: f32 = 1000.0;
 const ARMED_TAG: f32 = 84.0;
 
 /// Shows the header.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
     live: &Live,

@@ -89,7 +89,13 @@ impl Places {
 }
 
 /// Shows both heatmaps and the colour bar.
-pub fn show(ui: &mut Ui, scene: &SceneView, live: &Live, style: HeatmapStyle, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    style: HeatmapStyle,
+    wishes: &mut Wishes,
+) {
     let palette = Palette::in_ui(ui);
     let Some(grid) = scene.grid else {
         ui.label("The contactors of this display form no grid: the workspace shows them");
@@ -244,7 +250,7 @@ fn paint_cell(
 }
 
 /// An amplitude in µm as cells show it: three signs fit into the narrowest that holds numbers.
-pub fn digits(amplitude_um: f64) -> String {
+pub(crate) fn digits(amplitude_um: f64) -> String {
     let decimals = usize::from(amplitude_um < 9.95);
     quantity::fixed(amplitude_um, decimals)
 }

@@ -102,7 +102,7 @@ fn kind(command: &Command) -> &'static str {
 }
 
 /// Shows the list at the upper edge of `over`.
-pub fn show(ui: &Ui, over: Rect, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, wishes: &mut Wishes) {
     card(ui, over, WIDTH, "Keys and pointer", |ui, _| {
         // Above: the title and the card's edge. Below: the safety lines and the button.
         let room = over.height() - 2.0 * CARD_DROP - 2.0 * CARD_MARGIN - 112.0;

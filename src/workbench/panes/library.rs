@@ -34,7 +34,7 @@ const MOST_LETTERS: usize = 3;
 const SCENE_ROWS: usize = 6;
 
 /// Shows the pane. `search` is what is typed in its field.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     shelf: &mut Shelf,
     scene: &SceneView,

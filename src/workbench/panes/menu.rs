@@ -20,7 +20,7 @@ const ZOOMS: [u8; 5] = [100, 125, 150, 175, 200];
 
 /// What is shown how, as the menu ticks it.
 #[derive(Debug, Clone)]
-pub struct Appearance {
+pub(crate) struct Appearance {
     /// What the window is arranged for.
     pub perspective: Perspective,
     /// The colours that stand for numbers.
@@ -217,7 +217,7 @@ fn entry(ui: &mut Ui, label: &str, command: Command, refusal: Option<&str>, wish
 }
 
 /// A line that is ticked or not; the menu stays open.
-pub fn choice(
+pub(crate) fn choice(
     ui: &mut Ui,
     label: &str,
     is_chosen: bool,

@@ -38,9 +38,9 @@ pub(crate) use accuracy::{show as show_accuracy, show_corner as show_accuracy_co
 pub(crate) use analysis::{
     AnalysisHands, Looks as AnalysisLooks, Sight as AnalysisSight, show as show_analysis,
 };
-pub use ask::Ask;
+pub(crate) use ask::Ask;
 pub(crate) use ask::{AskWords, show as show_ask};
-pub use bridge::BACK;
+pub(crate) use bridge::BACK;
 pub(crate) use bridge::{ArrayView, BridgePane, BridgeTyped, back_notice, show as show_bridge};
 pub(crate) use collection::{Typed as CollectionTyped, show as show_collection};
 pub(crate) use compare::{
@@ -61,10 +61,10 @@ pub(crate) use heatmap::{
     HeatmapStyle, digits as cell_digits, show as show_heatmaps, show_corner as show_heatmap_corner,
 };
 pub(crate) use help::show as show_help;
-pub use import::{ImportView, show as show_import};
+pub(crate) use import::{ImportView, show as show_import};
 pub(crate) use lab::{LabHands, LabPictures, LabView, show as show_lab};
 pub(crate) use library::show as show_library;
-pub use menu::Appearance;
+pub(crate) use menu::Appearance;
 pub(crate) use menu::choice as menu_choice;
 pub(crate) use notices::{Notices, show as show_notices};
 pub(crate) use participant::{
@@ -77,13 +77,13 @@ pub(crate) use response::{
     ResponseView, ends_db as response_ends_db, fill_range as response_range, show as show_response,
     show_corner as show_response_corner,
 };
-pub use spatial::wavenumber_per_mm;
+pub(crate) use spatial::wavenumber_per_mm;
 pub(crate) use spatial::{
     LEVELS_DB as SPATIAL_LEVELS_DB, SpatialSource, SpatialSpectra, density_db, means_of,
     show as show_spatial,
 };
 pub(crate) use spectrogram::ShownColumn;
-pub use transport::Timeline;
+pub(crate) use transport::Timeline;
 pub(crate) use transport::{
     LEVELS_DB as TIMELINE_LEVELS_DB, StripTick, TransportState, TransportView,
     show as show_transport,

@@ -15,7 +15,7 @@ const MAX_NOTICES: usize = 3;
 
 /// A sentence for the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Notice {
+pub(crate) struct Notice {
     /// Its number, by which it is put away.
     pub number: u64,
     /// What is wrong and how to mend it.
@@ -31,7 +31,7 @@ pub(crate) struct Notices {
 
 impl Notices {
     /// Gives a notice. The same sentence twice is shown once.
-    pub fn give(&mut self, text: impl Into<String>) {
+    pub(crate) fn give(&mut self, text: impl Into<String>) {
         let text = text.into();
         self.shown.retain(|notice| notice.text != text);
         self.n_given += 1;
@@ -55,13 +55,13 @@ impl Notices {
     }
 
     /// Those that are shown, old to new.
-    pub fn shown(&self) -> &[Notice] {
+    pub(crate) fn shown(&self) -> &[Notice] {
         &self.shown
     }
 }
 
 /// Shows the notices at the lower edge of `over`.
-pub fn show(ui: &Ui, over: Rect, notices: &Notices, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, notices: &Notices, wishes: &mut Wishes) {
     if notices.shown.is_empty() {
         return;
     }

@@ -10,7 +10,7 @@ use crate::widgets::{button, card};
 /// Asks at the upper edge of `over` whether to save the scene called `name`.
 ///
 /// Whoever asks closes the window, or opens another scene, once this one is saved.
-pub fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, wishes: &mut Wishes) {
     let title = format!("Save changes to {name}?");
     card(ui, over, 440.0, &title, |ui, _| {
         let palette = Palette::in_ui(ui);

@@ -20,7 +20,7 @@ use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, N_BINS};
 use selvedge_textile::tactile::Band;
 
 /// Ends of the densities, dB re 1 µm² per cycle/mm.
-pub const LEVELS_DB: [f64; 2] = [-60.0, 40.0];
+pub(crate) const LEVELS_DB: [f64; 2] = [-60.0, 40.0];
 /// Bins nearer to one another on the screen than this are drawn as their mean, points.
 const LEAST_STEP: f32 = 1.5;
 /// How bright a curve is where it does not sound.
@@ -60,7 +60,7 @@ impl SpatialSpectra {
     }
 
     /// The spectra that are shown; `None` where the contactor is off every textile.
-    pub fn shown(
+    pub(crate) fn shown(
         &mut self,
         inspector: &mut ContactInspector,
         source: &SpatialSource<'_>,
@@ -94,7 +94,7 @@ impl SpatialSpectra {
 }
 
 /// Shows the spectra in the space that is left; `inspector` is the scene's.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     state: &mut SpatialSpectra,
     inspector: &mut ContactInspector,
@@ -130,7 +130,7 @@ pub fn show(
 }
 
 /// The wavenumber of bin k = 1 … 500, cycles/mm.
-pub fn wavenumber_per_mm(k: usize) -> f64 {
+pub(crate) fn wavenumber_per_mm(k: usize) -> f64 {
     BIN_SPACING_PER_MM * k as f64
 }
 

@@ -18,7 +18,13 @@ const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on
 const OCTAVES: [f64; 2] = [0.5, 6.0];
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, scene: &SceneView, live: &Live, audition: &Audition, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    audition: &Audition,
+    wishes: &mut Wishes,
+) {
     let palette = Palette::in_ui(ui);
     let (now, rest) = (scene.tuning, scene.default_tuning);
     let under = live.cloth_under_display();

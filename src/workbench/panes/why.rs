@@ -30,7 +30,7 @@ const FREQUENCIES_HZ: [f64; 2] = [10.0, 1000.0];
 const CURVE: u8 = 96;
 
 /// Shows the pane; without a contactor, what to do.
-pub fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
+pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
     let palette = Palette::in_ui(ui);
     let Some(why) = why else {
         let words = "Choose a contactor: click a cell of the heatmaps";

@@ -12,16 +12,16 @@ const MM_PER_INCH: f64 = 25.4;
 
 /// The chosen file; the same only if it was read at the same time.
 #[derive(Debug, Clone)]
-pub struct Chosen(Arc<SourceFile>);
+pub(crate) struct Chosen(Arc<SourceFile>);
 
 impl Chosen {
     /// A file that is not read yet.
-    pub fn new(file: SourceFile) -> Self {
+    pub(crate) fn new(file: SourceFile) -> Self {
         Self(Arc::new(file))
     }
 
     /// The file.
-    pub fn file(&self) -> &SourceFile {
+    pub(crate) fn file(&self) -> &SourceFile {
         &self.0
     }
 }
@@ -56,7 +56,7 @@ pub(crate) enum ScaleUnit {
 
 /// Which height of a relief is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Known {
+pub(crate) enum Known {
     /// From the lowest to the highest point.
     #[default]
     Relief,
@@ -66,7 +66,7 @@ pub enum Known {
 
 /// Everything that the stages depend on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Draft {
+pub(crate) struct Draft {
     /// The picture.
     pub source: Option<Chosen>,
     /// The part of it.
@@ -129,7 +129,7 @@ fn number(typed: &str) -> Option<f64> {
 
 impl Draft {
     /// The scale, px/mm; `None` while it is no positive number.
-    pub fn px_per_mm(&self) -> Option<f64> {
+    pub(crate) fn px_per_mm(&self) -> Option<f64> {
         let typed = number(&self.scale)?;
         Some(match self.unit {
             ScaleUnit::Dpi => typed / MM_PER_INCH,
@@ -147,7 +147,7 @@ impl Draft {
     }
 
     /// The name that the file suggests.
-    pub fn own_name(&self) -> String {
+    pub(crate) fn own_name(&self) -> String {
         let path = self.source.as_ref().map(|chosen| chosen.file().path());
         let stem = path.and_then(|path| path.file_stem());
         stem.unwrap_or_default().to_string_lossy().into_owned()
@@ -163,7 +163,7 @@ impl Draft {
     }
 
     /// The id that it is wished to have; never empty.
-    pub fn id(&self) -> String {
+    pub(crate) fn id(&self) -> String {
         let id = id_of(&self.final_name());
         if id.is_empty() {
             "picture".to_owned()
@@ -173,7 +173,7 @@ impl Draft {
     }
 
     /// What is still to be said before there can be a textile.
-    pub fn missing(&self) -> Option<&'static str> {
+    pub(crate) fn missing(&self) -> Option<&'static str> {
         if self.px_per_mm().is_none() {
             return Some("Type the picture's scale: what the scanner was set to, dpi");
         }

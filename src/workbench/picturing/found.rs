@@ -16,7 +16,7 @@ use selvedge_textile::surface::Direction;
 
 /// A step of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Step {
+pub(crate) enum Step {
     /// Which picture.
     Picture = 1,
     /// Light and height.
@@ -49,7 +49,7 @@ pub(crate) struct Correlated {
 
 /// Directions, lattice and tile.
 #[derive(Debug)]
-pub struct Cloth {
+pub(crate) struct Cloth {
     /// The autocorrelation, and the shift at its edge, px.
     pub correlation: Option<(Image, usize)>,
     /// The maxima that count, px and height, the most dominant first.
@@ -77,7 +77,7 @@ pub(crate) struct Shaped {
 
 /// A textile, ready to be kept.
 #[derive(Debug)]
-pub struct Made {
+pub(crate) struct Made {
     /// Its files.
     pub textile: Arc<Vec<NewTextile>>,
     /// The relief in its true scale.
@@ -92,7 +92,7 @@ pub struct Made {
 
 /// What was made of a draft, as far as it went.
 #[derive(Debug, Clone)]
-pub struct Found {
+pub(crate) struct Found {
     /// Of what.
     pub(crate) inputs: Draft,
     /// Stage by stage.
@@ -131,7 +131,7 @@ impl Found {
     }
 
     /// The picture's hash, once it is read.
-    pub fn sha256(&self) -> Option<&str> {
+    pub(crate) fn sha256(&self) -> Option<&str> {
         self.loaded.as_deref().map(|loaded| loaded.sha256.as_str())
     }
 }

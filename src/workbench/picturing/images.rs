@@ -17,7 +17,7 @@ const LEAST_PART: f64 = 80.0;
 const N_VECTORS: f64 = 4.0;
 
 /// A shared picture.
-pub type Image = Arc<ColorImage>;
+pub(crate) type Image = Arc<ColorImage>;
 
 fn byte(share: f64) -> u8 {
     #[expect(

@@ -12,11 +12,11 @@ mod found;
 mod images;
 mod work;
 
-pub use draft::{Chosen, Draft, Known};
+pub(crate) use draft::{Chosen, Draft, Known};
 pub(crate) use draft::{Part, ScaleUnit};
 pub(crate) use found::Shaped;
-pub use found::{Cloth, Found, Made, Step};
-pub use images::Image;
+pub(crate) use found::{Cloth, Found, Made, Step};
+pub(crate) use images::Image;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -57,22 +57,22 @@ pub(crate) struct Picturing {
 
 impl Picturing {
     /// What was made last, whatever has changed since.
-    pub fn found(&self) -> Option<&Arc<Found>> {
+    pub(crate) fn found(&self) -> Option<&Arc<Found>> {
         self.work.found()
     }
 
     /// Runs that were begun.
-    pub fn n_begun(&self) -> u64 {
+    pub(crate) fn n_begun(&self) -> u64 {
         self.work.n_begun()
     }
 
     /// The id that was handed to the library last, of what is chosen now.
-    pub fn kept(&self) -> Option<&str> {
+    pub(crate) fn kept(&self) -> Option<&str> {
         self.kept.as_deref()
     }
 
     /// How what was made stands to what is chosen.
-    pub fn standing(&self) -> Standing {
+    pub(crate) fn standing(&self) -> Standing {
         if self.draft.source.is_none() {
             return Standing::Empty;
         }
@@ -80,7 +80,7 @@ impl Picturing {
     }
 
     /// Why nothing can be kept now; `None` if it can.
-    pub fn refusal(&self) -> Option<String> {
+    pub(crate) fn refusal(&self) -> Option<String> {
         match self.standing() {
             Standing::Empty => return Some("Open a picture first".to_owned()),
             Standing::Working(_) => return Some("It is being worked out".to_owned()),
@@ -105,7 +105,7 @@ impl Picturing {
     }
 
     /// Takes another picture; how it was lit and its scale stay, for the next may be like it.
-    pub fn open(&mut self, path: PathBuf) {
+    pub(crate) fn open(&mut self, path: PathBuf) {
         let draft = Draft {
             source: Some(Chosen::new(SourceFile::new(path))),
             part: Part::Whole,
@@ -125,7 +125,7 @@ impl Picturing {
     }
 
     /// Stops until something else is chosen.
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         self.work.stop();
     }
 
@@ -140,7 +140,7 @@ impl Picturing {
     }
 
     /// Takes what a thread has made, if it is done.
-    pub fn poll(&mut self) {
+    pub(crate) fn poll(&mut self) {
         self.work.poll();
     }
 

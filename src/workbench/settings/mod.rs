@@ -7,8 +7,6 @@
 mod kept;
 mod text;
 
-pub use kept::Kept;
-
 use std::path::{Path, PathBuf};
 use std::thread::{self, JoinHandle};
 use std::{fs, io};
@@ -56,7 +54,7 @@ pub(crate) fn own_libraries() -> Option<PathBuf> {
 }
 
 /// Where links to devices are logged for this user. `None` on a system without such a place.
-pub fn session_log() -> Option<PathBuf> {
+pub(crate) fn session_log() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "selvedge")?;
     Some(folders.data_dir().join("logs").join("bridge.csv"))
 }
@@ -224,3 +222,4 @@ fn free_name(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests;
+pub use kept::Kept;

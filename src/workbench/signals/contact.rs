@@ -16,7 +16,7 @@ impl ContactColumns {
     /// The level of every row, dB re 1 µm: of the peak amplitude `√(2 Σ P)` of the power that the
     /// surface's heights bring into the row at this pose, before filters and gains. A bin's power
     /// lies evenly over `[f − Δf/2, f + Δf/2]`, `Δf = |v|·0.23` Hz. −∞ where nothing arrives.
-    pub fn levels_db(
+    pub(crate) fn levels_db(
         &mut self,
         inspector: &mut ContactInspector,
         contactor: usize,

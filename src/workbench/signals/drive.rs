@@ -33,7 +33,7 @@ pub(crate) fn drive_um(history: &History, contactor: u32, tick: u64) -> [f64; 2]
 }
 
 /// The wave `A_b sin(2π·b·t)` of both bands, µm.
-pub fn wave_um(amplitudes_um: [f64; 2], t_s: f64) -> [f64; 2] {
+pub(crate) fn wave_um(amplitudes_um: [f64; 2], t_s: f64) -> [f64; 2] {
     Band::ALL.map(|band| amplitudes_um[band.index()] * (TAU * band.carrier_hz() * t_s).sin())
 }
 

@@ -8,11 +8,11 @@ use std::collections::VecDeque;
 use selvedge_engine::Glimpse;
 
 /// How many glimpses are kept: 12 s of exploration.
-pub const CAPACITY: usize = 480;
+pub(super) const CAPACITY: usize = 480;
 
 /// A tick with its place in felt time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Entry {
+pub(crate) struct Entry {
     /// Its column, counted from the first glimpse ever; a pause before it leaves one out.
     pub column: u64,
     /// What happened.
@@ -30,7 +30,7 @@ pub(crate) struct History {
 impl History {
     /// Takes in a tick. Says whether it was new: a tick that is already here changes nothing, and
     /// one from before it (the engine began anew) clears what was there.
-    pub fn take(&mut self, glimpse: Glimpse) -> bool {
+    pub(crate) fn take(&mut self, glimpse: Glimpse) -> bool {
         let last = self.entries.back().map(|entry| entry.glimpse.tick);
         match last {
             Some(last) if glimpse.tick == last => return false,
@@ -48,7 +48,7 @@ impl History {
     }
 
     /// Forgets everything.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.entries.clear();
         self.n_clears += 1;
     }
@@ -59,19 +59,19 @@ impl History {
     }
 
     /// The ticks, old to new.
-    pub fn glimpses(
+    pub(crate) fn glimpses(
         &self,
     ) -> impl DoubleEndedIterator<Item = &Glimpse> + ExactSizeIterator + Clone {
         self.entries.iter().map(|entry| &entry.glimpse)
     }
 
     /// The ticks with their places in felt time, old to new.
-    pub fn entries(&self) -> &VecDeque<Entry> {
+    pub(crate) fn entries(&self) -> &VecDeque<Entry> {
         &self.entries
     }
 
     /// The newest tick.
-    pub fn newest(&self) -> Option<&Entry> {
+    pub(crate) fn newest(&self) -> Option<&Entry> {
         self.entries.back()
     }
 
@@ -84,7 +84,7 @@ impl History {
     }
 
     /// Where the first entry lies that is not before a column.
-    pub fn place_of(&self, column: u64) -> usize {
+    pub(crate) fn place_of(&self, column: u64) -> usize {
         self.entries.partition_point(|entry| entry.column < column)
     }
 }

@@ -11,12 +11,12 @@ mod rows;
 mod spatial;
 
 pub(crate) use contact::ContactColumns;
-pub use drive::wave_um;
+pub(crate) use drive::wave_um;
 pub(crate) use drive::{DriveSpectrum, drive_um};
-pub use history::Entry;
+pub(crate) use history::Entry;
 pub(crate) use history::History;
 pub(crate) use ring::{ColumnRing, N_COLUMNS, N_SLOTS, slot_of};
 pub(crate) use rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_centre_hz};
-pub use rows::{Rows, row_of};
-pub use spatial::Felt;
+pub(crate) use rows::{Rows, row_of};
+pub(crate) use spatial::Felt;
 pub(crate) use spatial::{SpatialCurve, SpatialView};

@@ -19,7 +19,7 @@ const EMPTY: Rows = [f32::NAN; N_ROWS];
 
 /// What catching up did.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Progress {
+pub(crate) struct Progress {
     /// The columns that are new or have become empty.
     pub fresh: Range<u64>,
     /// Whether more columns are due than one frame computes.
@@ -46,7 +46,7 @@ impl Default for ColumnRing {
 
 impl ColumnRing {
     /// Forgets every column.
-    pub fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         self.slots.fill(EMPTY);
         self.next = 0;
     }
@@ -78,17 +78,17 @@ impl ColumnRing {
     }
 
     /// The column after the newest one that is here.
-    pub fn next(&self) -> u64 {
+    pub(crate) fn next(&self) -> u64 {
         self.next
     }
 
     /// The rows in a slot.
-    pub fn slot(&self, slot: usize) -> &Rows {
+    pub(crate) fn slot(&self, slot: usize) -> &Rows {
         self.slots.get(slot).unwrap_or(&EMPTY)
     }
 
     /// The rows of a column that is shown; `None` for one that is not.
-    pub fn column(&self, column: u64) -> Option<&Rows> {
+    pub(crate) fn column(&self, column: u64) -> Option<&Rows> {
         let is_shown = column < self.next && column + N_COLUMNS as u64 >= self.next;
         is_shown.then(|| &self.slots[slot_of(column)])
     }

@@ -10,7 +10,7 @@ pub(crate) const MOST_HZ: f64 = 1000.0;
 pub(crate) const N_ROWS: usize = 96;
 
 /// One value for every row, low frequencies first.
-pub type Rows = [f32; N_ROWS];
+pub(crate) type Rows = [f32; N_ROWS];
 
 /// The borders between rows, Hz; row i lies between the i-th and the next.
 #[derive(Debug, Clone)]
@@ -75,7 +75,7 @@ pub(crate) fn row_centre_hz(row: usize) -> f64 {
     clippy::cast_sign_loss,
     reason = "clamped to the rows"
 )]
-pub fn row_of(share: f64) -> usize {
+pub(crate) fn row_of(share: f64) -> usize {
     let place = (share * N_ROWS as f64).floor();
     place.clamp(0.0, (N_ROWS - 1) as f64).max(0.0) as usize
 }

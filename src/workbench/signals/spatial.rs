@@ -30,7 +30,7 @@ pub(crate) struct SpatialCurve {
 
 /// A direction that a contactor moves in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Felt {
+pub(crate) struct Felt {
     /// Which of the four.
     pub direction: Direction,
     /// How fast, mm/s.
@@ -39,7 +39,7 @@ pub struct Felt {
 
 impl SpatialView {
     /// The spectra under a contactor on its textile's surface; `None` outside every textile.
-    pub fn of(trace: &ContactTrace, surface: &Surface) -> Option<Self> {
+    pub(crate) fn of(trace: &ContactTrace, surface: &Surface) -> Option<Self> {
         let touch = trace.touch.as_ref()?;
         let curves = Direction::ALL.map(|direction| {
             let spectra = surface.spectra(direction);
@@ -75,7 +75,7 @@ impl SpatialView {
     }
 
     /// The faster of the directions that are felt; of equals the warp.
-    pub fn fastest(&self) -> Option<Felt> {
+    pub(crate) fn fastest(&self) -> Option<Felt> {
         let [warp, weft] = self.felt;
         match (warp, weft) {
             (Some(warp), Some(weft)) if weft.speed_mm_per_s > warp.speed_mm_per_s => Some(weft),
@@ -87,12 +87,12 @@ impl SpatialView {
 
 impl Felt {
     /// The wavenumber that sounds at a frequency, cycles/mm.
-    pub fn wavenumber_per_mm(self, frequency_hz: f64) -> f64 {
+    pub(crate) fn wavenumber_per_mm(self, frequency_hz: f64) -> f64 {
         frequency_hz / self.speed_mm_per_s
     }
 
     /// Whether a wavenumber sounds between 10 Hz and 1 kHz.
-    pub fn sounds(self, wavenumber_per_mm: f64) -> bool {
+    pub(crate) fn sounds(self, wavenumber_per_mm: f64) -> bool {
         let frequency_hz = wavenumber_per_mm * self.speed_mm_per_s;
         (LEAST_HZ..MAX_FREQUENCY_HZ).contains(&frequency_hz)
     }

@@ -6,7 +6,7 @@
 mod strips;
 
 pub(crate) use strips::Strips;
-pub use strips::{Column, Extent, Felt};
+pub(crate) use strips::{Column, Extent, Felt};
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -21,7 +21,7 @@ pub(crate) struct Strips {
 
 /// One tick of an exploration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Felt {
+pub(crate) struct Felt {
     /// How fast the display moves, mm/s.
     pub speed_mm_per_s: f64,
     /// Mean amplitudes of both bands over the contactors that vibrate, µm; `None` when unknown.
@@ -30,7 +30,7 @@ pub struct Felt {
 
 /// From the least of some values to the most.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
+pub(crate) struct Extent {
     /// The least.
     pub least: f64,
     /// The most.
@@ -39,7 +39,7 @@ pub struct Extent {
 
 /// What a column of the screen shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Column {
+pub(crate) struct Column {
     /// Speed, mm/s.
     pub speed_mm_per_s: Extent,
     /// Mean level of both bands, dB re 1 µm, in the ticks that were felt; `None` without any.
@@ -83,12 +83,12 @@ impl Strips {
     }
 
     /// Ticks of the exploration.
-    pub fn n_ticks(&self) -> u64 {
+    pub(crate) fn n_ticks(&self) -> u64 {
         self.n_ticks
     }
 
     /// Ticks that one entry stands for: 1 in all but the longest explorations.
-    pub fn ticks_per_entry(&self) -> u64 {
+    pub(crate) fn ticks_per_entry(&self) -> u64 {
         self.ticks_per_entry.max(1)
     }
 
@@ -103,7 +103,7 @@ impl Strips {
     }
 
     /// What was at a tick; `None` past the end.
-    pub fn at(&self, tick: u64) -> Option<Felt> {
+    pub(crate) fn at(&self, tick: u64) -> Option<Felt> {
         let entry = usize::try_from(tick / self.ticks_per_entry.max(1)).ok()?;
         Some(Felt {
             speed_mm_per_s: f64::from(*self.speed_mm_per_s.get(entry)?),
@@ -113,7 +113,7 @@ impl Strips {
 
     /// The whole in `n_columns`, or one column for each entry where there is room for that. Walks
     /// through everything: keep what it gives.
-    pub fn columns(&self, n_columns: usize) -> Vec<Column> {
+    pub(crate) fn columns(&self, n_columns: usize) -> Vec<Column> {
         let n = self.speed_mm_per_s.len();
         let n_columns = n_columns.min(n);
         (0..n_columns)

@@ -47,15 +47,15 @@ const GREY: [u32; 2] = [0x0010_1010, 0x00fa_fafa];
 
 impl ColourMap {
     /// Every map, in the order in which they are offered.
-    pub const ALL: [Self; 3] = [Self::Viridis, Self::Cividis, Self::Grey];
+    pub(crate) const ALL: [Self; 3] = [Self::Viridis, Self::Cividis, Self::Grey];
 
     /// The colour of writing on that of a share 0…1 of the scale: black on bright, white on dark.
-    pub fn ink(self, share: f64) -> Color32 {
+    pub(crate) fn ink(self, share: f64) -> Color32 {
         ink_on(self.colour(share))
     }
 
     /// Its name.
-    pub fn label(self) -> &'static str {
+    pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Viridis => "viridis",
             Self::Cividis => "cividis",
@@ -64,7 +64,7 @@ impl ColourMap {
     }
 
     /// The colour of a share 0…1 of the scale; outside it, and for NaN, the nearest end.
-    pub fn colour(self, share: f64) -> Color32 {
+    pub(crate) fn colour(self, share: f64) -> Color32 {
         let table: &[u32] = match self {
             Self::Viridis => &VIRIDIS,
             Self::Cividis => &CIVIDIS,
@@ -105,7 +105,7 @@ impl Diverging {
     };
 
     /// The colour of a share −1…1 of the scale; outside it the nearest end, for NaN the middle.
-    pub fn colour(self, share: f64) -> Color32 {
+    pub(crate) fn colour(self, share: f64) -> Color32 {
         let share = if share.is_nan() {
             0.0
         } else {
@@ -118,7 +118,7 @@ impl Diverging {
     }
 
     /// The colour of writing on that of a share.
-    pub fn ink(self, share: f64) -> Color32 {
+    pub(crate) fn ink(self, share: f64) -> Color32 {
         ink_on(self.colour(share))
     }
 }

@@ -8,14 +8,14 @@ mod colour_map;
 mod style;
 
 pub(crate) use colour_map::{ColourMap, Diverging};
-pub use style::install;
+pub(crate) use style::install;
 
 use eframe::egui::{self, Color32, FontId};
 
 use selvedge_textile::tactile::Band;
 
 /// Distances are steps of this many points.
-pub const STEP: f32 = 4.0;
+pub(crate) const STEP: f32 = 4.0;
 /// The height of one row of controls, points.
 pub(crate) const ROW: f32 = 24.0;
 
@@ -112,7 +112,7 @@ const LIGHT: Palette = Palette {
 
 impl Palette {
     /// The colours of a theme.
-    pub fn of(theme: egui::Theme) -> &'static Self {
+    pub(crate) fn of(theme: egui::Theme) -> &'static Self {
         match theme {
             egui::Theme::Dark => &DARK,
             egui::Theme::Light => &LIGHT,
@@ -134,7 +134,7 @@ impl Palette {
     }
 
     /// The colours of differences, whose middle is this theme's ground.
-    pub fn differences(&self) -> Diverging {
+    pub(crate) fn differences(&self) -> Diverging {
         if self == &DARK {
             Diverging::DARK
         } else {
@@ -143,7 +143,7 @@ impl Palette {
     }
 
     /// The colour of a band.
-    pub fn band(&self, band: Band) -> Color32 {
+    pub(crate) fn band(&self, band: Band) -> Color32 {
         match band {
             Band::Low => self.low,
             Band::High => self.high,
@@ -152,22 +152,22 @@ impl Palette {
 }
 
 /// Small text: ticks, units, tags.
-pub fn small() -> FontId {
+pub(crate) fn small() -> FontId {
     FontId::proportional(11.0)
 }
 
 /// Text of the usual size.
-pub fn body() -> FontId {
+pub(crate) fn body() -> FontId {
     FontId::proportional(13.5)
 }
 
 /// The name of the scene.
-pub fn title() -> FontId {
+pub(crate) fn title() -> FontId {
     FontId::proportional(17.0)
 }
 
 /// What a participant reads from a metre away.
-pub fn large() -> FontId {
+pub(crate) fn large() -> FontId {
     FontId::proportional(22.0)
 }
 
@@ -177,7 +177,7 @@ pub(crate) fn huge() -> FontId {
 }
 
 /// Numbers.
-pub fn number() -> FontId {
+pub(crate) fn number() -> FontId {
     FontId::monospace(12.0)
 }
 

@@ -8,7 +8,7 @@ use eframe::egui::{
 use super::{Palette, ROW, STEP};
 
 /// Gives `ctx` the two themes. The theme itself follows the system until somebody chooses.
-pub fn install(ctx: &egui::Context) {
+pub(crate) fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| {

@@ -9,7 +9,7 @@
 mod text;
 
 pub(crate) use text::{LIMITS, to_text};
-pub use text::{lines, sheet};
+pub(crate) use text::{lines, sheet};
 
 use super::command::Part;
 use super::sensation::Sensation;
@@ -19,11 +19,11 @@ use selvedge_device::{ArrayProfile, Bite, Calibration, Coder, Limit};
 use selvedge_render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
-pub const FULL_CODE: u16 = u16::MAX;
+pub(crate) const FULL_CODE: u16 = u16::MAX;
 
 /// One contactor at one tick, explained.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Why {
+pub(crate) struct Why {
     /// Which contactor of the first display.
     pub contactor: usize,
     /// Its row and column, if the display is a grid.
@@ -44,7 +44,7 @@ pub struct Why {
 
 /// From amplitudes to drive codes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Output {
+pub(crate) struct Output {
     /// Whether a device is armed; otherwise these are the codes it would get at full gain.
     pub(crate) is_sent: bool,
     /// Whether the display is silent, stopped or held, whatever its amplitudes.
@@ -66,7 +66,7 @@ pub struct Output {
 impl Output {
     /// What a contactor of this array is told for these amplitudes, µm. The device takes codes
     /// up to `comp_limit`; `gain` is the soft-start gain of one that is armed.
-    pub fn of(
+    pub(crate) fn of(
         (profile, contactor): (&ArrayProfile, usize),
         amplitudes_um: [f64; 2],
         (gain, comp_limit): (Option<f64>, Option<[u16; 2]>),
@@ -96,12 +96,12 @@ impl Output {
 
 impl Why {
     /// The contact with a textile, if there is one.
-    pub fn touch(&self) -> Option<&Touch> {
+    pub(crate) fn touch(&self) -> Option<&Touch> {
         self.trace.touch.as_ref()
     }
 
     /// The share of each band's power that comes along warp and weft, µm².
-    pub fn powers_um2(&self) -> [[f64; 2]; 2] {
+    pub(crate) fn powers_um2(&self) -> [[f64; 2]; 2] {
         let along = |axis: usize| {
             let direction = self
                 .touch()
@@ -118,7 +118,7 @@ impl Why {
     }
 
     /// The bins that sound below 1 kHz: frequency, Hz, and what each band takes of it, µm².
-    pub fn energies(&self) -> Vec<(f64, [f64; 2])> {
+    pub(crate) fn energies(&self) -> Vec<(f64, [f64; 2])> {
         let directions = self.touch().into_iter().flat_map(|touch| &touch.directions);
         let bins = directions.flatten().flat_map(|direction| &direction.bins);
         let heard = bins.filter(|bin| bin.filter_gains.iter().any(|gain| *gain > 0.0));

@@ -23,7 +23,7 @@ pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
 }
 
 /// The lines that explain: what, and what it is for 40 Hz and 320 Hz or as a whole.
-pub fn lines(why: &Why) -> Vec<(String, String)> {
+pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
     let mut lines = vec![("Position".to_owned(), place(why))];
     let Some(touch) = why.touch() else {
         lines.push(("Textile".to_owned(), "none: silent".to_owned()));
@@ -153,7 +153,7 @@ pub(crate) fn to_text(why: &Why) -> String {
 type TableRow = (String, &'static str, Option<u64>, [f64; 2], &'static str);
 
 /// Every number and every bin as a table: `quantity,axis,bin,value_40,value_320,unit`.
-pub fn sheet(why: &Why) -> Sheet {
+pub(crate) fn sheet(why: &Why) -> Sheet {
     let rows = rows(why);
     let words = |of: &dyn Fn(&TableRow) -> String| -> Vec<String> { rows.iter().map(of).collect() };
     let bin = |row: &TableRow| row.2.map_or_else(String::new, |k| k.to_string());

@@ -15,7 +15,7 @@ const LETTER_GAP: f32 = 5.0;
 
 /// A range of numbers along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
+pub(crate) struct Axis {
     least: f64,
     most: f64,
     is_log: bool,
@@ -23,7 +23,7 @@ pub struct Axis {
 
 /// A side of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub(crate) enum Side {
     /// Numbers left of the plot.
     Left,
     /// Numbers right of it.
@@ -36,7 +36,7 @@ pub enum Side {
 
 /// A number that an axis names.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tick {
+pub(crate) struct Tick {
     /// Where it stands.
     pub value: f64,
     /// What is written there.
@@ -45,13 +45,13 @@ pub struct Tick {
 
 impl Tick {
     /// A tick with a text of its own.
-    pub fn named(value: f64, label: &str) -> Self {
+    pub(crate) fn named(value: f64, label: &str) -> Self {
         let label = label.to_owned();
         Self { value, label }
     }
 
     /// A tick with its number, as many decimals as the number needs at two digits.
-    pub fn number(value: f64) -> Self {
+    pub(crate) fn number(value: f64) -> Self {
         let label = quantity::fixed(value, decimals_of(value.abs()));
         Self { value, label }
     }
@@ -59,7 +59,7 @@ impl Tick {
 
 impl Axis {
     /// An even axis. Ends that make no range become one around the lower end, or 0…1.
-    pub fn linear(least: f64, most: f64) -> Self {
+    pub(crate) fn linear(least: f64, most: f64) -> Self {
         let is_log = false;
         let span = most - least;
         if least.is_finite() && span > 0.0 && span.is_finite() {
@@ -78,7 +78,7 @@ impl Axis {
     }
 
     /// A logarithmic axis. Ends that make no range become the decade above the lower end, or 1…10.
-    pub fn log(least: f64, most: f64) -> Self {
+    pub(crate) fn log(least: f64, most: f64) -> Self {
         let is_log = true;
         let is_end = |end: f64| end > f64::MIN_POSITIVE && end < f64::MAX * 0.1;
         let least = if is_end(least) { least } else { 1.0 };
@@ -95,18 +95,18 @@ impl Axis {
     }
 
     /// Its lower end.
-    pub fn least(&self) -> f64 {
+    pub(crate) fn least(&self) -> f64 {
         self.least
     }
 
     /// Its upper end.
-    pub fn most(&self) -> f64 {
+    pub(crate) fn most(&self) -> f64 {
         self.most
     }
 
     /// Where a number lies: 0 at the lower end, 1 at the upper, beyond them below 0 and above 1.
     /// What lies nowhere (NaN; 0 on a logarithmic axis) is far below the lower end.
-    pub fn share(&self, value: f64) -> f64 {
+    pub(crate) fn share(&self, value: f64) -> f64 {
         let share = if self.is_log {
             (value / self.least).ln() / (self.most / self.least).ln()
         } else {
@@ -119,7 +119,7 @@ impl Axis {
     }
 
     /// The number at a share.
-    pub fn value(&self, share: f64) -> f64 {
+    pub(crate) fn value(&self, share: f64) -> f64 {
         if self.is_log {
             self.least * (self.most / self.least).powf(share)
         } else {
@@ -128,12 +128,12 @@ impl Axis {
     }
 
     /// The number's place in a horizontal range, points.
-    pub fn x(&self, range: Rangef, value: f64) -> f32 {
+    pub(crate) fn x(&self, range: Rangef, value: f64) -> f32 {
         range.min + single(self.share(value)) * range.span()
     }
 
     /// The number's place in a vertical range (the lower end of the axis at the bottom), points.
-    pub fn y(&self, range: Rangef, value: f64) -> f32 {
+    pub(crate) fn y(&self, range: Rangef, value: f64) -> f32 {
         range.max - single(self.share(value)) * range.span()
     }
 
@@ -150,7 +150,7 @@ impl Axis {
     /// Round numbers on an axis `length` points long, at least `apart` points from one another:
     /// steps of 1, 2 or 5 on an even axis; 1, 2, 5 of each decade, or whole decades, or every
     /// second decade …, on a logarithmic one.
-    pub fn ticks(&self, length: f32, apart: f32) -> Vec<Tick> {
+    pub(crate) fn ticks(&self, length: f32, apart: f32) -> Vec<Tick> {
         let room = f64::from(length / apart.max(1.0)).max(1.0);
         let values = if self.is_log {
             self.log_values(room)

@@ -7,12 +7,12 @@ use crate::theme::{self, Palette, STEP};
 /// Where a card hangs below the upper edge of what it covers, points.
 pub(crate) const DROP: f32 = 32.0;
 /// The room between a card's edge and what is on it, points.
-pub const MARGIN: f32 = 16.0;
+pub(crate) const MARGIN: f32 = 16.0;
 
 /// Shows a card with a title at the upper edge of `over`, at most `width` wide, points.
 ///
 /// `content` is given the title, to name its controls by.
-pub fn card(
+pub(crate) fn card(
     ui: &Ui,
     over: Rect,
     width: f32,

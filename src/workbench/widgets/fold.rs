@@ -13,7 +13,7 @@ const TRIANGLE: f32 = 16.0;
 
 /// Shows a part called `title`, open at first if `is_open_first`, with a few dim words on its right
 /// end; `content` is drawn only while it is open. Which parts are open lasts as long as the window.
-pub fn fold(
+pub(crate) fn fold(
     ui: &mut Ui,
     (title, is_open_first): (&'static str, bool),
     summary: &str,

@@ -9,7 +9,7 @@ const LINE: f32 = 20.0;
 
 /// Shows a closed list with `text` in it and fills it with `content` when it is opened. Read out as
 /// `label`.
-pub fn list(
+pub(crate) fn list(
     ui: &mut Ui,
     (salt, label): (impl AsIdSalt, &str),
     width: f32,

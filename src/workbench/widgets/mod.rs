@@ -16,22 +16,22 @@ mod scale;
 mod slider;
 mod text;
 
-pub use axis::{Axis, Side, Tick};
+pub(crate) use axis::{Axis, Side, Tick};
 pub(crate) use axis::{paint_label, paint_outer_ticks, paint_ticks, paint_unit, round_step};
 pub(crate) use bar::{amplitude_bar, colour_bar};
-pub use card::card;
+pub(crate) use card::card;
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN};
-pub use fold::fold;
+pub(crate) use fold::fold;
 pub(crate) use fold::told_fold;
 pub(crate) use limit_mark::{LIMIT_MARK, bites_band, limit_words, paint_limit_mark};
-pub use list::list;
-pub use polyline::corners;
-pub use relief::Relief;
+pub(crate) use list::list;
+pub(crate) use polyline::corners;
+pub(crate) use relief::Relief;
 pub(crate) use relief::{BAR_ROOM, ReliefPicture, paint_height_bar};
 pub(crate) use relief3d::{Relief3d, View3d, relief3d};
-pub use scale::{Curve, Scale};
+pub(crate) use scale::{Curve, Scale};
 pub(crate) use slider::{
     RowShape, asked_value, declare, key_steps, slider_row, slider_row_as, tip_beside,
 };
-pub use text::{button, choice, mark, row, section};
+pub(crate) use text::{button, choice, mark, row, section};
 pub(crate) use text::{field_row, paint_line, quiet_pair, toggle};

@@ -8,7 +8,7 @@ const TOLERANCE: f32 = 0.2;
 
 /// Those of some points, from left to right or from right to left, that a line needs as corners to
 /// pass close to all.
-pub fn corners(points: &[Pos2]) -> Vec<Pos2> {
+pub(crate) fn corners(points: &[Pos2]) -> Vec<Pos2> {
     let mut kept: Vec<Pos2> = points.first().copied().into_iter().collect();
     let mut slopes = Slopes::ALL;
     for pair in points.windows(2) {

@@ -28,7 +28,7 @@ pub(crate) const BAR_ROOM: f32 = 58.0;
 
 /// Heights as they are drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Relief {
+pub(crate) struct Relief {
     heights_um: Grid<f64>,
     size_mm: [f64; 2],
     range_um: [f64; 2],
@@ -38,7 +38,7 @@ pub struct Relief {
 impl Relief {
     /// The relief of a map: means over cells as wide as a pixel; a cell is missing where most of
     /// its points are.
-    pub fn of(map: &HeightMap) -> Self {
+    pub(crate) fn of(map: &HeightMap) -> Self {
         let size_mm = map.size_mm();
         let cell_mm = size_mm[0].max(size_mm[1]) / MOST_POINTS;
         let n_points = [map.heights_um().width(), map.heights_um().height()];
@@ -61,22 +61,22 @@ impl Relief {
     }
 
     /// Extent along u and w, mm.
-    pub fn size_mm(&self) -> [f64; 2] {
+    pub(crate) fn size_mm(&self) -> [f64; 2] {
         self.size_mm
     }
 
     /// The heights at the ends of the colours, µm: all but 0.5 % at either end lie between.
-    pub fn range_um(&self) -> [f64; 2] {
+    pub(crate) fn range_um(&self) -> [f64; 2] {
         self.range_um
     }
 
     /// Points of the map without a height.
-    pub fn n_missing(&self) -> usize {
+    pub(crate) fn n_missing(&self) -> usize {
         self.n_missing
     }
 
     /// The cells that are drawn, µm, rows in the order of rising w; NaN where missing.
-    pub fn heights_um(&self) -> &Grid<f64> {
+    pub(crate) fn heights_um(&self) -> &Grid<f64> {
         &self.heights_um
     }
 
@@ -100,7 +100,7 @@ impl Relief {
     }
 
     /// The largest rectangle of the map's shape in the middle of a room.
-    pub fn fitted(&self, room: Rect) -> Rect {
+    pub(crate) fn fitted(&self, room: Rect) -> Rect {
         #[expect(clippy::cast_possible_truncation, reason = "a shape, for the screen")]
         let shape = (self.size_mm[0] / self.size_mm[1]) as f32;
         let width = room.width().min(room.height() * shape);
@@ -108,7 +108,7 @@ impl Relief {
     }
 
     /// The colour of a cell, lit by its slope against the rms slope; `None`: missing.
-    pub fn colours(&self, map: ColourMap) -> Grid<Option<Color32>> {
+    pub(crate) fn colours(&self, map: ColourMap) -> Grid<Option<Color32>> {
         let (width, height) = (self.heights_um.width(), self.heights_um.height());
         let [low, high] = self.range_um;
         let slopes: Vec<f64> = (0..height)
@@ -244,7 +244,7 @@ pub(crate) struct ReliefPicture {
 
 impl ReliefPicture {
     /// Paints the relief into a rectangle of its shape.
-    pub fn paint(&mut self, painter: &Painter, rect: Rect, relief: &Relief, map: ColourMap) {
+    pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, relief: &Relief, map: ColourMap) {
         let texture = self.texture(painter.ctx(), relief, map).id();
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(texture, rect, whole, Color32::WHITE);

@@ -25,7 +25,7 @@ use selvedge_foundation::quantity;
 use selvedge_textile::surface::HeightMap;
 
 /// Most points along a side that are drawn.
-pub const MOST_POINTS: usize = 128;
+pub(super) const MOST_POINTS: usize = 128;
 /// The steepest a view may be exaggerated.
 const MOST_EXAGGERATION: f64 = 30.0;
 /// Share of the shorter side that the relief is exaggerated to at first.
@@ -49,7 +49,7 @@ pub(crate) struct Relief3d {
 
 impl Relief3d {
     /// The relief of a map; what is missing is filled.
-    pub fn of(map: &HeightMap) -> Self {
+    pub(crate) fn of(map: &HeightMap) -> Self {
         let filled = map.filled();
         let heights_um = averaged(filled.heights_um());
         let n = [heights_um.width(), heights_um.height()];
@@ -74,13 +74,13 @@ impl Relief3d {
     }
 
     /// Extent along u and w, mm.
-    pub fn size_mm(&self) -> [f64; 2] {
+    pub(crate) fn size_mm(&self) -> [f64; 2] {
         let n = [self.heights_um.width(), self.heights_um.height()];
         [0, 1].map(|axis| n[axis] as f64 * self.step_mm[axis])
     }
 
     /// From the lowest to the highest height, µm.
-    pub fn relief_um(&self) -> f64 {
+    pub(crate) fn relief_um(&self) -> f64 {
         self.range_um[1] - self.range_um[0]
     }
 }

@@ -7,7 +7,7 @@ const STEPS_A_DECADE: f64 = 20.0;
 
 /// How a slider's values lie along its rail.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Curve {
+pub(crate) enum Curve {
     /// Evenly.
     Even,
     /// Evenly over so many decades below the highest value, with zero at the lower end.
@@ -16,7 +16,7 @@ pub enum Curve {
 
 /// What a slider measures.
 #[derive(Debug, Clone, Copy)]
-pub struct Scale {
+pub(crate) struct Scale {
     /// Lowest value.
     pub least: f64,
     /// Highest value.
@@ -39,7 +39,7 @@ pub struct Scale {
 
 impl Scale {
     /// Gains from −30 to +30 dB.
-    pub fn gain(resting: f64) -> Self {
+    pub(crate) fn gain(resting: f64) -> Self {
         let (least, most) = (-30.0, 30.0);
         Self {
             least,
@@ -60,7 +60,7 @@ impl Scale {
     }
 
     /// Shares from 0 to 100 %.
-    pub fn share(resting: f64) -> Self {
+    pub(crate) fn share(resting: f64) -> Self {
         Self {
             least: 0.0,
             most: 1.0,

@@ -9,14 +9,14 @@ use crate::theme::{self, Palette, ROW, STEP};
 use selvedge_foundation::quantity;
 
 /// The quiet title of a section.
-pub fn section(ui: &mut Ui, title: &str) {
+pub(crate) fn section(ui: &mut Ui, title: &str) {
     let palette = Palette::in_ui(ui);
     ui.add_space(STEP);
     ui.label(RichText::new(title).font(theme::small()).color(palette.dim));
 }
 
 /// A row with a name on the left and whatever `content` adds on the right, right-aligned.
-pub fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Response {
+pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Response {
     row_of(ui, (name, 20.0), content)
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Re
 }
 
 /// A filled circle as wide as a letter: a lamp. Read out as `label`.
-pub fn mark(ui: &mut Ui, colour: Color32, label: &str) -> Response {
+pub(crate) fn mark(ui: &mut Ui, colour: Color32, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(10.0, ROW), Sense::hover());
     ui.painter().circle_filled(rect.center(), 4.0, colour);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, label));
@@ -67,7 +67,7 @@ pub fn mark(ui: &mut Ui, colour: Color32, label: &str) -> Response {
 }
 
 /// A button that is grey, with the reason as its tip, when `refusal` says why it does nothing.
-pub fn button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
+pub(crate) fn button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
     let button = egui::Button::new(text).min_size(vec2(0.0, ROW));
     let response = ui.add_enabled(refusal.is_none(), button);
     match refusal {
@@ -103,7 +103,7 @@ pub(crate) fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> boo
 
 /// One of a list to choose from, as wide as the list: its name, and dimmer as much of `detail` as
 /// there is room for. Says whether it was chosen.
-pub fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {
+pub(crate) fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {
     let palette = Palette::in_ui(ui);
     let detail = RichText::new(detail)
         .font(theme::small())

@@ -33,7 +33,7 @@ pub(crate) enum Camera {
 
 impl Camera {
     /// How a workspace of `size_mm` is laid on the pane.
-    pub fn view(self, pane: Rect, size_mm: [f64; 2]) -> ViewTransform {
+    pub(crate) fn view(self, pane: Rect, size_mm: [f64; 2]) -> ViewTransform {
         let rect = pane.shrink(MARGIN);
         match self {
             Self::Fit => ViewTransform::fitted(rect, size_mm),
@@ -50,7 +50,7 @@ impl Camera {
     /// The camera after the user wanted to see something else. True size needs a calibrated screen
     /// (`true_points_per_mm`); what makes no sense changes nothing.
     #[must_use]
-    pub fn apply(
+    pub(crate) fn apply(
         self,
         look: Look,
         pane: Rect,

@@ -25,9 +25,9 @@ mod transform;
 
 pub(crate) use camera::Camera;
 pub(crate) use drop::LibraryItem;
-pub use overlay::{Lattice, Overlay};
+pub(crate) use overlay::{Lattice, Overlay};
 pub(crate) use overlay::{Layers, Overlays};
-pub use state::Place;
+pub(crate) use state::Place;
 pub(crate) use state::WorkspaceState;
 pub(crate) use tools::show as show_tools;
 pub(crate) use trail::Trail;
@@ -82,7 +82,7 @@ impl Stage<'_> {
 }
 
 /// Shows the workspace in all the space that is left.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
     live: &Live,
@@ -319,7 +319,7 @@ fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
 }
 
 /// Whether a place is in the workspace or so close that the display still reaches into it.
-pub fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
+pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
     let reach_mm = 20.0;
     let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
     within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])

@@ -36,7 +36,7 @@ pub(crate) struct WorkspaceState {
 
 /// Where the workspace is shown, which some commands need to know.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub(crate) struct Place {
     /// The ground of the workspace when it was drawn last, points.
     pub pane: Rect,
     /// Width and height of the workspace, mm.
@@ -47,7 +47,7 @@ pub struct Place {
 
 impl WorkspaceState {
     /// Takes in what the user wants to see; what does not concern the workspace changes nothing.
-    pub fn take(&mut self, command: &ShowCommand, place: Place) {
+    pub(crate) fn take(&mut self, command: &ShowCommand, place: Place) {
         match *command {
             ShowCommand::Tool(tool) => self.tool = tool,
             ShowCommand::Look(look) => self.look(look, place),

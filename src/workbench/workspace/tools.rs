@@ -29,7 +29,7 @@ type Asked = Vec<Command>;
 
 /// Shows tools and magnification in one row, from right to left. `pane` is where the workspace was
 /// drawn last.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     state: &WorkspaceState,
     pane: Rect,

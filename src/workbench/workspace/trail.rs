@@ -21,7 +21,7 @@ pub(crate) struct Trail {
 
 impl Trail {
     /// Takes in a tick. Says whether the trail looks different now.
-    pub fn take(&mut self, tick: u64, centre: Option<Point>) -> bool {
+    pub(crate) fn take(&mut self, tick: u64, centre: Option<Point>) -> bool {
         if tick <= self.now && self.now != 0 {
             return false;
         }

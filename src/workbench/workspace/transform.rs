@@ -19,7 +19,7 @@ pub(crate) struct ViewTransform {
 
 impl ViewTransform {
     /// Shows `points_per_mm` around `centre` in `rect`.
-    pub fn new(rect: Rect, centre: Point, points_per_mm: f64) -> Self {
+    pub(crate) fn new(rect: Rect, centre: Point, points_per_mm: f64) -> Self {
         Self {
             rect,
             centre,
@@ -28,7 +28,7 @@ impl ViewTransform {
     }
 
     /// Shows the whole of a workspace of `size_mm`, as large as fits in `rect`.
-    pub fn fitted(rect: Rect, size_mm: [f64; 2]) -> Self {
+    pub(crate) fn fitted(rect: Rect, size_mm: [f64; 2]) -> Self {
         let [width_mm, height_mm] = size_mm.map(|mm| if mm > 0.0 { mm } else { 1.0 });
         let points_per_mm = (f64::from(rect.width().max(1.0)) / width_mm)
             .min(f64::from(rect.height().max(1.0)) / height_mm);
@@ -45,22 +45,22 @@ impl ViewTransform {
     }
 
     /// The rectangle, points.
-    pub fn rect(&self) -> Rect {
+    pub(crate) fn rect(&self) -> Rect {
         self.rect
     }
 
     /// The place in the workspace shown at the middle of the rectangle.
-    pub fn centre(&self) -> Point {
+    pub(crate) fn centre(&self) -> Point {
         self.centre
     }
 
     /// How long a length in the workspace is on the screen, points.
-    pub fn length(&self, length_mm: f64) -> f32 {
+    pub(crate) fn length(&self, length_mm: f64) -> f32 {
         narrow(length_mm * self.points_per_mm)
     }
 
     /// The screen's place of a place in the workspace.
-    pub fn screen(&self, place: Point) -> Pos2 {
+    pub(crate) fn screen(&self, place: Point) -> Pos2 {
         let off = place - self.centre;
         let middle = self.rect.center();
         pos2(
@@ -70,7 +70,7 @@ impl ViewTransform {
     }
 
     /// The place in the workspace at a place on the screen.
-    pub fn workspace(&self, screen: Pos2) -> Point {
+    pub(crate) fn workspace(&self, screen: Pos2) -> Point {
         let off = screen - self.rect.center();
         Point::new(
             self.centre.x_mm + f64::from(off.x) / self.points_per_mm,

@@ -62,7 +62,10 @@ pub(super) fn combination<const R: usize, const C: usize, const K: usize>(
 }
 
 /// `factor · matrix`.
-pub fn scaled<const R: usize, const C: usize>(factor: f64, matrix: &Matrix<R, C>) -> Matrix<R, C> {
+pub(super) fn scaled<const R: usize, const C: usize>(
+    factor: f64,
+    matrix: &Matrix<R, C>,
+) -> Matrix<R, C> {
     combination([(factor, matrix)])
 }
 

@@ -19,7 +19,6 @@ mod propagator;
 mod response;
 
 pub(crate) use exponential::exponential;
-pub(crate) use matrix::Matrix;
 pub use propagator::{LinearSystem, Propagator, StepMethod};
 
 #[cfg(test)]

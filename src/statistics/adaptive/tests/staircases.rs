@@ -1,7 +1,8 @@
 //! Staircases against their Markov chains; constant stimuli; turns.
 
 use super::*;
-use crate::psychometric::{Lapse, Model};
+use crate::psychometric::Model;
+use crate::psychometric::prior::Lapse;
 
 fn endless(rule: Rule, steps: [f64; 2], n: u32) -> StaircasePlan {
     StaircasePlan {

@@ -31,11 +31,12 @@ pub use light::{Light, LightEstimate, estimate_light};
 pub(crate) use linear::Blind;
 pub use reflectance::picture_of;
 pub use scale::HeightScale;
+pub use scale::Scaled;
 pub use scale::{mean_smd_um, scaled};
-pub(crate) use source::PictureSource;
+pub use source::PictureSource;
 pub(crate) use textile::to_textile;
 pub use textile::{PictureTextile, relief_um_of};
-pub(crate) use tsai_shah::Edges;
+pub use tsai_shah::Edges;
 
 use serde::{Deserialize, Serialize};
 

@@ -27,7 +27,7 @@ const GAP: f32 = 3.0 * STEP;
 const DECADES: f64 = 4.0;
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
     let size = ui.available_size();
     if size.x >= ROOM_FOR_THREE {
         show_controls(ui, view, wishes);

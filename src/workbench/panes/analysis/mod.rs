@@ -54,7 +54,7 @@ pub(crate) struct Sight {
 }
 
 /// Shows the pane; says how the figures in sight are wanted, if there are any.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     view: &AnalysisView<'_>,
     hands: &mut AnalysisHands<'_>,

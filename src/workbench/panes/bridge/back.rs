@@ -9,7 +9,7 @@ use crate::widgets::button;
 use selvedge_device::FoundPort;
 
 /// How the sentence begins, here and as a notice.
-pub const BACK: &str = "The array is back as";
+pub(crate) const BACK: &str = "The array is back as";
 
 /// Shows what is back, if anything is.
 pub(super) fn show(ui: &mut Ui, back: Option<&FoundPort>, wishes: &mut Wishes) {
@@ -32,7 +32,7 @@ fn words(found: &FoundPort) -> String {
 }
 
 /// The notice of it.
-pub fn notice(found: &FoundPort) -> String {
+pub(crate) fn notice(found: &FoundPort) -> String {
     format!("{}: connect again", words(found))
 }
 

@@ -24,7 +24,7 @@ const CELL: f32 = 42.0;
 const LINE: f32 = 13.0;
 
 /// Shows the section; it opens and closes by its title.
-pub fn show(ui: &mut Ui, view: &PlantView, wishes: &mut Wishes) {
+pub(super) fn show(ui: &mut Ui, view: &PlantView, wishes: &mut Wishes) {
     let tip = "What the emulator’s contactors would do under a finger, beside what they are told";
     let part = ("Displacement by a model", view.is_open);
     let head = told_fold(ui, part, "", |ui| show_open(ui, view, wishes));

@@ -30,7 +30,7 @@ use crate::view::Live;
 use crate::widgets::fold;
 use selvedge_device::FaultWords;
 
-pub use back::BACK;
+pub(crate) use back::BACK;
 pub(crate) use back::notice as back_notice;
 
 /// What the pane is drawn from.
@@ -64,7 +64,12 @@ pub(crate) struct BridgeTyped<'a> {
 }
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, view: &BridgePane<'_>, typed: &mut BridgeTyped<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &BridgePane<'_>,
+    typed: &mut BridgeTyped<'_>,
+    wishes: &mut Wishes,
+) {
     let bridge = view.live.bridge.as_ref();
     link::show_state(ui, bridge, view.target);
     link::show_arming(ui, bridge, view.live.is_stopped, wishes);

@@ -37,7 +37,7 @@ pub(crate) struct Typed<'a> {
 }
 
 /// Shows the pane.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     shelf: &mut Shelf,
     view: &CollectionView<'_>,

@@ -45,7 +45,12 @@ pub(crate) struct CompareView<'a> {
 }
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, comparison: &mut Comparison, view: &CompareView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    comparison: &mut Comparison,
+    view: &CompareView<'_>,
+    wishes: &mut Wishes,
+) {
     ui.spacing_mut().item_spacing.y = STEP;
     controls::show(ui, comparison, view, wishes);
     let palette = Palette::in_ui(ui);

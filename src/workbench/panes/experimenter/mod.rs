@@ -28,7 +28,7 @@ pub(crate) struct ExperimenterHands<'a> {
 pub(crate) type Screen = (ParticipantsWindow, bool);
 
 /// Shows the pane.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     (view, noise, (window, is_blank)): (&ExperimenterView, Option<&NoiseView>, Screen),
     hands: &mut ExperimenterHands<'_>,

@@ -32,7 +32,7 @@ const KEEP: f32 = 164.0;
 
 /// What the pane is drawn from, besides the import.
 #[derive(Debug, Clone, Copy)]
-pub struct ImportView<'a> {
+pub(crate) struct ImportView<'a> {
     /// The textiles of the library.
     pub(crate) shelf: &'a [ShelfItem],
     /// The colours of heights.
@@ -40,7 +40,12 @@ pub struct ImportView<'a> {
 }
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, importing: &mut Importing, view: &ImportView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    importing: &mut Importing,
+    view: &ImportView<'_>,
+    wishes: &mut Wishes,
+) {
     ui.spacing_mut().item_spacing.y = STEP;
     files::take_dropped(ui, wishes);
     let whole = ui.available_rect_before_wrap();

@@ -66,7 +66,7 @@ pub(crate) struct LabHands {
 }
 
 /// Shows the pane.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     view: &LabView<'_>,
     (hands, pictures): (&mut LabHands, &mut LabPictures),

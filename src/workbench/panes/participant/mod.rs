@@ -34,7 +34,7 @@ const TYPED: f32 = 460.0;
 const LINE: f32 = 720.0;
 
 /// Shows the participant's view; where the pointer feels, if there is such a place.
-pub fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes) -> Option<Shown> {
+pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes) -> Option<Shown> {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));

@@ -37,7 +37,7 @@ const EMPTY: [&str; 3] = [
 ];
 
 /// Shows the pane.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     (picturing, textures): (&mut Picturing, &mut PictureTextures),
     wishes: &mut Wishes,

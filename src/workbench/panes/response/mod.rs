@@ -55,7 +55,7 @@ pub(crate) struct ResponseView<'a> {
 }
 
 /// Shows both plots; without a textile, what to do.
-pub fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes) {
     let whole = ui.max_rect();
     let Some(view) = view else {
         let words = "Choose a textile in the workspace, or move the chosen contactor over one";

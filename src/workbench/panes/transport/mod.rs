@@ -17,9 +17,9 @@ use std::fmt;
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
-pub use self::plot::LEVELS_DB;
+pub(crate) use self::plot::LEVELS_DB;
 pub(crate) use self::strip::StripTick;
-pub use self::strip::Timeline;
+pub(crate) use self::strip::Timeline;
 
 use self::picture::Picture;
 use super::Wishes;
@@ -32,7 +32,7 @@ use crate::theme::{self, Palette, STEP};
 use selvedge_foundation::quantity;
 
 /// Height of the bar without its margins, points.
-pub const HEIGHT: f32 = 68.0;
+pub(super) const HEIGHT: f32 = 68.0;
 /// Width of the controls, points.
 const CONTROLS: f32 = 304.0;
 /// Width of the numbers, points.
@@ -112,7 +112,7 @@ impl TransportView<'_> {
 }
 
 /// Shows the bar in the width that there is.
-pub fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     view: &TransportView<'_>,
     state: &mut TransportState,

@@ -13,7 +13,7 @@ use crate::widgets::corners;
 use selvedge_foundation::quantity;
 
 /// Ends of the level axis, dB re 1 µm.
-pub const LEVELS_DB: [f64; 2] = [-10.0, 40.0];
+pub(crate) const LEVELS_DB: [f64; 2] = [-10.0, 40.0];
 /// Space for the numbers on the left and on the right, points.
 const AXES: [f32; 2] = [26.0, 34.0];
 /// Space for the title above and for the time below, points.

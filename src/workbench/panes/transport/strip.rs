@@ -21,7 +21,7 @@ pub(crate) struct StripTick {
 
 /// What the timeline shows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Timeline {
+pub(crate) struct Timeline {
     /// What people call the exploration.
     pub name: String,
     /// What its time is counted from.

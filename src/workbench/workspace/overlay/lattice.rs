@@ -23,7 +23,7 @@ const STRENGTHS: [f32; 2] = [0.9, 0.55];
 
 /// Pictures of a point, from coarse to fine.
 #[derive(Default)]
-pub struct Lattice {
+pub(crate) struct Lattice {
     pictures: Vec<TextureHandle>,
 }
 
@@ -34,7 +34,7 @@ pub(super) fn has_room(points_per_mm: f64) -> bool {
 
 impl Lattice {
     /// Makes the pictures when they are first needed.
-    pub fn prepare(&mut self, ctx: &Context) {
+    pub(crate) fn prepare(&mut self, ctx: &Context) {
         if !self.pictures.is_empty() {
             return;
         }

@@ -5,7 +5,7 @@ mod lattice;
 mod map;
 mod motion;
 
-pub use lattice::Lattice;
+pub(crate) use lattice::Lattice;
 
 pub(super) use map::{paint_legend, words_at};
 pub(super) use motion::{paint_readings, paint_velocities};
@@ -24,7 +24,7 @@ use selvedge_textile::tactile::Band;
 
 /// Something that is drawn over the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Overlay {
+pub(crate) enum Overlay {
     /// The points of the profiles, 1 mm apart.
     Points,
     /// The points that the contactors read.
@@ -55,7 +55,7 @@ const WORDS: [&str; 5] = [
 
 impl Overlays {
     /// Every overlay with its name, in the order in which they are offered.
-    pub const ALL: [(Overlay, &'static str); 5] = [
+    pub(crate) const ALL: [(Overlay, &'static str); 5] = [
         (Overlay::Points, "Points, 1 mm apart"),
         (Overlay::ChosenPoints, "Points that contactors read"),
         (Overlay::Motion, "Velocities and directions"),
@@ -64,7 +64,7 @@ impl Overlays {
     ];
 
     /// With one more or less; of the maps one at a time.
-    pub fn toggled(mut self, overlay: Overlay) -> Self {
+    pub(crate) fn toggled(mut self, overlay: Overlay) -> Self {
         match overlay {
             Overlay::Points => self.points = !self.points,
             Overlay::ChosenPoints => self.chosen_points = !self.chosen_points,
@@ -75,7 +75,7 @@ impl Overlays {
     }
 
     /// Whether it is drawn.
-    pub fn shows(self, overlay: Overlay) -> bool {
+    pub(crate) fn shows(self, overlay: Overlay) -> bool {
         match overlay {
             Overlay::Points => self.points,
             Overlay::ChosenPoints => self.chosen_points,
@@ -90,12 +90,12 @@ impl Overlays {
     }
 
     /// The band whose map is drawn.
-    pub fn map(self) -> Option<Band> {
+    pub(crate) fn map(self) -> Option<Band> {
         self.map
     }
 
     /// What settings keep.
-    pub fn words(self) -> Vec<String> {
+    pub(crate) fn words(self) -> Vec<String> {
         let named = Self::ALL.into_iter().zip(WORDS);
         let shown = named.filter(|((overlay, _), _)| self.shows(*overlay));
         shown.map(|(_, word)| word.to_owned()).collect()
