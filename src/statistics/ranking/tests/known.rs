@@ -1,5 +1,6 @@
 //! Fits whose values follow by hand, or from elsewhere.
 
+use super::super::davidson::davidson;
 use super::super::*;
 use super::assert_close;
 use crate::{Computed, Freedom, normal_density, normal_lower, normal_quantile};

@@ -1,5 +1,6 @@
 //! What has no finite scale, or none at all.
 
+use super::super::davidson::davidson;
 use super::super::*;
 use super::{SIX, assert_close, drawn};
 use crate::Computed;
