@@ -1,0 +1,124 @@
+//! What the engine was told of gains, so that it is told only what changed.
+//!
+//! The gains that are felt are the document's with what is muted left out.
+
+use crate::bench::mute_solo::Audition;
+use selvedge_engine::Command;
+use selvedge_render::RenderScene;
+use selvedge_render::scene::Scene;
+use selvedge_textile::tactile::Tuning;
+
+/// Gains in force.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Felt {
+    tuning: Tuning,
+    cloth_gains_db: Vec<f64>,
+    contactor_mask: Vec<bool>,
+}
+
+impl Felt {
+    /// What is to be felt of a scene with `n_contactors`.
+    pub(crate) fn of(
+        scene: &Scene,
+        tuning: Tuning,
+        audition: &Audition,
+        n_contactors: usize,
+    ) -> Self {
+        let gains = scene.textiles.iter().enumerate();
+        Self {
+            tuning: audition.tuning(tuning),
+            cloth_gains_db: gains
+                .map(|(index, cloth)| audition.cloth_gain_db(index, cloth.gain_db))
+                .collect(),
+            contactor_mask: audition.contactor_mask(n_contactors),
+        }
+    }
+
+    /// What is in force once the engine has a scene that was made by [`Self::in_scene`]: it brings
+    /// gains, and contactors stay as they were.
+    pub(crate) fn after_scene(&self, scene: &Scene) -> Self {
+        Self {
+            tuning: scene.tuning.unwrap_or(self.tuning),
+            cloth_gains_db: scene.textiles.iter().map(|cloth| cloth.gain_db).collect(),
+            contactor_mask: self.contactor_mask.clone(),
+        }
+    }
+
+    /// The scene as the engine ought to prepare it: with these gains.
+    pub(crate) fn in_scene(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        scene.tuning = Some(self.tuning);
+        for (cloth, gain_db) in scene.textiles.iter_mut().zip(&self.cloth_gains_db) {
+            cloth.gain_db = *gain_db;
+        }
+        scene
+    }
+
+    /// Puts these gains into a scene as rendering sees it.
+    pub(crate) fn put_into(&self, scene: &mut RenderScene) {
+        scene.tuning = self.tuning;
+        for (textile, gain_db) in scene.textiles.iter_mut().zip(&self.cloth_gains_db) {
+            textile.scene_gain_db = *gain_db;
+        }
+    }
+
+    /// What the engine must be told when it knows `self` and `new` is to be felt; both are of the
+    /// same textiles.
+    pub fn changes(&self, new: &Self) -> Vec<Command> {
+        let mut commands = Vec::new();
+        if self.tuning != new.tuning {
+            commands.push(Command::SetTuning(new.tuning));
+        }
+        let gains = self.cloth_gains_db.iter().zip(&new.cloth_gains_db);
+        for (textile, (old, &gain_db)) in gains.enumerate() {
+            if old.total_cmp(&gain_db).is_ne() {
+                commands.push(Command::SetTextileGain { textile, gain_db });
+            }
+        }
+        if self.contactor_mask != new.contactor_mask {
+            commands.push(Command::SetContactorMask(new.contactor_mask.clone()));
+        }
+        commands
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::command::Part;
+    use crate::bench::command::edit::Edit;
+    use crate::bench::editing;
+    use selvedge_foundation::geometry::Point;
+    use selvedge_textile::tactile::Band;
+
+    #[test]
+    fn the_engine_is_told_what_changed_and_nothing_else() {
+        let mut scene = Scene {
+            size_mm: [100.0; 2],
+            ..Scene::default()
+        };
+        for id in ["silk", "jute"] {
+            let edit = Edit::AddCloth(id.to_owned(), Point::new(50.0, 50.0));
+            editing::apply(&edit, &mut scene, Tuning::default());
+        }
+        let felt =
+            |scene: &Scene, audition: &Audition| Felt::of(scene, Tuning::default(), audition, 24);
+        let mut audition = Audition::default();
+        let before = felt(&scene, &audition);
+        assert!(before.changes(&felt(&scene, &audition)).is_empty());
+        audition.toggle_mute(Part::Cloth(1));
+        audition.toggle_solo(Part::Band(Band::Low));
+        audition.toggle_mute(Part::Contactor(0));
+        let after = felt(&scene, &audition);
+        let words: Vec<String> = before
+            .changes(&after)
+            .iter()
+            .map(|command| format!("{command:?}"))
+            .collect();
+        assert_eq!(words, ["SetTuning", "SetTextileGain", "SetContactorMask"]);
+        let prepared = after.in_scene(&scene);
+        assert_eq!(prepared.textiles[1].gain_db, f64::NEG_INFINITY);
+        assert_eq!(prepared.textiles[0].gain_db, 0.0);
+        assert_eq!(after.after_scene(&prepared), after, "nothing more to tell");
+    }
+}

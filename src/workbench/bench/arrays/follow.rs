@@ -1,0 +1,186 @@
+//! What a frame does about array profiles: the engine follows, files are written, the wiring of a
+//! device that was not measured is doubted.
+
+use std::time::Duration;
+
+use eframe::egui;
+
+use crate::bench::query;
+use crate::bench::view::BridgePhase;
+use crate::shell::window::Workbench;
+use selvedge_device::{ArrayProfile, BridgeEvent, DeviceUid};
+use selvedge_engine::{Command, Notice};
+
+impl Workbench {
+    /// The profile that ought to be in force.
+    pub fn array(&self) -> ArrayProfile {
+        let chosen = self.settings.kept.array.as_deref();
+        let display = self.document.scene().displays.first();
+        display.map_or_else(ArrayProfile::default, |display| {
+            self.arrays.in_force(chosen, display)
+        })
+    }
+
+    /// Lets the engine follow the profile in force as far as the device allows, and keeps files.
+    pub(crate) fn follow_array(&mut self, ctx: &egui::Context) {
+        let wanted = self.array();
+        let held = self.engine.profile();
+        // A scene with another display is still on its way to the engine.
+        let fits = wanted.n_contactors() == held.n_contactors();
+        let is_due = fits && (wanted != *held || self.arrays.is_refused);
+        let phase = self
+            .transient
+            .live
+            .bridge
+            .as_ref()
+            .map(|bridge| bridge.phase);
+        let is_live = phase == Some(BridgePhase::Armed);
+        let may = !is_live || (wanted.only_lowers(held) && !self.arrays.is_refused);
+        self.arrays.waits = is_due && !may;
+        // A device at rest is configured once a drag is over, not at each of its steps.
+        let is_dragged = ctx.input(|input| input.pointer.any_down());
+        if is_due && may && (is_live || !is_dragged) {
+            self.arrays.is_refused = false;
+            self.send(Command::SetArray(Some(Box::new(wanted))));
+        }
+        if self.arrays.wizard.is_some()
+            && !matches!(phase, Some(BridgePhase::Ready | BridgePhase::Armed))
+        {
+            self.arrays.wizard = None;
+            self.send(Command::Identify(false));
+            let words = "The device is gone: what was identified of it is lost; connect and begin \
+                         again";
+            self.transient.notices.give(words);
+        }
+        self.save_arrays(ctx);
+    }
+
+    /// Takes in what the engine says that concerns the array.
+    pub(crate) fn hear_of_array(&mut self, notice: &Notice) {
+        match notice {
+            Notice::ArrayWaits => self.arrays.is_refused = true,
+            Notice::Bridge(event) => {
+                if let Some(wizard) = &mut self.arrays.wizard {
+                    wizard.hear(event);
+                }
+                if let BridgeEvent::Connected(caps) = event {
+                    self.doubt_wiring(DeviceUid(caps.uid));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Says once of each device that it is not the one that was measured.
+    fn doubt_wiring(&mut self, uid: DeviceUid) {
+        let doubt = self.array().wiring_doubt(uid);
+        if let Some(words) = doubt
+            && self.arrays.doubted.replace(uid) != Some(uid)
+        {
+            self.transient.notices.give(query::capitalised(&words));
+        }
+    }
+
+    fn save_arrays(&mut self, ctx: &egui::Context) {
+        let now_s = ctx.input(|input| input.time);
+        let (failure, wait_s) = self.arrays.save_if_changed(ctx, now_s);
+        if let Some(wait_s) = wait_s {
+            ctx.request_repaint_after(Duration::from_secs_f64(wait_s));
+        }
+        if let Some(failure) = failure {
+            self.transient.notices.give(failure);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::{self, vec2};
+
+    use crate::bench::command::array::ArrayCommand;
+    use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+    use crate::shell::arrangement::Pane;
+    use crate::shell::headless::Headless;
+    use crate::shell::raster::Rasteriser;
+    use selvedge_device::{ArrayProfile, Calibration};
+    use selvedge_textile::tactile::Band;
+
+    fn window() -> Headless {
+        Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap()
+    }
+
+    #[test]
+    fn what_is_changed_of_a_profile_reaches_the_engine_and_stays_with_the_user() {
+        let mut window = window();
+        window.pass(2);
+        window.dispatch(ArrayCommand::Limit(Band::High, 12.5));
+        window.pass(2);
+        assert_eq!(window.bench.engine.profile().limit_um, [50.0, 12.5]);
+        assert!(window.bench.arrays.is_own("exeter-24"));
+        window.dispatch(ArrayCommand::Copy("rig 2".to_owned()));
+        window.dispatch(ArrayCommand::Limit(Band::Low, 1.0));
+        window.pass(2);
+        assert_eq!(window.bench.engine.profile().name, "rig 2");
+        assert_eq!(window.bench.settings.kept.array.as_deref(), Some("rig 2"));
+        window.dispatch(ArrayCommand::Choose(Some("exeter-24".to_owned())));
+        window.pass(2);
+        assert_eq!(window.bench.engine.profile().limit_um, [50.0, 12.5]);
+        window.dispatch(ArrayCommand::Copy("exeter-24".to_owned()));
+        let notices = window.bench.notices();
+        assert!(
+            notices[0].contains("is the name of an array already"),
+            "{notices:?}"
+        );
+        window.dispatch(ArrayCommand::Forget);
+        window.pass(2);
+        assert_eq!(*window.bench.engine.profile(), ArrayProfile::default());
+        assert!(
+            window.bench.document.undo_name().is_none(),
+            "no edit of the scene"
+        );
+    }
+
+    /// Writes a picture where `SELVEDGE_PICTURES` says, for people to look at.
+    #[test]
+    fn limits_that_bite_are_marked_in_every_view_of_the_contactor() {
+        let mut window = window();
+        window.ctx.set_theme(egui::Theme::Dark);
+        let mut rasteriser = Rasteriser::default();
+        rasteriser.apply(&mut window.run().textures_delta);
+        window.dispatch(PlayCommand::Source(PlaySource::Stroke));
+        window.dispatch(ShowCommand::Pane(Pane::Why));
+        window.dispatch(ArrayCommand::Limit(Band::Low, 2.0));
+        for contactor in [6, 13] {
+            let off = Calibration {
+                is_off: true,
+                ..Calibration::default()
+            };
+            window.dispatch(ArrayCommand::Calibrate(contactor, off));
+        }
+        for _ in 0..12 {
+            rasteriser.apply(&mut window.run_after(4).textures_delta);
+        }
+        let dots = &window.bench.transient.live.dots;
+        let off: Vec<usize> = (0..24).filter(|index| dots[*index].bite.off).collect();
+        assert_eq!(off, [6, 13]);
+        for dot in dots.iter().filter(|dot| !dot.bite.off) {
+            assert_eq!(dot.bite.limited[0], dot.amplitude_um[0] > 2.0, "{dot:?}");
+        }
+        assert!(dots.iter().any(|dot| dot.bite.limited[0]));
+        let why = window.bench.transient.why.0.as_ref().unwrap();
+        assert_eq!(why.output.limits.map(|limit| limit.um), [2.0, 50.0]);
+        assert!(why.output.bite.limited[0], "{:?}", why.output);
+        let mut last = window.run();
+        rasteriser.apply(&mut last.textures_delta);
+        let Ok(folder) = std::env::var("SELVEDGE_PICTURES") else {
+            last.drop_without_applying_deltas();
+            return;
+        };
+        let primitives = window.ctx.tessellate(last.shapes, 1.0);
+        let picture = rasteriser.draw(&primitives, [1400, 900], 1.0, egui::Color32::BLACK);
+        let path = std::path::Path::new(&folder).join("limits.png");
+        let png =
+            selvedge_foundation::files::encode_png_rgba(&picture.rgba, 1400, 900, &path).unwrap();
+        std::fs::write(&path, png).unwrap();
+    }
+}

@@ -1,0 +1,380 @@
+//! Every act of the user, as one value.
+//!
+//! Menus, shortcuts, buttons, sliders and tests all say what they want with a [`Command`];
+//! `dispatch.rs` is the one place that does it. Panes never change anything themselves.
+
+pub(crate) mod array;
+pub(crate) mod device;
+pub(crate) mod edit;
+
+pub(crate) use crate::bench::command::array::ArrayCommand;
+pub(crate) use crate::bench::command::device::DeviceCommand;
+pub(crate) use crate::bench::command::edit::Edit;
+
+use std::path::PathBuf;
+
+use eframe::egui;
+
+use crate::bench::export::Exportable;
+use crate::bench::keep::Keep;
+use crate::bench::probe::Probe;
+use crate::bench::sources::SourceCommand;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::shell::arrangement::Pane;
+use crate::shell::perspective::Perspective;
+use crate::tools::accuracy::AccuracyCommand;
+use crate::tools::analysis::command::AnalysisCommand;
+use crate::tools::collection::CollectionCommand;
+use crate::tools::compare::choice::Choice;
+use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::import::ImportCommand;
+use crate::tools::lab::command::LabCommand;
+use crate::tools::picture::PictureCommand;
+use crate::tools::workspace::overlay::Overlay;
+use selvedge_engine::ClipKind;
+use selvedge_foundation::geometry::Point;
+use selvedge_textile::tactile::Band;
+
+/// What the user wants, in the order in which it was said.
+pub(crate) type Wishes = Vec<Command>;
+
+/// Something that the user wants.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Command {
+    /// Everything off, at once, from anywhere.
+    AllOff,
+    /// Change the scene.
+    Edit(Edit),
+    /// Take the last change back.
+    Undo,
+    /// Bring it back again.
+    Redo,
+    /// Do something with the device.
+    Device(DeviceCommand),
+    /// Do something with files.
+    File(FileCommand),
+    /// Move, record and replay.
+    Play(PlayCommand),
+    /// Choose what else moves the display, or hears of it.
+    Source(SourceCommand),
+    /// Compare tunings, textiles or methods.
+    Compare(CompareCommand),
+    /// Change how scenes are rendered, or ask how accurate that is.
+    Accuracy(AccuracyCommand),
+    /// Change what is shown or selected of the library as a whole.
+    Collection(CollectionCommand),
+    /// Bring measurements.
+    Import(ImportCommand),
+    /// Make a textile of a picture.
+    Picture(PictureCommand),
+    /// Keep new textiles in the library.
+    Keep(Keep),
+    /// Do something in the textile lab.
+    Lab(LabCommand),
+    /// Run an experiment.
+    Experiment(ExperimentCommand),
+    /// Analyse the logs of experiments.
+    Analysis(AnalysisCommand),
+    /// Change what is shown how.
+    Show(ShowCommand),
+    /// Do something with the chosen textile, if one is.
+    Chosen(Chosen),
+    /// Put away what asks: a field, a question, the calibration, the help.
+    Dismiss,
+    /// Put away a notice.
+    DismissNotice(u64),
+}
+
+impl From<DeviceCommand> for Command {
+    fn from(command: DeviceCommand) -> Self {
+        Self::Device(command)
+    }
+}
+
+impl From<ArrayCommand> for Command {
+    fn from(command: ArrayCommand) -> Self {
+        Self::Device(DeviceCommand::Array(command))
+    }
+}
+
+impl From<FileCommand> for Command {
+    fn from(command: FileCommand) -> Self {
+        Self::File(command)
+    }
+}
+
+impl From<CompareCommand> for Command {
+    fn from(command: CompareCommand) -> Self {
+        Self::Compare(command)
+    }
+}
+
+impl From<ImportCommand> for Command {
+    fn from(command: ImportCommand) -> Self {
+        Self::Import(command)
+    }
+}
+
+impl From<PictureCommand> for Command {
+    fn from(command: PictureCommand) -> Self {
+        Self::Picture(command)
+    }
+}
+
+impl From<Keep> for Command {
+    fn from(command: Keep) -> Self {
+        Self::Keep(command)
+    }
+}
+
+impl From<PlayCommand> for Command {
+    fn from(command: PlayCommand) -> Self {
+        Self::Play(command)
+    }
+}
+
+impl From<SourceCommand> for Command {
+    fn from(command: SourceCommand) -> Self {
+        Self::Source(command)
+    }
+}
+
+impl From<LabCommand> for Command {
+    fn from(command: LabCommand) -> Self {
+        Self::Lab(command)
+    }
+}
+
+impl From<ShowCommand> for Command {
+    fn from(command: ShowCommand) -> Self {
+        Self::Show(command)
+    }
+}
+
+impl From<Edit> for Command {
+    fn from(edit: Edit) -> Self {
+        Self::Edit(edit)
+    }
+}
+
+/// What keys do with the chosen textile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// Take it away.
+    Remove,
+    /// Mute it, or feel it again.
+    Mute,
+    /// Feel it alone, or with the others again.
+    Solo,
+    /// Lay it on top of the others.
+    Raise,
+}
+
+/// What can be done with files.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FileCommand {
+    /// Ask for a path: by the desktop's dialog, or by a field where there is none.
+    Ask(Purpose),
+    /// Use this path for this purpose.
+    Use(Purpose, PathBuf),
+    /// Begin a scene without textiles.
+    New,
+    /// Open the scene that the program ships.
+    OpenShipped,
+    /// Save the scene where it came from, or ask where.
+    Save,
+    /// Copy what a pane shows as a table.
+    CopyTable(Exportable),
+    /// Close the window; asks first when the scene is not saved.
+    Close,
+    /// Stop the file for other programs that is written.
+    StopClip,
+    /// Go on with what was asked for and let the changes go.
+    LetGo,
+}
+
+/// What a path is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Purpose {
+    /// Open a scene.
+    OpenScene,
+    /// Save the scene.
+    SaveScene,
+    /// Open a recorded exploration to replay.
+    OpenRecording,
+    /// Save the recorded exploration.
+    SaveRecording,
+    /// Save what a pane shows as a picture or a table.
+    Export(Exportable),
+    /// Save the recording for other programs.
+    Clip(ClipKind),
+    /// Take files of measurements to those that are imported.
+    ImportFiles,
+    /// Make a textile of a picture.
+    OpenPicture,
+    /// Run an experiment by this design.
+    OpenDesign,
+    /// Analyse the logs in a folder.
+    OpenLogs,
+    /// Write the report of an analysis into a folder.
+    WriteReport,
+}
+
+/// What moves the display, and how that is recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum PlayCommand {
+    /// Play what can be played, or hold it; with the pointer as the source, explore by itself.
+    Toggle,
+    /// Take positions from here.
+    Source(PlaySource),
+    /// Play one tick, then hold.
+    Step,
+    /// Back to the first tick.
+    Rewind,
+    /// To this tick of the recording.
+    Seek(u64),
+    /// Whether a recording begins again at its end.
+    Loop(bool),
+    /// Begin again at its end if it did not, and the other way round.
+    ToggleLoop,
+    /// Begin or end a recording.
+    ToggleRecording,
+    /// Turn the display by this much, degrees counter-clockwise.
+    Turn(f64),
+    /// Turn the display back to the scene's own angle.
+    TurnBack,
+}
+
+/// What moves the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PlaySource {
+    /// The pointer.
+    Pointer,
+    /// The display by itself, along a stroke.
+    Stroke,
+    /// The recording at hand.
+    Recording,
+    /// The tablet or program that was chosen last.
+    Input,
+}
+
+/// What is compared. Never undoable.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum CompareCommand {
+    /// Compare this.
+    Choose(Choice),
+    /// Hold the present tuning as A, to compare it with what comes.
+    Hold,
+    /// Compare now.
+    Run,
+    /// Stop comparing.
+    Cancel,
+    /// Show this tick of the recording at hand.
+    Seek(u64),
+}
+
+/// What is shown how. Never undoable.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ShowCommand {
+    /// Follow the system's theme, or choose one.
+    Theme(egui::ThemePreference),
+    /// Choose the colours that stand for numbers.
+    ColourMap(ColourMap),
+    /// Size of everything: 1 is 100 %.
+    Zoom(f32),
+    /// Decide what a drag in the workspace does.
+    Tool(Tool),
+    /// Look at another part of the workspace.
+    Look(Look),
+    /// Show or hide a pane; a pane behind others comes to the front.
+    Pane(Pane),
+    /// Arrange the window for this.
+    Perspective(Perspective),
+    /// Put every pane back in its place.
+    DefaultArrangement,
+    /// Look closer at this contactor.
+    SelectContactor(usize),
+    /// Choose the textile at this place in the scene's list, or none.
+    SelectCloth(Option<usize>),
+    /// Do not feel this.
+    Mute(Part),
+    /// Feel only what is solo.
+    Solo(Part),
+    /// Feel everything again.
+    HearAll,
+    /// Write numbers into the heatmaps, or no longer.
+    ToggleNumbers,
+    /// Grey what is too weak to be felt by the model, or no longer.
+    ToggleThreshold,
+    /// Hold the scale of amplitudes, or let it follow them.
+    LockScale(bool),
+    /// The largest amplitude of the scale, µm; holds it.
+    ScaleTop(f64),
+    /// What the contactors' dots show by what.
+    DotStyle(DotStyle),
+    /// Draw this over the cloth, or no longer.
+    Overlay(Overlay),
+    /// Ask what textiles would give at this velocity.
+    Probe(Probe),
+    /// The pointer rests on this: every view marks it. Said with every frame, and done without a
+    /// dispatch, so that nothing is drawn anew while the pointer stays.
+    Hover(Part),
+    /// Begin to calibrate the screen to true size.
+    Calibrate,
+    /// The screen has this many pixels per millimetre.
+    Calibrated(f64),
+    /// Hold the explanation of the chosen contactor, or let it follow again.
+    FreezeWhy,
+    /// Copy the explanation of the chosen contactor as text.
+    CopyWhy,
+    /// Show or hide the list of keys.
+    Help,
+}
+
+/// What a drag in the workspace does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Tool {
+    /// It feels.
+    #[default]
+    Explore,
+    /// It moves textiles.
+    Arrange,
+}
+
+/// Which part of the workspace is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Look {
+    /// All of it.
+    Fit,
+    /// One millimetre is one millimetre on the screen.
+    TrueSize,
+    /// Closer by this factor, with this place of the workspace held where it is on the screen.
+    Zoom(f64, Point),
+    /// Closer by this factor around the middle.
+    ZoomBy(f64),
+    /// This place in the middle.
+    Centre(Point),
+}
+
+/// How a contactor's two amplitudes are drawn as a dot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub(crate) enum DotStyle {
+    /// A40 is its size, A320 its glow.
+    #[default]
+    SizeAndGlow,
+    /// Both by size: A40 the disc, A320 a ring around it.
+    Size,
+    /// Both by brightness: the larger of the two.
+    Brightness,
+}
+
+/// Something that can be muted or felt alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// A band.
+    Band(Band),
+    /// The textile at this place in the scene's list.
+    Cloth(usize),
+    /// A contactor.
+    Contactor(usize),
+}

@@ -1,0 +1,284 @@
+//! The document: the scene, undoable and saved.
+//!
+//! Layout (what is shown how) and transient state (notices, fields being typed in, the device) are
+//! not here and are never undone. Knows nothing of windows.
+
+use std::path::{Path, PathBuf};
+
+use crate::bench::command::edit::{Edit, Target};
+use crate::bench::editing;
+use crate::bench::history::{History, Moment};
+use selvedge_render::scene::{Scene, SceneError};
+use selvedge_textile::is_of_the_program;
+use selvedge_textile::tactile::Tuning;
+
+/// A scene that is being edited.
+#[derive(Debug, Clone)]
+pub struct Document {
+    scene: Scene,
+    saved: Scene,
+    path: Option<PathBuf>,
+    default_tuning: Tuning,
+    history: History<Scene, Target>,
+}
+
+impl Document {
+    /// A scene as it was opened; without a path it is one that the program ships.
+    pub fn new(scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
+        Self {
+            saved: scene.clone(),
+            scene,
+            path,
+            default_tuning,
+            history: History::new(),
+        }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Where it was opened or saved.
+    pub fn path(&self) -> Option<&PathBuf> {
+        self.path.as_ref()
+    }
+
+    /// Whether it differs from its file.
+    pub fn is_edited(&self) -> bool {
+        self.scene != self.saved
+    }
+
+    /// The tuning of a scene that states none.
+    pub fn default_tuning(&self) -> Tuning {
+        self.default_tuning
+    }
+
+    /// The tuning in force.
+    pub fn tuning(&self) -> Tuning {
+        self.scene.tuning.unwrap_or(self.default_tuning)
+    }
+
+    /// Makes a change. One that makes no sense is refused and nothing happens.
+    pub(crate) fn edit(&mut self, edit: &Edit, now: Moment) -> Result<(), SceneError> {
+        let mut scene = self.scene.clone();
+        editing::apply(edit, &mut scene, self.tuning());
+        if scene == self.scene {
+            return Ok(());
+        }
+        scene.check()?;
+        let target = edit.target();
+        self.history.begin(&self.scene, target, target.label(), now);
+        if !target.joins() {
+            self.history.settle();
+        }
+        self.scene = scene;
+        Ok(())
+    }
+
+    /// Takes the last step back.
+    pub(crate) fn undo(&mut self) -> Option<&'static str> {
+        self.history.undo(&mut self.scene)
+    }
+
+    /// Takes the last step back for good: it turned out to be impossible.
+    pub(crate) fn take_back(&mut self) {
+        self.history.undo(&mut self.scene);
+        self.history.forget_undone();
+    }
+
+    /// Brings the last undone step back.
+    pub(crate) fn redo(&mut self) -> Option<&'static str> {
+        self.history.redo(&mut self.scene)
+    }
+
+    /// What undo would take back.
+    pub(crate) fn undo_name(&self) -> Option<&'static str> {
+        self.history.undo_name(&self.scene)
+    }
+
+    /// What redo would bring back.
+    pub(crate) fn redo_name(&self) -> Option<&'static str> {
+        self.history.redo_name()
+    }
+
+    /// Takes textiles from the library in `folder`, which has all that there were before: in every
+    /// state that undo and redo can bring back as well.
+    pub fn use_library(&mut self, folder: &Path) {
+        self.scene.library = Some(folder.to_owned());
+        self.history
+            .change_all(|scene| scene.library = Some(folder.to_owned()));
+    }
+
+    /// Writes the scene to `path`, which is its place from now on.
+    pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
+        let mut scene = self.scene.clone();
+        if let Some(old) = self
+            .path
+            .as_deref()
+            .filter(|old| old.parent() != path.parent())
+        {
+            // A library named relative to the old place would not be found from the new one.
+            scene.library = scene.library_folder(old).map(|folder| {
+                if is_of_the_program(&folder) {
+                    return folder;
+                }
+                std::path::absolute(&folder).unwrap_or(folder)
+            });
+        }
+        scene.write(path)?;
+        self.scene.library.clone_from(&scene.library);
+        self.saved = self.scene.clone();
+        self.path = Some(path.to_owned());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use selvedge_render::scene::PlacedTextile;
+    use selvedge_scratch::ScratchFolder;
+    use selvedge_textile::tactile::Band;
+
+    fn document() -> Document {
+        let textile = PlacedTextile {
+            id: "silk".to_owned(),
+            size_mm: [10.0; 2],
+            ..empty()
+        };
+        let scene = Scene {
+            name: "Test".to_owned(),
+            size_mm: [100.0; 2],
+            textiles: vec![textile],
+            displays: vec![selvedge_render::scene::Display::default()],
+            ..Scene::default()
+        };
+        Document::new(
+            scene,
+            None,
+            Tuning {
+                gain_db: -3.0,
+                ..Tuning::default()
+            },
+        )
+    }
+
+    fn empty() -> PlacedTextile {
+        PlacedTextile {
+            id: String::new(),
+            origin_mm: selvedge_foundation::geometry::Point::default(),
+            size_mm: [1.0; 2],
+            rotation_deg: 0.0,
+            gain_db: 0.0,
+            label: String::new(),
+        }
+    }
+
+    fn at(press: u64) -> Moment {
+        Moment {
+            press,
+            is_down: true,
+            t_s: press as f64,
+        }
+    }
+
+    #[test]
+    fn an_edit_starts_from_the_librarys_tuning_and_undo_goes_back_to_none() {
+        let mut document = document();
+        document.edit(&Edit::Compression(0.5), at(1)).unwrap();
+        let tuning = document.tuning();
+        assert_eq!((tuning.gain_db, tuning.compression), (-3.0, 0.5));
+        assert!(document.is_edited(), "a changed tuning is an edit");
+        assert_eq!(document.undo(), Some("compression"));
+        assert_eq!(document.scene().tuning, None);
+        assert!(!document.is_edited(), "undone");
+    }
+
+    #[test]
+    fn a_change_that_makes_no_sense_changes_nothing() {
+        let mut document = document();
+        for edit in [Edit::MasterGain(f64::NAN), Edit::Compression(1.5)] {
+            assert!(document.edit(&edit, at(1)).is_err(), "{edit:?}");
+        }
+        document.edit(&Edit::TextileGain(7, 3.0), at(2)).unwrap();
+        assert!(!document.is_edited(), "nothing changed");
+        assert_eq!(document.undo(), None);
+    }
+
+    #[test]
+    fn saving_is_no_step_of_undo() {
+        let folder = ScratchFolder::made("document");
+        let path = folder.join("a.scene.toml");
+        let mut document = document();
+        document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
+        document.save_as(&path).unwrap();
+        assert!(!document.is_edited(), "saved");
+        assert_eq!(Scene::read(&path).unwrap(), *document.scene());
+        document.undo();
+        assert!(document.is_edited(), "undone after saving");
+    }
+
+    #[test]
+    fn a_library_that_takes_over_is_there_in_every_state_of_undo() {
+        let mut document = document();
+        document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
+        document.edit(&Edit::MasterGain(1.0), at(2)).unwrap();
+        document.undo();
+        let own = Path::new("/own/textiles");
+        document.use_library(own);
+        assert!(document.is_edited(), "the file names another");
+        for step in [Document::undo, Document::redo, Document::redo] {
+            assert!(step(&mut document).is_some());
+            assert_eq!(document.scene().library.as_deref(), Some(own));
+        }
+    }
+
+    #[test]
+    fn a_library_of_the_program_keeps_its_name_wherever_the_scene_is_saved() {
+        let folder = ScratchFolder::made("moved");
+        for (named, is_kept) in [("seventy-four", true), ("textiles", false)] {
+            let scene = Scene {
+                library: Some(named.into()),
+                ..document().scene().clone()
+            };
+            let from = Path::new("/somewhere/a.scene.toml").to_owned();
+            let mut document = Document::new(scene, Some(from), Tuning::default());
+            document.save_as(&folder.join("b.scene.toml")).unwrap();
+            let library = document.scene().library.clone().unwrap();
+            assert_eq!(
+                library == Path::new(named),
+                is_kept,
+                "{}",
+                library.display()
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn undo_takes_everything_back_and_redo_brings_it_again(
+            edits in prop::collection::vec((0_u8..5, -30.0_f64..30.0, 0_u64..6), 0..30)
+        ) {
+            let mut document = document();
+            let first = document.scene().clone();
+            for (kind, value, press) in edits {
+                let edit = match kind {
+                    0 => Edit::MasterGain(value),
+                    1 => Edit::BandGain(Band::Low, value),
+                    2 => Edit::BandGain(Band::High, value),
+                    3 => Edit::Compression((value + 30.0) / 60.0),
+                    _ => Edit::TextileGain(0, value),
+                };
+                document.edit(&edit, at(press)).unwrap();
+            }
+            let last = document.scene().clone();
+            while document.undo().is_some() {}
+            prop_assert_eq!(document.scene(), &first);
+            while document.redo().is_some() {}
+            prop_assert_eq!(document.scene(), &last);
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Export: what a pane shows, as a table and as a figure, with where it comes from.
+//!
+//! ```text
+//! button ─▶ FileCommand::Ask(Purpose::Export(what)) ─▶ gather: the pane's own view
+//!      ─▶ one function a pane: view ─▶ Exported { sheet, figure, origin }, kept while the path
+//!      is asked for ─▶ .csv, .svg or .png by the name's ending, written whole by a job
+//! ```
+//!
+//! To export another pane: write a function from its view to an [`Exported`] in a file here, and
+//! give `gather_of` (gather.rs) an arm that fetches the view and calls it. Button, menu, dialog,
+//! notices, kinds of files and provenance come with that.
+//!
+//! # Tables
+//! UTF-8, comma, decimal point, one header line with units in the names, one row an observation,
+//! shortest round-trip digits; a cell is empty where there is no finite number (silence has no
+//! level). Before the header stand lines `# key = value` that say where the numbers come from. What
+//! reads tables in this program passes over such lines; others call them comments.
+//!
+//! # Invariants
+//! - every number is one that the pane shows, from the same functions
+//! - the same view gives the same bytes: no clock, no path, no name of a machine
+//! - what is exported is what was seen when it was asked for, however long the path takes
+
+pub(crate) mod button;
+pub(crate) mod cells;
+pub(crate) mod gather;
+pub(crate) mod origin;
+pub(crate) mod sheet;
+#[cfg(test)]
+mod tests;
+pub(crate) mod write;
+
+#[cfg(test)]
+pub(crate) use crate::bench::export::gather::is_exportable;
+pub(crate) use crate::bench::export::origin::Origin;
+pub(crate) use crate::bench::export::sheet::Sheet;
+pub(crate) use crate::bench::export::write::Kind;
+#[cfg(test)]
+pub(crate) use crate::tools::import::export::measurement;
+
+use crate::kit::theme::colour_map::ColourMap;
+use crate::shell::arrangement::Pane;
+use selvedge_chart::{Axis, ColourBar, Figure, Row};
+
+/// Colours of a bar: more than the eye tells apart.
+pub(crate) const N_COLOURS: u8 = 33;
+
+/// Something that can be exported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Exportable {
+    /// What a pane shows.
+    Pane(Pane),
+    /// The strips at the bottom.
+    Timeline,
+    /// A figure of the section of an analysis that is at hand.
+    Analysed,
+}
+
+impl Exportable {
+    /// What people call it.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::Pane(Pane::Tuning) => "Compression curve",
+            Self::Pane(Pane::Workspace) => "Map over the cloth",
+            Self::Pane(Pane::Bridge) => "Times on the link",
+            Self::Pane(pane) => pane.title(),
+            Self::Timeline => "Timeline",
+            Self::Analysed => "Analysis",
+        }
+    }
+
+    /// What its file is called: `contact-spectrum.png`.
+    pub(crate) fn file_name(self, kind: Kind) -> String {
+        let stem = self.title().to_lowercase().replace(' ', "-");
+        format!("{stem}.{}", kind.ending())
+    }
+}
+
+/// A table and a figure of the same numbers, and where they come from.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Exported {
+    /// The numbers.
+    pub sheet: Sheet,
+    /// The picture, without provenance.
+    pub figure: Figure,
+    /// Where they come from.
+    pub origin: Origin,
+}
+
+impl Exported {
+    /// A table and the rows of its figure. `note` says what is drawn how.
+    pub(crate) fn new(
+        title: String,
+        sheet: Sheet,
+        rows: Vec<Row>,
+        note: &str,
+        origin: Origin,
+    ) -> Self {
+        let figure = Figure {
+            title,
+            rows,
+            notes: std::iter::once(note.to_owned())
+                .chain(origin.lines())
+                .collect(),
+            about: origin.pairs(),
+        };
+        Self {
+            sheet,
+            figure,
+            origin,
+        }
+    }
+}
+
+/// The colour of a share 0…1 of a map's scale.
+pub(crate) fn rgb(map: ColourMap, share: f64) -> [u8; 3] {
+    let [r, g, b, _] = map.colour(share).to_array();
+    [r, g, b]
+}
+
+/// The bar of a map over an axis.
+pub(crate) fn bar(map: ColourMap, axis: Axis) -> ColourBar {
+    let last = f64::from(N_COLOURS - 1);
+    let colours = (0..N_COLOURS).map(|i| rgb(map, f64::from(i) / last));
+    ColourBar {
+        axis,
+        colours: colours.collect(),
+    }
+}

@@ -1,0 +1,37 @@
+//! Files that a window has opened before anything is exported.
+
+use super::*;
+use crate::tools::import::ImportCommand;
+use crate::tools::import::tests::export;
+use crate::tools::picture::PictureCommand;
+
+impl Headless {
+    /// Reads strokes of the tester.
+    pub fn import(&mut self) {
+        let folder = ScratchFolder::made("strokes");
+        let path = folder.write("twill.txt", export());
+        self.dispatch(ImportCommand::Add(vec![path]));
+        self.bench.follow_import(&self.ctx);
+    }
+
+    /// Works out a picture of a cloth.
+    pub(crate) fn open_picture(&mut self) {
+        let folder = ScratchFolder::made("picture");
+        let path = folder.join("weave.png");
+        let grey = |i: u32| {
+            let (x, y) = (f64::from(i % 160), f64::from(i / 160));
+            let shares = [0.45 * x, 0.35 * y, 0.45 * x + 0.35 * y].map(f64::sin);
+            0.5 + 0.15 * shares.iter().sum::<f64>()
+        };
+        let picture = files::GrayImage {
+            width: 160,
+            height: 120,
+            values: files::gray_values((0..160 * 120).map(grey)),
+            white: u16::MAX,
+            texts: Vec::new(),
+        };
+        fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
+        self.dispatch(PictureCommand::Open(path));
+        self.bench.follow_picture(&self.ctx);
+    }
+}

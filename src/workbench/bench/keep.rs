@@ -1,0 +1,246 @@
+//! New textiles from the window: kept in the scene's library, and felt if that is wanted.
+//!
+//! A library that is part of the program cannot take any. Then the user's own folder takes them: it
+//! begins as a copy of that library, and the scene uses it from then on, with all it had.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui;
+
+use crate::bench::job::{Job, Polled};
+use crate::bench::view::ShelfItem;
+use crate::shell::error::AppError;
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::{BuiltFile, Library, TextileError, n_threads};
+
+/// A textile that was made in the window and lies in no folder yet.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NewTextile {
+    /// The id that it is wished to have; the next free one is taken when there is such a textile.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// Its files, the manifest among them.
+    pub files: Vec<BuiltFile>,
+}
+
+/// What can be done with new textiles.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Keep {
+    /// Keep them in the library.
+    Save(Arc<Vec<NewTextile>>),
+    /// Keep them, and lay the first under the display.
+    Feel(Arc<Vec<NewTextile>>),
+}
+
+/// Textiles that were kept.
+#[derive(Debug)]
+pub(crate) struct Kept {
+    /// The library that has them now.
+    pub library: Arc<Library>,
+    /// Its textiles.
+    pub(crate) shelf: Vec<ShelfItem>,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The library that the window had when this was asked for.
+    pub before: PathBuf,
+    /// The ids that the new ones got.
+    pub ids: Vec<String>,
+    /// Whether the first is to be felt.
+    pub(crate) is_to_feel: bool,
+}
+
+/// Keeps textiles, one wish at a time.
+#[derive(Debug, Default)]
+pub(crate) struct Keeping {
+    job: Option<Job<Result<Kept, AppError>>>,
+    next: Vec<Keep>,
+    /// The folder that holds the user's own libraries; a stepped window has none.
+    pub(crate) own_folder: Option<PathBuf>,
+}
+
+impl Keeping {
+    /// Whether a thread is at work.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.job.is_some()
+    }
+
+    /// Begins to keep textiles in `library`, or queues the wish. With `is_at_once` it is done here
+    /// and now.
+    pub(crate) fn ask(
+        &mut self,
+        keep: Keep,
+        library: &Arc<Library>,
+        ctx: &egui::Context,
+        is_at_once: bool,
+    ) -> Option<Result<Kept, AppError>> {
+        if self.is_busy() {
+            self.next.push(keep);
+            return None;
+        }
+        let folder = match self.folder_for(library) {
+            Ok(folder) => folder,
+            Err(error) => return Some(Err(error)),
+        };
+        let library = Arc::clone(library);
+        let work = move || keep_in(&library, folder, &keep);
+        if is_at_once {
+            return Some(work());
+        }
+        match Job::start("selvedge-keep", ctx, work) {
+            Ok(job) => {
+                self.job = Some(job);
+                None
+            }
+            Err(error) => Some(Err(wrong(format!(
+                "The textile was not kept: {error}; try again"
+            )))),
+        }
+    }
+
+    /// What came of the last wish, once it is there, and the wish that waits next.
+    pub(crate) fn poll(&mut self) -> Option<(Result<Kept, AppError>, Option<Keep>)> {
+        let outcome = match self.job.as_ref()?.poll() {
+            Polled::Working => return None,
+            Polled::Done(outcome) => outcome,
+            Polled::BrokeOff => {
+                let words = "The textile was not kept: the work broke off; try again";
+                Err(wrong(words.to_owned()))
+            }
+        };
+        self.job = None;
+        let next = (!self.next.is_empty()).then(|| self.next.remove(0));
+        Some((outcome, next))
+    }
+
+    /// Where this library keeps new textiles: in its own folder, if it is one.
+    fn folder_for(&self, library: &Library) -> Result<PathBuf, AppError> {
+        let root = library.root();
+        if root.is_dir() {
+            return Ok(root);
+        }
+        let Some(own) = &self.own_folder else {
+            let words = "This system has no folder for a user's files; save the scene with a \
+                         library folder of its own, then keep the textile";
+            return Err(wrong(words.to_owned()));
+        };
+        let name = match root.file_stem() {
+            Some(stem) if !library.is_shipped() => Path::new(stem).to_owned(),
+            _ => PathBuf::from("textiles"),
+        };
+        Ok(own.join(name))
+    }
+}
+
+fn wrong(words: String) -> AppError {
+    TextileError::Model(words).into()
+}
+
+fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppError> {
+    let (new, is_to_feel) = match keep {
+        Keep::Save(new) => (new, false),
+        Keep::Feel(new) => (new, true),
+    };
+    let textiles: Vec<(String, Vec<BuiltFile>)> = new
+        .iter()
+        .map(|new| (new.id.clone(), new.files.clone()))
+        .collect();
+    let before = library.root();
+    let (library, ids) =
+        unheard(|progress| library.keep(&textiles, &folder, n_threads(), progress))?;
+    Ok(Kept {
+        shelf: crate::bench::library_view::items_of(&library),
+        library: Arc::new(library),
+        folder,
+        before,
+        ids,
+        is_to_feel,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::vec2;
+
+    use super::*;
+    use crate::bench::command::Command;
+    use crate::shell::headless::Headless;
+    use selvedge_scratch::ScratchFolder;
+    use selvedge_textile::{Manifest, build};
+
+    /// A window whose own libraries lie in a folder of this test's.
+    fn window(name: &str) -> (Headless, ScratchFolder) {
+        let folder = ScratchFolder::new(name);
+        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        window.bench.transient.keeping.own_folder = Some(folder.to_owned());
+        window.pass(1);
+        (window, folder)
+    }
+
+    fn new_textiles(n: usize) -> Arc<Vec<NewTextile>> {
+        let make = |seed| {
+            let text = format!(
+                "name = \"Own\"\nconstruction = \"other\"\nfibre = \"\"\n\
+                 [source]\nkind = \"brownian\"\nhurst = 0.5\nsmd_um = 3.0\nseed = {seed}\n"
+            );
+            let path = Path::new("own.toml");
+            NewTextile {
+                id: "own".to_owned(),
+                name: "Own".to_owned(),
+                files: build(&Manifest::from_toml(&text, path).unwrap(), path).unwrap(),
+            }
+        };
+        Arc::new((1..=n).map(make).collect())
+    }
+
+    #[test]
+    fn a_new_textile_is_felt_and_the_scene_takes_the_users_own_library() {
+        let (mut window, folder) = window("feel");
+        window.dispatch(Keep::Feel(new_textiles(1)));
+        window.pass(1);
+        let bench = &window.bench;
+        let own = folder.join("textiles");
+        assert_eq!(
+            bench.document.scene().library.as_deref(),
+            Some(own.as_path())
+        );
+        let ids: Vec<&str> = bench.loaded.textiles().iter().map(|t| t.id()).collect();
+        assert_eq!(ids.len(), 5, "four alternatives and the new one");
+        assert_eq!(ids[4], "own");
+        assert!(bench.shelf.item("own").is_some() && bench.shelf.items().len() == 17);
+        window.dispatch(Command::Undo);
+        window.pass(1);
+        let bench = &window.bench;
+        assert_eq!(bench.loaded.textiles().len(), 4, "one step back");
+        assert_eq!(
+            bench.document.scene().library.as_deref(),
+            Some(own.as_path()),
+            "the library has all that there was"
+        );
+    }
+
+    #[test]
+    fn several_are_kept_with_numbers_and_the_next_go_into_the_same_folder() {
+        let (mut window, _folder) = window("several");
+        window.dispatch(Keep::Save(new_textiles(2)));
+        window.dispatch(Keep::Save(new_textiles(1)));
+        window.pass(1);
+        let ids = window.bench.loaded.library().ids()[16..].to_vec();
+        assert_eq!(ids, ["own", "own-2", "own-3"]);
+        assert_eq!(window.bench.loaded.textiles().len(), 4, "none was placed");
+    }
+
+    #[test]
+    fn without_a_folder_nothing_is_kept_and_a_sentence_says_so() {
+        let (mut window, folder) = window("nowhere");
+        window.bench.transient.keeping.own_folder = None;
+        window.dispatch(Keep::Feel(new_textiles(1)));
+        window.pass(1);
+        let shown = window.bench.transient.notices.shown();
+        assert_eq!(shown.len(), 1);
+        assert!(shown[0].text.contains("no folder"), "{}", shown[0].text);
+        assert_eq!(window.bench.loaded.library().ids().len(), 16);
+        assert!(!folder.exists());
+    }
+}

@@ -1,0 +1,123 @@
+//! Opening a scene: everything that takes longer than a frame, done on a named thread.
+//!
+//! What comes back is complete (textiles, tables, the library's names) or one line that says what
+//! is wrong; until then, and after a failure, the last scene stays.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui;
+
+use crate::bench::job::{Job, Polled};
+use crate::bench::rendering::Rendering;
+use crate::bench::settings::build_cache;
+use crate::bench::view::ShelfItem;
+use crate::shell::error::AppError;
+use selvedge_engine::PreparedScene;
+use selvedge_render::array::TableCache;
+use selvedge_render::scene::LoadedScene;
+
+/// A scene without textiles over the shipped library.
+const EMPTY: &str =
+    "name = \"New scene\"\nsize_mm = [260.0, 260.0]\n[[display]]\ngeometry = \"exeter-24\"\n";
+
+/// Where a scene comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// Nowhere: it has no textiles yet.
+    New,
+    /// The program.
+    Shipped,
+    /// A file.
+    File(PathBuf),
+}
+
+/// A scene that is ready to be shown and felt.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    /// Where it came from.
+    pub path: Option<PathBuf>,
+    /// The scene with its textiles.
+    pub loaded: LoadedScene,
+    /// The same, ready for the engine.
+    pub prepared: PreparedScene,
+    /// How it was prepared.
+    pub rendering: Rendering,
+    /// The tables that were made for it.
+    pub cache: TableCache,
+    /// The textiles of its library.
+    pub(crate) shelf: Vec<ShelfItem>,
+}
+
+/// A scene on its way.
+#[derive(Debug)]
+pub(crate) struct Opening {
+    origin: Origin,
+    job: Job<Result<Box<Opened>, AppError>>,
+}
+
+impl Opening {
+    /// Begins to open a scene; `ctx` is woken when that is done.
+    pub(crate) fn start(
+        origin: Origin,
+        rendering: Rendering,
+        ctx: &egui::Context,
+    ) -> std::io::Result<Self> {
+        let from = origin.clone();
+        let work = move || open(from, rendering).map(Box::new);
+        let job = Job::start("selvedge-open", ctx, work)?;
+        Ok(Self { origin, job })
+    }
+
+    /// The outcome, once it is there.
+    pub(crate) fn poll(&self) -> Option<Result<Box<Opened>, AppError>> {
+        match self.job.poll() {
+            Polled::Done(result) => Some(result),
+            Polled::Working => None,
+            Polled::BrokeOff => {
+                let what = format!("{:?}: opening it broke off", self.origin);
+                let mend = "please report the scene".to_owned();
+                Some(Err(selvedge_render::scene::SceneError::Value {
+                    what,
+                    mend,
+                }
+                .into()))
+            }
+        }
+    }
+}
+
+/// Opens a scene on this thread.
+pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppError> {
+    let loaded = match &origin {
+        Origin::New => LoadedScene::from_toml(EMPTY, Path::new("new scene"))?,
+        Origin::Shipped => LoadedScene::shipped()?,
+        Origin::File(path) => LoadedScene::read(path, build_cache().as_ref())?,
+    };
+    let mut cache = TableCache::default();
+    let accuracy = rendering.accuracy();
+    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
+    Ok(Opened {
+        path: match origin {
+            Origin::File(path) => Some(path),
+            Origin::New | Origin::Shipped => None,
+        },
+        prepared,
+        rendering,
+        cache,
+        shelf: crate::bench::library_view::items_of(loaded.library()),
+        loaded,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_scene_has_the_shipped_library_and_nothing_in_it() {
+        let opened = open(Origin::New, Rendering::default()).unwrap();
+        assert!(opened.loaded.scene().textiles.is_empty() && opened.path.is_none());
+        assert_eq!(opened.shelf.len(), 16);
+        assert_eq!(opened.prepared.n_contactors(), 24);
+    }
+}

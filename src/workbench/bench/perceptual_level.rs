@@ -1,0 +1,173 @@
+//! What amplitudes feel like, in words and numbers for the screen: levels above the threshold of
+//! detection, intensity, balance.
+//!
+//! All of it comes from the model of [`Perception`] and is marked as one. Nothing here ever reaches
+//! what is rendered.
+
+use crate::bench::view::SceneView;
+use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db, with_unit};
+use selvedge_textile::tactile::{
+    Band, Perception, detection_threshold_db, just_noticeable_db, vibrating_mean_um,
+};
+
+/// Where numbers above threshold come from, for tips.
+pub(crate) const SOURCE: &str = "dB SL: above the threshold of detection. A model of published \
+                                 averages, ±3 dB, not a measurement of anybody’s finger: “Above \
+                                 threshold” in the guide to the workbench";
+
+/// What a display feels like at one tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sensation {
+    /// Contactors that vibrate: the more, the lower the threshold at 320 Hz.
+    pub n_vibrating: usize,
+    /// Thresholds of detection of both bands, dB re 1 µm peak.
+    pub threshold_db: [f64; 2],
+    /// The display as a whole: of the mean over the contactors that vibrate.
+    pub whole: Perception,
+}
+
+impl Default for Sensation {
+    /// Of a display that is silent.
+    fn default() -> Self {
+        Self::of(std::iter::empty())
+    }
+}
+
+impl Sensation {
+    /// Of a display with these amplitudes [A40, A320], µm.
+    pub(crate) fn of(amplitudes_um: impl Iterator<Item = [f64; 2]>) -> Self {
+        let (n_vibrating, mean_um) = vibrating_mean_um(amplitudes_um);
+        Self {
+            n_vibrating,
+            threshold_db: Band::ALL.map(|band| detection_threshold_db(band, n_vibrating)),
+            whole: Perception::of(mean_um, n_vibrating),
+        }
+    }
+
+    /// Levels of one contactor above the thresholds, dB; −∞ for silence.
+    pub(crate) fn above_db(&self, amplitudes_um: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|band| {
+            let um = amplitudes_um[band];
+            let level = if um > 0.0 {
+                level_db(um)
+            } else {
+                f64::NEG_INFINITY
+            };
+            level - self.threshold_db[band]
+        })
+    }
+
+    /// Whether each band of one contactor is too weak to be felt.
+    pub(crate) fn is_below(&self, amplitudes_um: [f64; 2]) -> [bool; 2] {
+        self.above_db(amplitudes_um).map(|above_db| above_db < 0.0)
+    }
+
+    /// A line for each band of one contactor: amplitude and level above threshold.
+    pub(crate) fn band_lines(&self, amplitudes_um: [f64; 2]) -> String {
+        let above = self.above_db(amplitudes_um).map(above_words);
+        let [low, high] = amplitudes_um.map(|um| with_unit(um, 2, "µm"));
+        let [above_low, above_high] = above;
+        format!("40 Hz  {low}, {above_low}\n320 Hz  {high}, {above_high}\n(SL: a model)")
+    }
+}
+
+/// A level above threshold: `−4.2 dB SL`; `silent` where there is none.
+pub(crate) fn above_words(above_db: f64) -> String {
+    if above_db.is_finite() {
+        with_unit(above_db, 1, "dB SL")
+    } else {
+        "silent".to_owned()
+    }
+}
+
+/// Intensity and balance: `intensity 4.2, 41 % of it at 320 Hz`.
+pub(crate) fn felt_words(felt: &Perception) -> String {
+    match felt.balance() {
+        Some(balance) => {
+            let share = with_unit(balance * 100.0, 0, "%");
+            let intensity = fixed(felt.intensity(), 1);
+            format!("intensity {intensity}, {share} at 320 Hz")
+        }
+        None => "nothing is felt".to_owned(),
+    }
+}
+
+/// What a placed textile feels like on average at 100 mm/s with the gains in force, by all the
+/// contactors of a display at once; `None` when nobody knows its level.
+pub(crate) fn of_textile(
+    scene: &SceneView,
+    cloth: usize,
+    n_contactors: usize,
+) -> Option<Perception> {
+    let cloth = scene.cloths.get(cloth)?;
+    let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
+    let compression_db = scene.reference_db.map_or(0.0, |reference_db| {
+        scene
+            .tuning
+            .compression_gain_db(Some(dot.level_db), reference_db)
+    });
+    let tuned_um = Band::ALL.map(|band| {
+        let own_db = dot.gain_db + cloth.gain_db + compression_db;
+        dot.mean_um[band.index()] * factor_of_gain(scene.tuning.band_gain_db(band) + own_db)
+    });
+    Some(Perception::of(tuned_um, n_contactors))
+}
+
+/// The change of gain that is just noticed: of one band, or of both at once, where the more
+/// sensitive channel notices first, dB; `None` when nothing sounds.
+pub(crate) fn noticed_db(felt: &Perception, band: Option<Band>) -> Option<f64> {
+    let bands = Band::ALL
+        .into_iter()
+        .filter(|b| band.is_none_or(|band| band == *b));
+    let heard = bands.map(|band| felt.sensation_db[band.index()]);
+    let heard = heard.filter(|above_db| above_db.is_finite());
+    heard.map(just_noticeable_db).min_by(f64::total_cmp)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contactor_is_below_threshold_where_its_level_is() {
+        // Alone at 40 Hz the threshold is 8 dB re 1 µm: 2.51 µm.
+        let sensation = Sensation::of([[2.6, 0.0], [2.4, 0.0]].into_iter());
+        assert_eq!(sensation.n_vibrating, 2);
+        assert_eq!(sensation.is_below([2.6, 0.0]), [false, true]);
+        assert_eq!(sensation.is_below([2.4, 1.7]), [true, false]);
+        assert_eq!(sensation.is_below([f64::NAN, 0.0]), [true, true]);
+        let lines = sensation.band_lines([10.0, 0.0]);
+        let expected = "40 Hz  10.00 µm, 12.0 dB SL\n320 Hz  0.00 µm, silent\n(SL: a model)";
+        assert_eq!(lines, expected);
+    }
+
+    #[test]
+    fn the_more_contactors_vibrate_the_less_each_needs_at_320_hz() {
+        let few = Sensation::of(std::iter::repeat_n([1.0, 1.0], 3));
+        let many = Sensation::of(std::iter::repeat_n([1.0, 1.0], 24));
+        assert_eq!(few.threshold_db[0], many.threshold_db[0]);
+        let fell_db = few.threshold_db[1] - many.threshold_db[1];
+        assert!(
+            (fell_db - 9.0).abs() < 1e-9,
+            "{fell_db} dB: three doublings"
+        );
+    }
+
+    #[test]
+    fn silence_is_told_in_words() {
+        let silent = Sensation::default();
+        assert_eq!(felt_words(&silent.whole), "nothing is felt");
+        assert_eq!(noticed_db(&silent.whole, None), None);
+        assert_eq!(above_words(f64::NEG_INFINITY), "silent");
+    }
+
+    #[test]
+    fn of_both_bands_the_more_sensitive_one_notices_first() {
+        let felt = Perception::of([3.0, 30.0], 24);
+        let [low, high] = Band::ALL.map(|band| noticed_db(&felt, Some(band)).unwrap());
+        assert!(low > high, "40 Hz is weaker: {low} {high}");
+        assert_eq!(noticed_db(&felt, None), Some(high));
+        let words = felt_words(&felt);
+        assert!(words.starts_with("intensity ") && words.ends_with("at 320 Hz"));
+    }
+}

@@ -1,0 +1,214 @@
+//! An edited scene on its way to the engine.
+//!
+//! Moving a textile takes the engine's tables as they are and costs little; a new textile, or other
+//! filters, take longer and are prepared on a thread of their own. Edits that come meanwhile wait,
+//! and only the last of them is prepared. So it is with another error budget.
+
+use eframe::egui;
+
+use crate::bench::job::{Job, Polled};
+use crate::bench::rendering::Rendering;
+use crate::shell::error::AppError;
+use selvedge_engine::{EngineError, PreparedScene};
+use selvedge_render::array::TableCache;
+use selvedge_render::scene::{LoadedScene, PlacedTextile, Scene};
+
+/// A scene that is ready for the engine.
+#[derive(Debug)]
+pub(crate) struct Ready {
+    /// The scene with its textiles.
+    pub loaded: LoadedScene,
+    /// The same as the engine takes it.
+    pub prepared: Box<PreparedScene>,
+    /// How it was prepared.
+    pub rendering: Rendering,
+}
+
+/// What a thread brings back.
+struct Done {
+    cache: TableCache,
+    outcome: Result<Ready, AppError>,
+}
+
+/// Prepares edited scenes, one at a time.
+#[derive(Default)]
+pub(crate) struct Preparing {
+    cache: TableCache,
+    /// What the tables in the cache were made for last.
+    rendering: Rendering,
+    job: Option<Job<Done>>,
+    next: Option<Scene>,
+}
+
+impl Preparing {
+    /// With the tables that the first scene was prepared with, and how it was.
+    pub(crate) fn new(cache: TableCache, rendering: Rendering) -> Self {
+        Self {
+            cache,
+            rendering,
+            ..Self::default()
+        }
+    }
+
+    /// Whether a thread is at work.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.job.is_some()
+    }
+
+    /// Prepares a scene whose textiles are mostly those of `loaded`. What takes no time, or must be
+    /// done at once, comes back now.
+    pub(crate) fn ask(
+        &mut self,
+        loaded: &LoadedScene,
+        (scene, rendering): (Scene, Rendering),
+        ctx: &egui::Context,
+        is_at_once: bool,
+    ) -> Option<Result<Ready, AppError>> {
+        if self.job.is_some() {
+            self.next = Some(scene);
+            return None;
+        }
+        let is_known = |id: &str| loaded.textiles().iter().any(|known| known.id() == id);
+        let is_loaded = scene.textiles.iter().all(|cloth| is_known(&cloth.id));
+        let is_quick = is_loaded
+            && scene.filters == loaded.scene().filters
+            && rendering == std::mem::replace(&mut self.rendering, rendering);
+        if is_at_once || is_quick {
+            return Some(prepare(loaded, (scene, rendering), &mut self.cache));
+        }
+        let mut cache = std::mem::take(&mut self.cache);
+        let loaded = loaded.clone();
+        let work = move || {
+            let outcome = prepare(&loaded, (scene, rendering), &mut cache);
+            Done { cache, outcome }
+        };
+        match Job::start("selvedge-prepare", ctx, work) {
+            Ok(job) => self.job = Some(job),
+            Err(error) => return Some(Err(EngineError::Thread(error).into())),
+        }
+        None
+    }
+
+    /// What a thread prepared, if it is done, and the scene that waited meanwhile.
+    pub(crate) fn poll(&mut self) -> Option<(Result<Ready, AppError>, Option<Scene>)> {
+        let done = match self.job.as_ref()?.poll() {
+            Polled::Done(done) => done,
+            Polled::Working => return None,
+            Polled::BrokeOff => {
+                self.job = None;
+                self.next = None;
+                return None;
+            }
+        };
+        self.job = None;
+        self.cache = done.cache;
+        Some((done.outcome, self.next.take()))
+    }
+}
+
+fn prepare(
+    loaded: &LoadedScene,
+    (scene, rendering): (Scene, Rendering),
+    cache: &mut TableCache,
+) -> Result<Ready, AppError> {
+    let loaded = loaded.with_scene(scene)?;
+    let accuracy = rendering.accuracy();
+    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, cache)?;
+    Ok(Ready {
+        loaded,
+        prepared: Box::new(prepared),
+        rendering,
+    })
+}
+
+/// Whether two scenes differ in anything but gains, so that the engine needs a new one.
+pub(crate) fn differs(before: &Scene, after: &Scene) -> bool {
+    // What gains and labels are does not matter here.
+    let placed = |scene: &Scene| -> Vec<PlacedTextile> {
+        let bare = |cloth: &PlacedTextile| PlacedTextile {
+            gain_db: 0.0,
+            label: String::new(),
+            ..cloth.clone()
+        };
+        scene.textiles.iter().map(bare).collect()
+    };
+    let is_same = before.filters == after.filters
+        && before.displays == after.displays
+        && placed(before) == placed(after);
+    !is_same
+}
+
+impl std::fmt::Debug for Preparing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Preparing")
+            .field("is_busy", &self.is_busy())
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::command::edit::Edit;
+    use crate::bench::editing::apply;
+    use selvedge_foundation::geometry::Point;
+    use selvedge_textile::tactile::Filters;
+
+    #[test]
+    fn gains_and_labels_need_no_new_scene_and_places_do() {
+        let loaded = LoadedScene::shipped().unwrap();
+        let before = loaded.scene();
+        let needs = |edit: Edit| {
+            let mut after = before.clone();
+            apply(&edit, &mut after, loaded.tuning());
+            differs(before, &after)
+        };
+        assert!(!needs(Edit::TextileGain(0, 3.0)) && !needs(Edit::Compression(0.5)));
+        assert!(!needs(Edit::Label(0, "A".to_owned())));
+        assert!(needs(Edit::MoveCloth(0, Point::new(1.0, 2.0))));
+        assert!(needs(Edit::TurnCloth(1, 10.0)) && needs(Edit::RemoveCloth(2)));
+        assert!(needs(Edit::Filters(Filters::Receptor)));
+    }
+
+    #[test]
+    fn a_moved_textile_is_ready_at_once_and_a_new_one_later() {
+        let ctx = egui::Context::default();
+        let loaded = LoadedScene::shipped().unwrap();
+        let mut preparing = Preparing::default();
+        let mut scene = loaded.scene().clone();
+        apply(
+            &Edit::MoveCloth(0, Point::new(1.0, 2.0)),
+            &mut scene,
+            loaded.tuning(),
+        );
+        let how = Rendering::default();
+        let ready = preparing.ask(&loaded, (scene.clone(), how), &ctx, false);
+        let moved = ready.expect("at once").expect("it makes sense").loaded;
+        assert_eq!(*moved.scene(), scene);
+        let add = |scene: &mut Scene, id: &str| {
+            let edit = Edit::AddCloth(id.to_owned(), Point::new(50.0, 50.0));
+            apply(&edit, scene, loaded.tuning());
+        };
+        let new = loaded
+            .library()
+            .ids()
+            .iter()
+            .find(|id| scene.textiles.iter().all(|cloth| cloth.id != **id))
+            .unwrap();
+        add(&mut scene, new);
+        let asked = preparing.ask(&moved, (scene.clone(), how), &ctx, false);
+        assert!(asked.is_none(), "it takes a while");
+        let mut last = scene.clone();
+        add(&mut last, new);
+        let asked = preparing.ask(&moved, (last.clone(), how), &ctx, false);
+        assert!(asked.is_none(), "it waits");
+        let (outcome, waiting) = loop {
+            if let Some(done) = preparing.poll() {
+                break done;
+            }
+            std::thread::yield_now();
+        };
+        assert_eq!(*outcome.unwrap().loaded.scene(), scene);
+        assert_eq!(waiting, Some(last), "the last edit is still to come");
+    }
+}

@@ -1,0 +1,382 @@
+//! From document and snapshot to the views that panes draw: pure queries, and the words for what
+//! the engine has to say.
+
+use std::sync::Arc;
+
+use crate::bench::command::Part;
+use crate::bench::document::Document;
+use crate::bench::library_view::Shelf;
+use crate::bench::mute_solo::Audition;
+use crate::bench::perceptual_level::Sensation;
+use crate::bench::view::{
+    BridgePhase, BridgeView, Cloth, Dot, InputView, LibraryDot, LinkTiming, Live, Marks, PlayView,
+    SceneView, ShelfItem, Source, Status,
+};
+use selvedge_device::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
+use selvedge_engine::{LinkView, Notice, PointerView, Snapshot, SourceKind};
+use selvedge_render::scene::LoadedScene;
+use selvedge_textile::tactile::{Filters, Levels};
+
+/// The scene as panes draw it. A textile that is not ready yet is drawn already.
+pub(crate) fn scene_view(
+    document: &Document,
+    shelf: &Shelf,
+    library: &[LibraryDot],
+    audition: &Audition,
+    reference_db: Option<f64>,
+) -> SceneView {
+    let scene = document.scene();
+    let placed = scene.textiles.iter().enumerate();
+    let cloths = placed.map(|(index, placed)| Cloth {
+        id: placed.id.clone(),
+        label: placed.label.clone(),
+        name: shelf
+            .item(&placed.id)
+            .map_or_else(|| placed.id.clone(), |item| item.name.clone()),
+        workspace_from_textile: placed.workspace_from_textile(),
+        size_mm: placed.size_mm,
+        rotation_deg: placed.rotation_deg,
+        is_muted: !audition.is_felt(Part::Cloth(index)),
+        gain_db: placed.gain_db,
+        picture: shelf.picture(&placed.id),
+    });
+    let display = scene.displays.first();
+    SceneView {
+        name: scene.name.clone(),
+        path: document.path().cloned(),
+        is_edited: document.is_edited(),
+        size_mm: scene.size_mm,
+        cloths: cloths.collect(),
+        tuning: document.tuning(),
+        default_tuning: document.default_tuning(),
+        reference_db,
+        filters: scene.filters,
+        grid: display.and_then(|display| display.geometry.grid()),
+        library: library.to_vec(),
+        undo: document.undo_name(),
+        redo: document.redo_name(),
+        marks: Marks::default(),
+        picked: Arc::default(),
+    }
+}
+
+/// The textiles of the scene's library that have a level: from the library's index where the
+/// scene's filters are those that the index was made with, else the placed ones alone.
+pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDot> {
+    let scene = loaded.scene();
+    let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
+    let has_index = loaded.library().index().is_some();
+    if has_index && scene.filters == Filters::default() {
+        let dot = |item: &ShelfItem| {
+            Some(LibraryDot {
+                id: item.id.clone(),
+                name: item.name.clone(),
+                mean_um: item.mean_um,
+                gain_db: item.gain_db,
+                level_db: item.level_db?,
+                is_placed: is_placed(&item.id),
+            })
+        };
+        return shelf.items().iter().filter_map(dot).collect();
+    }
+    let mut seen = Vec::new();
+    let mut dots = Vec::new();
+    for textile in loaded.textiles() {
+        if seen.contains(&textile.id()) {
+            continue;
+        }
+        seen.push(textile.id());
+        let levels = Levels::of(textile.surface(), &scene.filters);
+        dots.extend(levels.level_db().map(|level_db| LibraryDot {
+            id: textile.id().to_owned(),
+            name: textile.manifest().name.clone(),
+            mean_um: levels.mean_um,
+            gain_db: textile.manifest().gain_db,
+            level_db,
+            is_placed: true,
+        }));
+    }
+    dots
+}
+
+/// The engine as panes draw it.
+pub(crate) fn live_view(
+    snapshot: &Snapshot,
+    frame_interval_s: Option<f64>,
+    audition: &Audition,
+) -> Live {
+    let contactors = snapshot
+        .displays
+        .first()
+        .map_or(&[][..], |display| &display.contactors);
+    let is_placed = snapshot.source != SourceKind::Pointer || snapshot.pointer.is_known;
+    let play = play_view(snapshot);
+    // All off silences a display that goes on moving; one that is held stands still.
+    let goes_on = snapshot.source == SourceKind::Pointer || play.is_playing;
+    let dots = contactors.iter().enumerate().map(|(index, contactor)| {
+        let is_muted = !audition.is_felt(Part::Contactor(index));
+        dot(contactor, is_muted)
+    });
+    let dots: Vec<Dot> = dots.collect();
+    let is_held = snapshot.is_silent && !(snapshot.is_stopped && goes_on);
+    Live {
+        tick: snapshot.tick,
+        centre: is_placed.then_some(snapshot.pose.position),
+        pose: snapshot.pose,
+        speed_mm_per_s: if is_held {
+            0.0
+        } else {
+            snapshot.pose.velocity.speed_mm_per_s()
+        },
+        sensation: Sensation::of(dots.iter().map(|dot| dot.amplitude_um)),
+        dots,
+        is_stopped: snapshot.is_stopped,
+        is_silent: snapshot.is_silent,
+        play,
+        turn_deg: snapshot.turn_deg,
+        status: Status {
+            method: snapshot.method.name(),
+            tick_cost_s: (snapshot.clock.cost_ns > 0)
+                .then_some(snapshot.clock.cost_ns as f64 * 1e-9),
+            bound_db: snapshot.bound.level_db,
+            missed: snapshot.clock.missed,
+            late: snapshot.clock.late,
+            felt_age_s: snapshot.pointer.felt_age.map(|age| age.as_secs_f64()),
+        },
+        input: input_view(&snapshot.pointer),
+        bridge: snapshot
+            .link
+            .as_ref()
+            .map(|link| bridge_view(link, frame_interval_s)),
+    }
+}
+
+fn input_view(pointer: &PointerView) -> InputView {
+    let samples = &pointer.samples;
+    InputView {
+        rate: pointer.rate,
+        is_lifted: pointer.is_lifted,
+        n_lost: samples.overflowed + samples.bad_lines + samples.lost_in_system,
+    }
+}
+
+fn play_view(snapshot: &Snapshot) -> PlayView {
+    PlayView {
+        source: match snapshot.source {
+            SourceKind::Pointer => Source::Pointer,
+            SourceKind::Stroke => Source::Stroke,
+            SourceKind::Replay => Source::Recording,
+            SourceKind::Lines | SourceKind::Program => Source::Lines,
+            SourceKind::Device => Source::Device,
+        },
+        is_playing: snapshot.playback.is_playing,
+        does_loop: snapshot.playback.does_loop,
+        tick: snapshot.playback.tick,
+        n_ticks: snapshot.playback.n_ticks,
+        is_recording: snapshot.recording.is_recording,
+        n_recorded: snapshot.recording.n_ticks,
+    }
+}
+
+fn dot(contactor: &selvedge_engine::ContactorView, is_muted: bool) -> Dot {
+    Dot {
+        position: contactor.position,
+        cloth: contactor.textile.map(usize::from),
+        amplitude_um: contactor.amplitude_um.map(f64::from),
+        bite: contactor.bite,
+        is_muted,
+    }
+}
+
+fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
+    let (device, codes) = (link.counters.device, link.counters.codes);
+    BridgeView {
+        state: link.state.label(),
+        phase: phase(link.state),
+        uid: link.caps.map(|caps| DeviceUid(caps.uid)),
+        comp_limit: link.comp_limit,
+        can_identify: link
+            .caps
+            .is_some_and(|caps| caps.modes & Caps::MODE_IDENT != 0),
+        depth: link.depth,
+        frame_interval_s,
+        status_to_frame_s: Some(link.timings.due_to_write)
+            .filter(|spread| spread.n > 0)
+            .map(|spread| [spread.p99, spread.max].map(|span| span.as_secs_f64())),
+        stamp_to_write_s: Some(link.timings.stamp_to_write)
+            .filter(|spread| spread.n > 0)
+            .map(|spread| spread.p99.as_secs_f64()),
+        gain: link
+            .sent
+            .filter(|_| link.state.takes_frames())
+            .map(|sent| sent.gain),
+        frames_sent: link.counters.frames_sent,
+        troubles: vec![
+            ("underruns", device.underrun),
+            ("late", device.late),
+            ("repeated", device.dup),
+            ("garbled", device.bad + link.counters.bad_received),
+            ("clipped", device.clipped),
+            ("rejected", link.counters.frames_rejected),
+            ("superseded", link.counters.frames_superseded),
+            ("write time-outs", link.counters.write_timeouts),
+            ("messages lost", link.counters.events_dropped),
+            ("not finite", codes.non_finite),
+        ],
+        timing: LinkTiming {
+            lead: Some(link.lead),
+            clock: Some(link.clock),
+            round_trip: link.timings.round_trip,
+            frame_interval: link.timings.frame_interval,
+            ..LinkTiming::default()
+        },
+    }
+}
+
+/// What a device is called: its path, or what it is.
+pub(crate) fn device_name(target: &Target) -> String {
+    match target {
+        Target::Emulator => "Emulator".to_owned(),
+        Target::FaultyEmulator(_) => "Emulator with faults".to_owned(),
+        Target::Port(path) => path.display().to_string(),
+    }
+}
+
+/// What may be done with a device in this state.
+pub(crate) fn phase(state: BridgeState) -> BridgePhase {
+    match state {
+        BridgeState::Opening | BridgeState::Greeting | BridgeState::Configuring => {
+            BridgePhase::Opening
+        }
+        BridgeState::Ready => BridgePhase::Ready,
+        BridgeState::Arming
+        | BridgeState::Armed
+        | BridgeState::Streaming
+        | BridgeState::Stopping => BridgePhase::Armed,
+        BridgeState::Faulted | BridgeState::Refused | BridgeState::Lost => BridgePhase::Broken,
+    }
+}
+
+/// The sentence for something that the user ought to know; `None` for what panes show anyway.
+/// `device` is what the device is called.
+pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
+    match notice {
+        Notice::Bridge(event) => bridge_words(event, device),
+        Notice::Refused(why) | Notice::RecordingEnded(why) => Some(capitalised(why)),
+        Notice::GainIgnored(error) => Some(capitalised(&error.to_string())),
+        Notice::DisplayChanged => Some(
+            "This scene's display has another number of contactors: the device was let go; connect \
+             it again"
+                .to_owned(),
+        ),
+        Notice::Stopped | Notice::SourceEnded | Notice::ArrayWaits => None,
+    }
+}
+
+fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
+    match event {
+        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) | BridgeEvent::OtherDevice(why) => {
+            Some(format!("{device}: {why}"))
+        }
+        BridgeEvent::Disarmed {
+            by: DisarmedBy::Device,
+            reason,
+        } => Some(format!("{device} disarmed itself: {reason}")),
+        BridgeEvent::Fault(fault) => Some(format!(
+            "{device} reports fault {:#06x}; mend its cause, then clear it in the Bridge pane",
+            fault.faults
+        )),
+        BridgeEvent::DepthRaised(depth) => Some(format!(
+            "Frames came late: they are now sent {depth} ticks ahead, so everything is felt more \
+             than 40 ms late"
+        )),
+        BridgeEvent::DepthLowered(depth) => Some(format!(
+            "No frame came late for a minute: they are now sent {depth} {} ahead again",
+            if *depth == 1 { "tick" } else { "ticks" }
+        )),
+        _ => None,
+    }
+}
+
+pub(crate) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// The interval between frames, by the device's own clock.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct IntervalMeter {
+    last: Option<(u32, u32)>,
+    interval_s: Option<f64>,
+}
+
+impl IntervalMeter {
+    /// Takes in the device's last tick and its clock in µs (modulo 2³²).
+    pub(crate) fn take(&mut self, status: Option<(u32, u32)>) -> Option<f64> {
+        let before = std::mem::replace(&mut self.last, status);
+        match (before, status) {
+            (Some((tick0, us0)), Some((tick1, us1))) if tick1 != tick0 => {
+                let n_ticks = f64::from(tick1.wrapping_sub(tick0));
+                self.interval_s = Some(f64::from(us1.wrapping_sub(us0)) / (1e6 * n_ticks));
+            }
+            (_, None) => self.interval_s = None,
+            _ => {}
+        }
+        self.interval_s
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_interval_is_the_devices_own_and_survives_its_clocks_wrap() {
+        let mut meter = IntervalMeter::default();
+        assert_eq!(meter.take(Some((10, u32::MAX - 9_999))), None);
+        assert_eq!(meter.take(Some((12, 40_000))), Some(0.025));
+        assert_eq!(
+            meter.take(Some((12, 40_000))),
+            Some(0.025),
+            "no new tick, no new interval"
+        );
+        assert_eq!(meter.take(None), None);
+    }
+
+    #[test]
+    fn every_state_that_may_move_the_device_shows_as_armed() {
+        let states = [
+            BridgeState::Opening,
+            BridgeState::Ready,
+            BridgeState::Arming,
+            BridgeState::Armed,
+            BridgeState::Streaming,
+            BridgeState::Stopping,
+            BridgeState::Faulted,
+            BridgeState::Lost,
+        ];
+        for state in states {
+            assert_eq!(
+                phase(state) == BridgePhase::Armed,
+                state.is_live(),
+                "{state:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn notices_name_the_device() {
+        let lost = Notice::Bridge(BridgeEvent::Lost(
+            "no such port; check the cable".to_owned(),
+        ));
+        let sentence = words(&lost, "/dev/x");
+        assert_eq!(
+            sentence.as_deref(),
+            Some("/dev/x: no such port; check the cable")
+        );
+        assert_eq!(words(&Notice::Stopped, "/dev/x"), None);
+    }
+}

@@ -1,0 +1,191 @@
+//! What is kept between two runs: plain values, always within bounds.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use eframe::egui::ThemePreference;
+
+use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::command::DotStyle;
+use crate::bench::rendering::Rendering;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::shell::perspective::Perspective;
+use crate::tools::workspace::overlay::Overlays;
+use selvedge_engine::Area;
+
+/// Most scenes that are remembered.
+const MAX_RECENT: usize = 10;
+/// Bounds of the size of everything: 100 to 200 %.
+const ZOOM: [f32; 2] = [1.0, 2.0];
+/// Bounds of a screen's pixels per millimetre: 25 to 1500 per inch.
+const PIXELS_PER_MM: [f64; 2] = [1.0, 60.0];
+/// Smallest and largest width of the window, points.
+const WIDTH: [f32; 2] = [960.0, 16_384.0];
+/// Smallest and largest height of the window, points.
+const HEIGHT: [f32; 2] = [600.0, 16_384.0];
+
+/// What is kept between two runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept {
+    /// Dark, light, or as the system.
+    pub theme: ThemePreference,
+    /// The colours that stand for numbers.
+    pub(crate) colour_map: ColourMap,
+    /// Size of everything: 1 is 100 %.
+    pub(crate) zoom: f32,
+    /// How contactors are drawn.
+    pub(crate) dots: DotStyle,
+    /// What is drawn over the cloth.
+    pub(crate) overlays: Overlays,
+    /// Whether heatmaps show numbers.
+    pub(crate) has_numbers: bool,
+    /// Whether what is below the threshold of detection is greyed.
+    pub(crate) greys_below: bool,
+    /// Whether an armed device stops when the window loses the keyboard.
+    pub(crate) stops_on_focus_loss: bool,
+    /// The scale of amplitudes.
+    pub(crate) amplitude: AmplitudeScale,
+    /// Pixels per millimetre of the screen, once it was calibrated.
+    pub(crate) pixels_per_mm: Option<f64>,
+    /// How scenes are rendered.
+    pub rendering: Rendering,
+    /// What the window is arranged for.
+    pub(crate) perspective: Perspective,
+    /// Where each pane stands in each perspective, as text that whoever arranges them understands.
+    pub(crate) arrangements: [Option<String>; Perspective::ALL.len()],
+    /// The array profile that was chosen; `None`: the one of the scene's display.
+    pub array: Option<String>,
+    /// Where the surfaces of tablets of these names lie in the workspace.
+    pub(crate) tablet_areas: BTreeMap<String, Area>,
+    /// Size of the window, points.
+    pub(crate) window_size: Option<[f32; 2]>,
+    /// The folder in which sessions of experiments lie, as it was typed.
+    pub(crate) sessions_folder: Option<String>,
+    /// The design that was chosen last: the name of one of the program, or the path of a file.
+    pub design: Option<String>,
+    /// The scenes that were opened or saved last, newest first, by absolute path.
+    pub(crate) recent_scenes: Vec<PathBuf>,
+}
+
+impl Default for Kept {
+    fn default() -> Self {
+        Self {
+            theme: ThemePreference::System,
+            colour_map: ColourMap::default(),
+            zoom: ZOOM[0],
+            dots: DotStyle::default(),
+            overlays: Overlays::default(),
+            has_numbers: false,
+            greys_below: true,
+            stops_on_focus_loss: false,
+            amplitude: AmplitudeScale::default(),
+            pixels_per_mm: None,
+            rendering: Rendering::default(),
+            perspective: Perspective::default(),
+            arrangements: Default::default(),
+            array: None,
+            tablet_areas: BTreeMap::new(),
+            window_size: None,
+            sessions_folder: None,
+            design: None,
+            recent_scenes: Vec::new(),
+        }
+    }
+}
+
+impl Kept {
+    /// The same with every value at the nearest bound; what is no number is as at first.
+    pub(crate) fn in_bounds(self) -> Self {
+        let within = |value: f32, [least, most]: [f32; 2]| {
+            let number = if value.is_nan() { least } else { value };
+            number.clamp(least, most)
+        };
+        let per_mm = self.pixels_per_mm.filter(|per_mm| !per_mm.is_nan());
+        let size = self
+            .window_size
+            .filter(|size| !size.iter().any(|x| x.is_nan()));
+        Self {
+            zoom: within(self.zoom, ZOOM),
+            rendering: self.rendering.in_bounds(),
+            pixels_per_mm: per_mm.map(|x| x.clamp(PIXELS_PER_MM[0], PIXELS_PER_MM[1])),
+            window_size: size.map(|[width, height]| [within(width, WIDTH), within(height, HEIGHT)]),
+            ..self
+        }
+    }
+
+    /// Remembers that the scene at `path` was opened or saved now.
+    pub(crate) fn remember_scene(&mut self, path: &Path) {
+        let Ok(path) = std::path::absolute(path) else {
+            return;
+        };
+        self.recent_scenes.retain(|known| *known != path);
+        self.recent_scenes.insert(0, path);
+        self.recent_scenes.truncate(MAX_RECENT);
+    }
+
+    /// Remembers scenes from newest to oldest; relative paths mean nothing in another run.
+    pub(crate) fn with_recent_scenes(mut self, newest_first: Vec<PathBuf>) -> Self {
+        for path in newest_first.into_iter().rev() {
+            if path.is_absolute() {
+                self.remember_scene(&path);
+            }
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_out_of_bounds_go_to_the_nearest_bound() {
+        let kept = Kept {
+            zoom: 9.0,
+            pixels_per_mm: Some(-3.0),
+            rendering: Rendering {
+                budget_db: 7.0,
+                ..Rendering::default()
+            },
+            window_size: Some([10.0, f32::INFINITY]),
+            ..Kept::default()
+        };
+        let kept = kept.in_bounds();
+        assert_eq!(kept.zoom, 2.0);
+        assert_eq!(kept.pixels_per_mm, Some(1.0));
+        assert_eq!(kept.rendering.budget_db, 1.0);
+        assert_eq!(kept.window_size, Some([960.0, 16_384.0]));
+    }
+
+    #[test]
+    fn what_is_no_number_is_as_at_first() {
+        let kept = Kept {
+            zoom: f32::NAN,
+            pixels_per_mm: Some(f64::NAN),
+            rendering: Rendering {
+                budget_db: f64::NAN,
+                ..Rendering::default()
+            },
+            window_size: Some([1400.0, f32::NAN]),
+            ..Kept::default()
+        };
+        assert_eq!(kept.in_bounds(), Kept::default());
+    }
+
+    #[test]
+    fn recent_scenes_are_ten_newest_first_and_each_once() {
+        let mut kept = Kept::default();
+        for n in 0..14 {
+            kept.remember_scene(Path::new(&format!("/scenes/{n}.scene.toml")));
+        }
+        kept.remember_scene(Path::new("/scenes/9.scene.toml"));
+        assert_eq!(kept.recent_scenes.len(), 10);
+        assert_eq!(kept.recent_scenes[0], Path::new("/scenes/9.scene.toml"));
+        assert_eq!(kept.recent_scenes[1], Path::new("/scenes/13.scene.toml"));
+        kept.remember_scene(Path::new("here.scene.toml"));
+        assert!(
+            kept.recent_scenes[0].is_absolute(),
+            "relative paths are made absolute"
+        );
+    }
+}

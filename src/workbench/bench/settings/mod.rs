@@ -1,0 +1,225 @@
+//! Settings per user: read once at the start, written when they changed, on a thread of their own.
+//!
+//! A file that is missing or broken never stops the program: it starts as at first, and a broken
+//! file is set aside under another name, so that nothing is lost. Knows where the file is and when
+//! it is written; what is in it is in `kept.rs` and `text.rs`.
+
+pub(crate) mod kept;
+#[cfg(test)]
+mod tests;
+pub(crate) mod text;
+
+use std::path::{Path, PathBuf};
+use std::thread::{self, JoinHandle};
+use std::{fs, io};
+
+use selvedge_foundation::files::{FileError, read_text, write_atomic};
+use selvedge_textile::BuildCache;
+
+/// The name of the file.
+const NAME: &str = "settings.toml";
+/// The least time between two writes, s.
+const PAUSE_S: f64 = 1.0;
+
+/// The settings of this run, and the file that keeps them.
+#[derive(Debug, Default)]
+pub struct Settings {
+    /// The values. Whoever changes them need do nothing else.
+    pub kept: Kept,
+    file: Option<Keeper>,
+}
+
+/// A file and what is known of it.
+#[derive(Debug)]
+struct Keeper {
+    path: PathBuf,
+    /// What it holds, or will once the write under way is done; `None`: something else.
+    held: Option<Kept>,
+    writing: Option<JoinHandle<Result<(), FileError>>>,
+    /// Whether the last write that was asked about failed.
+    has_failed: bool,
+    /// When it was written last, s.
+    written_s: f64,
+}
+
+/// Where textiles that were built from recipes are kept for this user: a folder that may be
+/// deleted at any time. `None` on a system without such a place.
+pub fn build_cache() -> Option<BuildCache> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(BuildCache::in_folder(&folders.cache_dir().join("textiles")))
+}
+
+/// Where the user's own libraries lie. `None` on a system without such a place.
+pub(crate) fn own_libraries() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().to_owned())
+}
+
+/// Where links to devices are logged for this user. `None` on a system without such a place.
+pub(crate) fn session_log() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("logs").join("bridge.csv"))
+}
+
+/// The folder of the user's array profiles. `None` on a system without such a place.
+pub fn own_arrays() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("arrays"))
+}
+
+impl Settings {
+    /// Settings that are neither read nor written: for tests and pictures.
+    pub(crate) fn in_memory() -> Self {
+        Self::default()
+    }
+
+    /// The settings of the user, and a sentence when they could not be read.
+    pub(crate) fn of_user() -> (Self, Option<String>) {
+        match directories::ProjectDirs::from("", "", "selvedge") {
+            Some(folders) => Self::in_folder(folders.config_dir()),
+            None => (Self::in_memory(), None),
+        }
+    }
+
+    /// The settings in a folder, which need not be there yet.
+    fn in_folder(folder: &Path) -> (Self, Option<String>) {
+        let path = folder.join(NAME);
+        let text = match read_text(&path) {
+            Ok(text) => text,
+            Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+                return (Self::kept_at(path, Kept::default(), true), None);
+            }
+            // Whatever is there, it is not to be written over.
+            Err(FileError::Read { source, .. }) => {
+                let words = format!(
+                    "cannot read {}: {source}; settings are as at first and will not be kept",
+                    path.display()
+                );
+                return (Self::in_memory(), Some(words));
+            }
+            Err(error) => return Self::set_aside(path, Kept::default(), &error.to_string()),
+        };
+        match text::read(&text, &path) {
+            Ok((kept, None)) => (Self::kept_at(path, kept, true), None),
+            Ok((kept, Some(line))) => {
+                let what = format!("{}:{line}: this value is not known", path.display());
+                Self::set_aside(path, kept, &what)
+            }
+            Err(error) => Self::set_aside(path, Kept::default(), &error.to_string()),
+        }
+    }
+
+    /// Settings whose file is as `kept` when `is_held`, and otherwise to be written anew.
+    fn kept_at(path: PathBuf, kept: Kept, is_held: bool) -> Self {
+        let file = Keeper {
+            path,
+            held: is_held.then(|| kept.clone()),
+            writing: None,
+            has_failed: false,
+            written_s: f64::NEG_INFINITY,
+        };
+        Self {
+            kept,
+            file: Some(file),
+        }
+    }
+
+    /// Sets a broken file aside and goes on with `kept`, what could be read of it.
+    fn set_aside(path: PathBuf, kept: Kept, what: &str) -> (Self, Option<String>) {
+        let aside = free_name(&path);
+        match fs::rename(&path, &aside) {
+            Ok(()) => {
+                let words = format!(
+                    "{what}; settings that could not be read are as at first, and the file was \
+                     kept as {}",
+                    aside.display()
+                );
+                (Self::kept_at(path, kept, false), Some(words))
+            }
+            Err(error) => {
+                let words = format!(
+                    "{what}; the file could not be set aside ({error}), so settings will not be \
+                     kept this time"
+                );
+                (Self { kept, file: None }, Some(words))
+            }
+        }
+    }
+
+    /// Writes the settings when they changed, on another thread, at most once a second.
+    ///
+    /// To be called every frame. Says after how many seconds to call again, when there is
+    /// something left to write; a write that failed is told to [`Self::take_failure`].
+    pub(crate) fn save_if_changed(&mut self, now_s: f64) -> Option<f64> {
+        let file = self.file.as_mut()?;
+        if file.held.as_ref() == Some(&self.kept) {
+            return None;
+        }
+        let is_writing = file.writing.as_ref().is_some_and(|job| !job.is_finished());
+        let left_s = PAUSE_S - (now_s - file.written_s);
+        if is_writing || left_s > 0.0 {
+            return Some(left_s.clamp(0.05, PAUSE_S));
+        }
+        // A write that failed and was not asked about is forgotten: this one will say it again.
+        let kept = self.kept.clone();
+        let path = file.path.clone();
+        let job = thread::Builder::new().name("selvedge-settings".to_owned());
+        file.writing = job.spawn(move || write(&kept, &path)).ok();
+        file.held = Some(self.kept.clone());
+        file.written_s = now_s;
+        None
+    }
+
+    /// Why the last write failed, once.
+    pub(crate) fn take_failure(&mut self) -> Option<String> {
+        let file = self.file.as_mut()?;
+        if !file.writing.as_ref()?.is_finished() {
+            return None;
+        }
+        let outcome = file.writing.take()?.join();
+        let failure = outcome.ok()?.err().map(|error| error.to_string());
+        file.has_failed = failure.is_some();
+        failure
+    }
+
+    /// Writes the settings on this thread when they changed: at the end of the run.
+    pub(crate) fn save_now(&mut self) -> Result<(), FileError> {
+        let Some(file) = &mut self.file else {
+            return Ok(());
+        };
+        let is_written = file.writing.take().is_none_or(|job| {
+            // A thread that broke off wrote nothing.
+            job.join().is_ok_and(|outcome| outcome.is_ok())
+        });
+        if is_written && !file.has_failed && file.held.as_ref() == Some(&self.kept) {
+            return Ok(());
+        }
+        write(&self.kept, &file.path)?;
+        file.held = Some(self.kept.clone());
+        Ok(())
+    }
+}
+
+/// Writes the file and, when need be, its folder.
+fn write(kept: &Kept, path: &Path) -> Result<(), FileError> {
+    let text = text::write(kept, path)?;
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(|source| FileError::Write {
+            path: path.to_owned(),
+            source,
+        })?;
+    }
+    write_atomic(path, text.as_bytes())
+}
+
+/// A name beside `path` for a broken file, such that no earlier one is lost.
+fn free_name(path: &Path) -> PathBuf {
+    let name = |ending: &str| path.with_file_name(format!("{NAME}.broken{ending}"));
+    let numbered = (2..100).map(|n| name(&format!("-{n}")));
+    let mut names = std::iter::once(name("")).chain(numbered);
+    names
+        .find(|name| !name.exists())
+        .unwrap_or_else(|| name(""))
+}
+
+pub use crate::bench::settings::kept::Kept;

@@ -1,0 +1,160 @@
+//! The file of the settings: missing, broken, newer, written.
+
+use std::fs;
+use std::path::Path;
+
+use crate::bench::settings::Settings;
+use crate::bench::settings::kept::Kept;
+use selvedge_scratch::ScratchFolder;
+
+/// Waits for the write under way.
+fn wait(settings: &mut Settings) -> Result<(), String> {
+    let job = settings.file.as_mut().unwrap().writing.take();
+    job.unwrap().join().unwrap().map_err(|e| e.to_string())
+}
+
+#[test]
+fn a_missing_file_means_settings_as_at_first_and_makes_none() {
+    let folder = ScratchFolder::made("missing");
+    let (mut settings, notice) = Settings::in_folder(&folder.join("not/yet"));
+    assert_eq!((&settings.kept, notice), (&Kept::default(), None));
+    assert_eq!(settings.save_if_changed(0.0), None);
+    settings.save_now().unwrap();
+    assert!(!folder.join("not").exists(), "nothing changed");
+}
+
+#[test]
+fn what_changed_is_there_in_the_next_run() {
+    let folder = ScratchFolder::made("next");
+    let home = folder.join("deep/inside");
+    let (mut settings, _) = Settings::in_folder(&home);
+    settings.kept.zoom = 1.5;
+    settings.kept.remember_scene(Path::new("/a.scene.toml"));
+    settings.save_if_changed(0.0);
+    wait(&mut settings).unwrap();
+    let (next, notice) = Settings::in_folder(&home);
+    assert_eq!((next.kept, notice), (settings.kept, None));
+    assert_eq!(fs::read_dir(&home).unwrap().count(), 1, "nothing beside it");
+}
+
+#[test]
+fn changes_in_a_row_are_written_once_a_second_and_the_last_one_at_the_end() {
+    let folder = ScratchFolder::made("row");
+    let (mut settings, _) = Settings::in_folder(&folder);
+    settings.kept.zoom = 1.25;
+    assert_eq!(settings.save_if_changed(10.0), None, "at once");
+    wait(&mut settings).unwrap();
+    settings.kept.zoom = 1.5;
+    assert_eq!(settings.save_if_changed(10.25), Some(0.75), "later");
+    assert!(
+        folder.read("settings.toml").contains("zoom_percent = 125"),
+        "{}",
+        folder.read("settings.toml")
+    );
+    assert_eq!(settings.save_if_changed(11.0), None, "now");
+    wait(&mut settings).unwrap();
+    assert!(
+        folder.read("settings.toml").contains("zoom_percent = 150"),
+        "{}",
+        folder.read("settings.toml")
+    );
+    settings.kept.zoom = 2.0;
+    settings.save_now().unwrap();
+    assert!(
+        folder.read("settings.toml").contains("zoom_percent = 200"),
+        "{}",
+        folder.read("settings.toml")
+    );
+}
+
+#[test]
+fn a_broken_file_is_told_of_and_kept_under_another_name() {
+    let folder = ScratchFolder::made("broken");
+    for (aside, text) in [("", "zoom_percent = = 3"), ("-2", "\u{0}\u{1}")] {
+        fs::write(folder.join("settings.toml"), text).unwrap();
+        let (mut settings, notice) = Settings::in_folder(&folder);
+        let notice = notice.unwrap();
+        assert_eq!(settings.kept, Kept::default());
+        assert!(notice.contains("settings.toml:1: "), "{notice}");
+        assert!(
+            notice.ends_with(&format!("settings.toml.broken{aside}")),
+            "{notice}"
+        );
+        assert_eq!(notice.lines().count(), 1, "{notice}");
+        let kept = fs::read_to_string(folder.join(format!("settings.toml.broken{aside}")));
+        assert_eq!(kept.unwrap(), text);
+        settings.save_now().unwrap();
+        assert_eq!(Settings::in_folder(&folder).1, None, "whole again");
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text_are_a_broken_file_too() {
+    let folder = ScratchFolder::made("bytes");
+    fs::write(folder.join("settings.toml"), [0xff, 0xfe, 0x00]).unwrap();
+    let (settings, notice) = Settings::in_folder(&folder);
+    assert_eq!(settings.kept, Kept::default());
+    assert!(notice.unwrap().contains("UTF-8"));
+    assert!(folder.join("settings.toml.broken").exists());
+}
+
+#[test]
+fn one_value_that_is_not_known_is_told_of_and_the_others_stay() {
+    let folder = ScratchFolder::made("odd");
+    fs::write(
+        folder.join("settings.toml"),
+        "zoom_percent = 150\ntheme = 3\n",
+    )
+    .unwrap();
+    let (mut settings, notice) = Settings::in_folder(&folder);
+    assert_eq!(settings.kept.zoom, 1.5);
+    assert!(notice.unwrap().contains("settings.toml:2: "));
+    settings.save_if_changed(0.0);
+    wait(&mut settings).unwrap();
+    let (next, notice) = Settings::in_folder(&folder);
+    assert_eq!((next.kept.zoom, notice), (1.5, None), "it is written anew");
+}
+
+#[test]
+fn what_cannot_be_read_is_not_written_over() {
+    let folder = ScratchFolder::made("unreadable");
+    fs::create_dir(folder.join("settings.toml")).unwrap();
+    let (mut settings, notice) = Settings::in_folder(&folder);
+    assert!(notice.unwrap().contains("settings.toml"));
+    settings.kept.zoom = 2.0;
+    settings.save_if_changed(0.0);
+    settings.save_now().unwrap();
+    assert!(folder.join("settings.toml").is_dir());
+}
+
+#[test]
+fn a_write_that_fails_is_told_of_once() {
+    let folder = ScratchFolder::made("full");
+    fs::write(folder.join("file"), "").unwrap();
+    let below_a_file = folder.join("file").join("settings.toml");
+    let mut settings = Settings::kept_at(below_a_file, Kept::default(), true);
+    settings.kept.zoom = 2.0;
+    settings.save_if_changed(0.0);
+    while !settings
+        .file
+        .as_ref()
+        .unwrap()
+        .writing
+        .as_ref()
+        .unwrap()
+        .is_finished()
+    {
+        std::thread::yield_now();
+    }
+    assert!(settings.take_failure().unwrap().contains("settings.toml"));
+    assert_eq!(settings.take_failure(), None);
+    assert!(settings.save_now().is_err(), "tried again at the end");
+}
+
+#[test]
+fn settings_in_memory_touch_no_file() {
+    let mut settings = Settings::in_memory();
+    settings.kept.zoom = 2.0;
+    assert_eq!(settings.save_if_changed(0.0), None);
+    assert!(settings.save_now().is_ok() && settings.file.is_none());
+}

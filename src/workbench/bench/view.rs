@@ -1,0 +1,383 @@
+//! What panes draw: plain data, made once a frame from the document and the newest snapshot.
+//!
+//! A pane that has these needs neither the engine nor the scene's file; a test can write them by
+//! hand. Words for people are made here or later, never in the engine.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui::{TextureId, Vec2};
+
+use crate::bench::command::Part;
+use crate::bench::perceptual_level::Sensation;
+use selvedge_device::{Bite, BridgeState, ClockFit, DeviceUid, Distribution};
+use selvedge_engine::InputRate;
+use selvedge_foundation::geometry::{Frame, Point};
+use selvedge_render::scene::Pose;
+use selvedge_textile::MeasuredFigure;
+use selvedge_textile::tactile::{Filters, Tuning};
+
+/// The scene as it is drawn.
+#[derive(Debug, Clone)]
+pub(crate) struct SceneView {
+    /// What people call it.
+    pub name: String,
+    /// Where it was opened or saved.
+    pub path: Option<PathBuf>,
+    /// Whether it differs from its file.
+    pub is_edited: bool,
+    /// Width and height of the workspace, mm.
+    pub size_mm: [f64; 2],
+    /// The textiles in order; the last one is on top.
+    pub cloths: Vec<Cloth>,
+    /// Gains and compression in force.
+    pub tuning: Tuning,
+    /// What "reset" goes back to.
+    pub default_tuning: Tuning,
+    /// The level that compression leaves alone, dB re 1 µm; `None` while nothing has a level.
+    pub reference_db: Option<f64>,
+    /// The filters of the two bands.
+    pub filters: Filters,
+    /// Rows and columns of the display, if its contactors form a grid.
+    pub grid: Option<(usize, usize)>,
+    /// The textiles of the library with a level, for the compression curve.
+    pub library: Vec<LibraryDot>,
+    /// What undo would take back.
+    pub(crate) undo: Option<&'static str>,
+    /// What redo would bring back.
+    pub(crate) redo: Option<&'static str>,
+    /// What every view marks.
+    pub marks: Marks,
+    /// The ids of the library's textiles that are selected.
+    pub(crate) picked: Arc<BTreeSet<String>>,
+}
+
+/// What is chosen, and what the pointer rests on, in whichever view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Marks {
+    /// The chosen textile: its place in the scene's list.
+    pub cloth: Option<usize>,
+    /// What the pointer rests on.
+    pub hovered: Hovered,
+}
+
+/// What the pointer rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Hovered {
+    /// A textile: its place in the scene's list.
+    pub cloth: Option<usize>,
+    /// A contactor.
+    pub contactor: Option<usize>,
+}
+
+impl Hovered {
+    /// Takes in what a view says that the pointer rests on.
+    pub(crate) fn take(&mut self, part: Part) {
+        match part {
+            Part::Cloth(index) => self.cloth = Some(index),
+            Part::Contactor(index) => self.contactor = Some(index),
+            Part::Band(_) => {}
+        }
+    }
+}
+
+impl SceneView {
+    /// The first textile in the scene's list that is this one of the library.
+    pub(crate) fn placed(&self, id: &str) -> Option<usize> {
+        self.cloths.iter().position(|cloth| cloth.id == id)
+    }
+
+    /// Whether a textile is chosen, or under the pointer in some view.
+    pub(crate) fn is_marked(&self, index: usize) -> bool {
+        let Marks { cloth, hovered } = self.marks;
+        cloth == Some(index) || hovered.cloth == Some(index)
+    }
+
+    /// The same for a textile of the library, wherever it is placed; and whether it is selected.
+    pub(crate) fn is_marked_id(&self, id: &str) -> bool {
+        self.picked.contains(id) || self.is_placed_and_marked(id)
+    }
+
+    /// Whether a textile of the library is chosen or under the pointer where it is placed.
+    pub(crate) fn is_placed_and_marked(&self, id: &str) -> bool {
+        let marked = [self.marks.cloth, self.marks.hovered.cloth];
+        let mut cloths = marked
+            .into_iter()
+            .flatten()
+            .filter_map(|i| self.cloths.get(i));
+        cloths.any(|cloth| cloth.id == id)
+    }
+}
+
+/// A textile that lies in the workspace.
+#[derive(Debug, Clone)]
+pub(crate) struct Cloth {
+    /// Its textile in the library.
+    pub id: String,
+    /// The scene's name for it: a number or a letter.
+    pub label: String,
+    /// The textile's name.
+    pub name: String,
+    /// Where it lies and how it is turned.
+    pub workspace_from_textile: Frame,
+    /// Extent along warp and weft, mm.
+    pub size_mm: [f64; 2],
+    /// How it is turned, degrees counter-clockwise.
+    pub rotation_deg: f64,
+    /// Whether it is silent because it was muted or another one is felt alone.
+    pub(crate) is_muted: bool,
+    /// The scene's gain, dB.
+    pub gain_db: f64,
+    /// How it looks; `None` while it has no picture.
+    pub picture: Option<ClothPicture>,
+}
+
+/// The picture that a textile is tiled with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ClothPicture {
+    /// The texture that holds it.
+    pub(crate) texture: TextureId,
+    /// How much cloth one tile shows, mm.
+    pub(crate) tile_mm: Vec2,
+}
+
+/// A textile of the library as the shelf shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ShelfItem {
+    /// What scenes call it.
+    pub id: String,
+    /// What people call it.
+    pub name: String,
+    /// How it is made and of what, in a few words.
+    pub kind: String,
+    /// How it is made, as files spell it; empty when its manifest cannot be read.
+    pub construction: &'static str,
+    /// Its weave or knit in words; `None` for what is no cloth of yarns.
+    pub structure: Option<&'static str>,
+    /// The figures that its manifest states, in the testers' order.
+    pub measured: Vec<MeasuredFigure>,
+    /// The gain that its manifest states, dB.
+    pub gain_db: f64,
+    /// Its level by the library's index, dB re 1 µm.
+    pub level_db: Option<f64>,
+    /// Its mean amplitudes by the library's index, without any gain, µm.
+    pub mean_um: [f64; 2],
+    /// Why it cannot be used.
+    pub flaw: Option<String>,
+}
+
+/// A textile of the library as the compression curve shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LibraryDot {
+    /// What scenes call it.
+    pub id: String,
+    /// The textile's name.
+    pub name: String,
+    /// Its mean amplitudes without any gain, µm.
+    pub mean_um: [f64; 2],
+    /// The gain that its manifest states, dB.
+    pub gain_db: f64,
+    /// Its level, dB re 1 µm.
+    pub level_db: f64,
+    /// Whether the scene places it.
+    pub is_placed: bool,
+}
+
+/// What the engine did last.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Live {
+    /// Ticks since the engine started.
+    pub tick: u64,
+    /// The middle of the display; `None` before the pointer was ever in the workspace.
+    pub centre: Option<Point>,
+    /// Where the display is, how it is turned and how it moves.
+    pub pose: Pose,
+    /// Speed of the display, mm/s.
+    pub speed_mm_per_s: f64,
+    /// Contactors in index order.
+    pub dots: Vec<Dot>,
+    /// What they feel like, by a model.
+    pub(crate) sensation: Sensation,
+    /// Whether everything was switched off and nothing was armed since.
+    pub is_stopped: bool,
+    /// Whether the device plays silence, stopped or held; the screen keeps what it showed.
+    pub is_silent: bool,
+    /// What moves the display, and how far it is.
+    pub play: PlayView,
+    /// The display's turn on top of the scene's, degrees counter-clockwise.
+    pub turn_deg: f64,
+    /// Rendering: method and cost.
+    pub status: Status,
+    /// How steadily positions come.
+    pub input: InputView,
+    /// The device.
+    pub bridge: Option<BridgeView>,
+}
+
+/// Positions as they come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct InputView {
+    /// Rate, jitter and gaps.
+    pub rate: InputRate,
+    /// Whether the finger is off the surface.
+    pub is_lifted: bool,
+    /// Positions and lines that were lost or were none.
+    pub n_lost: u64,
+}
+
+/// A contactor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Dot {
+    /// Where it is in the workspace.
+    pub position: Point,
+    /// The textile under it: its place in the scene's list.
+    pub cloth: Option<usize>,
+    /// Peak amplitudes of both bands after gains, before output limits, µm.
+    pub amplitude_um: [f64; 2],
+    /// Which output limits bite.
+    pub bite: Bite,
+    /// Whether it is silent because it was muted or another one is felt alone.
+    pub(crate) is_muted: bool,
+}
+
+/// What moves the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Source {
+    /// The pointer.
+    #[default]
+    Pointer,
+    /// The display by itself, along a stroke.
+    Stroke,
+    /// A recorded exploration.
+    Recording,
+    /// A stream of lines, of another program for one.
+    Lines,
+    /// A tablet or touch frame that is read directly.
+    Device,
+}
+
+/// How far a stroke, a recording or its replay is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct PlayView {
+    /// What moves the display.
+    pub source: Source,
+    /// Whether it moves on at the next tick.
+    pub is_playing: bool,
+    /// Whether a recording begins again at its end.
+    pub does_loop: bool,
+    /// The tick that is shown of a stroke or a recording.
+    pub tick: u64,
+    /// Ticks of the recording that is replayed.
+    pub n_ticks: u64,
+    /// Whether the exploration is being recorded.
+    pub is_recording: bool,
+    /// Ticks recorded so far.
+    pub n_recorded: u64,
+}
+
+/// Rendering: method and cost.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Status {
+    /// The rendering method.
+    pub method: &'static str,
+    /// Cost of a tick, s; `None` where nobody measures.
+    pub(crate) tick_cost_s: Option<f64>,
+    /// Bound of the method's level error, dB.
+    pub bound_db: f64,
+    /// Ticks that never were.
+    pub missed: u64,
+    /// Ticks that came late.
+    pub late: u64,
+    /// Age of the felt amplitude, s: from the pointer to the middle of the felt tick.
+    pub(crate) felt_age_s: Option<f64>,
+}
+
+/// The device and the link to it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct BridgeView {
+    /// Where the connection stands, for people.
+    pub state: &'static str,
+    /// What may be done with it.
+    pub phase: BridgePhase,
+    /// The device's own number.
+    pub uid: Option<DeviceUid>,
+    /// The largest codes that it takes now.
+    pub comp_limit: Option<[u16; 2]>,
+    /// Whether it can drive one channel alone.
+    pub(crate) can_identify: bool,
+    /// Ticks from a frame to its effect.
+    pub depth: u8,
+    /// From the last frame but one to the last, measured on the device's ticks, s.
+    pub(crate) frame_interval_s: Option<f64>,
+    /// From a pointer event to the end of the write of its frame, 99th percentile, s.
+    pub(crate) stamp_to_write_s: Option<f64>,
+    /// From the device's STATUS to the frame that answers it, 99th percentile and largest, s.
+    pub(crate) status_to_frame_s: Option<[f64; 2]>,
+    /// Soft-start gain of the last frame, 0…1.
+    pub gain: Option<f64>,
+    /// Frames sent.
+    pub frames_sent: u64,
+    /// Counters that ought to stay at zero, with their names.
+    pub troubles: Vec<(&'static str, u64)>,
+    /// How long things take.
+    pub timing: LinkTiming,
+}
+
+/// How long things take on the link, and where it is written down what happens there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct LinkTiming {
+    /// How long before the tick in which it is felt a frame is made.
+    pub lead: Option<std::time::Duration>,
+    /// What is known of the device's clock.
+    pub clock: Option<ClockFit>,
+    /// From a PING to its answer.
+    pub round_trip: Distribution,
+    /// From frame to frame.
+    pub frame_interval: Distribution,
+    /// The path of the session log.
+    pub log: Option<String>,
+    /// Why nothing is written to it.
+    pub(crate) log_failure: Option<String>,
+}
+
+/// What may be done with a device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum BridgePhase {
+    /// On the way to ready.
+    #[default]
+    Opening,
+    /// It may be armed.
+    Ready,
+    /// High voltage is on, or about to be.
+    Armed,
+    /// It refused or is gone.
+    Broken,
+}
+
+impl Live {
+    /// Whether one channel can be driven alone now: armed, and nothing played yet.
+    pub(crate) fn takes_ident(&self) -> bool {
+        let bridge = self.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.state == BridgeState::Armed.label())
+    }
+
+    /// Whether high voltage is on, or about to be.
+    pub(crate) fn is_armed(&self) -> bool {
+        self.bridge
+            .as_ref()
+            .is_some_and(|bridge| bridge.phase == BridgePhase::Armed)
+    }
+
+    /// The textile under most contactors; of equals the one on top.
+    pub(crate) fn cloth_under_display(&self) -> Option<usize> {
+        let n_cloths = self.dots.iter().filter_map(|dot| dot.cloth).max()? + 1;
+        let count = |cloth| {
+            self.dots
+                .iter()
+                .filter(|dot| dot.cloth == Some(cloth))
+                .count()
+        };
+        (0..n_cloths).max_by_key(|&cloth| count(cloth))
+    }
+}

@@ -1,0 +1,8 @@
+//! What everything is drawn with: widgets, colours, letters and distances.
+//!
+//! Knows nothing of scenes, engines or tools.
+
+pub(crate) mod spectrogram;
+pub(crate) mod swatch;
+pub(crate) mod theme;
+pub(crate) mod widgets;

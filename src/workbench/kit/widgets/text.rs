@@ -1,0 +1,156 @@
+//! Small pieces of text: titles of sections, rows of a name and a value, buttons.
+
+use eframe::egui::{
+    self, Align, Align2, AtomExt as _, Color32, Layout, Pos2, Rect, Response, RichText, Sense, Ui,
+    pos2, vec2,
+};
+
+use crate::kit::theme;
+use crate::kit::theme::{Palette, ROW, STEP};
+use selvedge_foundation::quantity;
+
+/// The quiet title of a section.
+pub(crate) fn section(ui: &mut Ui, title: &str) {
+    let palette = Palette::in_ui(ui);
+    ui.add_space(STEP);
+    ui.label(RichText::new(title).font(theme::small()).color(palette.dim));
+}
+
+/// A row with a name on the left and whatever `content` adds on the right, right-aligned.
+pub(crate) fn row<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> Response {
+    row_of(ui, (name, 20.0), content)
+}
+
+/// The same, as high as a field that one types in.
+pub(crate) fn field_row<R>(
+    ui: &mut Ui,
+    name: &str,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> Response {
+    row_of(ui, (name, ROW), content)
+}
+
+fn row_of<R>(
+    ui: &mut Ui,
+    (name, height): (&str, f32),
+    content: impl FnOnce(&mut Ui) -> R,
+) -> Response {
+    let size = vec2(ui.available_width(), height);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.label(name);
+        ui.with_layout(Layout::right_to_left(Align::Center), content);
+    })
+    .response
+}
+
+/// A number in fixed digits with its unit after a small, dim name.
+pub(crate) fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
+    let palette = Palette::in_ui(ui);
+    let name = RichText::new(name).font(theme::small()).color(palette.dim);
+    let size = vec2(ui.available_width(), 20.0);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.label(name);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(RichText::new(unit).font(theme::small()).color(palette.dim));
+            ui.label(RichText::new(value).font(theme::number()));
+        });
+    })
+    .response
+}
+
+/// A filled circle as wide as a letter: a lamp. Read out as `label`.
+pub(crate) fn mark(ui: &mut Ui, colour: Color32, label: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(10.0, ROW), Sense::hover());
+    ui.painter().circle_filled(rect.center(), 4.0, colour);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, label));
+    response
+}
+
+/// A button that is grey, with the reason as its tip, when `refusal` says why it does nothing.
+pub(crate) fn button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
+    let button = egui::Button::new(text).min_size(vec2(0.0, ROW));
+    let response = ui.add_enabled(refusal.is_none(), button);
+    match refusal {
+        Some(why) => response.on_disabled_hover_text(why).clicked(),
+        None if tip.is_empty() => response.clicked(),
+        None => response.on_hover_text(tip).clicked(),
+    }
+}
+
+/// A small square button that is on or off: mute, solo. Read out as `label`, which is its tip.
+pub(crate) fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> bool {
+    let palette = Palette::in_ui(ui);
+    let font = theme::small();
+    let galley = ui
+        .painter()
+        .layout_no_wrap(letter.to_owned(), font.clone(), palette.text);
+    let size = vec2((galley.size().x + 8.0).max(18.0), 18.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::Role::CheckBox, ui.is_enabled(), is_on, label)
+    });
+    let (fill, ink) = match (is_on, response.hovered() || response.has_focus()) {
+        (true, _) => (palette.selection, palette.panel),
+        (false, true) => (palette.hovered, palette.text),
+        (false, false) => (palette.raised, palette.dim),
+    };
+    ui.painter().rect_filled(rect, 3, fill);
+    let at = rect.center();
+    ui.painter()
+        .text(at, Align2::CENTER_CENTER, letter, font, ink);
+    response.on_hover_text(label).clicked()
+}
+
+/// One of a list to choose from, as wide as the list: its name, and dimmer as much of `detail` as
+/// there is room for. Says whether it was chosen.
+pub(crate) fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {
+    let palette = Palette::in_ui(ui);
+    let detail = RichText::new(detail)
+        .font(theme::small())
+        .color(palette.dim);
+    let name = name.color(palette.text).atom_shrink(false);
+    let line = egui::Button::new((name, detail.atom_shrink(true)))
+        .gap(2.0 * STEP)
+        .frame_when_inactive(false)
+        .truncate()
+        .min_size(vec2(ui.available_width(), ROW));
+    ui.add(line).on_hover_text(tip).clicked()
+}
+
+/// Paints as much of a line as there is room for, and … where it breaks off; its left end is at
+/// `left`, halfway up.
+pub(crate) fn paint_line(ui: &Ui, left: Pos2, width: f32, text: RichText) {
+    let job = egui::WidgetText::from(text).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        width.max(1.0),
+        egui::TextStyle::Body,
+    );
+    let corner = left - vec2(0.0, 0.5 * job.size().y);
+    ui.painter().galley(corner, job, Palette::in_ui(ui).text);
+}
+
+/// Paints a number, right-aligned in `rect`, its unit dimmer behind it.
+pub(crate) fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, unit: &str) {
+    let palette = Palette::in_ui(ui);
+    let right = pos2(rect.right(), rect.center().y);
+    let painter = ui.painter();
+    let unit_at = painter.text(
+        right,
+        Align2::RIGHT_CENTER,
+        unit,
+        theme::small(),
+        palette.dim,
+    );
+    // Units are two letters wide at most: the number keeps its place whatever the unit.
+    let number_right = pos2(right.x - unit_at.width().max(14.0) - 4.0, right.y);
+    let digits = quantity::fixed(value, decimals);
+    painter.text(
+        number_right,
+        Align2::RIGHT_CENTER,
+        digits,
+        theme::number(),
+        palette.text,
+    );
+}

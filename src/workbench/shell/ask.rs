@@ -1,0 +1,350 @@
+//! The field that asks for a path where the desktop has no dialog: what to open, where to save.
+//!
+//! Tab completes what is typed; the scenes that were opened last are a click away.
+
+use std::path::PathBuf;
+
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::{TextEditOutput, TextEditState};
+use eframe::egui::{
+    self, Align, EventFilter, FocusDirection, Id, Key, Layout, Margin, Modifiers, Rect, RichText,
+    ScrollArea, TextEdit, Ui, vec2,
+};
+
+use crate::bench::command::{Command, FileCommand, Purpose, Wishes};
+use crate::kit::theme;
+use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::card;
+use crate::kit::widgets::card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN};
+use crate::kit::widgets::text::{button, choice, section};
+use crate::shell::completion::Completing;
+use selvedge_engine::ClipKind;
+
+/// What is said when a path is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct AskWords {
+    /// What is asked.
+    pub title: &'static str,
+    /// What the button does.
+    pub(crate) verb: &'static str,
+    /// How an answer looks.
+    pub hint: &'static str,
+    /// What to do when there is no answer yet.
+    pub missing: &'static str,
+    /// What a file is called that has no name yet.
+    pub name: &'static str,
+    /// How the names of such files end.
+    pub ending: &'static str,
+}
+
+impl AskWords {
+    /// The words for a purpose.
+    pub(crate) fn of(purpose: Purpose) -> Self {
+        let scene = Self {
+            title: "Open scene",
+            verb: "Open",
+            hint: "/path/to/NAME.scene.toml",
+            missing: "Type the path of a scene first",
+            name: "untitled.scene.toml",
+            ending: ".toml",
+        };
+        let recording = Self {
+            title: "Open recording",
+            hint: "/path/to/NAME.csv",
+            missing: "Type the path of a recording first",
+            name: "recording.csv",
+            ending: ".csv",
+            ..scene
+        };
+        match purpose {
+            Purpose::OpenScene => scene,
+            Purpose::OpenRecording => recording,
+            Purpose::SaveScene => Self {
+                title: "Save scene as",
+                verb: "Save",
+                ..scene
+            },
+            Purpose::SaveRecording => Self {
+                title: "Save recording as",
+                verb: "Save",
+                ..recording
+            },
+            Purpose::ImportFiles => Self {
+                title: "Add a file of measurements",
+                verb: "Add",
+                hint: "/path/to/NAME.txt",
+                missing: "Type the path of a file first",
+                name: "strokes.txt",
+                ending: "",
+            },
+            Purpose::OpenPicture => Self {
+                title: "Cloth from a picture",
+                verb: "Open",
+                hint: "/path/to/NAME.png",
+                missing: "Type the path of a picture first",
+                name: "cloth.png",
+                ending: "",
+            },
+            Purpose::OpenDesign => design_words(),
+            Purpose::OpenLogs | Purpose::WriteReport => folder_words(purpose),
+            Purpose::Clip(kind) => clip_words(kind),
+            Purpose::Export(_) => Self {
+                title: "Export as PNG, SVG or CSV",
+                verb: "Export",
+                hint: "/path/to/NAME.png",
+                missing: "Type where to export to first",
+                name: "export.png",
+                ending: ".png",
+            },
+        }
+    }
+}
+
+fn design_words() -> AskWords {
+    AskWords {
+        title: "Open a design",
+        verb: "Open",
+        hint: "/path/to/DESIGN.toml",
+        missing: "Type the path of a design first",
+        name: "design.toml",
+        ending: ".toml",
+    }
+}
+
+fn folder_words(purpose: Purpose) -> AskWords {
+    if purpose == Purpose::OpenLogs {
+        return AskWords {
+            title: "Analyse the sessions in a folder",
+            verb: "Analyse",
+            hint: "/path/to/study",
+            missing: "Type the path of a folder first",
+            name: "study",
+            ending: "",
+        };
+    }
+    AskWords {
+        title: "Write the report into a folder",
+        verb: "Write",
+        hint: "/path/to/study/analysis",
+        missing: "Type the path of a folder first",
+        name: "analysis",
+        ending: "",
+    }
+}
+
+fn clip_words(kind: ClipKind) -> AskWords {
+    let words = |title, hint, name, ending| AskWords {
+        title,
+        verb: "Export",
+        hint,
+        missing: "Type where to export to first",
+        name,
+        ending,
+    };
+    match kind {
+        ClipKind::Wav { .. } => {
+            let title = "Export the recording as a waveform";
+            words(title, "/path/to/NAME.wav", "recording.wav", ".wav")
+        }
+        ClipKind::Hjif => {
+            let title = "Export the recording as MPEG haptics";
+            words(title, "/path/to/NAME.hjif", "recording.hjif", ".hjif")
+        }
+        ClipKind::Frames => {
+            let title = "Export the recording as frames";
+            words(title, "/path/to/NAME.csv", "frames.csv", ".csv")
+        }
+    }
+}
+
+/// What is asked, and what was typed so far.
+#[derive(Debug)]
+pub(crate) struct Ask {
+    /// What the path is for.
+    pub purpose: Purpose,
+    /// The path as typed.
+    pub path: String,
+    /// Whether the field has had the focus once.
+    pub(crate) was_focused: bool,
+    completing: Option<Completing>,
+}
+
+impl Ask {
+    /// A question with the path that is known already.
+    pub(crate) fn new(purpose: Purpose, known: Option<&PathBuf>) -> Self {
+        let path = known
+            .map(|path| path.display().to_string())
+            .unwrap_or_default();
+        Self {
+            purpose,
+            path,
+            was_focused: false,
+            completing: None,
+        }
+    }
+
+    fn answer(&self) -> Option<Command> {
+        let path = self.path.trim();
+        let use_it = |path| FileCommand::Use(self.purpose, path).into();
+        (!path.is_empty()).then(|| use_it(PathBuf::from(path)))
+    }
+
+    /// Takes the completion that has come, unless something else was typed meanwhile; says whether
+    /// the path is another one now.
+    fn take_completion(&mut self) -> bool {
+        let Some(path) = self.completing.as_ref().and_then(Completing::poll) else {
+            return false;
+        };
+        let begun = self.completing.take();
+        let is_current = begun.is_some_and(|begun| begun.typed == self.path);
+        if !is_current || path == self.path {
+            return false;
+        }
+        self.path = path;
+        true
+    }
+}
+
+/// Shows the question at the upper edge of `over`; `recent` are the scenes that were opened last.
+pub(crate) fn show(ui: &Ui, over: Rect, ask: &mut Ask, recent: &[PathBuf], wishes: &mut Wishes) {
+    let words = AskWords::of(ask.purpose);
+    card(ui, over, 560.0, words.title, |ui, title| {
+        let is_entered = show_field(ui, title, ask, words);
+        ui.add_space(STEP);
+        show_buttons(ui, ask, words, is_entered, wishes);
+        if ask.purpose == Purpose::OpenScene && !recent.is_empty() {
+            // Below title, field and buttons.
+            let room = over.height() - CARD_DROP - 2.0 * CARD_MARGIN - 136.0;
+            show_recent(ui, room, recent, wishes);
+        }
+    });
+}
+
+/// The field; says whether Enter was pressed in it.
+fn show_field(ui: &mut Ui, title: &egui::Response, ask: &mut Ask, words: AskWords) -> bool {
+    let id = ui.make_persistent_id("path");
+    let was_completed = ask.take_completion();
+    if ui.memory(|memory| memory.has_focus(id)) && is_tab(ui) {
+        ask.completing = Completing::start(&ask.path, words.ending, ui.ctx());
+    }
+    let field = TextEdit::singleline(&mut ask.path)
+        .id(id)
+        .desired_width(f32::INFINITY)
+        .font(theme::number())
+        .margin(Margin::symmetric(8, 6))
+        .event_filter(EventFilter {
+            tab: true,
+            horizontal_arrows: true,
+            ..EventFilter::default()
+        })
+        .hint_text(words.hint);
+    let TextEditOutput {
+        response, state, ..
+    } = field.show(ui);
+    let response = response.response.labelled_by(title.id);
+    let end = ask.path.chars().count();
+    if !ask.was_focused {
+        response.request_focus();
+        // Typing replaces the known path.
+        select(ui, state, id, [0, end]);
+        ask.was_focused = true;
+    } else if was_completed {
+        select(ui, state, id, [end, end]);
+    }
+    response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter))
+}
+
+/// Whether Tab was pressed, which completes here; arrows up and down, and Shift+Tab, go elsewhere.
+fn is_tab(ui: &Ui) -> bool {
+    let (is_back, is_tab) = ui.input_mut(|input| {
+        (
+            input.consume_key(Modifiers::SHIFT, Key::Tab),
+            input.consume_key(Modifiers::NONE, Key::Tab),
+        )
+    });
+    if is_back {
+        ui.memory_mut(|memory| memory.move_focus(FocusDirection::Previous));
+    }
+    is_tab
+}
+
+fn show_buttons(ui: &mut Ui, ask: &Ask, words: AskWords, is_entered: bool, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    let size = vec2(ui.available_width(), ROW);
+    let layout = Layout::right_to_left(Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        let answer = ask.answer();
+        let missing = answer.is_none().then_some(words.missing);
+        if (button(ui, words.verb, "", missing) || is_entered)
+            && let Some(command) = answer
+        {
+            wishes.push(command);
+        }
+        if button(ui, "Cancel", "", None) {
+            wishes.push(Command::Dismiss);
+        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let hint = "Tab completes the path";
+            ui.label(RichText::new(hint).font(theme::small()).color(palette.dim));
+        });
+    });
+}
+
+/// The scenes that were opened last: a click opens one.
+fn show_recent(ui: &mut Ui, room: f32, recent: &[PathBuf], wishes: &mut Wishes) {
+    section(ui, "Recent scenes");
+    let list = ScrollArea::vertical().max_height(room.max(3.0 * ROW));
+    list.show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for path in recent {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let folder = path.parent().unwrap_or(path).display().to_string();
+            let tip = path.display().to_string();
+            if choice(ui, RichText::new(name), &folder, &tip) {
+                wishes.push(FileCommand::Use(Purpose::OpenScene, path.clone()).into());
+            }
+        }
+    });
+}
+
+/// Selects what is between two places of the text, counted in characters.
+fn select(ui: &Ui, mut state: TextEditState, id: Id, [from, to]: [usize; 2]) {
+    let range = CCursorRange::two(CCursor::new(from), CCursor::new(to));
+    state.cursor.set_char_range(Some(range));
+    state.store(ui.ctx(), id);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_path_is_no_answer() {
+        let mut ask = Ask::new(Purpose::OpenScene, None);
+        ask.path = "  ".to_owned();
+        assert_eq!(ask.answer(), None);
+        ask.path = " a.scene.toml ".to_owned();
+        assert_eq!(
+            ask.answer(),
+            Some(FileCommand::Use(Purpose::OpenScene, PathBuf::from("a.scene.toml")).into())
+        );
+    }
+
+    #[test]
+    fn every_purpose_is_asked_for_in_words_of_its_own() {
+        let purposes = [
+            Purpose::OpenScene,
+            Purpose::SaveScene,
+            Purpose::OpenRecording,
+            Purpose::SaveRecording,
+        ];
+        let titles = purposes.map(|purpose| AskWords::of(purpose).title);
+        for (i, title) in titles.iter().enumerate() {
+            assert!(!titles[i + 1..].contains(title), "{title}");
+        }
+        for words in purposes.map(AskWords::of) {
+            assert!(words.name.ends_with(words.ending), "{words:?}");
+            assert!(words.hint.ends_with(words.ending), "{words:?}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Edits: the document changes at once, the engine follows with what it needs.
+
+use eframe::egui;
+
+use crate::bench::applied_gains::Felt;
+use crate::bench::command::edit::Edit;
+use crate::bench::document::Document;
+use crate::bench::preparing::Ready;
+use crate::bench::{editing, preparing};
+use crate::shell::error::AppError;
+use crate::shell::window::Workbench;
+
+use selvedge_render::scene::Scene;
+
+impl Workbench {
+    pub(crate) fn edit(&mut self, ctx: &egui::Context, edit: &Edit) {
+        let before = self.document.scene().clone();
+        if let Err(error) = self.document.edit(edit, self.transient.moment) {
+            self.transient.notices.give(error.to_string());
+        }
+        if matches!(edit, Edit::AddCloth(..) | Edit::AddCloths(_))
+            && self.document.scene() != &before
+        {
+            let n_cloths = self.document.scene().textiles.len();
+            self.workspace.cloth = n_cloths.checked_sub(1);
+        }
+        self.follow(ctx, &before);
+    }
+
+    pub(crate) fn step_history(
+        &mut self,
+        ctx: &egui::Context,
+        step: fn(&mut Document) -> Option<&'static str>,
+    ) {
+        let before = self.document.scene().clone();
+        step(&mut self.document);
+        self.follow(ctx, &before);
+    }
+
+    /// Lets everything follow that depends on the document, which was `before`.
+    fn follow(&mut self, ctx: &egui::Context, before: &Scene) {
+        let after = self.document.scene().clone();
+        self.transient.audition.follow(before, &after);
+        let selected = self.workspace.cloth;
+        let is_new = before.textiles.len() < after.textiles.len();
+        self.workspace.cloth = selected.and_then(|index| {
+            let moved = editing::place_after(before, &after, index);
+            moved.or_else(|| (is_new && index + 1 == after.textiles.len()).then_some(index))
+        });
+        if preparing::differs(self.loaded.scene(), &after) || self.preparing.is_busy() {
+            self.prepare(ctx, &after);
+        } else {
+            self.tell_gains();
+        }
+    }
+
+    fn prepare(&mut self, ctx: &egui::Context, scene: &Scene) {
+        let scene = self.felt_now(scene).in_scene(scene);
+        let what = (scene, self.settings.kept.rendering);
+        let asked = self.preparing.ask(&self.loaded, what, ctx, self.is_stepped);
+        if let Some(outcome) = asked {
+            self.take_prepared(ctx, outcome);
+        }
+    }
+
+    /// Lets the document's scene be felt again after something else was.
+    pub(crate) fn feel_document(&mut self, ctx: &egui::Context) {
+        let scene = self.document.scene().clone();
+        self.prepare(ctx, &scene);
+    }
+
+    /// Lets the engine render as the user chose, if it does not yet.
+    pub(crate) fn render_as_chosen(&mut self, ctx: &egui::Context) {
+        if self.rendering != self.settings.kept.rendering || self.preparing.is_busy() {
+            let scene = self.document.scene().clone();
+            self.prepare(ctx, &scene);
+        }
+    }
+
+    /// Takes what a thread prepared, if it is done.
+    pub(crate) fn poll_prepared(&mut self, ctx: &egui::Context) {
+        let Some((outcome, next)) = self.preparing.poll() else {
+            return;
+        };
+        self.take_prepared(ctx, outcome);
+        if next.is_some() {
+            let scene = self.document.scene().clone();
+            self.prepare(ctx, &scene);
+        }
+    }
+
+    fn take_prepared(&mut self, ctx: &egui::Context, outcome: Result<Ready, AppError>) {
+        match outcome {
+            Ok(mut ready) => {
+                // The library may have changed meanwhile.
+                ready.loaded.use_library(self.loaded.library());
+                self.scene_serial = ready.prepared.serial();
+                self.send(selvedge_engine::Command::UpdateScene(ready.prepared));
+                self.loaded = ready.loaded;
+                self.rendering = ready.rendering;
+                self.felt = self.felt.after_scene(self.loaded.scene());
+                self.scene_has_changed();
+                // Gains may have moved on while a thread was at work.
+                self.tell_gains();
+            }
+            Err(error) => {
+                // The last good scene stays, in the engine and in the document.
+                self.transient.notices.give(error.to_string());
+                let before = self.document.scene().clone();
+                let tried = std::mem::replace(&mut self.settings.kept.rendering, self.rendering);
+                if tried != self.rendering {
+                    // It was not the scene: what is left of the edit is tried as before.
+                    if preparing::differs(self.loaded.scene(), &before) {
+                        self.prepare(ctx, &before);
+                    }
+                    return;
+                }
+                self.document.take_back();
+                if preparing::differs(&before, self.document.scene()) {
+                    self.follow(ctx, &before);
+                }
+            }
+        }
+    }
+
+    /// What is to be felt of a scene now.
+    fn felt_now(&self, scene: &Scene) -> Felt {
+        let tuning = scene
+            .tuning
+            .unwrap_or_else(|| self.document.default_tuning());
+        Felt::of(scene, tuning, &self.transient.audition, self.n_contactors())
+    }
+
+    /// Tells the engine which gains changed, if any.
+    pub(crate) fn tell_gains(&mut self) {
+        let new = self.felt_now(self.document.scene());
+        let changes = self.felt.changes(&new);
+        if !changes.is_empty() {
+            new.put_into(&mut self.eye.scene);
+            self.eye.inspector.set_gains(&self.eye.scene);
+        }
+        for command in changes {
+            self.send(command);
+        }
+        self.felt = new;
+    }
+}

@@ -1,0 +1,115 @@
+//! What moves the display, and recording it.
+
+use eframe::egui;
+
+use crate::bench::command::{PlayCommand, PlaySource};
+use crate::bench::recording::Take;
+use crate::bench::view::Source;
+use crate::shell::window::Workbench;
+use selvedge_engine::InputSource;
+use selvedge_foundation::geometry::Point;
+use selvedge_render::scene::{Scene, Stroke};
+
+/// How fast the display explores by itself, mm/s.
+const STROKE_MM_PER_S: f64 = 120.0;
+
+impl Workbench {
+    pub(crate) fn dispatch_play(&mut self, command: PlayCommand) {
+        match command {
+            PlayCommand::Toggle => self.toggle_play(),
+            PlayCommand::Source(PlaySource::Pointer) => {
+                self.send(selvedge_engine::Command::SetSource(InputSource::Pointer));
+            }
+            PlayCommand::Source(PlaySource::Stroke) => self.explore_alone(),
+            PlayCommand::Source(PlaySource::Recording) => self.replay(),
+            // Opening one takes a thread: `choose_input` does it.
+            PlayCommand::Source(PlaySource::Input) => {}
+            PlayCommand::Step => self.send(selvedge_engine::Command::Step),
+            PlayCommand::Rewind => self.send(selvedge_engine::Command::Rewind),
+            PlayCommand::Seek(tick) => self.send(selvedge_engine::Command::Seek(tick)),
+            PlayCommand::Loop(does_loop) => {
+                self.transient.does_loop = does_loop;
+                self.send(selvedge_engine::Command::SetLoop(does_loop));
+            }
+            PlayCommand::ToggleLoop => {
+                self.dispatch_play(PlayCommand::Loop(!self.transient.does_loop));
+            }
+            PlayCommand::ToggleRecording => self.send(if self.transient.live.play.is_recording {
+                selvedge_engine::Command::StopRecording
+            } else {
+                selvedge_engine::Command::StartRecording
+            }),
+            PlayCommand::Turn(by_deg) => self.send(selvedge_engine::Command::TurnBy(by_deg)),
+            PlayCommand::TurnBack => self.send(selvedge_engine::Command::SetAngle(0.0)),
+        }
+    }
+
+    /// Takes positions from the tablet or program that was chosen last.
+    pub(crate) fn choose_input(&mut self, ctx: &egui::Context) {
+        match self.transient.sources.chosen().cloned() {
+            Some(chosen) => self.dispatch_source(ctx, chosen),
+            None => self
+                .transient
+                .notices
+                .give("Choose a tablet in the Bridge pane first"),
+        }
+    }
+
+    /// What can be played plays or is held; the pointer gives way to a stroke.
+    fn toggle_play(&mut self) {
+        match self.transient.live.play.source {
+            Source::Pointer | Source::Lines | Source::Device => self.explore_alone(),
+            Source::Stroke | Source::Recording => {
+                let play = if self.transient.live.play.is_playing {
+                    selvedge_engine::Command::Pause
+                } else {
+                    selvedge_engine::Command::Play
+                };
+                self.send(play);
+            }
+        }
+    }
+
+    /// Shows a tick of the recording at hand, whatever moved the display before.
+    pub(crate) fn seek_in_take(&mut self, tick: u64) {
+        if self.take.is_none() {
+            return;
+        }
+        if self.transient.live.play.source != Source::Recording {
+            self.replay();
+        }
+        self.send(selvedge_engine::Command::Seek(tick));
+    }
+
+    fn explore_alone(&mut self) {
+        let stroke = resting_stroke(self.document.scene());
+        self.send(selvedge_engine::Command::SetSource(InputSource::Stroke(
+            stroke,
+        )));
+        self.send(selvedge_engine::Command::Play);
+    }
+
+    /// Takes a recording that has ended: it can be replayed and saved.
+    pub fn take_recording(&mut self) {
+        let Some(recording) = self.engine.take_recording() else {
+            return;
+        };
+        let Some(recording) = self.recording_of_trial(recording) else {
+            return;
+        };
+        // A recording that ended before its first tick is none.
+        if let Ok(take) = Take::from_recording(&recording) {
+            self.take = Some(take);
+        }
+    }
+}
+
+/// The stroke that the display explores a scene with: a circle around its middle.
+pub(crate) fn resting_stroke(scene: &Scene) -> Stroke {
+    let [width_mm, height_mm] = scene.size_mm;
+    Stroke::Circle {
+        centre: Point::new(width_mm / 2.0, height_mm / 2.0),
+        radius_mm: 0.25 * width_mm.min(height_mm),
+        speed_mm_per_s: STROKE_MM_PER_S,
+    }
+}

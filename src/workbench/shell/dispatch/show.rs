@@ -1,0 +1,69 @@
+//! What is shown how: kept per user where that makes sense, never undone.
+
+use eframe::egui;
+
+use crate::bench::command::ShowCommand;
+use crate::bench::mute_solo::Audition;
+use crate::shell::arrangement;
+use crate::shell::window::Workbench;
+use crate::tools::why::text::to_text;
+use crate::tools::workspace::state::Place;
+
+impl Workbench {
+    pub(crate) fn dispatch_show(&mut self, ctx: &egui::Context, command: &ShowCommand) {
+        let place = Place {
+            pane: self.transient.ground.unwrap_or(egui::Rect::ZERO),
+            size_mm: self.document.scene().size_mm,
+            pixels_per_point: ctx.pixels_per_point(),
+        };
+        self.workspace.take(command, place);
+        match *command {
+            ShowCommand::Theme(preference) => {
+                ctx.set_theme(preference);
+                self.settings.kept.theme = preference;
+            }
+            ShowCommand::ColourMap(map) => self.settings.kept.colour_map = map,
+            ShowCommand::Zoom(zoom) => {
+                self.settings.kept.zoom = zoom;
+                self.settings.kept = self.settings.kept.clone().in_bounds();
+                ctx.set_zoom_factor(self.settings.kept.zoom);
+            }
+            ShowCommand::Pane(pane) => {
+                arrangement::toggle(&mut self.tree, pane);
+                self.keep_arrangement();
+            }
+            ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
+            ShowCommand::DefaultArrangement => {
+                let perspective = self.settings.kept.perspective;
+                self.tree = perspective.default_tree(self.transient.desk_size);
+                self.settings.kept.arrangements[perspective.index()] = None;
+            }
+            ShowCommand::SelectContactor(contactor) => {
+                self.send(selvedge_engine::Command::Watch(contactor));
+            }
+            ShowCommand::Mute(part) => self.transient.audition.toggle_mute(part),
+            ShowCommand::Solo(part) => self.transient.audition.toggle_solo(part),
+            ShowCommand::HearAll => self.transient.audition = Audition::default(),
+            ShowCommand::ToggleNumbers => {
+                self.settings.kept.has_numbers = !self.settings.kept.has_numbers;
+            }
+            ShowCommand::FreezeWhy => self.transient.why.1 = !self.transient.why.1,
+            ShowCommand::CopyWhy => {
+                if let Some(why) = &self.transient.why.0 {
+                    ctx.copy_text(to_text(why));
+                }
+            }
+            ShowCommand::Help => {
+                self.transient.is_help_shown = !self.transient.is_help_shown;
+            }
+            _ => {}
+        }
+        self.tell_gains();
+    }
+
+    /// Keeps the arrangement as it is now.
+    pub(crate) fn keep_arrangement(&mut self) {
+        let perspective = self.settings.kept.perspective;
+        self.settings.kept.arrangements[perspective.index()] = arrangement::to_text(&self.tree);
+    }
+}

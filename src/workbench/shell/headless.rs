@@ -1,0 +1,104 @@
+//! A window without a display: frames are run when told, 25 ms apart, and nothing depends on a
+//! clock.
+
+use std::path::Path;
+
+use eframe::App as _;
+use eframe::egui::{Context, FullOutput, Pos2, RawInput, Rect, Vec2};
+
+use crate::bench::command::Command;
+use crate::shell::error::AppError;
+use crate::shell::window::{Drive, Workbench};
+
+/// Ticks from frame to frame where time passes quickly.
+#[cfg(test)]
+const TICKS_A_FRAME: u32 = 4;
+
+/// A workbench, the toolkit around it, and no display.
+pub(crate) struct Headless {
+    pub(crate) ctx: Context,
+    pub(crate) bench: Workbench,
+    frame: eframe::Frame,
+    size: Vec2,
+    pixels_per_point: f32,
+    n_ticks: u32,
+}
+
+impl Headless {
+    /// A workbench on a scene (`None`: the one that the program ships) in a window of this size in
+    /// points, before its first frame.
+    ///
+    /// # Errors
+    /// As [`Workbench::new`].
+    pub(crate) fn new(
+        scene: Option<&Path>,
+        size: Vec2,
+        pixels_per_point: f32,
+    ) -> Result<Self, AppError> {
+        let ctx = Context::default();
+        Ok(Self {
+            bench: Workbench::new(&ctx, scene, Drive::Stepped)?,
+            frame: eframe::Frame::_new_kittest(),
+            ctx,
+            size,
+            pixels_per_point,
+            n_ticks: 0,
+        })
+    }
+
+    /// Does what a user could want.
+    pub(crate) fn dispatch(&mut self, command: impl Into<Command>) {
+        self.bench.dispatch(&self.ctx, command.into());
+    }
+
+    /// Runs the next frame.
+    pub(crate) fn run(&mut self) -> FullOutput {
+        self.run_after(1)
+    }
+
+    /// Runs a frame so many ticks after the last one.
+    pub(crate) fn run_after(&mut self, n_ticks: u32) -> FullOutput {
+        self.n_ticks += n_ticks;
+        let input = self.input();
+        let Self {
+            ctx, bench, frame, ..
+        } = self;
+        ctx.run_ui(input, |ui| {
+            bench.logic(ui.ctx(), frame);
+            bench.ui(ui, frame);
+        })
+    }
+
+    /// Runs so many frames that nobody looks at.
+    pub(crate) fn pass(&mut self, n_frames: u32) {
+        for _ in 0..n_frames {
+            self.run().textures_delta.clear();
+        }
+    }
+
+    /// Lets so many ticks pass with fewer frames, which nobody looks at.
+    #[cfg(test)]
+    pub(crate) fn pass_ticks(&mut self, n_ticks: u32) {
+        let end = self.n_ticks + n_ticks;
+        while self.n_ticks < end {
+            let next = TICKS_A_FRAME.min(end - self.n_ticks);
+            self.run_after(next).drop_without_applying_deltas();
+        }
+    }
+
+    fn input(&self) -> RawInput {
+        let mut input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
+            time: Some(f64::from(self.n_ticks) / 40.0),
+            predicted_dt: 0.025,
+            focused: true,
+            ..RawInput::default()
+        };
+        input
+            .viewports
+            .entry(input.viewport_id)
+            .or_default()
+            .native_pixels_per_point = Some(self.pixels_per_point);
+        input
+    }
+}

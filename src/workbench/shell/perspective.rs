@@ -1,0 +1,174 @@
+//! Perspectives: what the window is arranged for. Each keeps its own arrangement of all the panes.
+//!
+//! Another one joins as a variant with its words and its default tree; everything else follows.
+
+use eframe::egui::{Id, Vec2};
+use egui_tiles::{LinearDir, TileId, Tiles, Tree};
+
+use crate::shell::arrangement;
+use crate::shell::arrangement::{Pane, is_roomy, linear, tabs};
+
+/// Width of the library beside the lab, points.
+const LIBRARY: f32 = 200.0;
+/// Height of what stands below the lab, points.
+const BELOW: f32 = 168.0;
+/// Width of the experimenter's view, points.
+const EXPERIMENTER: f32 = 328.0;
+
+/// What the window is arranged for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Perspective {
+    /// To feel a scene.
+    #[default]
+    Explore,
+    /// To make cloth.
+    Cloth,
+    /// To run an experiment.
+    Experiment,
+}
+
+impl Perspective {
+    /// All, in the order in which they are offered.
+    pub(crate) const ALL: [Self; 3] = [Self::Explore, Self::Cloth, Self::Experiment];
+
+    /// Its place in [`Self::ALL`].
+    pub(crate) fn index(self) -> usize {
+        let mut all = Self::ALL.into_iter();
+        all.position(|one| one == self).unwrap_or_default()
+    }
+
+    /// What people call it.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::Explore => "Explore",
+            Self::Cloth => "Cloth",
+            Self::Experiment => "Experiment",
+        }
+    }
+
+    /// What it is for.
+    pub(crate) fn what(self) -> &'static str {
+        match self {
+            Self::Explore => "Feel a scene",
+            Self::Cloth => "Make cloth: the library and the textile lab",
+            Self::Experiment => "Run an experiment with a participant",
+        }
+    }
+
+    /// The word that files use.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Explore => "explore",
+            Self::Cloth => "cloth",
+            Self::Experiment => "experiment",
+        }
+    }
+
+    /// The arrangement that a window of this size begins with, points.
+    pub(crate) fn default_tree(self, size: Vec2) -> Tree<Pane> {
+        match self {
+            Self::Explore => arrangement::default_tree(size),
+            Self::Cloth => {
+                let mut tiles = Tiles::default();
+                let root = cloth(&mut tiles, size);
+                Tree::new(Id::unique("cloth"), root, tiles)
+            }
+            Self::Experiment => {
+                let mut tiles = Tiles::default();
+                let root = experiment(&mut tiles, size);
+                Tree::new(Id::unique("experiment"), root, tiles)
+            }
+        }
+    }
+}
+
+/// The library on the left, the lab in the middle, every other pane in a row of tabs below it; in
+/// a small window the lab in front of all.
+fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
+    let middle = [
+        Pane::Lab,
+        Pane::Import,
+        Pane::Picture,
+        Pane::Collection,
+        Pane::Workspace,
+    ];
+    if !is_roomy(size) {
+        let mut all = Pane::ALL;
+        all.sort_by_key(|pane| match pane {
+            Pane::Lab => 0,
+            Pane::Library => 1,
+            Pane::Collection => 2,
+            Pane::Workspace => 3,
+            _ => 4,
+        });
+        return tabs(tiles, &all);
+    }
+    let stands = |pane: &Pane| !middle.contains(pane) && *pane != Pane::Library;
+    let mut below: Vec<Pane> = Pane::ALL.into_iter().filter(stands).collect();
+    // In front stands what shows the amplitudes of the contactors.
+    below.sort_by_key(|pane| *pane != Pane::Heatmaps);
+    let below = tabs(tiles, &below);
+    let middle = tabs(tiles, &middle);
+    let height = (size.y - BELOW).max(BELOW);
+    let parts = [(middle, height), (below, BELOW)];
+    let middle = linear(tiles, LinearDir::Vertical, &parts);
+    let library = tabs(tiles, &[Pane::Library]);
+    let parts = [(library, LIBRARY), (middle, size.x - LIBRARY)];
+    linear(tiles, LinearDir::Horizontal, &parts)
+}
+
+/// The participant's view, large; the experimenter's beside it, with the device and every other
+/// pane below. In a small window the participant's view stands in front of all.
+fn experiment(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
+    let mut rest = Pane::ALL.to_vec();
+    rest.sort_by_key(|pane| match pane {
+        Pane::Participant => 0,
+        Pane::Experimenter => 1,
+        Pane::Bridge => 2,
+        Pane::Analysis => 3,
+        _ => 4,
+    });
+    if !is_roomy(size) {
+        return tabs(tiles, &rest);
+    }
+    let participant = tabs(tiles, &rest[..1]);
+    let experimenter = tabs(tiles, &rest[1..2]);
+    let rest = tabs(tiles, &rest[2..]);
+    let parts = [(experimenter, 0.6), (rest, 0.4)];
+    let right = linear(tiles, LinearDir::Vertical, &parts);
+    let parts = [(participant, size.x - EXPERIMENTER), (right, EXPERIMENTER)];
+    linear(tiles, LinearDir::Horizontal, &parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shell::arrangement::{from_text, is_shown, to_text};
+
+    #[test]
+    fn every_perspective_holds_every_pane_and_survives_being_kept() {
+        for perspective in Perspective::ALL {
+            for size in [Vec2::new(1400.0, 900.0), Vec2::new(700.0, 450.0)] {
+                let tree = perspective.default_tree(size);
+                for pane in Pane::ALL {
+                    let tile = arrangement::tile_of(&tree, pane);
+                    assert!(tile.is_some(), "{perspective:?} {pane:?}");
+                }
+                let text = to_text(&tree).unwrap();
+                assert_eq!(from_text(&text, perspective), Some(tree));
+            }
+        }
+    }
+
+    #[test]
+    fn the_lab_stands_in_front_where_cloth_is_made_and_behind_where_it_is_felt() {
+        let size = Vec2::new(1400.0, 900.0);
+        let shows =
+            |perspective: Perspective, pane| is_shown(&perspective.default_tree(size), pane);
+        assert!(shows(Perspective::Cloth, Pane::Lab));
+        assert!(shows(Perspective::Cloth, Pane::Library));
+        assert!(!shows(Perspective::Cloth, Pane::Workspace));
+        assert!(!shows(Perspective::Explore, Pane::Lab));
+        assert!(shows(Perspective::Explore, Pane::Workspace));
+    }
+}

@@ -1,0 +1,86 @@
+//! The way of a pointer movement to the engine, outside the toolkit.
+//!
+//! The toolkit's events carry no time and wait for the next frame. So the window's own event
+//! handler stamps every movement (`backlog.rs`), turns it into mm with the view of the last frame
+//! and hands it to the engine's ring, whether a frame is drawn or not.
+
+use std::time::Instant;
+
+use eframe::egui::{Pos2, Rect, pos2};
+
+use crate::tools::workspace::is_near;
+use crate::tools::workspace::transform::ViewTransform;
+use selvedge_engine::{PointerSample, PointerSender};
+
+/// The window that the pointer is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Pointed {
+    /// The workbench.
+    #[default]
+    Workbench,
+    /// The participant's window.
+    Participant,
+}
+
+/// Where the workspace was drawn last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ground {
+    /// In which window.
+    pub window: Pointed,
+    /// How mm are laid on the screen.
+    pub view: ViewTransform,
+    /// The part of the screen that belongs to the workspace, points.
+    pub rect: Rect,
+    /// Width and height of the workspace, mm.
+    pub size_mm: [f64; 2],
+    /// Pixels per point.
+    pub pixels_per_point: f32,
+}
+
+/// Takes movements and passes on those over the workspace.
+#[derive(Debug, Default)]
+pub(crate) struct PointerTap {
+    sender: Option<PointerSender>,
+    ground: Option<Ground>,
+}
+
+impl PointerTap {
+    /// A tap that feeds this ring.
+    pub(crate) fn new(sender: Option<PointerSender>) -> Self {
+        Self {
+            sender,
+            ground: None,
+        }
+    }
+
+    /// Says where the workspace is now; `None` while something covers it.
+    pub(crate) fn set_ground(&mut self, ground: Option<Ground>) {
+        self.ground = ground;
+    }
+
+    /// Takes in a movement to a pixel of a window, stamped on arrival. Only the window that shows
+    /// what is felt counts.
+    pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, window: Pointed, [x, y]: [f64; 2]) {
+        let Some(ground) = self.ground.filter(|ground| ground.window == window) else {
+            return;
+        };
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the screen is drawn in single precision"
+        )]
+        let point = pos2(x as f32, y as f32) / ground.pixels_per_point;
+        self.moved_to(stamp, point);
+    }
+
+    /// Takes in a movement to a place on the screen, points.
+    pub(crate) fn moved_to(&mut self, stamp: Instant, at: Pos2) {
+        let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else {
+            return;
+        };
+        let position = ground.view.workspace(at);
+        if ground.rect.contains(at) && is_near(position, ground.size_mm) {
+            // A full ring drops the sample and counts it.
+            sender.push(PointerSample { stamp, position });
+        }
+    }
+}

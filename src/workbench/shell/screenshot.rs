@@ -1,0 +1,127 @@
+//! The workbench as a picture, without a display: the same window, drawn by our own rasteriser.
+//!
+//! The display has just gone round the scene once, so that everything is lit. Nothing depends on a
+//! clock: the same scene gives the same bytes.
+
+use std::path::PathBuf;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use eframe::egui::{self, vec2};
+
+use crate::bench::command::{PlayCommand, PlaySource};
+use crate::bench::query;
+use crate::bench::view::BridgeView;
+use crate::kit::theme::Palette;
+use crate::shell::error::AppError;
+use crate::shell::headless::Headless;
+use crate::shell::raster::{Picture, Rasteriser};
+use selvedge_device::{ArrayProfile, Bridge, BridgeState, DeviceUid, Target};
+
+/// Frames that are run before the picture is taken, 25 ms apart: 11 s.
+const N_FRAMES: u32 = 425;
+
+/// Dark or light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Theme {
+    /// Light on dark.
+    #[default]
+    Dark,
+    /// Dark on light.
+    Light,
+}
+
+/// What to picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Screenshot {
+    /// The scene; `None` is the one that the program ships.
+    pub scene: Option<PathBuf>,
+    /// Pixels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Pixels per point: 2 is a display at 200 %.
+    pub pixels_per_point: f32,
+    /// Dark or light.
+    pub theme: Theme,
+}
+
+impl Default for Screenshot {
+    fn default() -> Self {
+        Self {
+            scene: None,
+            width: 1400,
+            height: 900,
+            pixels_per_point: 1.0,
+            theme: Theme::Dark,
+        }
+    }
+}
+
+/// Draws the workbench.
+///
+/// # Errors
+/// The scene cannot be opened; a picture that is too small or too large.
+pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
+    let Screenshot { width, height, .. } = *wanted;
+    let is_size = |pixels: usize| (320..=16_384).contains(&pixels);
+    if !is_size(width) || !is_size(height) || width * height > 64_000_000 {
+        return Err(AppError::Size { width, height });
+    }
+    let scale = if wanted.pixels_per_point.is_finite() {
+        wanted.pixels_per_point
+    } else {
+        1.0
+    };
+    let scale = scale.clamp(0.5, 4.0);
+    let theme = match wanted.theme {
+        Theme::Dark => egui::Theme::Dark,
+        Theme::Light => egui::Theme::Light,
+    };
+    let size = vec2(width as f32, height as f32) / scale;
+    let mut window = Headless::new(wanted.scene.as_deref(), size, scale)?;
+    window.ctx.set_theme(theme);
+    window.dispatch(PlayCommand::Source(PlaySource::Stroke));
+    let bench = &mut window.bench;
+    bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
+    bench.transient.target = bench
+        .transient
+        .pictured_bridge
+        .as_ref()
+        .map(|_| query::device_name(&Target::Emulator));
+    bench.transient.faults.running = bench.transient.target.is_some().then(Default::default);
+    let mut rasteriser = Rasteriser::default();
+    for _ in 1..N_FRAMES {
+        rasteriser.apply(&mut window.run().textures_delta);
+    }
+    let mut last = window.run();
+    rasteriser.apply(&mut last.textures_delta);
+    let primitives = window.ctx.tessellate(last.shapes, last.pixels_per_point);
+    let floor = Palette::of(theme).floor;
+    Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
+}
+
+/// How the emulator shows once it is ready, as in a window that has just been opened. It lives in
+/// real time, which a picture does not: so it is greeted here, and let go.
+fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
+    let mut bridge = Bridge::open(
+        Target::Emulator,
+        profile.clone(),
+        profile.n_contactors(),
+        || {},
+    );
+    let patience = Instant::now() + Duration::from_secs(3);
+    while bridge.state() != BridgeState::Ready && Instant::now() < patience {
+        while bridge.poll().is_some() {}
+        thread::sleep(Duration::from_millis(1));
+    }
+    let state = bridge.state();
+    (state == BridgeState::Ready).then(|| BridgeView {
+        state: state.label(),
+        phase: query::phase(state),
+        depth: bridge.depth(),
+        uid: bridge.caps().map(|caps| DeviceUid(caps.uid)),
+        can_identify: true,
+        ..BridgeView::default()
+    })
+}

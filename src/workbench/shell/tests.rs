@@ -1,0 +1,196 @@
+//! Cards and menus under the hands of a simulated user.
+
+use std::path::PathBuf;
+use std::{fs, thread};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Ui, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::bench::command::device::DeviceCommand;
+use crate::bench::command::{Command, FileCommand, Purpose, Wishes};
+use crate::bench::sources::SourcesView;
+use crate::bench::view::Live;
+use crate::kit::theme;
+use crate::shell::ask::{Ask, show as show_ask};
+use crate::shell::help::show as show_help;
+use crate::shell::question::show as show_question;
+use crate::tools::bridge::array::ArrayView;
+use crate::tools::bridge::ports::PortsView;
+use crate::tools::bridge::{BridgePane, BridgeTyped, show as show_bridge};
+use selvedge_device::{ArrayProfile, FaultWords, FoundPort, RecognisedBy};
+use selvedge_scratch::ScratchFolder;
+
+/// A window with nothing in it but `content`, and what is wished for in it.
+fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
+    let mut is_styled = false;
+    Harness::builder()
+        .with_size(vec2(700.0, 500.0))
+        .build_ui_state(
+            move |ui, wishes| {
+                if !is_styled {
+                    theme::install(ui.ctx());
+                    is_styled = true;
+                }
+                content(ui, wishes);
+            },
+            Wishes::new(),
+        )
+}
+
+fn click(harness: &mut Harness<'_, Wishes>, name: &str) -> Vec<Command> {
+    harness.state_mut().clear();
+    harness.get_by_role_and_label(Role::Button, name).click();
+    harness.run();
+    std::mem::take(harness.state_mut())
+}
+
+#[test]
+fn tab_completes_the_path_and_enter_opens_it() {
+    let folder = ScratchFolder::made("ask");
+    let scene = folder.join("silk.scene.toml");
+    fs::write(&scene, "").unwrap();
+    let mut ask = Ask::new(Purpose::OpenScene, Some(&folder.join("si")));
+    let mut harness = window(|ui, wishes| {
+        let over = ui.max_rect();
+        show_ask(ui, over, &mut ask, &[], wishes);
+    });
+    harness.run();
+    harness.key_press(Key::End);
+    harness.run();
+    harness.key_press(Key::Tab);
+    let path = scene.display().to_string();
+    for _ in 0..2_000 {
+        harness.run();
+        let field = harness.get_by_role_and_label(Role::TextInput, "Open scene");
+        if field.value().as_deref() == Some(path.as_str()) {
+            break;
+        }
+        thread::yield_now();
+    }
+    harness.key_press(Key::Enter);
+    harness.run();
+    let wanted = FileCommand::Use(Purpose::OpenScene, scene);
+    assert_eq!(harness.state(), &[wanted.into()]);
+    drop(harness);
+}
+
+#[test]
+fn a_recent_scene_is_opened_by_a_click() {
+    let recent = ["/a/silk.scene.toml", "/b/wool.scene.toml"].map(PathBuf::from);
+    let mut ask = Ask::new(Purpose::OpenScene, None);
+    let mut harness = window(|ui, wishes| {
+        let over = ui.max_rect();
+        show_ask(ui, over, &mut ask, &recent, wishes);
+    });
+    harness.run();
+    let wool = harness.get_by_label_contains("wool.scene.toml");
+    wool.click();
+    harness.run();
+    let wanted = FileCommand::Use(Purpose::OpenScene, recent[1].clone());
+    assert_eq!(harness.state(), &[wanted.into()]);
+}
+
+#[test]
+fn the_question_on_closing_has_three_answers_and_enter_saves() {
+    let mut harness = window(|ui, wishes| {
+        let over = ui.max_rect();
+        show_question(ui, over, "silk", true, wishes);
+    });
+    harness.run();
+    harness.get_by_label("Save changes to silk?");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state(), &[FileCommand::Save.into()]);
+    assert_eq!(click(&mut harness, "Save"), [FileCommand::Save.into()]);
+    let unsaved = click(&mut harness, "Don’t save");
+    assert_eq!(unsaved, [FileCommand::LetGo.into()]);
+    assert_eq!(click(&mut harness, "Cancel"), [Command::Dismiss]);
+}
+
+#[test]
+fn the_list_of_keys_names_a_key_and_can_be_put_away() {
+    let mut harness = window(|ui, wishes| {
+        let over = ui.max_rect();
+        show_help(ui, over, wishes);
+    });
+    harness.run();
+    harness.get_by_label("Ctrl+O");
+    assert_eq!(click(&mut harness, "Close"), [Command::Dismiss]);
+}
+
+/// The pane of the device, with nothing connected.
+fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, Wishes> {
+    window(|ui, wishes| {
+        let profile = ArrayProfile::default();
+        let view = BridgePane {
+            live: &Live::default(),
+            target: None,
+            ports,
+            array: ArrayView {
+                profile: &profile,
+                places_mm: profile.places_mm(),
+                is_own: false,
+                choices: Vec::new(),
+                waits: false,
+                contactor: None,
+                wizard: None,
+                folder: None,
+            },
+            sources: &SourcesView::default(),
+            plant: None,
+            faults: None,
+            stops_on_focus_loss: false,
+        };
+        let mut typed = BridgeTyped {
+            port,
+            copy_name: &mut String::new(),
+            faults: &mut FaultWords::default(),
+        };
+        show_bridge(ui, &view, &mut typed, wishes);
+    })
+}
+
+#[test]
+fn opening_the_menu_lists_ports_and_choosing_one_connects() {
+    let ports = PortsView {
+        is_known: true,
+        ports: vec![("/dev/ttyACM0".to_owned(), "Array bridge".to_owned())],
+        ..PortsView::default()
+    };
+    let mut port = String::new();
+    let mut harness = bridge_window(&ports, &mut port);
+    harness.run();
+    let listed = click(&mut harness, "Choose a port");
+    assert_eq!(listed, [DeviceCommand::ListPorts.into()]);
+    harness.get_by_label_contains("Array bridge").click();
+    harness.run();
+    let path = PathBuf::from("/dev/ttyACM0");
+    let connected = DeviceCommand::ConnectPort(path.clone());
+    assert_eq!(harness.state(), &[connected.into()]);
+    assert!(
+        harness.query_by_label_contains("Array bridge").is_none(),
+        "it closed"
+    );
+    let again = click(&mut harness, "Connect");
+    assert_eq!(again, [DeviceCommand::ConnectPort(path).into()]);
+}
+
+#[test]
+fn a_device_that_is_back_is_connected_with_one_click_and_not_armed() {
+    let path = PathBuf::from("/dev/ttyACM1");
+    let ports = PortsView {
+        back: Some(FoundPort {
+            path: path.clone(),
+            by: RecognisedBy::UsbSerial,
+        }),
+        ..PortsView::default()
+    };
+    let mut port = String::new();
+    let mut harness = bridge_window(&ports, &mut port);
+    harness.run();
+    harness.get_by_label("The array is back as /dev/ttyACM1");
+    let asked = click(&mut harness, "Connect again");
+    assert_eq!(asked, [DeviceCommand::ConnectPort(path).into()]);
+}

@@ -1,0 +1,229 @@
+//! The window checking its own engine: what is sampled, what is left out, what the budget does.
+
+use super::*;
+use crate::bench::command::edit::Edit;
+use crate::bench::command::{Part, PlayCommand, ShowCommand};
+use crate::shell::window::Drive;
+
+use eframe::egui;
+
+/// A window whose display explores by itself.
+fn exploring() -> (egui::Context, Workbench) {
+    let ctx = egui::Context::default();
+    let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+    bench.dispatch(&ctx, PlayCommand::Toggle.into());
+    bench.engine.advance_ticks(2).unwrap();
+    (ctx, bench)
+}
+
+/// Lets ticks go by while the pane is looked at.
+fn watch(bench: &mut Workbench, n_ticks: u64) {
+    for _ in 0..n_ticks {
+        bench.engine.advance_ticks(1).unwrap();
+        bench.watch_accuracy();
+    }
+}
+
+fn largest_db(bench: &mut Workbench) -> f64 {
+    let bands = bench.transient.accuracy.found().bands;
+    bands.iter().map(|band| band.max_db).fold(0.0, f64::max)
+}
+
+fn tally(bench: &Workbench) -> Tally {
+    bench.transient.accuracy.tally()
+}
+
+#[test]
+fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
+    let (ctx, mut bench) = exploring();
+    watch(&mut bench, 100);
+    let view = bench.accuracy_view();
+    assert_eq!(view.method, Some(Method::Table));
+    assert!(view.bound_db > 1e-3 && view.bound_db <= 0.05, "{view:?}");
+    let bound_db = view.bound_db;
+    let table_db = largest_db(&mut bench);
+    assert!(
+        (10.0 * ROUNDING_DB..=bound_db).contains(&table_db),
+        "{table_db}"
+    );
+    assert_eq!(tally(&bench).sampled, 100);
+    bench.dispatch(&ctx, AccuracyCommand::Method(Method::Reference).into());
+    watch(&mut bench, 100);
+    assert_eq!(bench.accuracy_view().method, Some(Method::Reference));
+    assert!(largest_db(&mut bench) <= ROUNDING_DB);
+    let n_ticks = bench.transient.accuracy.found().n_ticks;
+    assert!(
+        (90..=100).contains(&n_ticks),
+        "a method begins anew: {n_ticks}"
+    );
+}
+
+#[test]
+fn gains_masks_and_edits_on_their_way_are_left_out_and_never_errors() {
+    let (ctx, mut bench) = exploring();
+    bench.dispatch(&ctx, AccuracyCommand::Method(Method::Reference).into());
+    watch(&mut bench, 10);
+    let acts = [
+        Edit::MasterGain(-20.0).into(),
+        Edit::TextileGain(0, 9.0).into(),
+        Edit::MoveCloth(0, selvedge_foundation::geometry::Point::new(3.0, 4.0)).into(),
+        ShowCommand::Mute(Part::Contactor(3)).into(),
+        ShowCommand::Solo(Part::Cloth(1)).into(),
+        ShowCommand::HearAll.into(),
+        Command::Undo,
+    ];
+    for act in acts {
+        let before = tally(&bench);
+        bench.dispatch(&ctx, act);
+        // The engine has not heard of it yet; its last tick shows what was before.
+        bench.transient.accuracy.last = None;
+        bench.watch_accuracy();
+        assert_eq!(tally(&bench).changed, before.changed + 1);
+        assert_eq!(tally(&bench).sampled, before.sampled);
+        watch(&mut bench, 30);
+        assert_eq!(tally(&bench).sampled, before.sampled + 30);
+    }
+    assert!(
+        largest_db(&mut bench) <= ROUNDING_DB,
+        "{:?}",
+        bench.transient.accuracy.found()
+    );
+}
+
+#[test]
+fn a_window_that_believes_the_wrong_gain_would_see_it() {
+    let (_, mut bench) = exploring();
+    watch(&mut bench, 10);
+    // What nobody told the window: a deliberate fault.
+    bench
+        .eye
+        .scene
+        .textiles
+        .iter_mut()
+        .for_each(|placed| placed.scene_gain_db += 0.5);
+    watch(&mut bench, 60);
+    assert!((largest_db(&mut bench) - 0.5).abs() < 0.05);
+}
+
+#[test]
+fn nothing_is_sampled_at_rest_or_twice_and_a_reset_forgets() {
+    let (ctx, mut bench) = exploring();
+    watch(&mut bench, 20);
+    bench.send(selvedge_engine::Command::Pause);
+    watch(&mut bench, 20);
+    assert!(
+        tally(&bench).sampled <= 21,
+        "a held tick once: {:?}",
+        tally(&bench)
+    );
+    bench.dispatch(
+        &ctx,
+        PlayCommand::Source(crate::bench::command::PlaySource::Pointer).into(),
+    );
+    watch(&mut bench, 20);
+    assert!(tally(&bench).sampled <= 21, "nothing moves");
+    bench.dispatch(&ctx, AccuracyCommand::Reset.into());
+    assert_eq!(tally(&bench), Tally::default());
+    assert_eq!(*bench.transient.accuracy.found(), ErrorView::default());
+}
+
+#[test]
+fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
+    let (ctx, mut bench) = exploring();
+    let mut chosen = |budget_db: f64| {
+        bench.dispatch(&ctx, AccuracyCommand::Budget(budget_db).into());
+        bench.engine.advance_ticks(1).unwrap();
+        let snapshot = bench.engine.snapshot();
+        assert!(snapshot.bound.level_db <= budget_db, "{budget_db} dB");
+        assert_eq!(bench.settings.kept.rendering.budget_db, budget_db);
+        let snapshot = bench.engine.snapshot();
+        (snapshot.method, snapshot.bound.level_db)
+    };
+    assert_eq!(chosen(0.0), (Method::Reference, 0.0));
+    assert_eq!(chosen(1e-6).0, Method::Reference);
+    assert_eq!(chosen(1e-4).0, Method::Banded);
+    let bounds_db = [0.001, 0.01, 0.05, 1.0].map(|budget_db| {
+        let (method, bound_db) = chosen(budget_db);
+        assert_eq!(method, Method::Table, "{budget_db}");
+        bound_db
+    });
+    assert!(bounds_db.is_sorted(), "{bounds_db:?}");
+    assert!(bounds_db[0] < bounds_db[3], "coarser where more is allowed");
+    assert_eq!(chosen(0.05), (Method::Table, bounds_db[2]), "as before");
+    assert!(!bench.document.is_edited(), "it is no part of the scene");
+}
+
+#[test]
+fn another_budget_leaves_source_recording_and_scene_as_they_are() {
+    let (ctx, mut bench) = exploring();
+    bench
+        .engine
+        .send(selvedge_engine::Command::StartRecording)
+        .unwrap();
+    bench.engine.advance_ticks(10).unwrap();
+    let before = bench.engine.snapshot().pose;
+    bench.dispatch(&ctx, AccuracyCommand::Budget(0.3).into());
+    bench.engine.advance_ticks(1).unwrap();
+    let snapshot = bench.engine.snapshot();
+    assert!(snapshot.recording.is_recording, "it goes on");
+    let moved_mm = (snapshot.pose.position - before.position).length_mm();
+    assert!(
+        (2.0..4.0).contains(&moved_mm),
+        "and so does the stroke: {moved_mm} mm"
+    );
+}
+
+#[test]
+fn a_budget_that_is_none_is_brought_within_bounds() {
+    let (ctx, mut bench) = exploring();
+    for (asked, kept) in [(7.0, 1.0), (-3.0, 0.0), (f64::NAN, 0.05)] {
+        bench.dispatch(&ctx, AccuracyCommand::Budget(asked).into());
+        assert_eq!(bench.settings.kept.rendering.budget_db, kept, "{asked}");
+    }
+}
+
+#[test]
+fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told() {
+    let (ctx, mut bench) = exploring();
+    bench
+        .engine
+        .send(selvedge_engine::Command::StartRecording)
+        .unwrap();
+    bench.engine.advance_ticks(50).unwrap();
+    bench
+        .engine
+        .send(selvedge_engine::Command::StopRecording)
+        .unwrap();
+    bench.engine.advance_ticks(1).unwrap();
+    bench.take_recording();
+    bench.dispatch(&ctx, AccuracyCommand::Measure.into());
+    while bench.transient.accuracy.measuring.is_some() {
+        bench.poll_measuring();
+        std::thread::yield_now();
+    }
+    let view = bench.accuracy_view();
+    let measured = view.measured.unwrap();
+    assert!(measured.note.starts_with("50 ticks"), "{}", measured.note);
+    let running = view.chosen.unwrap();
+    assert_eq!(measured.rows[running].setting, "within 0.05 dB");
+    assert!(
+        measured.front.iter().any(|front| *front),
+        "{:?}",
+        measured.front
+    );
+    assert!(!view.is_outdated, "nothing changed since");
+    bench.dispatch(&ctx, Edit::RemoveCloth(0).into());
+    assert!(bench.accuracy_view().is_outdated, "a textile is gone");
+}
+
+#[test]
+fn a_measurement_that_is_stopped_leaves_the_last_one() {
+    let (ctx, mut bench) = exploring();
+    bench.dispatch(&ctx, AccuracyCommand::Measure.into());
+    bench.dispatch(&ctx, AccuracyCommand::StopMeasuring.into());
+    while bench.transient.accuracy.measuring.is_some() {
+        bench.poll_measuring();
+        std::thread::yield_now();
+    }
+    assert!(bench.transient.notices.shown().is_empty(), "no word of it");
+}

@@ -1,0 +1,190 @@
+//! How accurate the running method is and what it costs: method and error budget, errors found,
+//! cost of the ticks, and every method measured on this scene.
+
+pub(crate) mod costs;
+pub(crate) mod errors;
+pub(crate) mod numbers;
+pub(crate) mod pareto;
+
+use eframe::egui::{self, ComboBox, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+
+use crate::bench::command::Wishes;
+use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
+use crate::kit::theme;
+use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::slider::{slider_row, tip_beside};
+use crate::kit::widgets::text::toggle;
+use crate::tools::accuracy::{AccuracyCommand, AccuracyView};
+use selvedge_render::array::Method;
+
+/// A pane at least this wide shows all three plots side by side, points.
+const ROOM_FOR_THREE: f32 = 640.0;
+/// A pane at least this high shows the histograms above the methods, points.
+const ROOM_FOR_BOTH: f32 = 400.0;
+/// Least height of plots; a lower pane scrolls, points.
+const LEAST: f32 = 132.0;
+/// Space between two plots, points.
+const GAP: f32 = 3.0 * STEP;
+/// Decades of the budget's slider: down to 0.0001 dB, then 0.
+const DECADES: f64 = 4.0;
+
+/// Shows the pane.
+pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+    let size = ui.available_size();
+    if size.x >= ROOM_FOR_THREE {
+        show_controls(ui, view, wishes);
+        let rect = ui.available_rect_before_wrap();
+        let [errors, costs, methods] = thirds(rect);
+        within(ui, errors, |ui| errors::show(ui, view));
+        within(ui, costs, |ui| costs::show(ui, &view.cost));
+        within(ui, methods, |ui| pareto::show(ui, view, wishes));
+        ui.advance_cursor_after_rect(rect);
+        return;
+    }
+    let area = ScrollArea::vertical()
+        .id_salt("accuracy")
+        .auto_shrink(false);
+    area.show(ui, |ui| {
+        show_controls(ui, view, wishes);
+        let left_over = (size.y - ROW - 3.0 * STEP).max(LEAST);
+        let size = vec2(ui.available_width(), left_over);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        if size.y >= ROOM_FOR_BOTH {
+            let (above, below) = rect.split_top_bottom_at_fraction(0.45);
+            show_histograms(ui, above, view);
+            let below = below.with_min_y(below.top() + GAP);
+            within(ui, below, |ui| pareto::show(ui, view, wishes));
+        } else if view.shows_methods {
+            within(ui, rect, |ui| pareto::show(ui, view, wishes));
+        } else {
+            show_histograms(ui, rect, view);
+        }
+    });
+}
+
+/// Errors and costs side by side.
+fn show_histograms(ui: &mut Ui, rect: Rect, view: &AccuracyView<'_>) {
+    let (left, right) = rect.split_left_right_at_x(rect.center().x);
+    let left = left.with_max_x(left.right() - 0.5 * GAP);
+    within(ui, left, |ui| errors::show(ui, view));
+    let right = right.with_min_x(right.left() + 0.5 * GAP);
+    within(ui, right, |ui| costs::show(ui, &view.cost));
+}
+
+/// What stands beside the title: begin anew, and which plots there are where there is no room for
+/// all.
+pub(crate) fn show_corner(ui: &mut Ui, shows_methods: bool, wishes: &mut Wishes) {
+    let tip = "Begin the statistics of errors and costs anew";
+    if toggle(ui, "reset", false, tip) {
+        wishes.push(AccuracyCommand::Reset.into());
+    }
+    let tip = "Every method on this scene";
+    if toggle(ui, "methods", shows_methods, tip) {
+        wishes.push(AccuracyCommand::ToggleMethods.into());
+    }
+}
+
+fn thirds(rect: Rect) -> [Rect; 3] {
+    let width = (rect.width() - 2.0 * GAP) / 3.0;
+    [0.0, 1.0, 2.0].map(|nth: f32| {
+        let left = rect.left() + nth * (width + GAP);
+        Rect::from_x_y_ranges(left..=left + width, rect.y_range())
+    })
+}
+
+fn within(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
+    let layout = Layout::top_down(egui::Align::Min);
+    ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
+        ui.spacing_mut().item_spacing = vec2(STEP, 0.0);
+        content(ui);
+    });
+}
+
+/// The method, and the error that it may make.
+fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+    let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
+    let row = ui.horizontal(|ui| {
+        show_method(ui, view, wishes);
+        ui.add_space(STEP);
+        let scale = Scale {
+            least: 0.0,
+            most: MOST_BUDGET_DB,
+            resting: Rendering::default().budget_db,
+            step: 0.01,
+            decimals: 4,
+            unit: "dB",
+            factor: 1.0,
+            noticed: None,
+            curve: Curve::Decades(DECADES),
+        };
+        let slider = ui.add_enabled_ui(has_budget, |ui| {
+            let ink = Palette::in_ui(ui).text;
+            let now_db = view.rendering.budget_db;
+            let (new, response) = slider_row(ui, "Error budget", ink, scale, now_db);
+            wishes.extend(new.map(|db| AccuracyCommand::Budget(db).into()));
+            response
+        });
+        slider.inner
+    });
+    if has_budget {
+        // Beside the whole pane: what the slider does to the plots stays in sight.
+        tip_beside(ui, &row.inner, budget_words(view));
+    } else {
+        let words = "Only auto and table keep to a budget; this method has its own error";
+        row.inner.on_disabled_hover_text(words);
+    }
+}
+
+fn budget_words(view: &AccuracyView<'_>) -> String {
+    let runs = view.method.map_or_else(String::new, |method| {
+        let bound = numbers::level(view.bound_db);
+        format!(
+            "\nNow {} runs, whose error is at most {bound} dB",
+            method.name()
+        )
+    });
+    let preparing = if view.is_preparing {
+        "\nTables are being prepared"
+    } else {
+        ""
+    };
+    format!(
+        "The level error that rendering may make. auto takes the cheapest method that is proved \
+         to keep to it, tables the fewest nodes; 0 is exact. A double click goes back to 0.05 \
+         dB{runs}{preparing}"
+    )
+}
+
+fn show_method(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+    let mut chosen = view.rendering.method;
+    let combo = ComboBox::from_id_salt("rendering method")
+        .selected_text(chosen.name())
+        .width(78.0);
+    let response = combo.show_ui(ui, |ui| {
+        for method in Method::ALL.into_iter().rev() {
+            ui.selectable_value(&mut chosen, method, method.name());
+        }
+    });
+    ui.ctx()
+        .accesskit_node_builder(response.response.id, |node| {
+            node.set_label("Rendering method");
+        });
+    response.response.on_hover_text(
+        "How amplitudes are computed: reference (every bin, f64), banded (the bins that can be \
+         heard), table (looked up), or auto: the cheapest within the error budget",
+    );
+    if chosen != view.rendering.method {
+        wishes.push(AccuracyCommand::Method(chosen).into());
+    }
+}
+
+/// A line of dim words that is cut where there is no room for all.
+fn quiet_line(ui: &mut Ui, words: &str, tip: &str) {
+    let ink = Palette::in_ui(ui).dim;
+    let words = RichText::new(words).font(theme::small()).color(ink);
+    let label = ui.add(egui::Label::new(words).truncate());
+    if !tip.is_empty() {
+        label.on_hover_text(tip);
+    }
+}

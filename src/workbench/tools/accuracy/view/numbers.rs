@@ -1,0 +1,76 @@
+//! Numbers of the pane as people read them, and the lines that hold them.
+
+use eframe::egui::{Align2, Color32, Sense, Ui, pos2, vec2};
+
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use selvedge_foundation::quantity;
+
+/// Height of a line, points.
+pub(crate) const LINE: f32 = 14.0;
+
+/// A level error in six places, dB: `0.0123`, and `5.2e−7` where that would be nothing but zeros.
+pub(crate) fn level(db: f64) -> String {
+    if db == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e6).contains(&db) && db.is_finite() {
+        let text = format!("{db:.1e}");
+        let (digit, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{digit}e{}", exponent.replace('-', "−"));
+    }
+    quantity::fixed(db, if db < 10.0 { 4 } else { 1 })
+}
+
+/// A line: a dim name on the left, numbers with their inks right-aligned, a unit behind them.
+pub(crate) fn line(ui: &mut Ui, name: &str, values: &[(String, Color32)], unit: &str) {
+    let palette = Palette::in_ui(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
+    let spoken: Vec<&str> = values.iter().map(|(value, _)| &**value).collect();
+    let spoken = format!("{name} {} {unit}", spoken.join(", "));
+    response.widget_info(|| {
+        eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Label, true, &spoken)
+    });
+    let y = rect.center().y;
+    let painter = ui.painter();
+    painter.text(
+        pos2(rect.left(), y),
+        Align2::LEFT_CENTER,
+        name,
+        theme::small(),
+        palette.dim,
+    );
+    let unit_at = painter.text(
+        pos2(rect.right(), y),
+        Align2::RIGHT_CENTER,
+        unit,
+        theme::small(),
+        palette.dim,
+    );
+    let mut right = rect.right() - unit_at.width().max(14.0) - 4.0;
+    for (value, ink) in values.iter().rev() {
+        let font = theme::small_number();
+        painter.text(pos2(right, y), Align2::RIGHT_CENTER, value, font, *ink);
+        right -= 44.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn level_errors_are_short_however_small() {
+        for (db, text) in [
+            (0.0, "0"),
+            (5.2e-7, "5.2e−7"),
+            (0.000_45, "4.5e−4"),
+            (0.0123, "0.0123"),
+            (6.0206, "6.0206"),
+            (42.0, "42.0"),
+            (f64::INFINITY, "∞"),
+        ] {
+            assert_eq!(level(db), text);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The work: sessions of a folder, those under way left out, their analysis, and what a reader must
+//! know before looking at it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::tools::analysis::asked::Asked;
+use crate::tools::experiment::form::title_of;
+use selvedge_experiment::analysis::{Analysis, analyse_with_unread, sessions};
+use selvedge_experiment::session::Found;
+use selvedge_foundation::progress::Progress;
+
+/// What was found, and of what.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Findings {
+    /// What was asked for.
+    pub asked: Asked,
+    /// What was found.
+    pub analysis: Analysis,
+    /// Sessions that were read.
+    pub n_sessions: usize,
+    /// Who was left out, since a session of theirs is being held.
+    pub left_out: Vec<String>,
+    /// What a reader must know before looking at any p value.
+    pub warnings: Vec<String>,
+}
+
+impl Findings {
+    /// Where a report goes unless another folder is chosen.
+    pub(crate) fn report_folder(&self) -> PathBuf {
+        self.asked.folder.join("analysis")
+    }
+
+    /// Writes tables, figures and the page to read into a folder; says where. Beside the logs a
+    /// table would be taken for one: there it is a folder within.
+    pub(crate) fn write(&self, folder: PathBuf) -> Result<PathBuf, String> {
+        let same = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let folder = if same(&folder) == same(&self.asked.folder) {
+            self.report_folder()
+        } else {
+            folder
+        };
+        let written = self.analysis.write(&folder);
+        written.map_err(|error| error.to_string())?;
+        Ok(folder)
+    }
+}
+
+/// Reads the sessions of a folder and analyses them. `held` is the log of the session that this
+/// window holds.
+///
+/// # Errors
+/// One line: there is no such folder, it holds no session that can be read, or it was stopped.
+pub(crate) fn find_out(
+    asked: Asked,
+    held: Option<&Path>,
+    progress: &mut Progress<'_>,
+) -> Result<Findings, String> {
+    let folder = &asked.folder;
+    if !folder.is_dir() {
+        let folder = folder.display();
+        return Err(format!("there is no folder {folder}; check the path"));
+    }
+    let (mut found, unread) = sessions(folder).map_err(|error| error.to_string())?;
+    let left_out = if asked.choice.with_held {
+        Vec::new()
+    } else {
+        leave_out(&mut found, held)
+    };
+    if found.is_empty() {
+        return Err(format!(
+            "nobody but {} is in the folder, and that session is still being held; analyse it \
+             once it is over",
+            left_out.join(", ")
+        ));
+    }
+    let analysis = analyse_with_unread(&found, &unread, &asked.options(), progress)
+        .map_err(|error| error.to_string())?;
+    Ok(Findings {
+        analysis,
+        n_sessions: found.len(),
+        warnings: interim(&found),
+        left_out,
+        asked,
+    })
+}
+
+/// Leaves out every session of whoever takes part in one that is being held; says who that is.
+fn leave_out(found: &mut Vec<Found>, held: Option<&Path>) -> Vec<String> {
+    let is_held = |one: &&Found| held == Some(one.log.as_path()) || one.is_held();
+    let who = |one: &Found| (one.design.study.clone(), one.subject.pseudonym.clone());
+    let held: BTreeSet<(String, String)> = found.iter().filter(is_held).map(who).collect();
+    found.retain(|one| !held.contains(&who(one)));
+    held.into_iter().map(|(_, pseudonym)| pseudonym).collect()
+}
+
+/// What is to be said of experiments with fewer subjects than their designs plan.
+fn interim(found: &[Found]) -> Vec<String> {
+    let mut subjects: BTreeMap<(&str, &str, &str), (&Found, BTreeSet<&str>)> = BTreeMap::new();
+    for one in found {
+        let design = &one.design;
+        let key = (&*design.study, &*design.experiment, &*design.hash);
+        let of_design = subjects
+            .entry(key)
+            .or_insert_with(|| (one, BTreeSet::new()));
+        of_design.1.insert(&one.subject.pseudonym);
+    }
+    let told = |(one, subjects): &(&Found, BTreeSet<&str>)| {
+        let (n, n_planned) = (subjects.len(), one.design.rules.subjects);
+        let title = title_of(&one.design);
+        (n < n_planned).then(|| {
+            format!(
+                "{title}: {n} of {n_planned} planned subjects. Whoever looks at p values now and \
+                 goes on afterwards makes them invalid."
+            )
+        })
+    };
+    subjects.values().filter_map(told).collect()
+}

@@ -1,0 +1,301 @@
+//! Analyses in the window: the numbers of the analysis itself, one line for what is wrong, and
+//! nothing that nobody looks at.
+
+pub(crate) mod drawn;
+
+use std::time::{Duration, Instant};
+use std::{fs, thread};
+
+use eframe::egui::vec2;
+
+use super::*;
+use crate::bench::command::ShowCommand;
+use crate::shell::arrangement;
+use crate::shell::arrangement::Pane;
+use crate::shell::headless::Headless;
+use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::experiment::form::Chosen;
+use selvedge_experiment::Simulation;
+use selvedge_experiment::analysis::analyse_folder;
+use selvedge_experiment::design::{Design, Subject};
+use selvedge_experiment::observer::{Observer, Stimuli};
+use selvedge_experiment::session::Session;
+use selvedge_foundation::progress::unheard;
+use selvedge_scratch::ScratchFolder as Folder;
+use selvedge_textile::Library;
+
+const DESIGN: &str = "odd-one-out";
+
+/// Simulated sessions of so many observers.
+fn study(folder: &Folder, n_observers: usize) {
+    let design = Design::shipped(DESIGN).unwrap();
+    let library = Library::shipped().unwrap();
+    let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
+    let simulation = Simulation {
+        design: &design,
+        stimuli: &stimuli,
+        observer: &Observer::default(),
+        seed: 3,
+    };
+    let numbers = (n_observers, 1);
+    unheard(|progress| simulation.write(&folder.0, numbers, progress)).unwrap();
+}
+
+fn asked(folder: &Path) -> Asked {
+    Asked {
+        folder: folder.to_owned(),
+        seed: 7,
+        choice: Choice {
+            effort: Effort::Quick,
+            has_random_data: false,
+            with_held: false,
+        },
+    }
+}
+
+/// A window with the pane in front that is asked for this.
+fn window(asked: &Asked) -> Headless {
+    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    window.pass(2);
+    window.dispatch(ShowCommand::Pane(Pane::Analysis));
+    let analysing = &mut window.bench.transient.analysing;
+    analysing.fields.seed = asked.seed.to_string();
+    window.dispatch(AnalysisCommand::Choose(asked.choice.clone()));
+    window
+}
+
+fn analysing(window: &Headless) -> &Analysing {
+    &window.bench.transient.analysing
+}
+
+#[test]
+fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
+    let folder = Folder::new("analysed");
+    study(&folder, 3);
+    let asked = asked(&folder.0);
+    let mut window = window(&asked);
+    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    window.pass(3);
+    let expected =
+        unheard(|progress| analyse_folder(&folder.0, &asked.options(), progress)).unwrap();
+    let found = analysing(&window).found().unwrap();
+    assert_eq!(found.analysis, expected);
+    assert_eq!((&found.asked, found.n_sessions), (&asked, 3));
+    assert_eq!(found.left_out, [""; 0]);
+    let [warning] = &found.warnings[..] else {
+        panic!("{:?}", found.warnings)
+    };
+    assert!(warning.contains("3 of 4 planned subjects"), "{warning}");
+    assert!(warning.contains("p values"), "{warning}");
+
+    window.dispatch(AnalysisCommand::Write(folder.0.clone()));
+    window.pass(2);
+    assert!(!folder.0.join("index.md").exists(), "not among the logs");
+    let out = analysing(&window).report_folder().unwrap();
+    assert_eq!(analysing(&window).view(None).written, Some(Ok(&*out)));
+    let page = fs::read_to_string(out.join("index.md")).unwrap();
+    assert_eq!(page, expected.page());
+    let beyond = out.join("index.md").join("beyond");
+    window.dispatch(AnalysisCommand::Write(beyond));
+    window.pass(2);
+    let line = analysing(&window).view(None).written.unwrap().unwrap_err();
+    assert!(line.contains("beyond") && !line.contains('\n'), "{line}");
+    let again = unheard(|progress| find_out(asked.clone(), None, progress)).unwrap();
+    assert_eq!(again.n_sessions, 3, "the report is no session");
+}
+
+#[test]
+fn a_folder_that_is_missing_or_empty_says_so_in_one_line_and_the_last_result_stays() {
+    let (folder, empty) = (Folder::new("some"), Folder::new("empty"));
+    study(&folder, 2);
+    fs::create_dir_all(&empty.0).unwrap();
+    let mut window = window(&asked(&folder.0));
+    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    window.pass(2);
+    let found = Arc::clone(analysing(&window).found().unwrap());
+    let missing = empty.0.join("nowhere");
+    for (path, words) in [
+        (&empty.0, "holds no session"),
+        (&missing, "there is no folder"),
+    ] {
+        window.dispatch(AnalysisCommand::Open(path.clone()));
+        window.pass(2);
+        let view = analysing(&window).view(None);
+        let line = view.failure.unwrap();
+        assert!(
+            line.contains(words) && line.contains(&*path.to_string_lossy()),
+            "{line}"
+        );
+        assert!(!line.contains('\n'), "{line}");
+        assert!(
+            Arc::ptr_eq(view.found.unwrap(), &found),
+            "the last one stays"
+        );
+        assert!(view.is_past, "and says that it is of another folder");
+    }
+    window.bench.transient.analysing.fields.seed = "seven".to_owned();
+    window.dispatch(AnalysisCommand::Begin);
+    window.pass(2);
+    let refusal = analysing(&window).view(None).refusal.unwrap();
+    assert!(refusal.contains("whole number"), "{refusal}");
+}
+
+#[test]
+fn an_analysis_that_is_cancelled_leaves_the_last_result() {
+    let folder = Folder::new("cancelled");
+    study(&folder, 2);
+    let ctx = egui::Context::default();
+    let mut analysing = Analysing::default();
+    analysing.fields.folder = folder.0.display().to_string();
+    analysing.choice = asked(&folder.0).choice;
+    analysing.begin(&ctx, true, None);
+    analysing.poll();
+    let found = Arc::clone(analysing.found().unwrap());
+    analysing.choice = Choice {
+        effort: Effort::Full,
+        has_random_data: true,
+        with_held: false,
+    };
+    analysing.begin(&ctx, false, None);
+    assert!(analysing.view(None).share.is_some());
+    analysing.stop();
+    let began = Instant::now();
+    while analysing.view(None).share.is_some() {
+        assert!(began.elapsed() < Duration::from_mins(2), "it goes on");
+        thread::sleep(Duration::from_millis(2));
+        analysing.poll();
+    }
+    let view = analysing.view(None);
+    assert!(Arc::ptr_eq(view.found.unwrap(), &found));
+    assert_eq!(view.failure, None, "whoever cancels knows it");
+    assert!(view.is_past);
+}
+
+#[test]
+fn who_takes_part_in_a_session_under_way_is_left_out_unless_that_is_asked_for() {
+    let folder = Folder::new("held");
+    study(&folder, 2);
+    let subject = Subject {
+        pseudonym: "o02".to_owned(),
+        nth: 1,
+        session: 2,
+    };
+    let design = Design::shipped(DESIGN).unwrap();
+    let held = Session::create(&folder.0, design, subject, "none").unwrap();
+    let mut asked = asked(&folder.0);
+    let find = |asked: &Asked| unheard(|progress| find_out(asked.clone(), None, progress));
+    let found = find(&asked).unwrap();
+    assert_eq!(found.left_out, ["o02"]);
+    assert_eq!(found.n_sessions, 1, "neither of their sessions");
+    asked.choice.with_held = true;
+    let found = find(&asked).unwrap();
+    assert_eq!((found.left_out.len(), found.n_sessions), (0, 3));
+    asked.choice.with_held = false;
+    let log = held.log().to_owned();
+    drop(held);
+    let found = find(&asked).unwrap();
+    assert_eq!(found.n_sessions, 3, "it is over");
+    let found = unheard(|progress| find_out(asked.clone(), Some(&log), progress)).unwrap();
+    assert_eq!(found.left_out, ["o02"], "this window holds it");
+    let alone = Folder::new("alone");
+    fs::create_dir_all(&alone.0).unwrap();
+    for ending in ["csv", "json"] {
+        let name = log.with_extension(ending);
+        fs::copy(&name, alone.0.join(name.file_name().unwrap())).unwrap();
+    }
+    let copied = alone.0.join(log.file_name().unwrap());
+    asked.folder.clone_from(&alone.0);
+    let refusal = unheard(|progress| find_out(asked.clone(), Some(&copied), progress));
+    let line = refusal.unwrap_err();
+    assert!(
+        line.contains("nobody but o02") && !line.contains('\n'),
+        "{line}"
+    );
+}
+
+#[test]
+fn figures_are_drawn_once_and_only_while_they_are_in_sight() {
+    let folder = Folder::new("figures");
+    study(&folder, 2);
+    let mut window = window(&asked(&folder.0));
+    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    window.pass(4);
+    let has_two = |s: &Section| s.figures.len() >= 2;
+    let sections = &analysing(&window).found().unwrap().analysis.sections;
+    let map = sections.iter().position(has_two).unwrap();
+    assert_eq!(
+        analysing(&window).n_drawn(),
+        0,
+        "the first section has none"
+    );
+    window.dispatch(AnalysisCommand::Select(map));
+    window.pass(4);
+    assert_eq!(analysing(&window).n_drawn(), 1);
+    let pictures = Arc::clone(analysing(&window).view(None).pictures.unwrap());
+    for image in &pictures.images[..2] {
+        let image = image.as_ref().unwrap();
+        let n_inked = image.pixels.iter().filter(|pixel| pixel.a() > 128).count();
+        assert!(image.size[0] >= 540 && n_inked > 2000, "{n_inked} pixels");
+    }
+    window.pass(30);
+    assert_eq!(analysing(&window).n_drawn(), 1, "nothing has changed");
+    let toggle = ShowCommand::Pane(Pane::Analysis);
+    window.dispatch(toggle.clone());
+    assert!(!arrangement::is_shown(&window.bench.tree, Pane::Analysis));
+    window.dispatch(AnalysisCommand::Select(map + 1));
+    window.dispatch(AnalysisCommand::Begin);
+    window.pass(10);
+    assert_eq!(analysing(&window).n_drawn(), 1, "nobody looks");
+    window.dispatch(AnalysisCommand::Select(map));
+    window.dispatch(toggle);
+    window.pass(4);
+    assert_eq!(analysing(&window).n_drawn(), 2, "somebody does");
+}
+
+#[test]
+fn a_section_stays_at_hand_when_the_same_is_analysed_again() {
+    let folder = Folder::new("stays");
+    study(&folder, 2);
+    let mut window = window(&asked(&folder.0));
+    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    window.pass(2);
+    window.dispatch(AnalysisCommand::Select(2));
+    let key = analysing(&window).section().unwrap().key.clone();
+    window.dispatch(AnalysisCommand::Begin);
+    window.pass(2);
+    assert_eq!(analysing(&window).section().unwrap().key, key);
+}
+
+#[test]
+fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
+    let folder = Folder::new("covered");
+    study(&folder, 2);
+    let mut window = window(&asked(&folder.0));
+    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    window.pass(3);
+    let form = &mut window.bench.transient.experiment.form;
+    form.choose(Chosen::Shipped("threshold-40"));
+    form.folder = folder.0.display().to_string();
+    form.who.pseudonym = "p07".to_owned();
+    window.dispatch(ExperimentCommand::Begin);
+    window.pass(3);
+    assert!(window.bench.transient.experiment.is_held());
+    window.dispatch(ShowCommand::Pane(Pane::Analysis));
+    window.pass(2);
+    assert!(analysing(&window).view(Some("p07")).is_covered);
+    window.dispatch(AnalysisCommand::Uncover(true));
+    window.pass(2);
+    assert!(!analysing(&window).view(Some("p07")).is_covered);
+    window.dispatch(AnalysisCommand::Begin);
+    window.pass(2);
+    assert_eq!(window.bench.notices(), [""; 0], "that is allowed");
+    let found = analysing(&window).found().unwrap();
+    assert_eq!(
+        (found.n_sessions, &found.left_out[..]),
+        (2, &["p07".to_owned()][..])
+    );
+    window.dispatch(ExperimentCommand::End);
+    window.pass(3);
+    assert!(!window.bench.transient.experiment.is_held());
+    assert!(!analysing(&window).is_uncovered, "the next one is covered");
+}

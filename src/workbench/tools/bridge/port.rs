@@ -1,0 +1,152 @@
+//! Which port to connect to: typed, or chosen from those that were found.
+
+use std::path::PathBuf;
+
+use eframe::egui::{
+    self, Align, Button, Layout, Margin, Popup, PopupCloseBehavior, RichText, Stroke, TextEdit, Ui,
+    WidgetInfo, vec2,
+};
+
+use crate::bench::command::Wishes;
+use crate::bench::command::device::DeviceCommand;
+use crate::kit::theme;
+use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::text::{button, choice};
+use crate::tools::bridge::ports::PortsView;
+
+/// How wide the menu of ports is, points.
+const MENU: f32 = 288.0;
+
+/// The port: typed, or chosen from those that were found.
+pub(crate) fn show_port(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wishes) {
+    let size = vec2(ui.available_width(), ROW + 4.0);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        show_menu(ui, port, ports, wishes);
+        let field = TextEdit::singleline(port)
+            .desired_width(ui.available_width())
+            .margin(Margin::symmetric(6, 4))
+            .font(theme::number())
+            .hint_text("port, e.g. /dev/ttyACM0");
+        let response = ui.add(field);
+        ui.ctx()
+            .accesskit_node_builder(response.id, |node| node.set_label("Port"));
+        let is_entered =
+            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let path = port.trim();
+        if is_entered && !path.is_empty() {
+            wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+        }
+    });
+}
+
+/// The menu of the ports that were found; opening it looks again.
+fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wishes) {
+    let opener = ui.add(Button::new("").min_size(vec2(ROW + STEP, ROW)));
+    opener.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "Choose a port"));
+    paint_arrow(ui, opener.rect.center());
+    let opener = opener.on_hover_text("The serial ports of this machine");
+    let menu = Popup::menu(&opener).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    // The click takes effect below, where the menu is shown.
+    if opener.clicked() && !menu.is_open() {
+        wishes.push(DeviceCommand::ListPorts.into());
+    }
+    menu.width(MENU).show(|ui| {
+        ui.set_width(MENU);
+        for (path, description) in &ports.ports {
+            let name = RichText::new(path).font(theme::number());
+            let tip = format!("Connect to {path}: {description}");
+            if choice(ui, name, description, &tip) {
+                path.clone_into(port);
+                wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+                ui.close();
+            }
+        }
+        if let Some(words) = empty_words(ports) {
+            let palette = Palette::in_ui(ui);
+            ui.with_layout(Layout::top_down(Align::Min), |ui| {
+                ui.add(egui::Label::new(RichText::new(words).color(palette.dim)).wrap());
+            });
+        }
+        ui.separator();
+        let busy = ports.is_listing.then_some("Looking…");
+        if button(ui, "Look again", "List the ports anew", busy) {
+            wishes.push(DeviceCommand::ListPorts.into());
+        }
+    });
+}
+
+/// The mark of what opens a menu.
+fn paint_arrow(ui: &Ui, at: egui::Pos2) {
+    let corners = [vec2(-4.0, -2.0), vec2(0.0, 2.0), vec2(4.0, -2.0)].map(|by| at + by);
+    let ink = Palette::in_ui(ui).text;
+    let line = egui::Shape::line(corners.to_vec(), Stroke::new(1.5, ink));
+    ui.painter().add(line);
+}
+
+/// What stands in the menu where there is no port.
+fn empty_words(ports: &PortsView) -> Option<String> {
+    match &ports.error {
+        Some(error) => Some(error.clone()),
+        None if !ports.ports.is_empty() => None,
+        None if ports.is_listing || !ports.is_known => Some("Looking for ports…".to_owned()),
+        None => Some("No ports found: plug the device in and look again".to_owned()),
+    }
+}
+
+pub(crate) fn show_connecting(ui: &mut Ui, is_connected: bool, port: &str, wishes: &mut Wishes) {
+    ui.columns(2, |columns| {
+        columns[0].vertical_centered_justified(|ui| {
+            let path = port.trim();
+            let missing = path
+                .is_empty()
+                .then_some("Type or choose the path of a port first");
+            if button(ui, "Connect", "Connect to this port", missing) {
+                wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+            }
+        });
+        columns[1].vertical_centered_justified(|ui| {
+            if is_connected {
+                if button(ui, "Disconnect", "Stop the device and let go of it", None) {
+                    wishes.push(DeviceCommand::Disconnect.into());
+                }
+                return;
+            }
+            let tip = "Connect to the emulator in this program";
+            if button(ui, "Emulator", tip, None) {
+                wishes.push(DeviceCommand::ConnectEmulator.into());
+            }
+        });
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_menu_says_why_it_is_empty() {
+        let new = PortsView::default();
+        assert!(empty_words(&new).is_some_and(|words| words.starts_with("Looking")));
+        let none = PortsView {
+            is_known: true,
+            ..new.clone()
+        };
+        assert!(empty_words(&none).is_some_and(|words| words.starts_with("No ports")));
+        let again = PortsView {
+            is_listing: true,
+            ..none.clone()
+        };
+        assert!(empty_words(&again).is_some_and(|words| words.starts_with("Looking")));
+        let failed = PortsView {
+            error: Some("no udev".to_owned()),
+            ..none.clone()
+        };
+        assert_eq!(empty_words(&failed).as_deref(), Some("no udev"));
+        let found = PortsView {
+            ports: vec![("/dev/ttyACM0".to_owned(), String::new())],
+            ..none
+        };
+        assert_eq!(empty_words(&found), None);
+    }
+}

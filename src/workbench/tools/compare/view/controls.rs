@@ -1,0 +1,228 @@
+//! What is compared: which kind, and which two.
+
+use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
+
+use crate::bench::command::{CompareCommand, Wishes};
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::list;
+use crate::kit::widgets::text::toggle;
+use crate::tools::compare::choice::{Choice, Route, TuningChoice, What};
+use crate::tools::compare::view::CompareView;
+use crate::tools::compare::{Comparison, Standing};
+use selvedge_foundation::quantity::{fixed, with_unit};
+use selvedge_render::array::Method;
+
+/// Height of a row, points.
+const LINE: f32 = 20.0;
+/// Kinds that are offered.
+const KINDS: [(What, &str, &str); 3] = [
+    (
+        What::Tunings,
+        "tunings",
+        "Compare gains, compression and filters",
+    ),
+    (
+        What::Textiles,
+        "textiles",
+        "Compare one textile in the place of another",
+    ),
+    (
+        What::Methods,
+        "methods",
+        "Compare how amplitudes are computed",
+    ),
+];
+/// Methods that are offered.
+const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
+
+/// What stands over the pane: hold A, compare or stop.
+pub(crate) fn show_corner(ui: &mut Ui, standing: &Standing, wishes: &mut Wishes) {
+    if matches!(standing, Standing::Running(_)) {
+        if toggle(ui, "stop", false, "Stop comparing") {
+            wishes.push(CompareCommand::Cancel.into());
+        }
+    } else if toggle(
+        ui,
+        "compare",
+        false,
+        "Compare now, whether anything has changed or not",
+    ) {
+        wishes.push(CompareCommand::Run.into());
+    }
+    let tip = "Hold the present tuning as A, to compare it with what comes";
+    if toggle(ui, "hold A", false, tip) {
+        wishes.push(CompareCommand::Hold.into());
+    }
+}
+
+/// Shows both rows.
+pub(crate) fn show(
+    ui: &mut Ui,
+    comparison: &Comparison,
+    view: &CompareView<'_>,
+    wishes: &mut Wishes,
+) {
+    let now = &comparison.choice;
+    let mut choice = now.clone();
+    let line = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        for (what, name, tip) in KINDS {
+            if toggle(ui, name, now.what == what, tip) {
+                choice.what = what;
+            }
+        }
+        ui.add_space(STEP);
+        show_status(ui, view);
+    });
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.spacing_mut().interact_size.y = LINE;
+        match now.what {
+            What::Tunings => show_tunings(ui, &mut choice, comparison.held.is_some()),
+            What::Textiles => show_textiles(ui, &mut choice, view),
+            What::Methods => show_methods(ui, &mut choice),
+        }
+    });
+    if choice != *now {
+        wishes.push(CompareCommand::Choose(choice).into());
+    }
+}
+
+/// What path is followed, and how what is shown stands to what is chosen.
+fn show_status(ui: &mut Ui, view: &CompareView<'_>) {
+    let palette = Palette::in_ui(ui);
+    let (words, is_odd) = status(view);
+    let ink = if is_odd { palette.text } else { palette.dim };
+    let words = RichText::new(words).font(theme::small()).color(ink);
+    let response = ui.add(Label::new(words).truncate());
+    response.on_hover_text(match view.route {
+        Route::Take(_) => {
+            "Both follow the recording at hand. Mute and solo are left out of account"
+        }
+        Route::Stroke(..) => {
+            "Nothing is recorded: both follow the circle on which the display explores by itself, \
+             once. Record an exploration (R) or open one to compare on it. Mute and solo are left \
+             out of account"
+        }
+    });
+}
+
+pub(crate) fn status(view: &CompareView<'_>) -> (String, bool) {
+    match view.standing {
+        Standing::Running(share) => {
+            let share = fixed(f64::from(share) * 100.0, 0);
+            return (format!("comparing… {share} %"), true);
+        }
+        Standing::Stale => {
+            return ("stale: something has changed since".to_owned(), true);
+        }
+        _ => {}
+    }
+    let n_ticks = view.route.n_ticks();
+    let words = match view.take {
+        Some(name) => format!("on {name}, {n_ticks} ticks"),
+        None => format!("no recording: on a circle, {n_ticks} ticks"),
+    };
+    (words, false)
+}
+
+fn show_tunings(ui: &mut Ui, choice: &mut Choice, is_held: bool) {
+    let width = widths(ui, 2, 2);
+    let name = |tuning| match tuning {
+        TuningChoice::Live => "this tuning",
+        TuningChoice::Held => "held tuning",
+        TuningChoice::Library => "library’s tuning",
+    };
+    for (index, side) in ["A", "B"].into_iter().enumerate() {
+        let chosen = &mut choice.tunings[index];
+        combo(ui, side, width, name(*chosen), |ui| {
+            for tuning in [
+                TuningChoice::Live,
+                TuningChoice::Held,
+                TuningChoice::Library,
+            ] {
+                let is_there = tuning != TuningChoice::Held || is_held;
+                ui.add_enabled_ui(is_there, |ui| {
+                    let response = ui.selectable_value(chosen, tuning, name(tuning));
+                    response.on_disabled_hover_text("None is held: press “hold A”");
+                });
+            }
+        });
+    }
+}
+
+fn show_methods(ui: &mut Ui, choice: &mut Choice) {
+    let width = widths(ui, 2, 2);
+    for (index, side) in ["A", "B"].into_iter().enumerate() {
+        let chosen = &mut choice.methods[index];
+        combo(ui, side, width, chosen.name(), |ui| {
+            for method in METHODS {
+                ui.selectable_value(chosen, method, method.name());
+            }
+        });
+    }
+}
+
+fn show_textiles(ui: &mut Ui, choice: &mut Choice, view: &CompareView<'_>) {
+    let width = widths(ui, 3, 3);
+    let cloths = &view.scene.cloths;
+    let place_name = |index: usize| {
+        cloths.get(index).map_or_else(
+            || "nothing".to_owned(),
+            |cloth| format!("{} {}", cloth.label, cloth.name),
+        )
+    };
+    for (index, side) in ["A", "B"].into_iter().enumerate() {
+        let chosen = &mut choice.textiles[index];
+        let named = |id: &str| view.shelf.iter().find(|item| item.id == id);
+        let text = match chosen {
+            None => "as placed".to_owned(),
+            Some(id) => named(id).map_or_else(|| id.clone(), |item| item.name.clone()),
+        };
+        combo(ui, side, width, &text, |ui| {
+            ui.selectable_value(chosen, None, "as placed");
+            for item in view.shelf.iter().filter(|item| item.flaw.is_none()) {
+                ui.selectable_value(chosen, Some(item.id.clone()), &item.name);
+            }
+        });
+    }
+    combo(ui, "at", width, &place_name(view.place), |ui| {
+        ui.selectable_value(&mut choice.place, None, "where the path is most");
+        for index in 0..cloths.len() {
+            ui.selectable_value(&mut choice.place, Some(index), place_name(index));
+        }
+    });
+}
+
+/// The width of each of `n` lists in the row, with `n_letters` names before them.
+fn widths(ui: &Ui, n: u8, n_letters: u8) -> f32 {
+    let names = f32::from(n_letters) * 18.0;
+    ((ui.available_width() - names) / f32::from(n) - STEP).max(40.0)
+}
+
+/// A list to choose from, named.
+fn combo(ui: &mut Ui, name: &str, width: f32, text: &str, content: impl FnOnce(&mut Ui)) {
+    let palette = Palette::in_ui(ui);
+    let (cell, _) = ui.allocate_exact_size(vec2(14.0, LINE), eframe::egui::Sense::hover());
+    let centre = eframe::egui::Align2::LEFT_CENTER;
+    let at = cell.left_center();
+    ui.painter()
+        .text(at, centre, name, theme::small(), palette.dim);
+    let label = match name {
+        "at" => "Which textile is exchanged".to_owned(),
+        side => format!("{side} of the comparison"),
+    };
+    list(ui, (("compare", name), &label), width, text, content);
+}
+
+/// A difference as people read it: with its sign.
+pub(crate) fn signed_db(difference_db: f64, decimals: usize) -> String {
+    let words = with_unit(difference_db, decimals, "dB");
+    if difference_db > 0.0 {
+        format!("+{words}")
+    } else {
+        words
+    }
+}

@@ -1,0 +1,360 @@
+//! Both bands of every contactor as two heatmaps on one scale, with its colour bar.
+
+pub(crate) mod export;
+
+use eframe::egui::{
+    self, Align2, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
+    vec2,
+};
+
+use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::mute_solo::Audition;
+use crate::bench::perceptual_level::Sensation;
+use crate::bench::view::{Dot, Live, SceneView};
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::widgets::bar::amplitude_bar;
+use crate::kit::widgets::limit_mark::{LIMIT_MARK, bites_band, limit_words, paint_limit_mark};
+use crate::kit::widgets::text::toggle;
+use selvedge_foundation::quantity;
+use selvedge_textile::tactile::Band;
+
+/// Height of a title, points.
+pub(crate) const TITLE: f32 = 20.0;
+/// Space between cells, points.
+pub(crate) const GAP: f32 = 2.0;
+/// Width of the colour bar with its numbers, points.
+const BAR: f32 = 48.0;
+/// Space between the two heatmaps, points.
+const BETWEEN: f32 = 16.0;
+/// A cell narrower than this has no room for a number, points.
+pub(crate) const NUMBER_WIDTH: f32 = 20.0;
+
+/// How the heatmaps are drawn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HeatmapStyle {
+    /// The colours.
+    pub map: ColourMap,
+    /// The scale.
+    pub scale: AmplitudeScale,
+    /// Whether numbers are written into the cells.
+    pub(crate) has_numbers: bool,
+    /// Whether cells below the threshold of detection are hollow and grey.
+    pub(crate) greys_below: bool,
+    /// The contactor that is looked at closer.
+    pub selected: usize,
+}
+
+/// Where the cells of both bands are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Places {
+    /// The upper left corner of either heatmap.
+    pub(crate) corners: [Pos2; 2],
+    /// Width and height of a cell with its gap.
+    pub(crate) cell: egui::Vec2,
+    n_columns: usize,
+}
+
+impl Places {
+    /// As large as fits, in the middle of `rect`; cells are at most half as wide again as high.
+    pub(crate) fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
+        let height = ((rect.height() - TITLE) / n_rows.max(1) as f32).max(2.0);
+        let room = (rect.width() - BAR - BETWEEN) / 2.0;
+        let width = (room / n_columns.max(1) as f32).clamp(2.0, 1.9 * height);
+        let height = height.min(1.4 * width);
+        let cell = vec2(width, height).floor().max(vec2(2.0, 2.0));
+        let map_width = n_columns as f32 * cell.x;
+        let left = rect.center().x - 0.5 * (2.0 * map_width + BETWEEN + BAR);
+        let top = rect.top() + TITLE;
+        let corner = |band: usize| pos2(left + band as f32 * (map_width + BETWEEN), top).round();
+        Self {
+            corners: [corner(0), corner(1)],
+            cell,
+            n_columns: n_columns.max(1),
+        }
+    }
+
+    pub(crate) fn cell(&self, band: usize, index: usize) -> Rect {
+        let (row, column) = (index / self.n_columns, index % self.n_columns);
+        let corner = self.corners[band] + vec2(column as f32, row as f32) * self.cell;
+        Rect::from_min_size(corner, self.cell - vec2(GAP, GAP))
+    }
+
+    /// The contactor and band whose cell is at a place.
+    pub(crate) fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
+        let cells = (0..2).flat_map(|band| (0..n_contactors).map(move |index| (band, index)));
+        cells
+            .into_iter()
+            .find(|&(band, index)| self.cell(band, index).expand(0.5 * GAP).contains(place))
+    }
+}
+
+/// Shows both heatmaps and the colour bar.
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    style: HeatmapStyle,
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let Some(grid) = scene.grid else {
+        ui.label("The contactors of this display form no grid: the workspace shows them");
+        return;
+    };
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    response.widget_info(|| {
+        let [least, most] = [style.scale.least_um(), style.scale.most_um()];
+        let below = if style.greys_below {
+            below_words(live)
+        } else {
+            String::new()
+        };
+        let words = format!("Heatmaps of both bands, {least} to {most} µm{below}");
+        WidgetInfo::labeled(egui::Role::Canvas, true, words)
+    });
+    let places = Places::new(rect, grid);
+    let painter = ui.painter_at(rect.expand(2.0));
+    for band in Band::ALL {
+        let corner = places.corners[band.index()];
+        let title = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
+        let title_at = corner - vec2(0.0, 0.5 * TITLE + 1.0);
+        let ink = palette.band(band);
+        painter.text(title_at, Align2::LEFT_CENTER, title, theme::body(), ink);
+        for (index, dot) in live.dots.iter().enumerate() {
+            let rect = places.cell(band.index(), index);
+            let is_below = live.sensation.is_below(dot.amplitude_um)[band.index()];
+            let is_grey = style.greys_below && is_below;
+            paint_cell(&painter, rect, (dot, band), is_grey, style);
+        }
+    }
+    let pointed = scene.marks.hovered.contactor.unwrap_or(usize::MAX);
+    for (marked, strength) in [(pointed, 0.6), (style.selected, 1.0)] {
+        if marked < live.dots.len() {
+            let edge = Stroke::new(1.5, palette.selection.gamma_multiply(strength));
+            for band in 0..2 {
+                let cell = places.cell(band, marked).expand(1.0);
+                painter.rect_stroke(cell, 3, edge, StrokeKind::Inside);
+            }
+        }
+    }
+    let right = places.corners[1].x + grid.1 as f32 * places.cell.x + 10.0;
+    let height = grid.0 as f32 * places.cell.y - GAP;
+    let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
+    amplitude_bar(&painter, bar, style.map, style.scale);
+    answer(&response, &places, (scene, live), wishes);
+}
+
+/// What stands over the heatmaps: numbers, the scale's lock and its top.
+pub(crate) fn show_corner(
+    ui: &mut Ui,
+    style: HeatmapStyle,
+    audition: &Audition,
+    wishes: &mut Wishes,
+) {
+    let scale = style.scale;
+    if toggle(ui, "123", style.has_numbers, "Numbers in the cells (N)") {
+        wishes.push(ShowCommand::ToggleNumbers.into());
+    }
+    let tip = "Hollow and grey what is below the threshold of detection, by a model";
+    if toggle(ui, "SL", style.greys_below, tip) {
+        wishes.push(ShowCommand::ToggleThreshold.into());
+    }
+    let (word, tip) = if scale.is_locked() {
+        (
+            "held",
+            "The scale of amplitudes is held everywhere; click to let it follow them",
+        )
+    } else {
+        (
+            "auto",
+            "The scale of amplitudes follows them everywhere; click to hold it",
+        )
+    };
+    if toggle(ui, word, scale.is_locked(), tip) {
+        wishes.push(ShowCommand::LockScale(!scale.is_locked()).into());
+    }
+    let tops = [
+        ("−", 0.4, "A scale that ends lower, held"),
+        ("+", 2.0, "A scale that ends higher, held"),
+    ];
+    for (sign, factor, tip) in tops.into_iter().rev() {
+        if toggle(ui, sign, false, tip) {
+            wishes.push(ShowCommand::ScaleTop(scale.most_um() * factor).into());
+        }
+    }
+    let is_any = audition.is_any();
+    if is_any
+        && toggle(
+            ui,
+            "all",
+            false,
+            "Feel everything again: end every mute and solo (H)",
+        )
+    {
+        wishes.push(ShowCommand::HearAll.into());
+    }
+}
+
+/// How many contactors on cloth are too weak to be felt in each band.
+fn below_words(live: &Live) -> String {
+    let on_cloth = || live.dots.iter().filter(|dot| dot.cloth.is_some());
+    let [low, high] = Band::ALL.map(|band| {
+        let is_below = |dot: &&Dot| live.sensation.is_below(dot.amplitude_um)[band.index()];
+        on_cloth().filter(is_below).count()
+    });
+    let n = on_cloth().count();
+    format!(", of {n} on cloth {low} at 40 Hz and {high} at 320 Hz below threshold, by a model")
+}
+
+fn paint_cell(
+    painter: &Painter,
+    rect: Rect,
+    (dot, band): (&Dot, Band),
+    is_grey: bool,
+    style: HeatmapStyle,
+) {
+    let palette = Palette::of(painter.ctx().theme());
+    if dot.cloth.is_none() || dot.is_muted {
+        // Off every textile: an empty frame, which no amplitude looks like. Muted: crossed out.
+        let edge = Stroke::new(1.0, palette.hovered);
+        painter.rect_stroke(rect, 2, edge, StrokeKind::Inside);
+        if dot.is_muted {
+            let stroke = Stroke::new(1.0, palette.line);
+            painter.line_segment([rect.left_bottom(), rect.right_top()], stroke);
+        }
+        return;
+    }
+    let amplitude_um = dot.amplitude_um[band.index()];
+    let share = style.scale.share(amplitude_um);
+    if is_grey {
+        // Hollow: the colour of its level is left at the edge.
+        painter.rect_filled(rect, 2, palette.raised);
+        let edge = Stroke::new(1.5, style.map.colour(share));
+        painter.rect_stroke(rect, 2, edge, StrokeKind::Inside);
+    } else {
+        painter.rect_filled(rect, 2, style.map.colour(share));
+    }
+    if bites_band(dot.bite, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
+        paint_limit_mark(painter, rect.right_top() + vec2(-6.0, 6.0));
+    }
+    if style.has_numbers && rect.width() >= NUMBER_WIDTH {
+        let digits = digits(amplitude_um);
+        let ink = if is_grey {
+            palette.dim
+        } else {
+            style.map.ink(share)
+        };
+        let font = theme::small_number();
+        painter.text(rect.center(), Align2::CENTER_CENTER, digits, font, ink);
+    }
+}
+
+/// An amplitude in µm as cells show it: three signs fit into the narrowest that holds numbers.
+pub(crate) fn digits(amplitude_um: f64) -> String {
+    let decimals = usize::from(amplitude_um < 9.95);
+    quantity::fixed(amplitude_um, decimals)
+}
+
+/// Says what is under the pointer, and takes clicks on it.
+fn answer(
+    response: &Response,
+    places: &Places,
+    (scene, live): (&SceneView, &Live),
+    wishes: &mut Wishes,
+) {
+    let at = response
+        .hover_pos()
+        .or_else(|| response.interact_pointer_pos());
+    let hit = at.and_then(|at| places.at(at, live.dots.len()));
+    if let (Some((_, index)), true) = (hit, response.clicked()) {
+        wishes.push(ShowCommand::SelectContactor(index).into());
+    }
+    if let (Some((_, index)), true) = (hit, response.secondary_clicked()) {
+        response
+            .ctx
+            .data_mut(|data| data.insert_temp(response.id, index));
+    }
+    let chosen: Option<usize> = response.ctx.data(|data| data.get_temp(response.id));
+    response.context_menu(|ui| {
+        if let Some(index) = chosen {
+            show_menu(ui, index, live, wishes);
+        }
+    });
+    let Some((index, dot)) = hit.and_then(|(_, i)| live.dots.get(i).map(|dot| (i, dot))) else {
+        return;
+    };
+    if response.hovered() {
+        wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
+    }
+    if response.hovered() && !response.context_menu_opened() {
+        let words = words(index, dot, scene, &live.sensation);
+        response.clone().on_hover_ui_at_pointer(|ui| {
+            ui.label(words);
+        });
+    }
+}
+
+fn show_menu(ui: &mut Ui, index: usize, live: &Live, wishes: &mut Wishes) {
+    ui.label(format!("Contactor {index}"));
+    let part = Part::Contactor(index);
+    let is_muted = live.dots.get(index).is_some_and(|dot| dot.is_muted);
+    let mute = if is_muted { "Mute or unmute" } else { "Mute" };
+    let choices = [
+        (mute, ShowCommand::Mute(part)),
+        (
+            "Feel alone, or with the others again",
+            ShowCommand::Solo(part),
+        ),
+        ("Feel everything", ShowCommand::HearAll),
+        ("Look closer", ShowCommand::SelectContactor(index)),
+    ];
+    for (label, command) in choices {
+        if ui.button(label).clicked() {
+            wishes.push(command.into());
+            ui.close();
+        }
+    }
+}
+
+fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> String {
+    let on = match dot.cloth.and_then(|cloth| scene.cloths.get(cloth)) {
+        Some(cloth) => format!("on {} {}", cloth.label, cloth.name),
+        None => "off every textile".to_owned(),
+    };
+    let bands = sensation.band_lines(dot.amplitude_um);
+    let limited = limit_words(dot.bite).map_or_else(String::new, |words| format!("\n{words}"));
+    let muted = if dot.is_muted { "\nmuted" } else { "" };
+    format!(
+        "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \
+         limits{limited}{muted}\nclick to look closer"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_fit_the_pane_and_are_found_again() {
+        for size in [vec2(300.0, 200.0), vec2(500.0, 120.0), vec2(200.0, 600.0)] {
+            let rect = Rect::from_min_size(pos2(10.0, 20.0), size);
+            let places = Places::new(rect, (6, 4));
+            for (band, index) in [(0, 0), (0, 23), (1, 0), (1, 23), (1, 5)] {
+                let cell = places.cell(band, index);
+                assert!(rect.contains_rect(cell), "{size:?}: {cell:?}");
+                assert_eq!(places.at(cell.center(), 24), Some((band, index)));
+            }
+            assert_eq!(places.at(rect.min, 24), None);
+        }
+    }
+
+    #[test]
+    fn a_pane_without_room_and_a_display_without_contactors_are_harmless() {
+        let places = Places::new(Rect::ZERO, (0, 0));
+        assert_eq!(places.at(pos2(0.0, 0.0), 0), None);
+        assert!(places.cell(0, 7).is_finite());
+    }
+}

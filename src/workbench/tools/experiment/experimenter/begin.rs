@@ -1,0 +1,186 @@
+//! The form that a session begins with, and the sessions that can be resumed.
+
+use eframe::egui::{ProgressBar, RichText, Ui, vec2};
+
+use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::kit::theme::{ROW, STEP};
+use crate::kit::widgets::text::{button, choice, section};
+use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::experiment::form::{Chosen, Form, Row, title_of};
+use crate::tools::experiment::who::Who;
+use crate::tools::import::view::fields::{Need, Tone, choose, note, row_of, text};
+use selvedge_experiment::design::Design;
+use selvedge_experiment::{HANDS, SEXES};
+
+/// What stands where nothing was told.
+const NOT_TOLD: &str = "not told";
+/// As wide as there is room for.
+const WIDE: f32 = f32::INFINITY;
+/// Width of a row's name, points.
+const NAME: f32 = 84.0;
+
+pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mut Wishes) {
+    section(ui, "New session");
+    row_of(ui, NAME, ("design", ""), |ui, _| {
+        show_designs(ui, form, wishes);
+    });
+    if let Ok(design) = &form.design {
+        note(ui, &about(design), Tone::Quiet);
+    }
+    field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
+    field(ui, "session", &mut form.session, ("1", 64.0));
+    show_who(ui, &mut form.who);
+    let refusal = form.refusal();
+    ui.add_space(STEP);
+    if let Some(share) = share {
+        let bar = ProgressBar::new(share).desired_height(4.0);
+        ui.add(bar);
+        note(ui, "The textiles are being prepared", Tone::Quiet);
+    } else {
+        let tip = "Prepare every textile of the design, then open the log";
+        if button(ui, "Begin the session", tip, refusal.as_deref()) {
+            wishes.push(ExperimentCommand::Begin.into());
+        }
+    }
+    if let Some(line) = &form.failure {
+        note(ui, line, Tone::Wrong);
+    } else if let Some(line) = refusal {
+        note(ui, &line, Tone::Quiet);
+    }
+    show_found(ui, form, share.is_some(), wishes);
+}
+
+/// A field with its name.
+fn field(ui: &mut Ui, name: &str, typed: &mut String, (hint, width): (&str, f32)) {
+    row_of(ui, NAME, (name, ""), |ui, label| {
+        text(ui, label, typed, (hint, width, Need::Optional));
+    });
+}
+
+/// Who takes part: a pseudonym, and what else is told.
+fn show_who(ui: &mut Ui, who: &mut Who) {
+    section(ui, "Participant");
+    field(ui, "pseudonym", &mut who.pseudonym, ("p01", WIDE));
+    if who.is_known() {
+        let words = "Took part before: what was told is filled in";
+        note(ui, words, Tone::Quiet);
+    }
+    field(ui, "age, years", &mut who.age, ("not told", 84.0));
+    one_of(ui, "sex", &mut who.sex, &SEXES);
+    one_of(ui, "handedness", &mut who.handedness, &HANDS);
+    field(
+        ui,
+        "experience",
+        &mut who.experience,
+        ("naive, practised", WIDE),
+    );
+    field(ui, "room", &mut who.room, ("one word", WIDE));
+}
+
+/// One of some words, or none.
+fn one_of(ui: &mut Ui, name: &str, chosen: &mut String, words: &[&str]) {
+    row_of(ui, NAME, (name, ""), |ui, _| {
+        let now = if chosen.is_empty() {
+            NOT_TOLD
+        } else {
+            chosen.as_str()
+        };
+        let now = now.to_owned();
+        choose(ui, name, (&now, 132.0, Need::Optional), |ui| {
+            ui.selectable_value(chosen, String::new(), NOT_TOLD);
+            for word in words {
+                ui.selectable_value(chosen, (*word).to_owned(), *word);
+            }
+        });
+    });
+}
+
+fn show_designs(ui: &mut Ui, form: &Form, wishes: &mut Wishes) {
+    let now = match (&form.design, &form.chosen) {
+        (Ok(design), _) => title_of(design),
+        (Err(_), Chosen::File(path)) => path.display().to_string(),
+        (Err(_), Chosen::Shipped(name)) => (*name).to_owned(),
+    };
+    let width = ui.available_width();
+    choose(ui, "Design", (&now, width, Need::Optional), |ui| {
+        for name in Design::shipped_names() {
+            let title = Design::shipped(name).map_or_else(|| name.to_owned(), |d| title_of(&d));
+            let is_now = form.chosen == Chosen::Shipped(name);
+            if ui.selectable_label(is_now, title).clicked() {
+                wishes.push(ExperimentCommand::Choose(name).into());
+            }
+        }
+        ui.separator();
+        if ui.selectable_label(false, "Open a design…").clicked() {
+            wishes.push(FileCommand::Ask(Purpose::OpenDesign).into());
+        }
+    });
+}
+
+/// A design in a line: how many stimuli, where, how often.
+fn about(design: &Design) -> String {
+    let n = design.stimuli.len();
+    let stimuli = match n {
+        0 => String::new(),
+        1 => "1 stimulus, ".to_owned(),
+        n => format!("{n} stimuli, "),
+    };
+    let practice = match design.course.practice_trials {
+        0 => String::new(),
+        n => format!(", {n} for practice first"),
+    };
+    let library = design.library.as_ref();
+    let library = library.map_or_else(String::new, |library| {
+        format!(", library {}", library.display())
+    });
+    format!(
+        "{stimuli}medium {}{practice}{library}; study {}",
+        design.medium.name(),
+        design.study
+    )
+}
+
+fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
+    section(ui, "Sessions in the folder");
+    let no_folder = form.folder.trim().is_empty();
+    let refusal = no_folder.then_some("Say in which folder first");
+    if button(
+        ui,
+        "List again",
+        "Look which sessions the folder holds",
+        refusal,
+    ) {
+        wishes.push(ExperimentCommand::List.into());
+    }
+    for found in &form.found {
+        show_row(ui, found, is_busy, wishes);
+    }
+    for line in &form.unread {
+        note(ui, line, Tone::Wrong);
+    }
+    if form.found.is_empty() && form.unread.is_empty() {
+        let words = "There is none yet. One that was interrupted is resumed from here.";
+        note(ui, words, Tone::Quiet);
+    }
+}
+
+fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, wishes: &mut Wishes) {
+    let (done, all) = found.progress;
+    let name = format!(
+        "{}, session {}",
+        found.subject.pseudonym, found.subject.session
+    );
+    let detail = format!("{done} of {all} · {}", found.title);
+    if done >= all {
+        ui.allocate_ui(vec2(ui.available_width(), ROW), |ui| {
+            let words = format!("{name} · complete · {}", found.title);
+            let text = RichText::new(words).color(crate::kit::theme::Palette::in_ui(ui).dim);
+            ui.add(eframe::egui::Label::new(text).truncate());
+        });
+        return;
+    }
+    let tip = format!("Resume {}", found.log.display());
+    if choice(ui, RichText::new(name), &detail, &tip) && !is_busy {
+        wishes.push(ExperimentCommand::Resume(found.log.clone()).into());
+    }
+}

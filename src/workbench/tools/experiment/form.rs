@@ -1,0 +1,364 @@
+//! The form that a session begins with, and the sessions of its folder.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use crate::bench::task::Task;
+use crate::tools::experiment::noise::NOISE_FILE;
+use crate::tools::experiment::who::Who;
+use selvedge_experiment::design::{Design, Subject, is_name};
+use selvedge_experiment::session::{Found, find_readable, log_path};
+use selvedge_experiment::{Course, Participant, Participants};
+
+/// Which design is taken.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// One of the program.
+    Shipped(&'static str),
+    /// The one in a file.
+    File(PathBuf),
+}
+
+impl Chosen {
+    /// What its library is relative to.
+    pub(crate) fn path(&self) -> &Path {
+        match self {
+            Self::Shipped(name) => Path::new(name),
+            Self::File(path) => path,
+        }
+    }
+
+    /// The same as a word that is kept for the next run, where it can be written as one.
+    pub(crate) fn word(&self) -> Option<String> {
+        match self {
+            Self::Shipped(name) => Some((*name).to_owned()),
+            Self::File(path) => std::path::absolute(path).ok()?.to_str().map(str::to_owned),
+        }
+    }
+
+    /// What such a word stands for: a design of the program, or a file that is still there.
+    fn from_word(word: &str) -> Option<Self> {
+        let shipped = Design::shipped_names().find(|name| *name == word);
+        let file = || Some(PathBuf::from(word)).filter(|path| path.is_absolute() && path.is_file());
+        shipped
+            .map(Self::Shipped)
+            .or_else(|| file().map(Self::File))
+    }
+
+    fn read(&self) -> Result<Design, String> {
+        match self {
+            Self::Shipped(name) => {
+                let text = Design::shipped_text(name).unwrap_or_default();
+                Design::from_toml(text, Path::new(name))
+            }
+            Self::File(path) => Design::read(path),
+        }
+        .map_err(|error| error.to_string())
+    }
+}
+
+/// What the next session is to be.
+#[derive(Debug)]
+pub(crate) struct Form {
+    /// The design that was chosen.
+    pub chosen: Chosen,
+    /// The same as it was read.
+    pub design: Result<Box<Design>, String>,
+    /// Who takes part.
+    pub who: Who,
+    /// Which session of this participant, from 1.
+    pub session: String,
+    /// Where sessions lie.
+    pub folder: String,
+    /// Why the last attempt to begin failed.
+    pub failure: Option<String>,
+    /// The sessions of the folder, as far as they were listed.
+    pub found: Vec<Row>,
+    /// Its logs that cannot be read, a line each.
+    pub unread: Vec<String>,
+    /// Who took part there, as far as that was listed.
+    pub participants: Participants,
+    /// Whether a masking noise lies there.
+    pub(crate) has_noise: bool,
+    /// They are being listed.
+    pub listing: Option<Task<Listed>>,
+    /// The folder that was listed last.
+    listed: Option<String>,
+}
+
+/// What a folder holds.
+#[derive(Debug, Default)]
+pub(crate) struct Listed {
+    /// Its sessions.
+    pub found: Vec<Row>,
+    /// Its logs that cannot be read, a line each.
+    pub unread: Vec<String>,
+    /// Its table of participants.
+    pub participants: Participants,
+    /// Whether a masking noise was written there.
+    pub(crate) has_noise: bool,
+}
+
+/// A session that was begun.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Row {
+    /// Its log.
+    pub log: PathBuf,
+    /// The design's title.
+    pub title: String,
+    /// Who took part.
+    pub subject: Subject,
+    /// Trials answered and trials there are at most.
+    pub progress: (usize, usize),
+}
+
+impl Default for Form {
+    fn default() -> Self {
+        let first = Design::shipped_names().next().unwrap_or_default();
+        let chosen = Chosen::Shipped(first);
+        Self {
+            design: chosen.read().map(Box::new),
+            chosen,
+            who: Who::default(),
+            session: "1".to_owned(),
+            folder: String::new(),
+            failure: None,
+            found: Vec::new(),
+            unread: Vec::new(),
+            participants: Participants::default(),
+            has_noise: false,
+            listing: None,
+            listed: None,
+        }
+    }
+}
+
+impl Form {
+    /// Takes another design.
+    pub(crate) fn choose(&mut self, chosen: Chosen) {
+        self.design = chosen.read().map(Box::new);
+        self.chosen = chosen;
+        self.failure = None;
+    }
+
+    /// Why no session can begin yet, if so.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        if let Err(line) = &self.design {
+            return Some(line.clone());
+        }
+        if !is_name(self.who.pseudonym.trim()) {
+            let mend = "Give a pseudonym of letters, digits, - and _, and no real name";
+            return Some(mend.to_owned());
+        }
+        match self.who.told() {
+            Err(line) => return Some(line),
+            Ok(told) => {
+                let contradiction = self.participants.contradiction(&told);
+                if contradiction.is_some() {
+                    return contradiction;
+                }
+            }
+        }
+        if self.session_number().is_none() {
+            return Some("Number the sessions of a participant from 1".to_owned());
+        }
+        if self.folder.trim().is_empty() {
+            return Some("Say in which folder the session is kept".to_owned());
+        }
+        None
+    }
+
+    /// What begins, if nothing is missing.
+    pub(crate) fn told(&self) -> Option<Told> {
+        if self.refusal().is_some() {
+            return None;
+        }
+        Some(Told {
+            design: self.design.as_deref().ok()?.clone(),
+            participant: self.who.told().ok()?,
+            session: self.session_number()?,
+            folder: self.folder(),
+        })
+    }
+
+    /// Takes up the folder and the design of the last run; a design that is none any more is left.
+    pub(crate) fn take_up(&mut self, folder: Option<&str>, design: Option<&str>) {
+        folder.unwrap_or_default().clone_into(&mut self.folder);
+        if let Some(chosen) = design.and_then(Chosen::from_word) {
+            self.choose(chosen);
+        }
+    }
+
+    /// The folder as it is kept for the next run.
+    pub(crate) fn kept_folder(&self) -> Option<String> {
+        let folder = self.folder.trim();
+        (!folder.is_empty()).then(|| folder.to_owned())
+    }
+
+    /// Whether the folder that was typed is another than the one that was listed.
+    pub(crate) fn is_to_be_listed(&self) -> bool {
+        let folder = self.folder.trim();
+        !folder.is_empty() && self.listing.is_none() && self.listed.as_deref() != Some(folder)
+    }
+
+    /// The folder is being listed.
+    pub(crate) fn lists(&mut self, task: Task<Listed>) {
+        self.listed = Some(self.folder.trim().to_owned());
+        self.listing = Some(task);
+    }
+
+    /// Takes what a folder holds.
+    pub(crate) fn take_listed(&mut self, listed: Listed) {
+        self.found = listed.found;
+        self.unread = listed.unread;
+        self.participants = listed.participants;
+        self.has_noise = listed.has_noise;
+        self.who.leave_table();
+        self.who.follow(&self.participants);
+    }
+
+    /// Where sessions lie.
+    pub(crate) fn folder(&self) -> PathBuf {
+        PathBuf::from(self.folder.trim())
+    }
+
+    fn session_number(&self) -> Option<u32> {
+        let number = self.session.trim().parse().ok();
+        number.filter(|number| *number >= 1)
+    }
+}
+
+/// A session that is to begin, and with whom.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Told {
+    /// By which design.
+    pub design: Design,
+    /// Who takes part.
+    pub participant: Participant,
+    /// Which session of the participant, from 1.
+    pub session: u32,
+    /// Where sessions lie.
+    pub folder: PathBuf,
+}
+
+impl Told {
+    /// Enrols the participant in the study's table, as the command line does, and numbers the
+    /// session.
+    ///
+    /// # Errors
+    /// The session was begun before, other particulars were told of this pseudonym, or the folder
+    /// cannot be read or written.
+    pub(crate) fn enrolled(&self) -> Result<Subject, String> {
+        let Self { design, folder, .. } = self;
+        let mut subject = Subject {
+            pseudonym: self.participant.pseudonym().to_owned(),
+            nth: 0,
+            session: self.session,
+        };
+        if log_path(folder, design, &subject).exists() {
+            let mend = "resume it below, or number another session";
+            let (who, nth) = (&subject.pseudonym, subject.session);
+            return Err(format!("session {nth} of {who} was begun before; {mend}"));
+        }
+        fs::create_dir_all(folder).map_err(|error| {
+            let folder = folder.display();
+            format!("cannot make the folder {folder}: {error}; choose another")
+        })?;
+        let enrolled = Participants::enrol(folder, &self.participant, SystemTime::now());
+        subject.nth = enrolled.map_err(|error| error.to_string())?;
+        Ok(subject)
+    }
+}
+
+/// What a folder holds; one that is not there yet holds nothing, unless it was asked for.
+pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
+    if !folder.exists() {
+        if !is_asked {
+            return Ok(Listed::default());
+        }
+        let folder = folder.display();
+        return Err(format!("there is no folder {folder}; check the path"));
+    }
+    let told = |error: selvedge_experiment::ExperimentError| error.to_string();
+    let (found, unread) = find_readable(folder).map_err(told)?;
+    Ok(Listed {
+        found: found.into_iter().map(row).collect(),
+        unread: unread.into_iter().map(|one| told(one.error)).collect(),
+        participants: Participants::read(folder).map_err(told)?,
+        has_noise: folder.join(NOISE_FILE).is_file(),
+    })
+}
+
+fn row(found: Found) -> Row {
+    let course = Course::resume(&found.design, &found.subject, &found.records);
+    let progress = course.map_or((found.records.len(), 0), |course| course.progress());
+    Row {
+        title: title_of(&found.design),
+        log: found.log,
+        subject: found.subject,
+        progress,
+    }
+}
+
+/// What people call a design.
+pub(crate) fn title_of(design: &Design) -> String {
+    if design.title.is_empty() {
+        design.experiment.clone()
+    } else {
+        design.title.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folder_and_design_of_the_last_run_are_taken_up_unless_the_design_is_gone() {
+        let mut form = Form::default();
+        form.choose(Chosen::Shipped("rating"));
+        form.folder = " /lab/study ".to_owned();
+        let (folder, design) = (form.kept_folder(), form.chosen.word());
+        let mut next = Form::default();
+        next.take_up(folder.as_deref(), design.as_deref());
+        assert_eq!(
+            (next.folder.as_str(), &next.chosen),
+            ("/lab/study", &form.chosen)
+        );
+        let mut other = Form::default();
+        other.take_up(None, Some("/nowhere/design.toml"));
+        assert_eq!(
+            (other.folder.as_str(), &other.chosen),
+            ("", &Form::default().chosen)
+        );
+        assert!(other.design.is_ok());
+    }
+
+    #[test]
+    fn a_form_says_what_is_missing_until_a_session_can_begin() {
+        let mut form = Form::default();
+        assert!(form.refusal().unwrap().contains("pseudonym"));
+        form.who.pseudonym = "Ada Lovelace".to_owned();
+        assert!(form.refusal().unwrap().contains("no real name"));
+        form.who.pseudonym = " p07 ".to_owned();
+        assert!(form.refusal().unwrap().contains("folder"));
+        form.folder = "/tmp/sessions".to_owned();
+        form.session = "0".to_owned();
+        assert!(form.refusal().unwrap().contains("from 1"));
+        form.session = "2".to_owned();
+        let told = form.told().unwrap();
+        assert_eq!((told.participant.pseudonym(), told.session), ("p07", 2));
+        form.who.age = "thirty".to_owned();
+        assert!(form.refusal().unwrap().contains("whole years"));
+        form.who.age = "300".to_owned();
+        assert!(form.refusal().unwrap().contains("1 to 120"));
+        form.who.age = " 30 ".to_owned();
+        form.who.room = "Ada's room".to_owned();
+        assert!(form.refusal().unwrap().contains("one word"));
+        form.who.room.clear();
+        assert_eq!(form.refusal(), None);
+        form.choose(Chosen::File("/nowhere/design.toml".into()));
+        assert!(form.told().is_none() && form.refusal().unwrap().contains("nowhere"));
+    }
+}

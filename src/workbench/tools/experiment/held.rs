@@ -1,0 +1,383 @@
+//! A session that is being held: what happens now, what was answered so far, and the row that is
+//! on its way to the disk. A trial ends when its row is there, not before.
+
+use std::path::PathBuf;
+use std::time::{Instant, SystemTime};
+
+use eframe::egui;
+
+use crate::bench::task::{Task, taken};
+use crate::tools::experiment::draft::{Draft, Mark};
+use crate::tools::experiment::materials::Materials;
+use crate::tools::experiment::now::{Began, Now, Pause};
+use selvedge_engine::{RecordedSample, Recording, VibrationStep};
+use selvedge_experiment::design::{Design, Method, Source, Subject};
+use selvedge_experiment::layout::{self, Layout};
+use selvedge_experiment::session::{Circumstances, Session};
+use selvedge_experiment::{Answer, Apparatus, Outcome, Task as Asked, Timing, Trial};
+use selvedge_render::scene::ExplorationPath;
+use selvedge_textile::tactile::Tuning;
+
+/// Silence before the first vibration of a trial, ticks.
+const LEAD_TICKS: u32 = 24;
+
+/// A row that is not on disk yet.
+#[derive(Debug, Clone)]
+struct Pending {
+    outcome: Outcome,
+    timing: Timing,
+    tuning: Tuning,
+    note: String,
+    path: Option<ExplorationPath>,
+    samples: Vec<RecordedSample>,
+}
+
+/// What comes back from the disk.
+#[derive(Debug)]
+struct Written {
+    session: Session,
+    outcome: Result<(), String>,
+}
+
+/// A session that is being held.
+#[derive(Debug)]
+pub(crate) struct Held {
+    /// Away while a row is written.
+    session: Option<Session>,
+    writing: Option<Task<Written>>,
+    pending: Option<Pending>,
+    /// The design.
+    pub design: Design,
+    /// Who takes part.
+    pub subject: Subject,
+    /// The log.
+    pub log: PathBuf,
+    /// The device, as logs call it.
+    pub device: String,
+    /// What is presented.
+    pub materials: Materials,
+    /// What happens now.
+    pub now: Now,
+    /// What lies where.
+    pub layout: Layout,
+    /// What was answered so far.
+    pub draft: Draft,
+    /// Trials answered and trials there are at most.
+    pub progress: (usize, usize),
+    /// What the experimenter notes on this trial.
+    pub note: String,
+    /// Whether the session rests.
+    pub pause: Pause,
+    /// Why the last row could not be written, and how to mend it.
+    pub failure: Option<String>,
+    /// The step of a sequence of vibrations that is played.
+    pub vibration: Option<u16>,
+    /// How long the last trial took, s.
+    pub(crate) last_response_s: Option<f64>,
+    /// When the session was opened.
+    opened: Instant,
+    /// When the present step began.
+    pub began: Began,
+    /// Whether the engine records the exploration of this trial.
+    is_recording: bool,
+    recording: Option<Recording>,
+}
+
+impl Held {
+    /// A session that was just opened.
+    pub(crate) fn new(
+        session: Session,
+        materials: Materials,
+        device: String,
+        began: Began,
+    ) -> Self {
+        let mut held = Self {
+            design: session.design().clone(),
+            subject: session.subject().clone(),
+            log: session.log().to_owned(),
+            session: Some(session),
+            writing: None,
+            pending: None,
+            device,
+            materials,
+            now: Now::Finished,
+            layout: Layout::empty(),
+            draft: Draft::default(),
+            progress: (0, 0),
+            note: String::new(),
+            pause: Pause::default(),
+            failure: None,
+            vibration: None,
+            last_response_s: None,
+            opened: began.at,
+            began,
+            is_recording: false,
+            recording: None,
+        };
+        for stimulus in &held.design.stimuli {
+            if let Source::Textile { id, .. } = &stimulus.source {
+                held.materials.shelf.want(id);
+            }
+        }
+        held.look(began);
+        held
+    }
+
+    /// Sees what happens now.
+    pub(crate) fn look(&mut self, began: Began) {
+        let Some(session) = &self.session else {
+            return;
+        };
+        self.progress = session.progress();
+        self.now = Now::of(&session.step());
+        self.began = began;
+        self.vibration = None;
+        (self.layout, self.draft) = match &self.now {
+            _ if self.pause == Pause::On => (Layout::empty(), Draft::Nothing),
+            Now::Trial(trial) => (
+                Layout::of(&self.design, &trial.task),
+                Draft::of(&self.design, trial),
+            ),
+            Now::Familiarisation(_) => (self.practised(), Draft::Nothing),
+            _ => (Layout::empty(), Draft::Nothing),
+        };
+    }
+
+    /// What a movement is practised on: the design's first textile.
+    fn practised(&self) -> Layout {
+        let is_textile = |source: &Source| matches!(source, Source::Textile { .. });
+        let mut stimuli = self.design.stimuli.iter();
+        stimuli
+            .position(|stimulus| is_textile(&stimulus.source))
+            .map_or_else(Layout::empty, Layout::to_practise)
+    }
+
+    /// The trial that waits for an answer and is shown.
+    pub(crate) fn trial(&self) -> Option<&Trial> {
+        match &self.now {
+            Now::Trial(trial) if self.pause != Pause::On => Some(trial),
+            _ => None,
+        }
+    }
+
+    /// Whether something can be felt now.
+    pub(crate) fn is_felt(&self) -> bool {
+        let is_practised = matches!(self.now, Now::Familiarisation(_)) && self.pause != Pause::On;
+        (self.is_open() && self.trial().is_some()) || is_practised
+    }
+
+    /// Whether an answer is taken now: none is on its way.
+    pub(crate) fn is_open(&self) -> bool {
+        self.pending.is_none() && self.writing.is_none() && self.session.is_some()
+    }
+
+    /// Whether a row is on its way to the disk.
+    pub(crate) fn is_writing(&self) -> bool {
+        self.pending.is_some() || self.writing.is_some()
+    }
+
+    /// How long the present step has lasted, s.
+    pub(crate) fn lasted_s(&self, now_s: f64) -> f64 {
+        (now_s - self.began.shown_s).max(0.0)
+    }
+
+    /// How long a movement or break still lasts at least, s; 0 elsewhere.
+    pub(crate) fn left_s(&self, now_s: f64) -> f64 {
+        let least_s = match &self.now {
+            Now::Familiarisation(movement) => movement.for_s,
+            Now::Break { least_s, .. } => *least_s,
+            _ => 0.0,
+        };
+        (least_s - self.lasted_s(now_s)).max(0.0)
+    }
+
+    /// Goes on from what is no trial. Whether anything changed.
+    pub(crate) fn pass(&mut self, began: Began) -> bool {
+        if matches!(self.now, Now::Trial(_) | Now::Finished) || !self.is_open() {
+            return false;
+        }
+        if let Some(session) = &mut self.session {
+            session.pass();
+        }
+        self.rest_or_look(began);
+        true
+    }
+
+    /// Begins a pause if one is wanted, and sees what happens now.
+    fn rest_or_look(&mut self, began: Began) {
+        if self.pause == Pause::Wanted {
+            self.pause = Pause::On;
+        }
+        self.look(began);
+    }
+
+    /// Pauses before the next trial, or at once where no trial is under way.
+    pub(crate) fn pause(&mut self) {
+        let is_trial = matches!(self.now, Now::Trial(_));
+        self.pause = if is_trial { Pause::Wanted } else { Pause::On };
+    }
+
+    /// Takes a part of an answer. The tuning that follows, if it changes.
+    pub(crate) fn mark(&mut self, mark: &Mark, at: Instant) -> Option<Tuning> {
+        if !self.is_open() || self.trial().is_none() {
+            return None;
+        }
+        let at_ms = at.saturating_duration_since(self.began.at).as_secs_f64() * 1e3;
+        self.draft.take(mark, at_ms);
+        matches!(mark, Mark::Turn(..) | Mark::Set(..)).then(|| self.tuning())
+    }
+
+    /// The tuning in force now.
+    pub(crate) fn tuning(&self) -> Tuning {
+        let tuning = self.materials.tuning();
+        match (&self.draft, &self.design.method) {
+            (Draft::Adjust { values, .. }, Method::Adjustment(adjusting)) => {
+                layout::tuned(tuning, &adjusting.parameters, values)
+            }
+            _ => tuning,
+        }
+    }
+
+    /// What is played at the beginning of this trial: silence first.
+    pub(crate) fn vibrations(&self) -> Vec<VibrationStep> {
+        let Some(trial) = self.trial() else {
+            return Vec::new();
+        };
+        let steps = layout::vibrations(&self.design, &trial.task);
+        if steps.is_empty() {
+            return steps;
+        }
+        let lead = VibrationStep {
+            amplitude_um: [0.0; 2],
+            n_ticks: LEAD_TICKS,
+        };
+        std::iter::once(lead).chain(steps).collect()
+    }
+
+    /// The interval that is played now, from 0.
+    pub(crate) fn interval(&self) -> Option<usize> {
+        let step = usize::from(self.vibration?);
+        (step % 2 == 1).then_some(step / 2)
+    }
+
+    /// Whether a vibration may be played again: where its strength is asked, once it is over.
+    pub(crate) fn may_play_again(&self) -> bool {
+        let is_interval = |trial: &Trial| matches!(trial.task, Asked::Interval { .. });
+        let has_any = !self.vibrations().is_empty();
+        has_any && self.vibration.is_none() && !self.trial().is_some_and(is_interval)
+    }
+
+    /// Ends the trial that waits: its row is on its way. Whether anything was ended.
+    pub(crate) fn end_trial(&mut self, answer: Option<Answer>, at: Instant) -> bool {
+        if !self.is_open() || self.trial().is_none() {
+            return false;
+        }
+        let since_opening = |at: Instant| {
+            let ns = at.saturating_duration_since(self.opened).as_nanos();
+            u64::try_from(ns).unwrap_or(u64::MAX)
+        };
+        let timing = Timing::between(
+            [self.began.utc, SystemTime::now()],
+            [self.began.at, at].map(since_opening),
+        );
+        self.last_response_s = Some(timing.response_ms() * 1e-3);
+        self.pending = Some(Pending {
+            outcome: answer.map_or(Outcome::Aborted, Outcome::Answered),
+            timing,
+            tuning: self.tuning(),
+            note: self.note.trim().to_owned(),
+            path: None,
+            samples: Vec::new(),
+        });
+        true
+    }
+
+    /// The engine began to record the exploration of this trial.
+    pub(crate) fn records(&mut self) {
+        self.is_recording = true;
+        self.recording = None;
+    }
+
+    /// Whether the engine still records.
+    pub(crate) fn is_recording(&self) -> bool {
+        self.is_recording
+    }
+
+    /// The engine's recording came to its end.
+    pub(crate) fn take_recording(&mut self, recording: Recording) {
+        self.is_recording = false;
+        self.recording = Some(recording);
+    }
+
+    /// Begins to write what waits, once its recording is there. Whether it begins now.
+    pub(crate) fn write(&mut self, (ctx, is_at_once): (&egui::Context, bool), has_engine: bool) {
+        let is_due = self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
+        let is_complete = !self.is_recording || !has_engine;
+        if !(is_due && is_complete) {
+            return;
+        }
+        let (Some(pending), Some(mut session)) = (&mut self.pending, self.session.take()) else {
+            return;
+        };
+        if let Some(recording) = self.recording.take() {
+            // Where nobody moved there is no path.
+            pending.path = recording.to_path().ok();
+            recording.samples().clone_into(&mut pending.samples);
+        }
+        let pending = pending.clone();
+        let apparatus = Apparatus {
+            device: self.device.clone(),
+            tuning: pending.tuning,
+            stimulus_hash: self.materials.hash.clone(),
+        };
+        let work = move |_: &mut selvedge_foundation::progress::Progress<'_>| {
+            let circumstances = Circumstances {
+                timing: pending.timing,
+                apparatus,
+                note: &pending.note,
+                path: pending.path.as_ref(),
+                samples: &pending.samples,
+            };
+            let outcome = match &pending.outcome {
+                Outcome::Answered(answer) => session.answer(answer, &circumstances).map(|_| ()),
+                Outcome::Aborted => session.abort(&circumstances),
+            };
+            Ok(Written {
+                session,
+                outcome: outcome.map_err(|error| error.to_string()),
+            })
+        };
+        let task = Task::start(("selvedge-session", ctx), is_at_once, work);
+        self.writing = Some(task);
+        ctx.request_repaint();
+    }
+
+    /// Tries again to write what could not be written.
+    pub(crate) fn retry(&mut self) {
+        self.failure = None;
+    }
+
+    /// Takes what came back from the disk: whether the next step begins.
+    ///
+    /// # Errors
+    /// The thread broke off and the session with it: it must be resumed.
+    pub(crate) fn poll(&mut self, began: Began) -> Result<bool, String> {
+        let Some((outcome, _)) = taken(&mut self.writing) else {
+            return Ok(false);
+        };
+        let Written { session, outcome } = outcome?;
+        self.session = Some(session);
+        match outcome {
+            Ok(()) => {
+                self.pending = None;
+                self.note.clear();
+                self.rest_or_look(began);
+                Ok(true)
+            }
+            Err(line) => {
+                self.failure = Some(line);
+                Ok(false)
+            }
+        }
+    }
+}

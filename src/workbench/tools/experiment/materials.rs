@@ -1,0 +1,140 @@
+//! Everything that a session presents, made before its first trial so that no trial waits longer
+//! than another.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::bench::library_view::Shelf;
+use crate::bench::rendering::Rendering;
+use crate::bench::settings::build_cache;
+use crate::shell::error::AppError;
+use selvedge_engine::PreparedScene;
+use selvedge_experiment::design::{Design, Source};
+use selvedge_experiment::layout::Layout;
+use selvedge_foundation::files::sha256_hex;
+use selvedge_render::array::TableCache;
+use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
+use selvedge_textile::Library;
+use selvedge_textile::tactile::Tuning;
+
+/// What a session presents.
+#[derive(Debug)]
+pub(crate) struct Materials {
+    /// Every textile of the design, loaded.
+    loaded: LoadedScene,
+    cache: TableCache,
+    rendering: Rendering,
+    display: Display,
+    tuning: Tuning,
+    /// What the textiles were made from.
+    pub hash: String,
+    /// Their pictures.
+    pub(crate) shelf: Shelf,
+}
+
+impl Materials {
+    /// Loads the textiles of a design whose file is `path`, and makes their tables: takes a while.
+    pub(crate) fn gather(
+        design: &Design,
+        path: &Path,
+        (display, rendering): (Display, Rendering),
+    ) -> Result<Self, AppError> {
+        let scene = all_at_once(design, &display);
+        let library = Arc::new(match scene.library_folder(path) {
+            None => Library::shipped()?,
+            Some(folder) => Library::named(&folder, build_cache().as_ref())?,
+        });
+        let shelf = Shelf::new(
+            Arc::clone(&library),
+            crate::bench::library_view::items_of(&library),
+        );
+        let loaded = LoadedScene::load(scene, library)?;
+        let mut cache = TableCache::default();
+        let accuracy = rendering.accuracy();
+        PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
+        let hash = hash_of(&loaded)?;
+        Ok(Self {
+            tuning: tuning(design, &loaded),
+            loaded,
+            cache,
+            rendering,
+            display,
+            hash,
+            shelf,
+        })
+    }
+
+    /// Gains and compression of the session. What compression leaves alone is the same in every
+    /// trial, whatever lies there.
+    pub(crate) fn tuning(&self) -> Tuning {
+        self.tuning
+    }
+
+    /// What lies in a layout, ready for the engine.
+    pub(crate) fn prepare(
+        &mut self,
+        design: &Design,
+        layout: &Layout,
+        tuning: Tuning,
+    ) -> Result<PreparedScene, AppError> {
+        let scene = layout.scene(design, &self.display, tuning);
+        let loaded = self.loaded.with_scene(scene)?;
+        let (method, accuracy) = (self.rendering.method, self.rendering.accuracy());
+        let prepared = PreparedScene::prepare_cached(&loaded, method, &accuracy, &mut self.cache)?;
+        Ok(prepared)
+    }
+}
+
+/// A scene with every textile of a design, one upon the other.
+fn all_at_once(design: &Design, display: &Display) -> Scene {
+    let mut ids: Vec<&String> = Vec::new();
+    for stimulus in &design.stimuli {
+        if let Source::Textile { id, .. } = &stimulus.source
+            && !ids.contains(&id)
+        {
+            ids.push(id);
+        }
+    }
+    let placed = |id: &String| PlacedTextile {
+        id: id.clone(),
+        origin_mm: selvedge_foundation::geometry::Point::default(),
+        size_mm: [100.0; 2],
+        rotation_deg: 0.0,
+        gain_db: 0.0,
+        label: String::new(),
+    };
+    Scene {
+        name: "Session".to_owned(),
+        library: design.library.clone(),
+        size_mm: [100.0; 2],
+        textiles: ids.into_iter().map(placed).collect(),
+        displays: vec![display.clone()],
+        ..Scene::default()
+    }
+}
+
+fn tuning(design: &Design, loaded: &LoadedScene) -> Tuning {
+    let default = loaded.library().default_tuning();
+    let mut tuning = design.tuning.unwrap_or(default);
+    let levels_db: Vec<f64> = loaded.levels_db().iter().copied().flatten().collect();
+    let mean_db = || {
+        let n = u32::try_from(levels_db.len()).unwrap_or(u32::MAX);
+        (n > 0).then(|| levels_db.iter().sum::<f64>() / f64::from(n))
+    };
+    tuning.compression_reference_db = tuning
+        .compression_reference_db
+        .or(default.compression_reference_db)
+        .or_else(mean_db);
+    tuning
+}
+
+fn hash_of(loaded: &LoadedScene) -> Result<String, AppError> {
+    let mut parts = Vec::new();
+    for textile in loaded.textiles() {
+        parts.push(textile.content_hash()?);
+    }
+    if parts.is_empty() {
+        return Ok(String::new());
+    }
+    Ok(sha256_hex(parts.iter().map(String::as_bytes)))
+}

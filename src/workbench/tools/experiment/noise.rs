@@ -1,0 +1,43 @@
+//! The masking noise that a design may ask for: a file to be played by any player.
+
+use std::path::Path;
+
+use crate::bench::task::Task;
+use selvedge_experiment::MaskingNoise;
+use selvedge_foundation::progress::Progress;
+
+/// The file in the folder of sessions.
+pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
+
+/// How it stands with the noise.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum NoiseView {
+    /// There is none yet.
+    Missing,
+    /// It is being written; the share done, 0…1.
+    Writing(f32),
+    /// It lies here.
+    At(String),
+}
+
+impl NoiseView {
+    /// How it stands: what is being written, and the file if it lies there.
+    pub(crate) fn of(writing: Option<&Task<()>>, folder: &Path, is_there: bool) -> Self {
+        match writing {
+            Some(task) => Self::Writing(task.share()),
+            None if is_there => Self::At(folder.join(NOISE_FILE).display().to_string()),
+            None => Self::Missing,
+        }
+    }
+}
+
+/// Writes the noise into a folder, which is made where it is missing.
+pub(crate) fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let folder = folder.display();
+        format!("cannot make the folder {folder}: {error}; choose another")
+    })?;
+    let noise = MaskingNoise::default();
+    let written = noise.write(&folder.join(NOISE_FILE), progress);
+    written.map_err(|error| error.to_string())
+}

@@ -1,0 +1,155 @@
+//! The two views of a session; and what nobody may look at while one is held.
+
+use std::mem;
+
+use eframe::egui::{
+    CentralPanel, Context, Frame, Key, Ui, ViewportBuilder, ViewportClass, ViewportId,
+};
+
+use crate::bench::command::{Command, Wishes};
+use crate::shell::arrangement::Pane;
+use crate::shell::desk::Desk;
+use crate::shell::frame::{Felt, frame_as_armed};
+use crate::shell::pointer::Pointed;
+use crate::shell::window::Workbench;
+use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
+use crate::tools::experiment::experimenter::ExperimenterHands;
+use crate::tools::experiment::view::{Link, ParticipantView};
+
+/// The participant's window as it is opened, points.
+const PARTICIPANTS_WINDOW: [f32; 2] = [1000.0, 860.0];
+/// No smaller, points: what is answered with has room.
+const LEAST_WINDOW: [f32; 2] = [700.0, 600.0];
+
+impl Desk<'_> {
+    pub(crate) fn show_participant(&mut self, ui: &mut Ui) {
+        let now_s = ui.input(|input| input.time);
+        let bench = &*self.bench;
+        if bench.transient.experiment.window.is_open {
+            return crate::tools::experiment::participant::show_apart(ui, self.wishes);
+        }
+        let view = bench
+            .transient
+            .experiment
+            .participant(&bench.transient.live, now_s);
+        let shown = crate::tools::experiment::participant::show(ui, &view, self.wishes);
+        if shown.is_some() {
+            self.shown = shown;
+        }
+    }
+
+    pub(crate) fn show_experimenter(&mut self, ui: &mut Ui) {
+        let now_s = ui.input(|input| input.time);
+        let transient = &mut self.bench.transient;
+        let live = &transient.live;
+        let link = Link::of(
+            (live.bridge.as_ref(), transient.target.as_deref()),
+            live.is_stopped,
+            self.bench.engine.profile().limit_um,
+        );
+        let experiment = &mut transient.experiment;
+        let screen = (experiment.window, experiment.is_blank);
+        let noise = experiment.noise();
+        let view = experiment.experimenter(link, now_s);
+        // Taken out while it is typed in, since the trial is looked at meanwhile.
+        let mut note = experiment
+            .held
+            .as_mut()
+            .map(|held| mem::take(&mut held.note));
+        let held = experiment.held.as_ref().filter(|_| experiment.is_blank);
+        let typed = held.and_then(|held| held.typed(now_s));
+        let mut hands = ExperimenterHands {
+            note: note.as_mut(),
+            form: &mut experiment.form,
+            typed: typed.as_ref(),
+        };
+        crate::tools::experiment::experimenter::show(
+            ui,
+            (&view, noise.as_ref(), screen),
+            &mut hands,
+            self.wishes,
+        );
+        if let Some((held, note)) = experiment.held.as_mut().zip(note) {
+            held.note = note;
+        }
+    }
+}
+
+impl Workbench {
+    /// Shows the participant's view in a window of its own, while that is open; where the pointer
+    /// feels there, if there is such a place.
+    pub(crate) fn show_participants_window(
+        &self,
+        ctx: &Context,
+        wishes: &mut Wishes,
+    ) -> Option<Felt> {
+        let window = self.transient.experiment.window;
+        if !window.is_open {
+            return None;
+        }
+        let live = &self.transient.live;
+        let now_s = ctx.input(|input| input.time);
+        let view = self.transient.experiment.participant(live, now_s);
+        let builder = ViewportBuilder::default()
+            .with_title("Selvedge – participant")
+            .with_app_id("selvedge")
+            .with_inner_size(PARTICIPANTS_WINDOW)
+            .with_min_inner_size(LEAST_WINDOW)
+            .with_fullscreen(window.fills_screen);
+        let id = ViewportId::from_hash_of("participant");
+        ctx.show_viewport_immediate(id, builder, |ui, class| {
+            if class == ViewportClass::EmbeddedWindow {
+                let shown = crate::tools::experiment::participant::show(ui, &view, wishes)?;
+                return Some((shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
+            }
+            take_window_keys(ui.ctx(), window.fills_screen, wishes);
+            if live.is_armed() {
+                frame_as_armed(ui.ctx());
+            }
+            let panel = CentralPanel::default().frame(Frame::new());
+            let shown = panel.show(ui, |ui| match &view {
+                ParticipantView::Nobody { is_coming } => {
+                    crate::tools::experiment::participant::show_before(ui, *is_coming);
+                    None
+                }
+                view => crate::tools::experiment::participant::show(ui, view, wishes),
+            });
+            Some((
+                shown.inner?,
+                Pointed::Participant,
+                ui.ctx().pixels_per_point(),
+            ))
+        })
+    }
+
+    /// Whether a pane would tell what a session must not.
+    pub(crate) fn is_veiled(&self, pane: Pane) -> bool {
+        // The analysis has a cover of its own.
+        let is_open = matches!(
+            pane,
+            Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
+        );
+        self.transient.experiment.is_held() && !is_open
+    }
+}
+
+/// What the participant's window does besides showing its view: it closes, fills its screen by F11,
+/// and Esc switches everything off as everywhere.
+fn take_window_keys(ctx: &Context, fills_screen: bool, wishes: &mut Wishes) {
+    let (is_closed, is_toggled, is_off) = ctx.input(|input| {
+        (
+            input.viewport().close_requested(),
+            input.key_pressed(Key::F11),
+            input.key_pressed(Key::Escape),
+        )
+    });
+    let mut act = |act| wishes.push(ExperimentCommand::Window(act).into());
+    if is_closed {
+        act(WindowAct::Close);
+    } else if is_toggled {
+        act(WindowAct::FillScreen(!fills_screen));
+    }
+    if is_off {
+        wishes.push(Command::AllOff);
+    }
+}

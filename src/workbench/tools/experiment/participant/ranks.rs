@@ -1,0 +1,132 @@
+//! Ranking: four numbers that are laid in order, by drag, click or digit.
+
+use eframe::egui::{
+    self, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
+
+use crate::bench::command::Wishes;
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::experiment::draft::Mark;
+use crate::tools::experiment::participant::big;
+use crate::tools::experiment::participant::big::Face;
+use crate::tools::experiment::participant::ground::count;
+use selvedge_experiment::N_RANKED;
+
+/// Side of a number and of its place, points.
+const SIDE: f32 = 64.0;
+
+/// Shows the numbers that are not ranked yet, and the ranks.
+pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], wishes: &mut Wishes) {
+    ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+    for position in 0..N_RANKED {
+        let is_free = !order.contains(&Some(position));
+        let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
+        if !is_free {
+            paint_gap(ui, rect);
+            continue;
+        }
+        name(ui, &response, &format!("Fabric {}", position + 1));
+        drag(ui, &response, position);
+        paint_place(ui, rect, Some(position), response.hovered());
+        big::ring(ui, rect, &response);
+        if response.clicked() {
+            wishes.push(ExperimentCommand::Mark(Mark::Place(position)).into());
+        }
+    }
+    ui.add_space(4.0 * STEP);
+    let (rect, _) = ui.allocate_exact_size(vec2(28.0, SIDE), Sense::hover());
+    paint_arrow(ui, rect);
+    ui.add_space(4.0 * STEP);
+    for (rank, ranked) in order.iter().enumerate() {
+        show_rank(ui, rank, *ranked, wishes);
+    }
+}
+
+fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, wishes: &mut Wishes) {
+    let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
+    let what = ranked.map_or_else(|| "empty".to_owned(), |at| format!("fabric {}", at + 1));
+    name(ui, &response, &format!("Rank {}: {what}", rank + 1));
+    if let Some(position) = ranked {
+        drag(ui, &response, position);
+    }
+    let is_over = response.dnd_hover_payload::<usize>().is_some();
+    paint_place(ui, rect, ranked, is_over || response.hovered());
+    big::ring(ui, rect, &response);
+    let palette = Palette::in_ui(ui);
+    let words = match rank {
+        0 => "most alike",
+        _ if rank + 1 == N_RANKED => "least alike",
+        _ => "",
+    };
+    let below = pos2(rect.center().x, rect.bottom() + 4.0);
+    let font = theme::body();
+    ui.painter()
+        .text(below, Align2::CENTER_TOP, words, font, palette.dim);
+    if let Some(position) = response.dnd_release_payload::<usize>() {
+        wishes.push(ExperimentCommand::Mark(Mark::Rank(*position, rank)).into());
+    }
+}
+
+fn name(ui: &Ui, response: &Response, label: &str) {
+    let is_enabled = ui.is_enabled();
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_enabled, label));
+}
+
+/// Lets a number be dragged, and draws it under the pointer.
+fn drag(ui: &Ui, response: &Response, position: usize) {
+    response.dnd_set_drag_payload(position);
+    if response.dragged()
+        && let Some(at) = ui.ctx().pointer_interact_pos()
+    {
+        let layer = egui::LayerId::new(egui::Order::Tooltip, response.id);
+        let painter = ui.ctx().layer_painter(layer);
+        let palette = Palette::in_ui(ui);
+        let rect = Rect::from_center_size(at, vec2(SIDE, SIDE));
+        painter.rect_filled(rect, 8, palette.hovered);
+        paint_number(&painter, at, position, palette);
+    }
+}
+
+fn paint_place(ui: &Ui, rect: Rect, held: Option<usize>, is_lit: bool) {
+    let palette = Palette::in_ui(ui);
+    let Some(position) = held else {
+        return big::paint(ui, rect, Face::place(palette, is_lit));
+    };
+    big::paint(ui, rect, Face::loose(palette, is_lit));
+    paint_number(ui.painter(), rect.center(), position, palette);
+}
+
+fn paint_number(painter: &egui::Painter, at: egui::Pos2, position: usize, palette: &Palette) {
+    let number = (position + 1).to_string();
+    painter.text(
+        at,
+        Align2::CENTER_CENTER,
+        number,
+        theme::huge(),
+        palette.text,
+    );
+}
+
+/// Where a number was before it was ranked: hardly there.
+fn paint_gap(ui: &Ui, rect: Rect) {
+    let stroke = Stroke::new(1.0, Palette::in_ui(ui).hairline);
+    ui.painter()
+        .rect_stroke(rect, 8, stroke, StrokeKind::Inside);
+}
+
+fn paint_arrow(ui: &Ui, rect: Rect) {
+    let palette = Palette::in_ui(ui);
+    let middle = rect.center();
+    ui.painter().arrow(
+        middle - vec2(12.0, 0.0),
+        vec2(24.0, 0.0),
+        Stroke::new(2.0, palette.line),
+    );
+}
+
+/// Width of all of it, points.
+pub(crate) fn width() -> f32 {
+    2.0 * count(N_RANKED) * (SIDE + 2.0 * STEP) + 28.0 + 12.0 * STEP
+}

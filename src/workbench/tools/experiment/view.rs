@@ -1,0 +1,381 @@
+//! What participant and experimenter see of a session: plain data, and pure functions of it.
+//!
+//! A participant's view holds numbers of places and the target's picture. No id, no level and no
+//! position of what is right is in it, nor in the experimenter's.
+
+use crate::bench::view::{BridgePhase, BridgeView, ClothPicture, Live};
+use crate::tools::experiment::draft::Draft;
+use crate::tools::experiment::form::title_of;
+use crate::tools::experiment::held::Held;
+use crate::tools::experiment::now::{Now, Pause};
+use crate::tools::experiment::{Experiment, guide};
+use selvedge_experiment::design::{Design, Method, Source};
+use selvedge_experiment::layout::{Layout, on_the_table};
+use selvedge_experiment::{Task, Trial};
+use selvedge_foundation::geometry::Point;
+
+/// What the participant sees.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ParticipantView<'a> {
+    /// No session is held; whether one is on its way.
+    Nobody {
+        /// One is being prepared.
+        is_coming: bool,
+    },
+    /// Words to read, and when to go on.
+    Words {
+        /// In large letters.
+        title: &'static str,
+        /// Below.
+        words: String,
+        /// Seconds until one may go on; `None` where nobody goes on from here.
+        left_s: Option<f64>,
+    },
+    /// A movement is practised.
+    Movement {
+        /// Where it is practised.
+        ground: Ground,
+        /// Whether on a circle; otherwise to and fro.
+        is_circle: bool,
+        /// Where the guide is.
+        guide: Point,
+        /// Seconds left.
+        left_s: f64,
+    },
+    /// A trial.
+    Trial(TrialView<'a>),
+    /// A trial of which nothing is seen.
+    Blank(Ground),
+}
+
+/// What lies before the participant.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Ground {
+    /// Width and height, mm.
+    pub size_mm: [f64; 2],
+    /// What lies there.
+    pub slots: Vec<Slot>,
+    /// How all of it looks: like the target. `None`: plain.
+    pub picture: Option<ClothPicture>,
+    /// Where the finger is.
+    pub finger: Option<Point>,
+    /// Whether the pointer feels there now.
+    pub feels: bool,
+}
+
+/// One cloth of those that look alike.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Slot {
+    /// Its lower left corner, mm.
+    pub origin_mm: Point,
+    /// Its position, from 1; `None` for one without a number.
+    pub number: Option<usize>,
+    /// Whether the others are compared with it.
+    pub(crate) is_target: bool,
+}
+
+/// A trial as the participant sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct TrialView<'a> {
+    /// What lies there.
+    pub ground: Ground,
+    /// What is asked.
+    pub question: String,
+    /// What was answered so far.
+    pub draft: &'a Draft,
+    /// Whether an answer is taken now.
+    pub is_open: bool,
+    /// The intervals, and which of them is played.
+    pub intervals: Option<(usize, Option<usize>)>,
+    /// Whether the vibration may be played again.
+    pub(crate) may_play: bool,
+}
+
+impl TrialView<'_> {
+    /// Whether choosing is all: the answer is handed in with it.
+    pub(crate) fn ends_at_once(&self) -> bool {
+        let is_choice = matches!(self.draft, Draft::Choose { sure, .. } if sure.n_grades == 0);
+        is_choice && self.intervals.is_some()
+    }
+}
+
+/// What the experimenter sees.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ExperimenterView {
+    /// No session is held; how far the next one is prepared, 0…1.
+    Nobody {
+        /// 0…1; `None` while none is on its way.
+        share: Option<f32>,
+    },
+    /// A session is held.
+    Held(Box<HeldView>),
+}
+
+/// Where a session is in its course.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Course {
+    /// The participant reads.
+    Instructions,
+    /// A movement is practised.
+    Familiarisation,
+    /// A trial.
+    Trial,
+    /// A break.
+    Break,
+    /// It rests.
+    Paused,
+    /// All is answered.
+    Finished,
+}
+
+/// A session as the experimenter sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HeldView {
+    /// The design's title.
+    pub title: String,
+    /// Who takes part, and which session it is.
+    pub subject: String,
+    /// The file of rows.
+    pub log: String,
+    /// Where it is.
+    pub course: Course,
+    /// `practice 2`, `trial 12, block 1`, or empty.
+    pub place: String,
+    /// Trials answered and trials there are at most.
+    pub progress: (usize, usize),
+    /// How long the step has lasted, s.
+    pub(crate) lasted_s: f64,
+    /// How long a movement or break lasts at least, s.
+    pub left_s: f64,
+    /// How long the last trial took, s.
+    pub(crate) last_response_s: Option<f64>,
+    /// What was answered so far.
+    pub answered: String,
+    /// What must lie on the table: position and cloth.
+    pub table: Vec<(Option<usize>, String)>,
+    /// The device.
+    pub link: Link,
+    /// Whether a pause is wanted or on.
+    pub pause: Pause,
+    /// Whether a row is on its way to the disk.
+    pub(crate) is_writing: bool,
+    /// Why the last row could not be written.
+    pub failure: Option<String>,
+}
+
+/// The device as the experimenter sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Link {
+    /// What it is called.
+    pub name: String,
+    /// Where the connection stands.
+    pub state: &'static str,
+    /// Whether high voltage is on.
+    pub is_armed: bool,
+    /// Whether everything was switched off.
+    pub is_stopped: bool,
+    /// The largest amplitudes that it may be given, µm.
+    pub limit_um: [f64; 2],
+}
+
+impl Link {
+    /// The device that is connected, if one is.
+    pub(crate) fn of(
+        (bridge, name): (Option<&BridgeView>, Option<&str>),
+        is_stopped: bool,
+        limit_um: [f64; 2],
+    ) -> Self {
+        Self {
+            name: name.unwrap_or("No device").to_owned(),
+            state: bridge.map_or("not connected", |bridge| bridge.state),
+            is_armed: bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Armed),
+            is_stopped,
+            limit_um,
+        }
+    }
+}
+
+impl Experiment {
+    /// What the participant sees.
+    pub(crate) fn participant(&self, live: &Live, now_s: f64) -> ParticipantView<'_> {
+        match &self.held {
+            None => ParticipantView::Nobody {
+                is_coming: self.beginning.is_some(),
+            },
+            Some(held) => match held.participant(live.centre, now_s) {
+                ParticipantView::Trial(trial) if self.is_blank => {
+                    ParticipantView::Blank(trial.ground)
+                }
+                view => view,
+            },
+        }
+    }
+
+    /// What the experimenter sees.
+    pub(crate) fn experimenter(&self, link: Link, now_s: f64) -> ExperimenterView {
+        match &self.held {
+            None => ExperimenterView::Nobody {
+                share: self.beginning.as_ref().map(crate::bench::task::Task::share),
+            },
+            Some(held) => ExperimenterView::Held(Box::new(held.experimenter(link, now_s))),
+        }
+    }
+}
+
+impl Held {
+    /// The trial whose answer the experimenter types, while the participant sees nothing.
+    pub(crate) fn typed(&self, now_s: f64) -> Option<TrialView<'_>> {
+        match self.participant(None, now_s) {
+            ParticipantView::Trial(trial) => Some(trial),
+            _ => None,
+        }
+    }
+
+    fn participant(&self, finger: Option<Point>, now_s: f64) -> ParticipantView<'_> {
+        let words = |title, words: &str, left_s| ParticipantView::Words {
+            title,
+            words: words.to_owned(),
+            left_s,
+        };
+        if self.failure.is_some() {
+            return words("One moment, please", "The experimenter will help.", None);
+        }
+        if self.pause == Pause::On {
+            return words("Pause", "It goes on soon.", None);
+        }
+        match &self.now {
+            Now::Instructions(text) => words("Welcome", text, Some(0.0)),
+            Now::Break { .. } => {
+                let text = "Rest your finger. Go on when you are ready.";
+                words("A break", text, Some(self.left_s(now_s)))
+            }
+            Now::Finished => words("That was all", "Thank you for taking part.", None),
+            Now::Familiarisation(movement) => {
+                let [width_mm, height_mm] = self.layout.size_mm;
+                let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
+                ParticipantView::Movement {
+                    ground: self.ground(None, finger),
+                    is_circle: movement.movement == selvedge_experiment::design::Movement::Circular,
+                    guide: guide::place(movement, middle, self.lasted_s(now_s)),
+                    left_s: self.left_s(now_s),
+                }
+            }
+            Now::Trial(trial) => ParticipantView::Trial(TrialView {
+                ground: self.ground(Some(trial), finger),
+                question: question(&self.design, trial),
+                draft: &self.draft,
+                is_open: self.is_open(),
+                intervals: self.intervals(),
+                may_play: self.may_play_again(),
+            }),
+        }
+    }
+
+    fn ground(&self, trial: Option<&Trial>, finger: Option<Point>) -> Ground {
+        let target = trial.and_then(|trial| target_of(&self.design, trial));
+        // What is played is felt wherever the finger is, and nothing lies there.
+        let is_played = !self.vibrations().is_empty();
+        Ground {
+            size_mm: self.layout.size_mm,
+            slots: if is_played {
+                Vec::new()
+            } else {
+                slots(&self.layout, trial)
+            },
+            picture: target.and_then(|id| self.materials.shelf.picture(id)),
+            finger: finger.filter(|_| !is_played),
+            feels: self.is_felt(),
+        }
+    }
+
+    fn intervals(&self) -> Option<(usize, Option<usize>)> {
+        match (&self.draft, &self.now) {
+            (Draft::Choose { n, .. }, Now::Trial(trial)) => {
+                let is_interval = matches!(trial.task, Task::Interval { .. });
+                is_interval.then(|| (*n, self.interval()))
+            }
+            (_, Now::Trial(_)) if !self.vibrations().is_empty() => Some((1, self.interval())),
+            _ => None,
+        }
+    }
+
+    fn experimenter(&self, link: Link, now_s: f64) -> HeldView {
+        let course = match &self.now {
+            _ if self.pause == Pause::On => Course::Paused,
+            Now::Instructions(_) => Course::Instructions,
+            Now::Familiarisation(_) => Course::Familiarisation,
+            Now::Trial(_) => Course::Trial,
+            Now::Break { .. } => Course::Break,
+            Now::Finished => Course::Finished,
+        };
+        let trial = self.trial();
+        HeldView {
+            title: title_of(&self.design),
+            subject: format!(
+                "{}, session {}",
+                self.subject.pseudonym, self.subject.session
+            ),
+            log: self.log.display().to_string(),
+            course,
+            place: trial.map_or_else(String::new, place_of),
+            progress: self.progress,
+            lasted_s: self.lasted_s(now_s),
+            left_s: self.left_s(now_s),
+            last_response_s: self.last_response_s,
+            answered: self.draft.told(),
+            table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
+            link,
+            pause: self.pause,
+            is_writing: self.is_writing(),
+            failure: self.failure.clone(),
+        }
+    }
+}
+
+/// Instructions that are no longer than this stand above a trial, letters.
+const SHORT: usize = 140;
+
+/// What is asked, as far as the design says it more plainly than the task.
+fn question(design: &Design, trial: &Trial) -> String {
+    let instructions = design.course.instructions.trim();
+    let is_short = !instructions.is_empty() && instructions.chars().count() <= SHORT;
+    match (&trial.task, &design.method) {
+        // What it is adjusted to is the design's alone to say.
+        (Task::Adjust { .. }, _) if is_short => instructions.to_owned(),
+        (Task::Interval { .. }, Method::Levels(levels)) if levels.reference_db.is_some() => {
+            "choose the interval with the stronger vibration".to_owned()
+        }
+        _ => trial.task.question().to_owned(),
+    }
+}
+
+fn place_of(trial: &Trial) -> String {
+    let number = trial.number + 1;
+    if trial.is_practice {
+        format!("practice {number}")
+    } else {
+        format!("trial {number}, block {}", trial.block + 1)
+    }
+}
+
+/// What lies where, by positions alone.
+fn slots(layout: &Layout, trial: Option<&Trial>) -> Vec<Slot> {
+    let is_ranking = trial.is_some_and(|trial| matches!(trial.task, Task::Rank { .. }));
+    let slot = |place: &selvedge_experiment::layout::Place| Slot {
+        origin_mm: place.origin_mm,
+        number: place.number,
+        is_target: is_ranking && place.number.is_none(),
+    };
+    layout.places.iter().map(slot).collect()
+}
+
+/// The textile whose picture all alternatives have.
+fn target_of<'a>(design: &'a Design, trial: &Trial) -> Option<&'a str> {
+    let Task::Rank { target, .. } = trial.task else {
+        return None;
+    };
+    match &design.stimuli.get(target)?.source {
+        Source::Textile { id, .. } => Some(id),
+        _ => None,
+    }
+}

@@ -1,0 +1,32 @@
+//! What is imported. Neither saved nor undone.
+
+use eframe::egui;
+
+use crate::shell::arrangement;
+use crate::shell::arrangement::Pane;
+use crate::shell::window::Workbench;
+use crate::tools::import::{ImportCommand, Importing};
+
+impl Workbench {
+    pub(crate) fn dispatch_import(&mut self, ctx: &egui::Context, command: ImportCommand) {
+        let importing = &mut self.transient.importing;
+        match command {
+            ImportCommand::Add(paths) => {
+                if let Err(line) = importing.add(paths) {
+                    self.transient.notices.give(line);
+                }
+                if !arrangement::is_shown(&self.tree, Pane::Import) {
+                    arrangement::toggle(&mut self.tree, Pane::Import);
+                }
+            }
+            ImportCommand::Draft(draft) => importing.take_draft(*draft),
+            ImportCommand::ReadAgain => importing.read_again(),
+            ImportCommand::Cancel => importing.cancel(),
+            ImportCommand::Clear => {
+                importing.cancel();
+                *importing = Importing::default();
+            }
+            ImportCommand::Keep { is_felt } => self.keep_import(ctx, is_felt),
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! What the user has chosen and typed so far, and what the readers are told of it.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use crate::tools::import::failure::{Failure, Step};
+use selvedge_textile::metrology::{Asked, ImportOptions, LengthUnit};
+use selvedge_textile::surface::Representation;
+use selvedge_textile::{
+    ColumnRole, Construction, DecimalSign, HeightUnit, KesOptions, KesPlace, Measurement,
+    PlaceUnit, ReturnOrder, Words, id_of, known_figures, read_measurement,
+};
+
+/// A file that was chosen, read once.
+#[derive(Debug)]
+pub(crate) struct SourceFile {
+    path: PathBuf,
+    bytes: OnceLock<Result<Vec<u8>, String>>,
+}
+
+impl SourceFile {
+    /// A file that is not read yet.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self {
+            path,
+            bytes: OnceLock::new(),
+        }
+    }
+
+    /// Where it lies.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its name without folders.
+    pub(crate) fn name(&self) -> String {
+        let name = self.path.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    }
+
+    /// The same as a path: where it lies is nobody's business in errors.
+    pub(crate) fn file_name(&self) -> &Path {
+        self.path.file_name().map_or(&*self.path, Path::new)
+    }
+
+    /// Its content, read on the first call; why it cannot be read, in one line.
+    pub(crate) fn bytes(&self) -> Result<&[u8], &str> {
+        let read = || read_measurement(&self.path).map_err(|error| error.to_string());
+        let bytes = self.bytes.get_or_init(read);
+        bytes.as_deref().map_err(String::as_str)
+    }
+
+    /// How many bytes it has, if it was read.
+    pub(crate) fn n_bytes(&self) -> Option<usize> {
+        self.bytes.get()?.as_ref().ok().map(Vec::len)
+    }
+}
+
+/// A file and what was said of it.
+#[derive(Debug, Clone)]
+pub(crate) struct DraftFile {
+    /// The file.
+    pub source: Arc<SourceFile>,
+    /// What it holds; `None`: by its columns and its name.
+    pub place: Option<KesPlace>,
+    /// Whether it is a trace of friction alone.
+    pub is_friction: bool,
+}
+
+impl PartialEq for DraftFile {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.source, &other.source)
+            && (self.place, self.is_friction) == (other.place, other.is_friction)
+    }
+}
+
+/// What the tester's files do not say.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct StrokesDraft {
+    /// What the columns are.
+    pub columns: Option<Vec<ColumnRole>>,
+    /// The decimal sign.
+    pub decimal: Option<DecimalSign>,
+    /// The unit of places.
+    pub x_unit: Option<PlaceUnit>,
+    /// The unit of heights.
+    pub height_unit: Option<HeightUnit>,
+    /// How return strokes are stored.
+    pub return_order: Option<ReturnOrder>,
+    /// µm for a volt, as typed.
+    pub um_per_volt: String,
+    /// The step in mm, as typed.
+    pub step_mm: String,
+    /// The speed in mm/s, as typed.
+    pub speed_mm_per_s: String,
+    /// Samples a second, as typed.
+    pub rate_hz: String,
+}
+
+/// What a file of heights does not say.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct HeightsDraft {
+    /// The unit of heights.
+    pub height_unit: Option<LengthUnit>,
+    /// The unit of places.
+    pub length_unit: Option<LengthUnit>,
+    /// The distance of points in mm, as typed.
+    pub step_mm: String,
+    /// White above black in µm, as typed.
+    pub range_um: String,
+    /// The column of heights, as typed.
+    pub column: String,
+    /// Which field of several, from 1.
+    pub layer: Option<usize>,
+    /// Whether it is one repeat of the cloth.
+    pub is_periodic: bool,
+    /// How it is felt.
+    pub representation: Representation,
+}
+
+/// Everything that the readers are told.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Told {
+    /// The files.
+    pub files: Vec<DraftFile>,
+    /// What they are; `None`: by their content.
+    pub kind: Option<Measurement>,
+    /// Of the tester's files.
+    pub strokes: StrokesDraft,
+    /// Of a file of heights.
+    pub heights: HeightsDraft,
+}
+
+/// What is looked at of what was read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Looked {
+    /// The evaluated sections of warp and weft, mm; `None`: the one suggested.
+    pub sections: [Option<[f64; 2]>; 2],
+    /// Whether figures against the official band are asked for.
+    pub is_official: bool,
+    /// Where strokes cross on a map, mm; none: in the middle.
+    pub places: Vec<[f64; 2]>,
+}
+
+/// What is said of the textile.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct WordsDraft {
+    /// Its name; empty: the one that the file suggests.
+    pub name: String,
+    /// Its id; empty: from the name.
+    pub id: String,
+    /// How it is made.
+    pub construction: Option<Construction>,
+    /// What it is made of.
+    pub fibre: String,
+    /// The licence of its files.
+    pub licence: String,
+    /// One line of description.
+    pub notes: String,
+    /// Measured figures by their keys, as typed.
+    pub figures: Vec<(String, String)>,
+}
+
+/// All of it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Draft {
+    /// What the readers are told.
+    pub told: Told,
+    /// What is looked at.
+    pub looked: Looked,
+    /// What is said of the textile.
+    pub words: WordsDraft,
+}
+
+/// A number that was typed, or none; `what` names it, with its unit.
+pub(crate) fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
+    let plain = text.trim().replace(',', ".").replace('\u{2212}', "-");
+    if plain.is_empty() {
+        return Ok(None);
+    }
+    let number = plain
+        .parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite());
+    let wrong = || {
+        format!(
+            "“{}” is no number for {what}; type one, or nothing",
+            text.trim()
+        )
+    };
+    number.map(Some).ok_or_else(wrong)
+}
+
+impl Told {
+    /// The tester's options.
+    pub(crate) fn kes_options(&self) -> Result<KesOptions, Failure> {
+        let typed = &self.strokes;
+        let number = |text: &str, what: &str| {
+            number(text, what).map_err(|line| Failure::at(Step::Meaning, line))
+        };
+        let files = self.files.iter().filter(|file| !file.is_friction);
+        Ok(KesOptions {
+            directions: files.map(|file| file.place).collect(),
+            step_mm: number(&typed.step_mm, "the step in mm")?,
+            speed_mm_per_s: number(&typed.speed_mm_per_s, "the speed in mm/s")?,
+            rate_hz: number(&typed.rate_hz, "samples a second")?,
+            um_per_volt: number(&typed.um_per_volt, "the sensitivity in µm/V")?,
+            x_unit: typed.x_unit,
+            height_unit: typed.height_unit,
+            decimal: typed.decimal,
+            columns: typed.columns.clone(),
+            return_order: typed.return_order,
+        })
+    }
+
+    /// The options of a file of heights.
+    pub(crate) fn height_options(&self) -> Result<ImportOptions, Failure> {
+        let typed = &self.heights;
+        let number = |text: &str, what: &str| {
+            number(text, what).map_err(|line| Failure::at(Step::Meaning, line))
+        };
+        let column = typed.column.trim();
+        Ok(ImportOptions {
+            asked: Asked {
+                height_unit: typed.height_unit,
+                length_unit: typed.length_unit,
+                step_mm: number(&typed.step_mm, "the distance of points in mm")?,
+                range_um: number(&typed.range_um, "white above black in µm")?,
+                column: (!column.is_empty()).then(|| column.to_owned()),
+                layer: typed.layer,
+            },
+            is_periodic: typed.is_periodic,
+            representation: typed.representation,
+        })
+    }
+}
+
+impl WordsDraft {
+    /// The name: as typed, or the one suggested.
+    pub(crate) fn name<'a>(&'a self, suggested: &'a str) -> &'a str {
+        let typed = self.name.trim();
+        if typed.is_empty() { suggested } else { typed }
+    }
+
+    /// The id: as typed, or from the name.
+    pub(crate) fn id(&self, suggested: &str) -> String {
+        let typed = self.id.trim();
+        let from = if typed.is_empty() {
+            self.name(suggested)
+        } else {
+            typed
+        };
+        id_of(from)
+    }
+
+    /// The words; why not, in one line.
+    pub(crate) fn words(&self, suggested: &str, kind: Measurement) -> Result<Words, Failure> {
+        let mut figures = BTreeMap::new();
+        for (key, text) in &self.figures {
+            let figure = known_figures().find(|figure| figure.key == *key);
+            let name = figure.map_or_else(|| key.clone(), |figure| figure.name);
+            let value = number(text, &name).map_err(|line| Failure::at(Step::Keep, line))?;
+            if let Some(value) = value {
+                figures.insert(key.clone(), value);
+            }
+        }
+        let usual = match kind {
+            Measurement::Strokes => Construction::Woven,
+            Measurement::Heights => Construction::Other,
+        };
+        Ok(Words {
+            name: self.name(suggested).to_owned(),
+            construction: self.construction.unwrap_or(usual),
+            fibre: self.fibre.trim().to_owned(),
+            licence: self.licence.trim().to_owned(),
+            notes: self.notes.trim().to_owned(),
+            figures,
+        })
+    }
+}

@@ -1,0 +1,164 @@
+//! From what was read to textiles for the library: the files that the command line would write.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use crate::bench::follower::Standing;
+use crate::bench::job::{Job, Polled};
+use crate::bench::keep::{Keep, NewTextile};
+use crate::shell::window::Workbench;
+use crate::tools::import::draft::WordsDraft;
+use crate::tools::import::failure::{Failure, Step};
+use crate::tools::import::work::{Body, Found};
+use crate::tools::import::{Importing, Keeping};
+use selvedge_textile::{TextileError, nth_id};
+
+/// The textiles of what was read, one for every place.
+pub(crate) fn textiles(found: &Found, said: &WordsDraft) -> Result<Vec<NewTextile>, Failure> {
+    let suggested = found.own_name();
+    let words = said.words(&suggested, found.kind)?;
+    let id = said.id(&suggested);
+    if id.is_empty() {
+        let line = "the textile has no name; type one with at least a letter or a digit";
+        return Err(Failure::at(Step::Keep, line));
+    }
+    let failed = |error: TextileError| Failure::of(Step::Keep, &error);
+    let unread = || {
+        Failure::at(
+            Step::Keep,
+            "nothing was read yet; mend what the steps above say",
+        )
+    };
+    match &found.body {
+        Body::Nothing => Err(unread()),
+        Body::Strokes(strokes) => {
+            let import = strokes.import.as_ref().ok_or_else(unread)?;
+            let files = import.files(&words).map_err(failed)?;
+            Ok(vec![NewTextile {
+                id,
+                name: words.name,
+                files,
+            }])
+        }
+        Body::Heights(heights) => {
+            let n = heights.places.len();
+            let bytes = found.inputs.told.files.first();
+            let bytes = bytes.and_then(|file| file.source.bytes().ok());
+            let textile = |nth: usize| {
+                let place = heights.places[nth].as_ref();
+                let place = place.map_err(|line| Failure::at(Step::Look, line.clone()))?;
+                let words = words.nth(nth, n);
+                let files = heights
+                    .import
+                    .files(place, &words, bytes.unwrap_or_default());
+                Ok(NewTextile {
+                    id: nth_id(&id, nth, n),
+                    name: words.name,
+                    files: files.map_err(failed)?,
+                })
+            };
+            (0..n).map(textile).collect()
+        }
+    }
+}
+
+impl Importing {
+    /// Why nothing can be kept now; `None` if it can.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        match self.standing() {
+            Standing::Empty => return Some("Choose files first".to_owned()),
+            Standing::Working(_) => return Some("The files are being read".to_owned()),
+            Standing::Stopped => return Some("Reading was stopped; press “read again”".to_owned()),
+            Standing::Fresh => {}
+        }
+        let found = self.found()?;
+        if let Some(failure) = &found.failure {
+            return Some(format!(
+                "Step {} has something to mend",
+                failure.step.number()
+            ));
+        }
+        if self.is_keeping() {
+            return Some("It is being kept".to_owned());
+        }
+        None
+    }
+
+    /// An id that the library has already; what is kept gets the next free one.
+    pub(crate) fn taken(&self, is_known: impl Fn(&str) -> bool) -> Option<String> {
+        let found = self.found()?;
+        let id = self.draft.words.id(&found.own_name());
+        let n = found.heights().map_or(1, |heights| heights.places.len());
+        (0..n)
+            .map(|nth| nth_id(&id, nth, n))
+            .find(|id| is_known(id))
+    }
+}
+
+impl Workbench {
+    /// Begins to make the textiles and keeps them.
+    pub(crate) fn keep_import(&mut self, ctx: &egui::Context, is_felt: bool) {
+        let importing = &mut self.transient.importing;
+        if let Some(line) = importing.refusal() {
+            importing.kept = Some(Err(Failure::at(Step::Keep, line)));
+            return;
+        }
+        let Some(found) = importing.found().cloned() else {
+            return;
+        };
+        importing.kept = None;
+        let said = importing.draft.words.clone();
+        let make = move || textiles(&found, &said);
+        if self.is_stepped {
+            return self.take_textiles(ctx, make(), is_felt);
+        }
+        match Job::start("selvedge-import-keep", ctx, make) {
+            Ok(job) => importing.keeping = Some(Keeping { job, is_felt }),
+            Err(error) => {
+                let line = format!("nothing was kept: {error}; try again");
+                importing.kept = Some(Err(Failure::at(Step::Keep, line)));
+            }
+        }
+    }
+
+    /// Takes textiles that are made. To be called every frame.
+    pub(crate) fn poll_import(&mut self, ctx: &egui::Context) {
+        self.transient.importing.poll();
+        let Some(keeping) = self.transient.importing.keeping.take() else {
+            return;
+        };
+        match keeping.job.poll() {
+            Polled::Working => self.transient.importing.keeping = Some(keeping),
+            Polled::Done(made) => self.take_textiles(ctx, made, keeping.is_felt),
+            Polled::BrokeOff => {
+                let line = "nothing was kept: making it broke off; try again";
+                self.transient.importing.kept = Some(Err(Failure::at(Step::Keep, line)));
+            }
+        }
+    }
+
+    fn take_textiles(
+        &mut self,
+        ctx: &egui::Context,
+        made: Result<Vec<NewTextile>, Failure>,
+        is_felt: bool,
+    ) {
+        let made = match made {
+            Ok(made) => made,
+            Err(failure) => {
+                self.transient.importing.kept = Some(Err(failure));
+                return;
+            }
+        };
+        let names: Vec<String> = made.iter().map(|textile| textile.id.clone()).collect();
+        let made = Arc::new(made);
+        let keep = if is_felt {
+            Keep::Feel(made)
+        } else {
+            Keep::Save(made)
+        };
+        self.dispatch(ctx, keep.into());
+        self.transient.importing.kept = Some(Ok(names.join(", ")));
+    }
+}

@@ -1,0 +1,194 @@
+//! Fields of the pane: a name on the left, what is typed or chosen on the right.
+
+use eframe::egui::{
+    self, Align, ComboBox, Label, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2,
+};
+
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::tools::import::failure::{Failure, Step};
+
+/// Height of a row, points.
+pub(crate) const LINE: f32 = 22.0;
+/// Width of a row's name, points.
+const NAME: f32 = 96.0;
+
+/// Whether a field is what the reader asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Need {
+    /// It may be left as it is.
+    Optional,
+    /// The reader needs it.
+    Asked,
+}
+
+impl Need {
+    /// Asked for if so.
+    pub(crate) fn of(is_asked: bool) -> Self {
+        if is_asked {
+            Self::Asked
+        } else {
+            Self::Optional
+        }
+    }
+}
+
+/// The title of a step, and how far it is in a few words.
+pub(crate) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
+    let palette = Palette::in_ui(ui);
+    let line = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        let nth = RichText::new(nth.to_string())
+            .font(theme::number())
+            .color(palette.dim);
+        ui.label(nth);
+        ui.label(
+            RichText::new(title)
+                .font(theme::body())
+                .strong()
+                .color(palette.text),
+        );
+        let state = RichText::new(state).font(theme::small()).color(palette.dim);
+        ui.add(Label::new(state).truncate());
+    });
+}
+
+/// The line that says what is wrong at a step, if something is.
+pub(crate) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
+    let Some(failure) = failure.filter(|failure| failure.step == step) else {
+        return;
+    };
+    note(ui, &failure.line, Tone::Wrong);
+}
+
+/// How much a line matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tone {
+    /// What was found or done.
+    Quiet,
+    /// What must be mended.
+    Wrong,
+}
+
+/// A line of small words, broken where the column ends.
+pub(crate) fn note(ui: &mut Ui, words: &str, tone: Tone) {
+    let palette = Palette::in_ui(ui);
+    let ink = match tone {
+        Tone::Quiet => palette.dim,
+        Tone::Wrong => palette.text,
+    };
+    let text = RichText::new(words).font(theme::small()).color(ink);
+    let label = ui.add(Label::new(text).wrap());
+    if tone == Tone::Wrong {
+        let bar = label
+            .rect
+            .translate(vec2(-6.0, 0.0))
+            .with_max_x(label.rect.left() - 4.0);
+        ui.painter().rect_filled(bar, 0, palette.selection);
+    }
+}
+
+/// A row: a name, `content` with the name's response to be labelled by, and behind it in small
+/// words how it is known.
+pub(crate) fn row(
+    ui: &mut Ui,
+    name: &str,
+    known: &str,
+    content: impl FnOnce(&mut Ui, &egui::Response),
+) {
+    row_of(ui, NAME, (name, known), content);
+}
+
+/// The same with this much room for the name, points.
+pub(crate) fn row_of(
+    ui: &mut Ui,
+    room: f32,
+    (name, known): (&str, &str),
+    content: impl FnOnce(&mut Ui, &egui::Response),
+) {
+    let palette = Palette::in_ui(ui);
+    let line = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.spacing_mut().interact_size.y = LINE - 2.0;
+        let text = RichText::new(name).font(theme::small()).color(palette.dim);
+        let width = room.min(0.4 * ui.available_width());
+        let label = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+            ui.set_min_width(width);
+            ui.add(Label::new(text).truncate())
+        });
+        content(ui, &label.inner);
+        if !known.is_empty() {
+            let known = RichText::new(known).font(theme::small()).color(palette.dim);
+            ui.add(Label::new(known).truncate());
+        }
+    });
+}
+
+/// A field of text, named by `label`; it is as wide as it may be, or `width` points.
+pub(crate) fn text(
+    ui: &mut Ui,
+    label: &egui::Response,
+    typed: &mut String,
+    (hint, width, need): (&str, f32, Need),
+) {
+    let palette = Palette::in_ui(ui);
+    let width = width.min(ui.available_width());
+    let hint = RichText::new(hint).font(theme::number()).color(palette.dim);
+    let field = TextEdit::singleline(typed)
+        .desired_width(width - 12.0)
+        .font(theme::number())
+        .margin(Margin::symmetric(6, 2))
+        .hint_text(hint);
+    let response = ui.add(field).labelled_by(label.id);
+    mark_asked(ui, &response, need);
+}
+
+/// A list to choose from, named.
+pub(crate) fn choose(
+    ui: &mut Ui,
+    name: &str,
+    (text, width, need): (&str, f32, Need),
+    content: impl FnOnce(&mut Ui),
+) {
+    let width = width.min(ui.available_width());
+    let line = Layout::left_to_right(Align::Center);
+    let text = RichText::new(text).font(theme::small());
+    let room = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+        ui.set_max_width(width);
+        let list = ComboBox::from_id_salt(("import", name))
+            .width(width - 8.0)
+            .truncate();
+        list.selected_text(text).show_ui(ui, content).response
+    });
+    let response = room.inner;
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    mark_asked(ui, &response, need);
+}
+
+/// What is asked for has an edge in the colour of what is chosen.
+fn mark_asked(ui: &Ui, response: &egui::Response, need: Need) {
+    if need == Need::Asked {
+        let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
+        let kind = egui::StrokeKind::Outside;
+        ui.painter().rect_stroke(response.rect, 4, edge, kind);
+    }
+}
+
+/// A list over the values of something that may be left to the file.
+pub(crate) fn choose_of<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    chosen: &mut Option<T>,
+    (values, by_file, need): (&[(T, &str)], &str, Need),
+) {
+    let now = values.iter().find(|(value, _)| Some(*value) == *chosen);
+    let text = now.map_or(by_file, |(_, word)| *word);
+    choose(ui, name, (text, 172.0, need), |ui| {
+        ui.selectable_value(chosen, None, by_file);
+        for (value, word) in values {
+            ui.selectable_value(chosen, Some(*value), *word);
+        }
+    });
+}

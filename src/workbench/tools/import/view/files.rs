@@ -1,0 +1,227 @@
+//! The first step: which files, and what each of them holds.
+
+use std::path::PathBuf;
+
+use eframe::egui::{Align, Label, Layout, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+
+use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::{button, toggle};
+use crate::tools::import::draft::DraftFile;
+use crate::tools::import::view::fields::{LINE, Need, choose, step_title};
+use crate::tools::import::work::Found;
+use crate::tools::import::{ImportCommand, Importing};
+use selvedge_textile::{ClothAxis, KesPlace, Measurement, StrokeSide};
+
+/// What is said before anything was chosen.
+const EMPTY: [&str; 3] = [
+    "Strokes of a Kawabata surface tester (KES-FB4): one to four files of text in columns, out and \
+     back, along warp and weft, roughness and friction.",
+    "A height map or a profile of an instrument: X3P, SUR or PRO, GWY, GSF, NPY, TMD, FRT, grey \
+     PNG or TIFF of 16 bits, or text.",
+    "What a file is, its content says; what it does not say is asked for. Nothing is saved before \
+     you have looked at it.",
+];
+/// What a file of the tester may hold.
+const HOLDS: [(Option<KesPlace>, &str); 7] = {
+    use crate::tools::import::view::files::ClothAxis::{Warp, Weft};
+    use crate::tools::import::view::files::StrokeSide::{Forward, Return};
+
+    const fn place(axis: ClothAxis, side: Option<StrokeSide>) -> KesPlace {
+        KesPlace { axis, side }
+    }
+    [
+        (None, "by its name"),
+        (Some(place(Warp, None)), "warp"),
+        (Some(place(Warp, Some(Forward))), "warp forward"),
+        (Some(place(Warp, Some(Return))), "warp return"),
+        (Some(place(Weft, None)), "weft"),
+        (Some(place(Weft, Some(Forward))), "weft forward"),
+        (Some(place(Weft, Some(Return))), "weft return"),
+    ]
+};
+
+/// Takes files that are dropped on the window while the pane is in sight.
+pub(crate) fn take_dropped(ui: &Ui, wishes: &mut Wishes) {
+    let dropped = dropped(ui);
+    if !dropped.is_empty() {
+        wishes.push(ImportCommand::Add(dropped).into());
+    }
+}
+
+/// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
+pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
+    let (dropped, is_hovered) = ui.input(|input| {
+        let paths = input
+            .raw
+            .dropped_files
+            .iter()
+            .map(|file| file.path().to_owned());
+        (
+            paths.collect::<Vec<_>>(),
+            !input.raw.hovered_files.is_empty(),
+        )
+    });
+    if is_hovered {
+        let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
+        ui.painter()
+            .rect_stroke(ui.max_rect(), 4, edge, StrokeKind::Inside);
+    }
+    dropped
+}
+
+/// What to do when there is nothing yet.
+pub(crate) fn show_empty(ui: &mut Ui, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    let whole = ui.available_rect_before_wrap();
+    let width = whole.width().min(520.0);
+    let room = eframe::egui::Rect::from_center_size(
+        whole.center(),
+        vec2(width, whole.height().min(280.0)),
+    );
+    let layout = Layout::top_down(Align::Min);
+    let mut child = ui.new_child(UiBuilder::new().max_rect(room).layout(layout));
+    let ui = &mut child;
+    ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+    ui.label(RichText::new("Import your own fabrics").font(theme::title()));
+    ui.label(RichText::new("Drop measurements here, or choose files.").color(palette.text));
+    if button(ui, "Choose files…", "", None) {
+        wishes.push(FileCommand::Ask(Purpose::ImportFiles).into());
+    }
+    for words in EMPTY {
+        let words = RichText::new(words).font(theme::small()).color(palette.dim);
+        ui.add(Label::new(words).wrap());
+    }
+}
+
+/// Shows the step.
+pub(crate) fn show(
+    ui: &mut Ui,
+    importing: &mut Importing,
+    found: Option<&Found>,
+    wishes: &mut Wishes,
+) {
+    let n = importing.draft.told.files.len();
+    let state = if n == 1 {
+        "1 file".to_owned()
+    } else {
+        format!("{n} files")
+    };
+    step_title(ui, 1, "Files", &state);
+    let is_strokes = found.is_some_and(|found| found.kind == Measurement::Strokes);
+    let mut gone = None;
+    for (nth, file) in importing.draft.told.files.iter_mut().enumerate() {
+        if show_file(ui, nth, file, is_strokes) {
+            gone = Some(nth);
+        }
+    }
+    if let Some(nth) = gone {
+        importing.draft.told.files.remove(nth);
+    }
+    show_kind(ui, &mut importing.draft.told.kind);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        if button(ui, "Add…", "Choose more files", None) {
+            wishes.push(FileCommand::Ask(Purpose::ImportFiles).into());
+        }
+        if button(ui, "Read again", "Read the files anew from the disk", None) {
+            wishes.push(ImportCommand::ReadAgain.into());
+        }
+        if button(
+            ui,
+            "Begin anew",
+            "Let go of all files and of what was typed",
+            None,
+        ) {
+            wishes.push(ImportCommand::Clear.into());
+        }
+    });
+}
+
+/// A file; says whether it is to go.
+fn show_file(ui: &mut Ui, nth: usize, file: &mut DraftFile, is_strokes: bool) -> bool {
+    let palette = Palette::in_ui(ui);
+    let mut is_gone = false;
+    let line = Layout::right_to_left(Align::Center);
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.spacing_mut().interact_size.y = LINE - 2.0;
+        let name = file.source.name();
+        is_gone = toggle(ui, "×", false, &format!("Leave out {name}"));
+        if is_strokes {
+            show_place(ui, nth, file);
+        } else if let Some(n_bytes) = file.source.n_bytes() {
+            let size = RichText::new(size_words(n_bytes)).font(theme::small());
+            ui.label(size.color(palette.dim));
+        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let path = file.source.path().display().to_string();
+            let name = RichText::new(name).font(theme::small()).color(palette.text);
+            ui.add(Label::new(name).truncate()).on_hover_text(path);
+        });
+    });
+    is_gone
+}
+
+/// What a file of the tester holds.
+fn show_place(ui: &mut Ui, nth: usize, file: &mut DraftFile) {
+    let named = HOLDS.iter().find(|(place, _)| *place == file.place);
+    let text = match named {
+        _ if file.is_friction => "friction",
+        Some((_, words)) => words,
+        None => "by its name",
+    };
+    let name = format!("What file {} holds", nth + 1);
+    choose(ui, &name, (text, 104.0, Need::Optional), |ui| {
+        for (place, words) in HOLDS {
+            let is_chosen = !file.is_friction && file.place == place;
+            if ui.selectable_label(is_chosen, words).clicked() {
+                (file.place, file.is_friction) = (place, false);
+            }
+        }
+        if ui.selectable_label(file.is_friction, "friction").clicked() {
+            (file.place, file.is_friction) = (None, true);
+        }
+    });
+}
+
+/// What the files are taken for.
+fn show_kind(ui: &mut Ui, kind: &mut Option<Measurement>) {
+    let line = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        let palette = Palette::in_ui(ui);
+        let words = RichText::new("read as")
+            .font(theme::small())
+            .color(palette.dim);
+        ui.label(words);
+        for (value, word, tip) in [
+            (None, "by content", "What the files are, their content says"),
+            (
+                Some(Measurement::Strokes),
+                "strokes",
+                "Read as strokes of the surface tester",
+            ),
+            (
+                Some(Measurement::Heights),
+                "heights",
+                "Read as a height map or a profile",
+            ),
+        ] {
+            if toggle(ui, word, *kind == value, tip) {
+                *kind = value;
+            }
+        }
+    });
+}
+
+/// A size for people.
+fn size_words(n_bytes: usize) -> String {
+    let (value, unit) = match n_bytes {
+        0..1_000 => return format!("{n_bytes} B"),
+        1_000..1_000_000 => (n_bytes as f64 / 1e3, "kB"),
+        _ => (n_bytes as f64 / 1e6, "MB"),
+    };
+    selvedge_foundation::quantity::with_unit(value, 1, unit)
+}

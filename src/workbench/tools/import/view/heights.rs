@@ -1,0 +1,197 @@
+//! The second step for measured heights: what the file says of them, and what it does not.
+
+use eframe::egui::{Align, Layout, Ui, vec2};
+
+use crate::kit::theme::STEP;
+use crate::kit::widgets::text::toggle;
+use crate::tools::import::Importing;
+use crate::tools::import::draft::HeightsDraft;
+use crate::tools::import::failure::Failure;
+use crate::tools::import::view::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
+use crate::tools::import::work::{Found, Heights};
+use selvedge_foundation::quantity::fixed;
+use selvedge_textile::metrology::LengthUnit;
+use selvedge_textile::surface::Representation;
+
+/// Width of a field for a number, points.
+const NUMBER: f32 = 84.0;
+/// Units that are offered.
+const UNITS: [(LengthUnit, &str); 5] = [
+    (LengthUnit::Metre, "m"),
+    (LengthUnit::Centimetre, "cm"),
+    (LengthUnit::Millimetre, "mm"),
+    (LengthUnit::Micrometre, "µm"),
+    (LengthUnit::Nanometre, "nm"),
+];
+
+/// Shows the step.
+pub(crate) fn show(
+    ui: &mut Ui,
+    importing: &mut Importing,
+    found: Option<&Found>,
+    failure: Option<&Failure>,
+) {
+    let heights = found.and_then(Found::heights);
+    if let Some(heights) = heights {
+        show_about(ui, heights);
+    }
+    // A reader of heights names the option that mends it.
+    let asks =
+        |option: &str| Need::of(failure.is_some_and(|failure| failure.line.contains(option)));
+    let typed = &mut importing.draft.told.heights;
+    row(ui, "unit of heights", "", |ui, _| {
+        let need = asks("--height-unit");
+        let name = "Unit of heights";
+        choose_of(
+            ui,
+            name,
+            &mut typed.height_unit,
+            (&UNITS, "as the file states", need),
+        );
+    });
+    row(ui, "unit of places", "", |ui, _| {
+        let need = asks("--length-unit");
+        let name = "Unit of places";
+        choose_of(
+            ui,
+            name,
+            &mut typed.length_unit,
+            (&UNITS, "as the file states", need),
+        );
+    });
+    show_numbers(ui, typed, heights, asks);
+    show_layer(ui, typed, heights);
+    show_ways(ui, typed);
+}
+
+/// Step, range and column.
+fn show_numbers(
+    ui: &mut Ui,
+    typed: &mut HeightsDraft,
+    heights: Option<&Heights>,
+    asks: impl Fn(&str) -> Need,
+) {
+    let step = heights.map_or_else(
+        || "mm".to_owned(),
+        |heights| {
+            let [u, w] = heights.import.measured().step_mm.map(|mm| fixed(mm, 5));
+            if u == w {
+                format!("mm found {u}")
+            } else {
+                format!("mm found {u} × {w}")
+            }
+        },
+    );
+    row(ui, "step", &step, |ui, label| {
+        text(
+            ui,
+            label,
+            &mut typed.step_mm,
+            ("as stated", NUMBER, asks("--step-mm")),
+        );
+    });
+    row(ui, "white − black", "µm, of a picture", |ui, label| {
+        text(
+            ui,
+            label,
+            &mut typed.range_um,
+            ("as stated", NUMBER, asks("--range-um")),
+        );
+    });
+    row(ui, "column", "name or number, of a table", |ui, label| {
+        text(
+            ui,
+            label,
+            &mut typed.column,
+            ("only one", NUMBER, asks("--column")),
+        );
+    });
+}
+
+/// What is in the file.
+fn show_about(ui: &mut Ui, heights: &Heights) {
+    let measured = heights.import.measured();
+    let grid = &measured.heights_um;
+    let (width, height) = (grid.width(), grid.height());
+    let [u, w] = heights.import.map().size_mm().map(|mm| fixed(mm, 2));
+    let about = &measured.about;
+    let words = if measured.is_profile() {
+        format!("{}: a profile of {width} points, {u} mm", about.format)
+    } else {
+        format!("{}: {width} × {height} points, {u} × {w} mm", about.format)
+    };
+    note(ui, &words, Tone::Quiet);
+    let named = [&about.title, &about.instrument, &about.date, &about.comment];
+    let named: Vec<&str> = named.into_iter().map(|one| one.trim()).collect();
+    let named: Vec<&str> = named.into_iter().filter(|one| !one.is_empty()).collect();
+    if !named.is_empty() {
+        note(ui, &named.join(" · "), Tone::Quiet);
+    }
+    if measured.n_missing() == 0 {
+        note(ui, "no point is missing", Tone::Quiet);
+    }
+    for words in heights.import.notes() {
+        note(ui, words, Tone::Quiet);
+    }
+}
+
+/// Which of several fields.
+fn show_layer(ui: &mut Ui, typed: &mut HeightsDraft, heights: Option<&Heights>) {
+    let none = Vec::new();
+    let layers = heights.map_or(&none, |heights| &heights.import.measured().layers);
+    if layers.is_empty() && typed.layer.is_none() {
+        return;
+    }
+    let title = |nth: usize| {
+        let title = layers.get(nth - 1).filter(|title| !title.is_empty());
+        title.map_or_else(|| format!("field {nth}"), |title| format!("{nth} {title}"))
+    };
+    let text = typed.layer.map_or_else(|| "the first".to_owned(), title);
+    row(ui, "field", "", |ui, _| {
+        choose(
+            ui,
+            "Field of heights",
+            (&text, 180.0, Need::Optional),
+            |ui| {
+                ui.selectable_value(&mut typed.layer, None, "the first");
+                for nth in 1..=layers.len() {
+                    ui.selectable_value(&mut typed.layer, Some(nth), title(nth));
+                }
+            },
+        );
+    });
+}
+
+/// Repeats, and how it is felt.
+fn show_ways(ui: &mut Ui, typed: &mut HeightsDraft) {
+    row(ui, "felt", "", |ui, _| {
+        for (value, word, tip) in [
+            (
+                Representation::Economical,
+                "along strokes",
+                "Four strokes of the virtual tester, repeated across: what the tester measures",
+            ),
+            (
+                Representation::Areal,
+                "at every point",
+                "Spectra at every point of the map, which becomes a part of the textile",
+            ),
+        ] {
+            if toggle(ui, word, typed.representation == value, tip) {
+                typed.representation = value;
+            }
+        }
+    });
+    let line = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.checkbox(&mut typed.is_periodic, "one repeat of the cloth")
+            .on_hover_text("Strokes go on at the other side of the map; its tilt is not taken off");
+    });
+    let tilt = if typed.is_periodic {
+        "tilt is left: a repeat has none"
+    } else {
+        "tilt is taken off once: the plane that fits best"
+    };
+    note(ui, tilt, Tone::Quiet);
+}

@@ -1,0 +1,185 @@
+//! The textile lab: the profile that is looked at and the amplitudes over speed along it.
+
+use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::export::Exported;
+use crate::bench::export::origin::Origin;
+use crate::bench::export::sheet::Sheet;
+use crate::tools::lab::Lab;
+use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
+use crate::tools::response::ends_db as response_ends_db;
+use crate::tools::spectra::export_spectrograms::ink;
+use selvedge_chart::{Axis, Panel, Row, Series, Style, Weight};
+use selvedge_foundation::quantity;
+use selvedge_textile::tactile::Band;
+
+/// A row of the table: a place of the profile, or a speed.
+struct Line {
+    over: &'static str,
+    x: f64,
+    height_um: f64,
+    compared_um: f64,
+    amplitudes_um: [[f64; 2]; 2],
+}
+
+/// The profile and the curves of a recipe, with what it is compared with.
+pub(crate) fn curves(
+    lab: &Lab,
+    preview: &Preview,
+    scale: AmplitudeScale,
+    origin: Origin,
+) -> Exported {
+    let compared = lab.compared.as_ref().map(|compared| &compared.felt);
+    let mut lines = heights(lab, &preview.felt, compared);
+    lines.extend(amplitudes(lab, &preview.felt, compared));
+    let direction = lab.look.direction.label();
+    let rows = vec![
+        Row {
+            panels: vec![profile_panel(lab, &lines)],
+            height_px: 220.0,
+            bar: None,
+        },
+        Row {
+            panels: vec![curve_panel(&lines, scale)],
+            height_px: 360.0,
+            bar: None,
+        },
+    ];
+    let kind = preview.manifest.source.kind();
+    let mut origin = origin
+        .and("recipe", &preview.manifest.name, &preview.manifest.name)
+        .and("kind", kind, kind)
+        .and("stroke", direction, direction);
+    if let Some(compared) = &lab.compared {
+        origin = origin.and("compared_with", &compared.id, &compared.name);
+    }
+    let note = "Without gains. Root mean square over all points along the stroke; thin and dashed: \
+                what is compared.";
+    let title = format!("{}, {direction}", preview.manifest.name);
+    Exported::new(title, sheet(&lines), rows, note, origin)
+}
+
+fn heights(lab: &Lab, felt: &Felt, compared: Option<&Felt>) -> Vec<Line> {
+    let direction = lab.look.direction;
+    let Some(profile) = felt.profile(direction) else {
+        return Vec::new();
+    };
+    let other = compared.and_then(|compared| compared.profile(direction));
+    let step_mm = profile.step_mm();
+    let line = |(index, height): (usize, &f64)| {
+        let x = index as f64 * step_mm;
+        // The nearest sample of the other one, which may have another step.
+        let there = other.and_then(|other| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "not negative; beyond the end is none"
+            )]
+            let nearest = (x / other.step_mm()).round() as usize;
+            other.heights_um().get(nearest).copied()
+        });
+        Line {
+            over: "place",
+            x,
+            height_um: *height,
+            compared_um: there.unwrap_or(f64::NAN),
+            amplitudes_um: [[f64::NAN; 2]; 2],
+        }
+    };
+    profile.heights_um().iter().enumerate().map(line).collect()
+}
+
+fn amplitudes(lab: &Lab, felt: &Felt, compared: Option<&Felt>) -> Vec<Line> {
+    let d = lab.look.direction.index();
+    let line = |(nth, speed): (usize, f64)| {
+        let at = |felt: &Felt| felt.over_speed[d].get(nth).map(|spread| spread.rms_um);
+        let none = [f64::NAN; 2];
+        Line {
+            over: "speed",
+            x: speed,
+            height_um: f64::NAN,
+            compared_um: f64::NAN,
+            amplitudes_um: [
+                at(felt).unwrap_or(none),
+                compared.and_then(at).unwrap_or(none),
+            ],
+        }
+    };
+    speeds_mm_per_s().enumerate().map(line).collect()
+}
+
+fn sheet(lines: &[Line]) -> Sheet {
+    let number = |of: &dyn Fn(&Line) -> f64| -> Vec<f64> { lines.iter().map(of).collect() };
+    let only =
+        |over: &'static str| number(&|line| if line.over == over { line.x } else { f64::NAN });
+    let over: Vec<String> = lines.iter().map(|line| line.over.to_owned()).collect();
+    Sheet::default()
+        .with("over", over)
+        .with("x_mm", only("place"))
+        .with("height_um", number(&|line| line.height_um))
+        .with("compared_height_um", number(&|line| line.compared_um))
+        .with("speed_mm_per_s", only("speed"))
+        .with("a40_um", number(&|line| line.amplitudes_um[0][0]))
+        .with("a320_um", number(&|line| line.amplitudes_um[0][1]))
+        .with("compared_a40_um", number(&|line| line.amplitudes_um[1][0]))
+        .with("compared_a320_um", number(&|line| line.amplitudes_um[1][1]))
+}
+
+fn profile_panel(lab: &Lab, lines: &[Line]) -> Panel {
+    let look = lab.look;
+    let ends = [look.from_mm, look.from_mm + look.span_mm];
+    let series = |of: &dyn Fn(&Line) -> f64, weight, name: &str| Series {
+        name: name.to_owned(),
+        points: lines
+            .iter()
+            .filter(|line| line.over == "place" && (ends[0]..=ends[1]).contains(&line.x))
+            .map(|line| [line.x, of(line)])
+            .filter(|[_, height]| height.is_finite())
+            .collect(),
+        style: Style::Line,
+        weight,
+        ..Series::default()
+    };
+    Panel {
+        x: Axis::linear("place along the stroke, mm").within(ends),
+        y: Axis::linear("height, µm"),
+        series: vec![
+            series(&|line| line.compared_um, Weight::Thin, "compared"),
+            series(&|line| line.height_um, Weight::Normal, "recipe"),
+        ],
+        ..Panel::default()
+    }
+}
+
+fn curve_panel(lines: &[Line], scale: AmplitudeScale) -> Panel {
+    let mut series = Vec::new();
+    for band in Band::ALL {
+        let line = |which: usize| -> Vec<[f64; 2]> {
+            let speeds = lines.iter().filter(|line| line.over == "speed");
+            let at = |line: &Line| {
+                let um = line.amplitudes_um[which][band.index()];
+                (um > 0.0).then(|| [line.x, quantity::level_db(um)])
+            };
+            speeds.filter_map(at).collect()
+        };
+        series.push(Series {
+            points: line(1),
+            style: Style::Dashed,
+            ink: ink(band),
+            weight: Weight::Thin,
+            ..Series::default()
+        });
+        series.push(Series {
+            name: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
+            points: line(0),
+            style: Style::Line,
+            ink: ink(band),
+            ..Series::default()
+        });
+    }
+    Panel {
+        x: Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S),
+        y: Axis::linear("level, dB re 1 µm").within(response_ends_db(scale)),
+        series,
+        ..Panel::default()
+    }
+}

@@ -1,0 +1,175 @@
+//! A family: recipes that differ in one parameter, and what is felt of each.
+
+use crate::kit::widgets::axis::round_step;
+use crate::tools::lab::command::Plan;
+use crate::tools::lab::preview::{Felt, Preview};
+use selvedge_foundation::files::KeyValue;
+use selvedge_foundation::progress::Progress;
+use selvedge_foundation::quantity;
+use selvedge_textile::tactile::Filters;
+use selvedge_textile::{Draft, Manifest, Parameter, ParameterKind, Place, groups};
+
+/// What is typed and chosen where a family is planned.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct FamilyFields {
+    /// The parameter that varies.
+    pub place: Option<Place>,
+    /// Its first and last value, as typed.
+    pub ends: [String; 2],
+    /// How many textiles, as typed.
+    pub n: String,
+}
+
+impl FamilyFields {
+    /// Varies a parameter over a reasonable range about its value.
+    pub(crate) fn vary(&mut self, parameter: &Parameter, value: Option<f64>) {
+        self.place = Some(parameter.place);
+        let (ParameterKind::Number { least, most, .. }
+        | ParameterKind::Optional { least, most, .. }) = parameter.kind
+        else {
+            return;
+        };
+        let middle = value.unwrap_or(0.5 * (least + most));
+        let ends = if most - least <= 1.0 {
+            [least + 0.1 * (most - least), most - 0.1 * (most - least)]
+        } else {
+            [0.5 * middle, 1.5 * middle]
+        };
+        // Round numbers: a family is told by its values.
+        let step = if most - least <= 1.0 {
+            round_step((most - least) / 25.0)
+        } else {
+            round_step(middle.abs().max(1e-6) / 50.0)
+        };
+        let short = |value: f64| {
+            let rounded = ((value / step).round() * step).clamp(least, most);
+            format!("{}", (rounded * 1e6).round() / 1e6)
+        };
+        self.ends = ends.map(short);
+        if self.n.is_empty() {
+            "5".clone_into(&mut self.n);
+        }
+    }
+
+    /// The plan, or what is wrong with what was typed.
+    pub(crate) fn plan(&self) -> Result<Plan, &'static str> {
+        let place = self.place.ok_or("Choose the parameter that varies")?;
+        let number = |text: &String| {
+            let plain = text.trim().replace('−', "-").replace(',', ".");
+            plain.parse::<f64>().ok().filter(|value| value.is_finite())
+        };
+        let [Some(first), Some(last)] = self.ends.each_ref().map(number) else {
+            return Err("Write two numbers");
+        };
+        let n: Option<u8> = self.n.trim().parse().ok();
+        let n = n.filter(|n| (2..=Plan::MOST).contains(n));
+        Ok(Plan {
+            place,
+            ends: [first, last],
+            n: n.ok_or("Make 2 to 12 textiles")?,
+        })
+    }
+}
+
+/// One of a family.
+#[derive(Debug, Clone)]
+pub(crate) struct Member {
+    /// The value that it has, in words: `Hurst exponent 0.3`.
+    pub label: String,
+    /// The value alone.
+    pub value: f64,
+    /// Its recipe.
+    pub manifest: Manifest,
+    /// What is felt of it.
+    pub felt: Felt,
+}
+
+/// A family that was tried.
+#[derive(Debug, Clone)]
+pub(crate) struct Family {
+    /// The name and the unit of the parameter.
+    pub parameter: [&'static str; 2],
+    /// From the first to the last value.
+    pub members: Vec<Member>,
+}
+
+impl Family {
+    /// Makes every recipe of a plan and feels it.
+    ///
+    /// # Errors
+    /// A value that the reader of recipes refuses; the work was stopped.
+    pub(crate) fn of(
+        draft: &Draft,
+        plan: &Plan,
+        filters: &Filters,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, String> {
+        let groups = groups(draft.kind());
+        let mut all = groups.iter().flat_map(|group| &group.parameters);
+        let parameter = all.find(|parameter| parameter.place == plan.place);
+        let parameter = parameter.ok_or("this recipe has no such parameter")?;
+        let (unit, is_whole) = match parameter.kind {
+            ParameterKind::Number { unit, is_whole, .. } => (unit, is_whole),
+            ParameterKind::Optional { unit, .. } => (unit, false),
+            ParameterKind::Seed => ("", true),
+            _ => return Err("this parameter is no number".to_owned()),
+        };
+        let recipe = |value: f64| {
+            let mut own = draft.clone();
+            own.set(plan.place, Some(key_value(value, is_whole)));
+            own.read().map_err(|fault| fault.words)
+        };
+        let values = plan.values();
+        // What is wrong with the last one is said before the first is made.
+        let recipes: Vec<Manifest> = values
+            .iter()
+            .map(|value| recipe(*value))
+            .collect::<Result<_, String>>()?;
+        let n = values.len() as f64;
+        let mut members = Vec::with_capacity(values.len());
+        for (done, (value, manifest)) in values.into_iter().zip(recipes).enumerate() {
+            let step = progress.step(done as f64 / n, parameter.name);
+            step.map_err(|stop| stop.to_string())?;
+            let preview =
+                selvedge_foundation::progress::unheard(|own| Preview::of(manifest, filters, own))?;
+            members.push(Member {
+                label: label(parameter.name, value, unit),
+                value,
+                manifest: preview.manifest,
+                felt: preview.felt,
+            });
+        }
+        Ok(Self {
+            parameter: [parameter.name, unit],
+            members,
+        })
+    }
+}
+
+/// A number as a recipe states it.
+pub(crate) fn key_value(value: f64, is_whole: bool) -> KeyValue {
+    if is_whole {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "a number that is too large for a recipe is refused by its reader"
+        )]
+        return KeyValue::Integer(value.round() as i64);
+    }
+    KeyValue::Float(value)
+}
+
+fn label(name: &str, value: f64, unit: &str) -> String {
+    let decimals = (0..4)
+        .find(|decimals| {
+            let scale = 10_f64.powi(*decimals);
+            ((value * scale).round() / scale - value).abs() < 1e-9
+        })
+        .unwrap_or(4);
+    let digits = quantity::fixed(value, usize::try_from(decimals).unwrap_or(4));
+    let unit = if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
+    };
+    format!("{name} {digits}{unit}")
+}

@@ -1,0 +1,213 @@
+//! The left side of the lab: what the recipe begins with, its steps, and three pages of controls.
+
+use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, WidgetInfo, vec2};
+
+use crate::bench::command::Wishes;
+use crate::bench::view::ShelfItem;
+use crate::kit::theme;
+use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::text::button;
+use crate::tools::lab::Lab;
+use crate::tools::lab::command::{Beginning, LabCommand, Page};
+use crate::tools::lab::steps::Steps;
+use crate::tools::lab::view::{LabHands, LabView, family, keep, recipe};
+use selvedge_textile::RECIPES;
+
+/// Height of a list of textiles in a menu, points.
+const LIST: f32 = 320.0;
+
+/// Shows the controls.
+pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, wishes: &mut Wishes) {
+    let line = Layout::left_to_right(Align::Center);
+    let size = vec2(ui.available_width(), ROW);
+    ui.allocate_ui_with_layout(size, line, |ui| {
+        show_beginnings(ui, view.items, wishes);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            show_steps(ui, view.lab, wishes);
+        });
+    });
+    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, wishes));
+    ui.add_space(STEP);
+    let Some(steps) = &view.lab.steps else {
+        return;
+    };
+    let area = ScrollArea::vertical()
+        .id_salt(("lab controls", view.lab.page as usize))
+        .auto_shrink(false);
+    area.show(ui, |ui| {
+        // The bar of the scroll has room of its own: nothing lies under it.
+        ui.set_max_width(ui.available_width() - 10.0);
+        match view.lab.page {
+            Page::Recipe => recipe::show(ui, steps, wishes),
+            Page::Family => {
+                let own = (&mut hands.plan, &mut hands.keep);
+                family::show(ui, (view, steps), own, wishes);
+            }
+            Page::Keep => keep::show(ui, view, &mut hands.keep, wishes),
+        }
+        ui.add_space(2.0 * STEP);
+    });
+}
+
+fn show_beginnings(ui: &mut Ui, items: &[ShelfItem], wishes: &mut Wishes) {
+    let mut begin = |ui: &mut Ui, beginning: Beginning| {
+        wishes.push(LabCommand::Begin(beginning).into());
+        ui.close();
+    };
+    let menu = ui.menu_button("Begin with", |ui| {
+        ui.set_min_width(200.0);
+        for (kind, name) in RECIPES {
+            if ui.button(format!("Example: {name}")).clicked() {
+                begin(ui, Beginning::Example(kind));
+            }
+        }
+        ui.separator();
+        ui.menu_button("A copy of", |ui| {
+            if let Some(id) = list(ui, "copy", items) {
+                begin(ui, Beginning::Copy(id));
+            }
+        });
+        ui.menu_button("Restored from", |ui| {
+            if let Some(id) = list(ui, "restore", items) {
+                begin(ui, Beginning::Restore(id));
+            }
+        });
+    });
+    menu.response.on_hover_text(
+        "An example, a copy of a textile of the library, or what repeats in its profiles",
+    );
+}
+
+/// The textiles of the library that can be read; says which one was chosen.
+fn list(ui: &mut Ui, salt: &str, items: &[ShelfItem]) -> Option<String> {
+    let mut chosen = None;
+    let area = ScrollArea::vertical().id_salt(salt).max_height(LIST);
+    area.show(ui, |ui| {
+        ui.set_min_width(220.0);
+        for item in items.iter().filter(|item| item.flaw.is_none()) {
+            if ui.button(&item.name).on_hover_text(&item.kind).clicked() {
+                chosen = Some(item.id.clone());
+            }
+        }
+    });
+    chosen
+}
+
+fn show_steps(ui: &mut Ui, lab: &Lab, wishes: &mut Wishes) {
+    let [back, forth] = lab.can_step();
+    let is_changed = lab
+        .steps
+        .as_ref()
+        .is_some_and(|steps| steps.now() != steps.first());
+    // From the right.
+    let all = [
+        (
+            "Start",
+            "Back to the start",
+            is_changed,
+            LabCommand::Restart,
+        ),
+        ("Redo", "Redo in the lab", forth, LabCommand::Redo),
+        ("Undo", "Undo in the lab", back, LabCommand::Undo),
+    ];
+    for (sign, name, can, command) in all {
+        let refusal = (!can).then_some("Nothing has changed");
+        let response = ui.add_enabled(can, egui::Button::new(sign).min_size(vec2(26.0, ROW)));
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, name));
+        let response = match refusal {
+            Some(why) => response.on_disabled_hover_text(why),
+            None => response.on_hover_text(name),
+        };
+        if response.clicked() {
+            wishes.push(command.into());
+        }
+    }
+}
+
+/// What is edited: the name of the recipe and its kind.
+pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
+    let Some(manifest) = steps.and_then(|steps| steps.first().read().ok()) else {
+        return;
+    };
+    let kind = manifest.source.kind();
+    let words = format!("{} · {kind}", manifest.name);
+    let text = super::small(&words, Palette::in_ui(ui).text);
+    let tip = "What the recipe began with";
+    ui.label(text).on_hover_text(tip);
+    ui.add_space(2.0 * STEP);
+}
+
+fn show_pages(ui: &mut Ui, shown: Page, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    for (page, title) in Page::ALL {
+        let is_shown = page == shown;
+        let ink = if is_shown { palette.text } else { palette.dim };
+        let text = RichText::new(title).font(theme::body()).color(ink);
+        let tab = egui::Button::new(text).frame_when_inactive(false);
+        let response = ui.add(tab);
+        let label = format!("{title} page");
+        response.widget_info(|| WidgetInfo::selected(egui::Role::Tab, true, is_shown, &label));
+        if is_shown {
+            let line = egui::Stroke::new(1.5, palette.selection);
+            let foot = response.rect.bottom();
+            ui.painter()
+                .hline(response.rect.x_range().shrink(6.0), foot, line);
+        }
+        if response.clicked() {
+            wishes.push(LabCommand::Show(page).into());
+        }
+    }
+}
+
+/// What the recipe is compared with.
+pub(crate) fn show_compared(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    ui.label(super::small("compare with", palette.dim));
+    let compared = view.lab.compared.as_ref();
+    let name = compared.map_or("nothing", |compared| compared.name.as_str());
+    let combo = ComboBox::from_id_salt("lab compared")
+        .width(170.0)
+        .truncate();
+    let response = combo
+        .selected_text(RichText::new(name).font(theme::small()))
+        .show_ui(ui, |ui| {
+            if ui.selectable_label(compared.is_none(), "nothing").clicked() {
+                wishes.push(LabCommand::Compare(None).into());
+            }
+            for item in view.items.iter().filter(|item| item.flaw.is_none()) {
+                let is_chosen = compared.is_some_and(|compared| compared.id == item.id);
+                if ui.selectable_label(is_chosen, &item.name).clicked() {
+                    let command = LabCommand::Compare(Some(item.id.clone()));
+                    wishes.push(command.into());
+                }
+            }
+        })
+        .response;
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label("Compared with"));
+    let tip = "A textile of the library, drawn as a thin grey curve";
+    response.on_hover_text(tip);
+}
+
+/// A sentence that says what is wrong, marked by a bar before it.
+pub(crate) fn complaint(ui: &mut Ui, words: &str) {
+    let palette = Palette::in_ui(ui);
+    let text = super::small(words, palette.text);
+    let margin = egui::Margin {
+        left: 8,
+        ..egui::Margin::default()
+    };
+    let response = egui::Frame::new()
+        .inner_margin(margin)
+        .show(ui, |ui| ui.add(egui::Label::new(text).wrap()))
+        .response;
+    let x = response.rect.left() + 2.0;
+    let bar = egui::Stroke::new(2.0, palette.selection);
+    ui.painter().vline(x, response.rect.y_range(), bar);
+}
+
+/// A button as wide as the controls.
+pub(crate) fn wide_button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
+    ui.vertical_centered_justified(|ui| button(ui, text, tip, refusal))
+        .inner
+}

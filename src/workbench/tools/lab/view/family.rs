@@ -1,0 +1,139 @@
+//! Several recipes that differ in one parameter: planned, tried, kept.
+
+use eframe::egui::{ComboBox, RichText, Ui};
+
+use crate::bench::command::Wishes;
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::row;
+use crate::tools::lab::command::LabCommand;
+use crate::tools::lab::family::FamilyFields;
+use crate::tools::lab::fields::KeepFields;
+use crate::tools::lab::steps::Steps;
+use crate::tools::lab::view::controls::{complaint, wide_button};
+use crate::tools::lab::view::keep::{refusal, show_fields};
+use crate::tools::lab::view::{LabView, rows};
+use selvedge_foundation::quantity;
+use selvedge_textile::tactile::Band;
+use selvedge_textile::{Parameter, ParameterKind, groups};
+
+/// Shows the page.
+pub(crate) fn show(
+    ui: &mut Ui,
+    (view, steps): (&LabView<'_>, &Steps),
+    (plan, keep): (&mut FamilyFields, &mut KeepFields),
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let words = "Several textiles that differ in one parameter, evenly apart";
+    ui.label(super::small(words, palette.dim));
+    ui.add_space(STEP);
+    let unit = show_parameters(ui, steps, plan);
+    rows::short_field(ui, ("First value", unit), &mut plan.ends[0]);
+    rows::short_field(ui, ("Last value", unit), &mut plan.ends[1]);
+    rows::short_field(ui, ("Textiles", ""), &mut plan.n);
+    ui.add_space(STEP);
+    let asked = plan.plan();
+    let busy = refusal(view);
+    let no = busy.as_deref().or_else(|| asked.err());
+    if wide_button(
+        ui,
+        "Try",
+        "Make each and draw its curves over the others",
+        no,
+    ) && let Ok(plan) = asked
+    {
+        wishes.push(LabCommand::TryFamily(plan).into());
+    }
+    let Some(family) = &view.lab.family else {
+        return;
+    };
+    ui.add_space(STEP);
+    show_members(ui, family);
+    ui.add_space(STEP);
+    show_fields(ui, keep);
+    ui.add_space(STEP);
+    let n = family.members.len();
+    let last = format!("{}-1 … {}-{n}", keep.id.trim(), keep.id.trim());
+    ui.label(super::small(&last, palette.dim));
+    let numbered = KeepFields {
+        id: format!("{}-1", keep.id.trim()),
+        ..keep.clone()
+    };
+    let wrong = numbered.refusal(view.ids);
+    if let Some(words) = &wrong {
+        complaint(ui, words);
+    }
+    let no = busy.or(wrong);
+    let tip = "Keep every textile of the family in the library of the scene";
+    if wide_button(ui, &format!("Keep all {n}"), tip, no.as_deref()) {
+        wishes.push(LabCommand::KeepFamily.into());
+    }
+}
+
+/// The parameter that varies; says its unit.
+fn show_parameters(ui: &mut Ui, steps: &Steps, plan: &mut FamilyFields) -> &'static str {
+    let draft = steps.now();
+    let groups = groups(draft.kind());
+    let named = |title: &'static str, parameter: &Parameter| format!("{title}: {}", parameter.name);
+    let numbers: Vec<(String, Parameter)> = groups
+        .iter()
+        .flat_map(|group| {
+            group
+                .parameters
+                .iter()
+                .map(|one| (named(group.title, one), *one))
+        })
+        .filter(|(_, parameter)| is_number(parameter) && draft.value(parameter.place).is_some())
+        .collect();
+    let place = plan.place;
+    let chosen = numbers.iter().find(|(_, one)| Some(one.place) == place);
+    let text = chosen.map_or("choose", |(name, _)| name.as_str());
+    row(ui, "Varies", |ui| {
+        let combo = ComboBox::from_id_salt("lab family").width(200.0).truncate();
+        let list = combo
+            .selected_text(RichText::new(text).font(theme::small()))
+            .show_ui(ui, |ui| {
+                for (name, parameter) in &numbers {
+                    let is_chosen = plan.place == Some(parameter.place);
+                    if ui.selectable_label(is_chosen, name).clicked() {
+                        plan.vary(parameter, draft.number(parameter.place));
+                    }
+                }
+            });
+        let label = "Parameter that varies";
+        ui.ctx()
+            .accesskit_node_builder(list.response.id, |node| node.set_label(label));
+    });
+    match chosen.map(|(_, parameter)| parameter.kind) {
+        Some(ParameterKind::Number { unit, .. } | ParameterKind::Optional { unit, .. }) => unit,
+        _ => "",
+    }
+}
+
+fn is_number(parameter: &Parameter) -> bool {
+    matches!(
+        parameter.kind,
+        ParameterKind::Number { .. } | ParameterKind::Optional { .. } | ParameterKind::Seed
+    )
+}
+
+/// The members with their mean levels.
+fn show_members(ui: &mut Ui, family: &crate::tools::lab::family::Family) {
+    let palette = Palette::in_ui(ui);
+    for (nth, member) in (1..).zip(&family.members) {
+        let db = Band::ALL.map(|band| {
+            let level = quantity::level_db(member.felt.levels.mean_um[band.index()]);
+            (band, format!("{:>6}", quantity::fixed(level, 1)))
+        });
+        let name = format!("{nth}  {}", member.label);
+        row(ui, &name, |ui| {
+            ui.label(super::small("dB", palette.dim));
+            for (band, words) in db.iter().rev() {
+                let text = RichText::new(words).font(theme::number());
+                ui.label(text.color(palette.band(*band)));
+            }
+        })
+        .on_hover_text("Mean A40 and A320 at 100 mm/s, re 1 µm");
+    }
+}

@@ -1,0 +1,99 @@
+//! Figures of a surface, beside them those of what it is compared with.
+
+use eframe::egui::{Align, Layout, RichText, ScrollArea, Ui, vec2};
+
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::tools::lab::preview::{Preview, Shown};
+use crate::tools::lab::view::LabView;
+use selvedge_foundation::quantity;
+
+/// Height of a row, points.
+const ROW: f32 = 15.0;
+/// Width of the column of units, points.
+const UNIT: f32 = 26.0;
+/// Width of a column of numbers, points.
+const NUMBER: f32 = 62.0;
+
+/// Shows the figures.
+pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, preview: &Preview) {
+    let palette = Palette::in_ui(ui);
+    let compared = view.lab.compared.as_ref();
+    let others = compared.map(|compared| compared.felt.figures());
+    let head = compared.map_or_else(
+        || "figures".to_owned(),
+        |compared| format!("figures · grey: {}", compared.name),
+    );
+    ui.add(eframe::egui::Label::new(super::small(&head, palette.dim)).truncate());
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let area = ScrollArea::vertical()
+        .id_salt("lab figures")
+        .auto_shrink(false);
+    area.show(ui, |ui| {
+        ui.set_max_width(ui.available_width().min(380.0));
+        for shown in preview.figures() {
+            let others = others.as_ref().map_or(&[][..], Vec::as_slice);
+            let other = others.iter().find(|other| other.name == shown.name);
+            let other = compared.map(|_| other.map(|other| other.value));
+            // Of a Brownian surface: the exponent that was asked for.
+            let asked = preview.hurst.filter(|_| shown.name == "Hurst exponent");
+            let note = asked.map(|[asked, _, error]| {
+                let [asked, error] = [asked, error].map(|value| quantity::fixed(value, 2));
+                format!("asked {asked} · ± {error}")
+            });
+            row(ui, &shown, (other, note));
+        }
+        ui.add_space(STEP);
+    });
+}
+
+/// `other` is the column of what is compared, if there is one, and its number.
+#[expect(
+    clippy::option_option,
+    reason = "no column, an empty cell, or a number"
+)]
+fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<String>)) {
+    let palette = Palette::in_ui(ui);
+    let size = vec2(ui.available_width(), ROW);
+    let line = Layout::left_to_right(Align::Center);
+    let response = ui.allocate_ui_with_layout(size, line, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.label(super::small(shown.name, palette.dim));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            cell(ui, UNIT, Align::Min, super::small(shown.unit, palette.dim));
+            let number = |value: f64| {
+                let digits = quantity::fixed(value, shown.decimals);
+                RichText::new(digits).font(theme::number())
+            };
+            if let Some(other) = other {
+                let text = other.map_or_else(|| RichText::new(""), number);
+                cell(ui, NUMBER, Align::Max, text.color(palette.line));
+            }
+            let value = number(shown.value).color(palette.text);
+            cell(ui, NUMBER, Align::Max, value);
+            if let Some(note) = note {
+                ui.label(super::small(&note, palette.dim));
+            }
+        });
+    });
+    let name = format!(
+        "{} {}",
+        shown.name,
+        quantity::with_unit(shown.value, shown.decimals, shown.unit)
+    );
+    let response = response.response;
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    response.on_hover_text(shown.what);
+}
+
+fn cell(ui: &mut Ui, width: f32, align: Align, text: RichText) {
+    let layout = match align {
+        Align::Max => Layout::right_to_left(Align::Center),
+        _ => Layout::left_to_right(Align::Center),
+    };
+    ui.allocate_ui_with_layout(vec2(width, ROW), layout, |ui| {
+        ui.set_min_width(width);
+        ui.label(text);
+    });
+}

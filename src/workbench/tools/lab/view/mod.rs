@@ -1,0 +1,239 @@
+//! The textile lab: the parameters of a recipe on the left, what becomes of it on the right.
+//!
+//! Where the pane is narrow, what becomes of it stands above the parameters, each part with a
+//! scroll of its own.
+
+pub(crate) mod controls;
+pub(crate) mod curves;
+pub(crate) mod family;
+pub(crate) mod figures;
+pub(crate) mod keep;
+pub(crate) mod pictures;
+pub(crate) mod profile;
+pub(crate) mod recipe;
+pub(crate) mod rows;
+pub(crate) mod weave;
+
+pub(crate) use crate::tools::lab::view::pictures::LabPictures;
+
+use eframe::egui::{
+    self, Align, Layout, ProgressBar, Rect, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2,
+};
+
+use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::command::Wishes;
+use crate::bench::view::ShelfItem;
+use crate::kit::spectrogram::paint_sentence;
+use crate::kit::theme;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::text::button;
+use crate::tools::lab::Lab;
+use crate::tools::lab::command::LabCommand;
+use crate::tools::lab::preview::Preview;
+
+/// Width of the parameters, points.
+const CONTROLS: f32 = 330.0;
+/// A pane narrower than this has them below the plots, points.
+const WIDE: f32 = 720.0;
+/// Height of the line over the plots, points.
+const LINE: f32 = 26.0;
+/// Least height of the plots, points: where there is less room they scroll.
+const LEAST: f32 = 420.0;
+/// From one plot to the next, points.
+const GAP: f32 = 10.0;
+/// How dim a preview is that is not of the recipe as it is.
+const STALE: f32 = 0.45;
+
+/// What the pane shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LabView<'a> {
+    /// The lab.
+    pub lab: &'a Lab,
+    /// The textiles of the library.
+    pub items: &'a [ShelfItem],
+    /// Their ids as the library has them now.
+    pub ids: &'a [String],
+    /// The colours that stand for numbers.
+    pub map: ColourMap,
+    /// The scale of amplitudes.
+    pub scale: AmplitudeScale,
+}
+
+/// What is typed in the pane.
+#[derive(Debug, Default)]
+pub(crate) struct LabHands {
+    /// How the textile is called.
+    pub keep: crate::tools::lab::fields::KeepFields,
+    /// How a family is planned.
+    pub plan: crate::tools::lab::family::FamilyFields,
+}
+
+/// Shows the pane.
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &LabView<'_>,
+    (hands, pictures): (&mut LabHands, &mut LabPictures),
+    wishes: &mut Wishes,
+) {
+    let whole = ui.max_rect();
+    let is_wide = whole.width() >= WIDE;
+    let (controls, plots) = if is_wide {
+        let edge = (whole.left() + CONTROLS).round();
+        let (left, right) = whole.split_left_right_at_x(edge);
+        let line = Stroke::new(1.0, Palette::in_ui(ui).hairline);
+        ui.painter().vline(edge, whole.y_range(), line);
+        (left.with_max_x(edge - GAP), right.with_min_x(edge + GAP))
+    } else {
+        let edge = (whole.top() + 0.52 * whole.height()).round();
+        let (above, below) = whole.split_top_bottom_at_y(edge);
+        let line = Stroke::new(1.0, Palette::in_ui(ui).hairline);
+        ui.painter().hline(whole.x_range(), edge, line);
+        (below.with_min_y(edge + STEP), above.with_max_y(edge - STEP))
+    };
+    within(ui, controls, |ui| controls::show(ui, view, hands, wishes));
+    within(ui, plots, |ui| {
+        show_standing(ui, view, wishes);
+        show_plots(ui, view, pictures, wishes);
+    });
+}
+
+/// Shows something in a part of the pane.
+fn within<R>(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let builder = UiBuilder::new()
+        .max_rect(rect)
+        .layout(Layout::top_down(Align::Min));
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(ui.clip_rect().intersect(rect.expand(2.0)));
+        content(ui)
+    })
+    .inner
+}
+
+/// The line over the plots: what is shown, how it stands to the recipe, what it is compared with.
+fn show_standing(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
+    let palette = Palette::in_ui(ui);
+    let lab = view.lab;
+    let size = vec2(ui.available_width(), LINE);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        controls::show_name(ui, lab.steps.as_ref());
+        controls::show_compared(ui, view, wishes);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if let Some(share) = lab.share() {
+                if button(ui, "Stop", "Stop what is being computed", None) {
+                    wishes.push(LabCommand::Stop.into());
+                }
+                let bar = ProgressBar::new(share)
+                    .desired_width(72.0)
+                    .desired_height(4.0);
+                ui.add(bar);
+                ui.label(small("computing", palette.dim));
+                return;
+            }
+            if lab.is_stopped && !lab.is_fresh() {
+                if button(ui, "Go on", "Compute the preview after all", None) {
+                    wishes.push(LabCommand::GoOn.into());
+                }
+                ui.label(small("stopped: an earlier recipe is shown", palette.text));
+                return;
+            }
+            let words = match (lab.fault(), &lab.refusal) {
+                (Some(fault), _) => fault.words.as_str(),
+                (None, Some(words)) => words.as_str(),
+                (None, None) if lab.is_fresh() => "",
+                (None, None) => "to be computed",
+            };
+            let label = egui::Label::new(small(words, palette.text)).truncate();
+            ui.add(label).on_hover_text(words);
+        });
+    });
+}
+
+fn small(words: &str, ink: egui::Color32) -> RichText {
+    RichText::new(words).font(theme::small()).color(ink)
+}
+
+/// The plots, in a grid or below each other.
+fn show_plots(ui: &mut Ui, view: &LabView<'_>, pictures: &mut LabPictures, wishes: &mut Wishes) {
+    let room = ui.available_size();
+    let Some(preview) = view.lab.preview.clone() else {
+        let words = match (&view.lab.refusal, view.lab.fault()) {
+            (Some(words), _) => words.as_str(),
+            (None, Some(_)) => "Mend the recipe: the wrong value is marked",
+            (None, None) => "The surface is being made",
+        };
+        paint_sentence(ui.painter(), ui.available_rect_before_wrap(), words);
+        return;
+    };
+    let is_narrow = room.x < 560.0;
+    let height = if is_narrow {
+        5.0 * 170.0
+    } else {
+        room.y.max(LEAST)
+    };
+    let area = ScrollArea::vertical()
+        .id_salt("lab plots")
+        .auto_shrink(false);
+    area.show(ui, |ui| {
+        let size = vec2(ui.available_width(), height - 2.0);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        if !view.lab.is_fresh() {
+            ui.set_opacity(STALE);
+        }
+        let parts = if is_narrow { stacked(rect) } else { grid(rect) };
+        show_parts(ui, view, (&preview, pictures), parts, wishes);
+    });
+}
+
+/// Profile, relief, spectra, curves, figures: where each stands.
+type Parts = [Rect; 5];
+
+fn grid(rect: Rect) -> Parts {
+    let tall = rect.height() - 2.0 * GAP;
+    let (upper, middle) = (0.25 * tall, 0.34 * tall);
+    let (profile, rest) = rect.split_top_bottom_at_y(rect.top() + upper);
+    let rest = rest.with_min_y(rest.top() + GAP);
+    let (pictures, below) = rest.split_top_bottom_at_y(rest.top() + middle);
+    let below = below.with_min_y(below.top() + GAP);
+    let across = rect.left() + 0.5 * rect.width();
+    let halves = |rect: Rect| {
+        let (left, right) = rect.split_left_right_at_x(across);
+        (
+            left.with_max_x(across - GAP),
+            right.with_min_x(across + GAP),
+        )
+    };
+    let ((relief, spectra), (curves, figures)) = (halves(pictures), halves(below));
+    [profile, relief, spectra, curves, figures]
+}
+
+fn stacked(rect: Rect) -> Parts {
+    let height = rect.height() / 5.0;
+    [0_u8, 1, 2, 3, 4].map(|nth| {
+        let top = rect.top() + f32::from(nth) * height;
+        Rect::from_x_y_ranges(rect.x_range(), top..=top + height - GAP)
+    })
+}
+
+fn show_parts(
+    ui: &mut Ui,
+    view: &LabView<'_>,
+    (preview, pictures): (&std::sync::Arc<Preview>, &mut LabPictures),
+    [profile, relief, spectra, curves, figures]: Parts,
+    wishes: &mut Wishes,
+) {
+    profile::show(ui, profile, view, preview, wishes);
+    pictures::show_relief(ui, relief, (view, preview), pictures);
+    pictures::show_spectra(ui, spectra, (view, preview), pictures);
+    curves::show(ui, curves, view, preview);
+    within(ui, figures, |ui| figures::show(ui, view, preview));
+}
+
+/// The quiet title over a plot; says where the plot begins.
+fn title(ui: &Ui, rect: Rect, words: &str) -> Rect {
+    let palette = Palette::in_ui(ui);
+    let at = rect.left_top() + vec2(0.0, 0.5 * ROW - 5.0);
+    let text = small(words, palette.dim);
+    crate::kit::widgets::text::paint_line(ui, at, rect.width(), text);
+    rect.with_min_y(rect.top() + 18.0)
+}

@@ -1,0 +1,113 @@
+//! The parameters of a recipe, group by group.
+
+use eframe::egui::{CollapsingHeader, RichText, Ui};
+
+use crate::bench::command::Wishes;
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use crate::tools::lab::command::LabCommand;
+use crate::tools::lab::steps::Steps;
+use crate::tools::lab::view::controls::complaint;
+use crate::tools::lab::view::rows;
+use selvedge_textile::{Group, Parameter, ParameterKind, groups};
+
+/// Shows every parameter; what is wrong stands below its own.
+pub(crate) fn show(ui: &mut Ui, steps: &Steps, wishes: &mut Wishes) {
+    let draft = steps.now();
+    let fault = steps.fault();
+    if let Some(fault) = fault.filter(|fault| fault.place.is_none()) {
+        complaint(ui, &fault.words);
+    }
+    for group in groups(draft.kind()) {
+        let is_faulty =
+            |parameter: &Parameter| fault.is_some_and(|fault| fault.place == Some(parameter.place));
+        let has_fault = group.parameters.iter().any(is_faulty);
+        let palette = Palette::in_ui(ui);
+        let mark = if has_fault { " ·  wrong value" } else { "" };
+        let title = RichText::new(format!("{}{mark}", group.title));
+        let title = title.font(theme::small()).color(palette.dim);
+        let header = CollapsingHeader::new(title)
+            .id_salt((draft.kind().to_owned(), group.title))
+            .default_open(is_short(&group));
+        let header = if has_fault {
+            header.open(Some(true))
+        } else {
+            header
+        };
+        header.show_unindented(ui, |ui| {
+            for parameter in &group.parameters {
+                show_parameter(ui, steps, parameter, wishes);
+                if let Some(fault) = fault.filter(|fault| fault.place == Some(parameter.place)) {
+                    complaint(ui, &fault.words);
+                }
+            }
+        });
+    }
+}
+
+/// Whether a group stands open at first.
+fn is_short(group: &Group) -> bool {
+    let is_list = |parameter: &Parameter| {
+        matches!(
+            parameter.kind,
+            ParameterKind::Numbers(_) | ParameterKind::Counts | ParameterKind::Colour
+        )
+    };
+    !group.parameters.iter().any(is_list)
+}
+
+fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, wishes: &mut Wishes) {
+    let draft = steps.now();
+    let is_of_table = matches!(parameter.kind, ParameterKind::Template { .. })
+        || draft.has_table(parameter.place.table);
+    if !is_of_table {
+        if let Some(words) = rows::missing(parameter) {
+            let palette = Palette::in_ui(ui);
+            ui.label(super::small(words, palette.dim));
+        }
+        return;
+    }
+    let changed = match parameter.kind {
+        ParameterKind::Number {
+            least,
+            most,
+            unit,
+            is_whole,
+        } => {
+            let range = rows::Range {
+                ends: [least, most],
+                unit,
+                is_whole,
+            };
+            rows::number(ui, steps, parameter, range).map(Some)
+        }
+        ParameterKind::Optional {
+            least,
+            most,
+            unit,
+            instead_of,
+        } => {
+            let range = rows::Range {
+                ends: [least, most],
+                unit,
+                is_whole: false,
+            };
+            rows::optional(ui, steps, parameter, (range, instead_of))
+        }
+        ParameterKind::Choice(words) => rows::choice(ui, draft, parameter, words).map(Some),
+        ParameterKind::Flag => rows::flag(ui, draft, parameter).map(Some),
+        ParameterKind::Seed => rows::seed(ui, draft, parameter).map(Some),
+        ParameterKind::Numbers(unit) => rows::list(ui, draft, parameter, (unit, false)).map(Some),
+        ParameterKind::Counts => rows::list(ui, draft, parameter, ("", true)).map(Some),
+        ParameterKind::Colour => rows::colour(ui, draft, parameter).map(Some),
+        ParameterKind::Interlacing => {
+            crate::tools::lab::view::weave::show(ui, draft, parameter).map(Some)
+        }
+        ParameterKind::Template { is_optional } => {
+            rows::template(ui, draft, parameter, is_optional)
+        }
+    };
+    if let Some(value) = changed {
+        wishes.push(LabCommand::Set(parameter.place, value).into());
+    }
+}

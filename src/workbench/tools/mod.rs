@@ -1,0 +1,21 @@
+//! The tools: one folder each, with its state, its work, its views and its tests.
+//!
+//! A tool uses `bench` and `kit`, never the shell and never another tool.
+
+pub(crate) mod accuracy;
+pub(crate) mod analysis;
+pub(crate) mod bridge;
+pub(crate) mod collection;
+pub(crate) mod compare;
+pub(crate) mod contactors;
+pub(crate) mod experiment;
+pub(crate) mod import;
+pub(crate) mod lab;
+pub(crate) mod library;
+pub(crate) mod picture;
+pub(crate) mod response;
+pub(crate) mod spectra;
+pub(crate) mod timeline;
+pub(crate) mod tuning;
+pub(crate) mod why;
+pub(crate) mod workspace;

@@ -1,0 +1,43 @@
+//! A picture that becomes a textile. Neither saved nor undone.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use crate::bench::keep::Keep;
+use crate::shell::arrangement;
+use crate::shell::arrangement::Pane;
+use crate::shell::window::Workbench;
+use crate::tools::picture::{PictureCommand, Picturing};
+
+impl Workbench {
+    pub(crate) fn dispatch_picture(&mut self, ctx: &egui::Context, command: PictureCommand) {
+        let picturing = &mut self.transient.picturing;
+        match command {
+            PictureCommand::Open(path) => {
+                picturing.open(path);
+                if !arrangement::is_shown(&self.tree, Pane::Picture) {
+                    arrangement::toggle(&mut self.tree, Pane::Picture);
+                }
+            }
+            PictureCommand::Draft(draft) => picturing.take_draft(*draft),
+            PictureCommand::Cancel => picturing.cancel(),
+            PictureCommand::Clear => {
+                picturing.cancel();
+                *picturing = Picturing::default();
+            }
+            PictureCommand::Keep { is_felt } => {
+                let Some(made) = picturing.take_textile() else {
+                    return;
+                };
+                let textile = Arc::clone(&made.textile);
+                let keep = if is_felt {
+                    Keep::Feel(textile)
+                } else {
+                    Keep::Save(textile)
+                };
+                self.dispatch(ctx, keep.into());
+            }
+        }
+    }
+}

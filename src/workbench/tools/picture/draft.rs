@@ -1,0 +1,257 @@
+//! What the user has chosen and typed of a picture so far.
+
+use std::sync::Arc;
+
+use crate::tools::import::draft::SourceFile;
+use selvedge_textile::id_of;
+use selvedge_textile::picture::shading::{HeightScale, Light, Method};
+use selvedge_textile::surface::Representation;
+
+/// Millimetres to an inch.
+const MM_PER_INCH: f64 = 25.4;
+
+/// The chosen file; the same only if it was read at the same time.
+#[derive(Debug, Clone)]
+pub(crate) struct Chosen(Arc<SourceFile>);
+
+impl Chosen {
+    /// A file that is not read yet.
+    pub(crate) fn new(file: SourceFile) -> Self {
+        Self(Arc::new(file))
+    }
+
+    /// The file.
+    pub(crate) fn file(&self) -> &SourceFile {
+        &self.0
+    }
+}
+
+impl PartialEq for Chosen {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// Which part of the picture is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) enum Part {
+    /// All of it.
+    #[default]
+    Whole,
+    /// x, y, width, height, px.
+    Region([usize; 4]),
+    /// What lies between four corners: upper left, upper right, lower right, lower left, px.
+    Corners([[f64; 2]; 4]),
+}
+
+/// What a scale is typed in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum ScaleUnit {
+    /// Dots to an inch, as scanners count.
+    #[default]
+    Dpi,
+    /// Pixels to a millimetre.
+    PxPerMm,
+}
+
+/// Which height of a relief is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Known {
+    /// From the lowest to the highest point.
+    #[default]
+    Relief,
+    /// What the surface tester reads.
+    Smd,
+}
+
+/// Everything that the stages depend on.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Draft {
+    /// The picture.
+    pub source: Option<Chosen>,
+    /// The part of it.
+    pub part: Part,
+    /// Whether uneven light is divided out where it matters.
+    pub(crate) is_evened: bool,
+    /// The scale as typed.
+    pub scale: String,
+    /// In what.
+    pub unit: ScaleUnit,
+    /// λ of the mean concentration, 1/px; `None`: from the maxima.
+    pub lambda: Option<f64>,
+    /// Whether the light is estimated.
+    pub(crate) is_light_estimated: bool,
+    /// The light if it is not.
+    pub light: Light,
+    /// How heights are found.
+    pub method: Method,
+    /// The height as typed, µm.
+    pub height: String,
+    /// Of what.
+    pub known: Known,
+    /// How it is felt.
+    pub representation: Representation,
+    /// The name as typed.
+    pub name: String,
+}
+
+impl Default for Draft {
+    fn default() -> Self {
+        Self {
+            source: None,
+            part: Part::Whole,
+            is_evened: true,
+            scale: String::new(),
+            unit: ScaleUnit::Dpi,
+            lambda: None,
+            is_light_estimated: false,
+            // A scanner's lamp shines along the way of its carriage.
+            light: Light {
+                slant_deg: 45.0,
+                tilt_deg: 90.0,
+            },
+            method: Method::default(),
+            height: String::new(),
+            known: Known::Relief,
+            representation: Representation::Economical,
+            name: String::new(),
+        }
+    }
+}
+
+fn number(typed: &str) -> Option<f64> {
+    let typed = typed.trim().replace(',', ".");
+    typed
+        .parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite() && *x > 0.0)
+}
+
+impl Draft {
+    /// The scale, px/mm; `None` while it is no positive number.
+    pub(crate) fn px_per_mm(&self) -> Option<f64> {
+        let typed = number(&self.scale)?;
+        Some(match self.unit {
+            ScaleUnit::Dpi => typed / MM_PER_INCH,
+            ScaleUnit::PxPerMm => typed,
+        })
+    }
+
+    /// What is known of the height; `None` while it is no positive number.
+    pub(crate) fn height_scale(&self) -> Option<HeightScale> {
+        let um = number(&self.height)?;
+        Some(match self.known {
+            Known::Relief => HeightScale::ReliefUm(um),
+            Known::Smd => HeightScale::SmdUm(um),
+        })
+    }
+
+    /// The name that the file suggests.
+    pub(crate) fn own_name(&self) -> String {
+        let path = self.source.as_ref().map(|chosen| chosen.file().path());
+        let stem = path.and_then(|path| path.file_stem());
+        stem.unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// The name that the textile gets.
+    pub(crate) fn final_name(&self) -> String {
+        if self.name.trim().is_empty() {
+            self.own_name()
+        } else {
+            self.name.trim().to_owned()
+        }
+    }
+
+    /// The id that it is wished to have; never empty.
+    pub(crate) fn id(&self) -> String {
+        let id = id_of(&self.final_name());
+        if id.is_empty() {
+            "picture".to_owned()
+        } else {
+            id
+        }
+    }
+
+    /// What is still to be said before there can be a textile.
+    pub(crate) fn missing(&self) -> Option<&'static str> {
+        if self.px_per_mm().is_none() {
+            return Some("Type the picture's scale: what the scanner was set to, dpi");
+        }
+        if self.height_scale().is_none() {
+            return Some("Type how high the cloth's relief is, µm, or its SMD");
+        }
+        None
+    }
+
+    /// Whether the pictures before any analysis are the same.
+    pub(crate) fn has_same_file(&self, other: &Self) -> bool {
+        self.source == other.source
+    }
+
+    /// Whether the autocorrelations are the same.
+    pub(crate) fn has_same_part(&self, other: &Self) -> bool {
+        self.has_same_file(other) && (self.part, self.is_evened) == (other.part, other.is_evened)
+    }
+
+    /// Whether the tiles are the same.
+    pub(crate) fn has_same_tile(&self, other: &Self) -> bool {
+        self.has_same_part(other) && self.lambda == other.lambda
+    }
+
+    /// Whether the heights in pixels are the same.
+    pub(crate) fn has_same_shape(&self, other: &Self) -> bool {
+        let light = |draft: &Self| (!draft.is_light_estimated).then_some(draft.light);
+        self.has_same_tile(other)
+            && self.px_per_mm() == other.px_per_mm()
+            && self.is_light_estimated == other.is_light_estimated
+            && light(self) == light(other)
+            && self.method == other.method
+    }
+
+    /// Whether the textiles are the same.
+    pub(crate) fn has_same_textile(&self, other: &Self) -> bool {
+        self.has_same_shape(other)
+            && self.height_scale() == other.height_scale()
+            && self.representation == other.representation
+            && self.final_name() == other.final_name()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_is_read_in_either_unit_and_never_guessed() {
+        let mut draft = Draft::default();
+        assert_eq!(draft.px_per_mm(), None);
+        draft.scale = "600".to_owned();
+        let px_per_mm = draft.px_per_mm().unwrap();
+        assert!((px_per_mm - 23.622).abs() < 1e-3, "{px_per_mm}");
+        draft.unit = ScaleUnit::PxPerMm;
+        draft.scale = " 23,5".to_owned();
+        assert_eq!(draft.px_per_mm(), Some(23.5));
+        draft.scale = "-3".to_owned();
+        assert_eq!(draft.px_per_mm(), None);
+    }
+
+    #[test]
+    fn what_is_typed_touches_only_the_stages_behind_it() {
+        let draft = Draft::default();
+        let higher = Draft {
+            height: "80".to_owned(),
+            ..draft.clone()
+        };
+        assert!(higher.has_same_shape(&draft) && !higher.has_same_textile(&draft));
+        let linear = Draft {
+            method: Method::Linear,
+            ..draft.clone()
+        };
+        assert!(linear.has_same_tile(&draft) && !linear.has_same_shape(&draft));
+        let part = Draft {
+            part: Part::Region([1, 2, 30, 40]),
+            ..draft.clone()
+        };
+        assert!(part.has_same_file(&draft) && !part.has_same_part(&draft));
+    }
+}

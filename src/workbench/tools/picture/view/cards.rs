@@ -1,0 +1,268 @@
+//! What every stage made, as pictures side by side.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use eframe::egui::{
+    Align2, Color32, ImageData, Painter, Pos2, Rect, Role, Sense, Stroke, TextureFilter,
+    TextureHandle, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
+
+use crate::bench::follower::Standing;
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use crate::kit::widgets::relief3d;
+use crate::kit::widgets::relief3d::View3d;
+use crate::tools::picture::Picturing;
+use crate::tools::picture::found::{Cloth, Found, Made};
+use crate::tools::picture::images::Image;
+use crate::tools::picture::view::{frame, plots};
+use selvedge_foundation::quantity;
+
+/// Distance of cards and height of their titles, points.
+const GAP: f32 = 12.0;
+const TITLE: f32 = 18.0;
+/// How much of what is past shows while something newer is made.
+const PAST: f32 = 0.45;
+/// Maxima that are drawn, and those that are numbered.
+const N_MAXIMA: usize = 60;
+const N_NUMBERED: usize = 6;
+/// A card is small: the relief is first drawn this near.
+const FIRST_ZOOM: f32 = 1.6;
+/// The cards in their order.
+const TITLES: [&str; 8] = [
+    "1  The picture",
+    "2  Autocorrelation",
+    "3  Directions",
+    "4  Lattice",
+    "5  Cloth of the tile",
+    "5  Not explained",
+    "6  Relief",
+    "7  Strokes",
+];
+
+/// Stages as textures, and from where the relief is looked at.
+#[derive(Default)]
+pub(crate) struct PictureTextures {
+    textures: BTreeMap<usize, (Image, TextureHandle)>,
+    view: Option<View3d>,
+    made: Option<Arc<Made>>,
+}
+
+impl std::fmt::Debug for PictureTextures {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PictureTextures")
+            .field("cards", &self.textures.keys())
+            .field("view", &self.view)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PictureTextures {
+    /// The texture of a card, made anew for another picture.
+    fn texture(&mut self, painter: &Painter, card: usize, image: &Image) -> &TextureHandle {
+        let make = || {
+            let options = TextureOptions {
+                magnification: TextureFilter::Nearest,
+                ..TextureOptions::LINEAR
+            };
+            let data = ImageData::Color(Arc::clone(image));
+            let name = TITLES[card];
+            (
+                Arc::clone(image),
+                painter.ctx().load_texture(name, data, options),
+            )
+        };
+        let kept = self.textures.entry(card).or_insert_with(make);
+        if !Arc::ptr_eq(&kept.0, image) {
+            *kept = make();
+        }
+        &kept.1
+    }
+
+    /// Paints a picture as large as fits; says where.
+    fn paint(&mut self, painter: &Painter, room: Rect, card: usize, image: &Image) -> Rect {
+        let [w, h] = image.size.map(|n| n.max(1) as f32);
+        let scale = (room.width() / w).min(room.height() / h);
+        let rect = Rect::from_min_size(room.min, vec2(w, h) * scale);
+        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+        let texture = self.texture(painter, card, image).id();
+        painter.image(texture, rect, whole, Color32::WHITE);
+        rect
+    }
+}
+
+/// Columns of cards that make them largest in a room.
+fn n_columns(size: eframe::egui::Vec2) -> usize {
+    let side = |n: usize| {
+        let rows = TITLES.len().div_ceil(n) as f32;
+        let (w, h) = (size.x / n as f32 - GAP, size.y / rows - GAP - TITLE);
+        w.min(h)
+    };
+    [1, 2, 3, 4]
+        .into_iter()
+        .max_by(|a, b| side(*a).total_cmp(&side(*b)))
+        .unwrap_or(4)
+}
+
+/// Shows the cards.
+pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, textures: &mut PictureTextures) {
+    let whole = ui.available_rect_before_wrap();
+    let columns = n_columns(whole.size());
+    let rows = TITLES.len().div_ceil(columns);
+    let size = vec2(
+        (whole.width() - GAP * (columns - 1) as f32) / columns as f32,
+        (whole.height() - GAP * (rows - 1) as f32) / rows as f32,
+    );
+    let found = picturing.found().cloned();
+    let is_past = picturing.standing() != Standing::Fresh;
+    let is_same_file = |found: &&Found| found.inputs.source == picturing.draft.source;
+    let found = found.as_deref().filter(is_same_file);
+    let palette = Palette::in_ui(ui);
+    for (card, title) in TITLES.iter().enumerate() {
+        let place = vec2((card % columns) as f32, (card / columns) as f32);
+        let at = whole.min + place * (size + vec2(GAP, GAP));
+        let rect = Rect::from_min_size(at, size);
+        ui.painter().text(
+            rect.min,
+            Align2::LEFT_TOP,
+            *title,
+            theme::small(),
+            palette.dim,
+        );
+        let room = rect.with_min_y(rect.top() + TITLE);
+        let mut child = ui.new_child(UiBuilder::new().max_rect(room).id_salt(title));
+        child.set_clip_rect(room.expand(4.0).intersect(ui.clip_rect()));
+        // The part is dragged on the picture itself, which is never past.
+        if is_past && card > 0 {
+            child.multiply_opacity(PAST);
+        }
+        show_card(&mut child, card, (picturing, found), textures);
+    }
+}
+
+fn show_card(
+    ui: &mut Ui,
+    card: usize,
+    (picturing, found): (&mut Picturing, Option<&Found>),
+    textures: &mut PictureTextures,
+) {
+    let room = ui.max_rect();
+    let cloth = found.and_then(|found| found.cloth.as_deref());
+    let images = cloth.and_then(|cloth| cloth.images.as_ref());
+    if card == 6 {
+        let Some(made) = found.and_then(|found| found.made.as_ref()) else {
+            return nothing(ui, room, waiting(card, cloth));
+        };
+        return show_relief(ui, made, textures);
+    }
+    let title = TITLES[card].split_once("  ").map_or("", |(_, title)| title);
+    let response = ui.interact(room, ui.scope_id().with("card"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, title));
+    let painter = ui.painter().clone();
+    let is_shown = match card {
+        0 => found
+            .and_then(|found| found.loaded.as_deref())
+            .map(|loaded| {
+                let rect = textures.paint(&painter, room, card, &loaded.image);
+                frame::show(ui, rect, loaded.size, &mut picturing.draft.part);
+            }),
+        1 => cloth.and_then(|cloth| correlation(&painter, room, cloth, textures)),
+        2 => cloth
+            .and_then(|cloth| cloth.directions.as_ref())
+            .map(|directions| plots::directions(&painter, room, directions)),
+        3..=5 => images.map(|images| {
+            textures.paint(&painter, room, card, &images[card - 3]);
+        }),
+        _ => found
+            .and_then(|found| found.made.as_deref())
+            .map(|made| plots::strokes(&painter, room, made)),
+    };
+    if is_shown.is_none() {
+        nothing(ui, room, waiting(card, cloth));
+    }
+}
+
+/// Why a card is empty.
+fn waiting(card: usize, cloth: Option<&Cloth>) -> &'static str {
+    match (card, cloth.map(|cloth| cloth.found.is_ok())) {
+        (3.., Some(false)) => "no lattice",
+        (6.., _) => "needs scale and height",
+        _ => "–",
+    }
+}
+
+fn nothing(ui: &Ui, room: Rect, words: &str) {
+    let palette = Palette::in_ui(ui);
+    ui.painter().rect_filled(room, 2, palette.raised);
+    let centre = room.center();
+    ui.painter().text(
+        centre,
+        Align2::CENTER_CENTER,
+        words,
+        theme::small(),
+        palette.dim,
+    );
+}
+
+/// The matrix with its maxima, the most dominant ones numbered, and the lattice vectors.
+fn correlation(
+    painter: &Painter,
+    room: Rect,
+    cloth: &Cloth,
+    textures: &mut PictureTextures,
+) -> Option<()> {
+    let (image, radius) = cloth.correlation.as_ref()?;
+    let rect = textures.paint(painter, room, 1, image);
+    let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
+    let palette = Palette::of(painter.ctx().theme());
+    let px = rect.width() / (2 * radius + 1) as f32;
+    #[expect(clippy::cast_possible_truncation, reason = "places on the screen")]
+    let at = |[x, y]: [f64; 2]| rect.center() + vec2(x as f32, y as f32) * px;
+    for (nth, (place, _)) in cloth.maxima.iter().take(N_MAXIMA).enumerate() {
+        for place in [*place, place.map(|x| -x)] {
+            painter.circle_stroke(at(place), 3.0, Stroke::new(1.0, palette.rim));
+            painter.circle_filled(at(place), 2.0, Color32::WHITE);
+        }
+        if nth < N_NUMBERED {
+            let corner = at(*place) + vec2(4.0, -3.0);
+            let label = quantity::fixed((nth + 1) as f64, 0);
+            let font = theme::small_number();
+            painter.text(corner, Align2::LEFT_BOTTOM, label, font, Color32::WHITE);
+        }
+    }
+    if let Ok(tiled) = &cloth.found {
+        for vector in [tiled.lattice.p1_px, tiled.lattice.p2_px] {
+            painter.arrow(
+                rect.center(),
+                at(vector) - rect.center(),
+                Stroke::new(2.0, Color32::WHITE),
+            );
+        }
+    }
+    Some(())
+}
+
+fn show_relief(ui: &mut Ui, made: &Arc<Made>, textures: &mut PictureTextures) {
+    let is_same = textures
+        .made
+        .as_ref()
+        .is_some_and(|before| Arc::ptr_eq(before, made));
+    let usual = View3d {
+        zoom: FIRST_ZOOM,
+        ..View3d::for_relief(&made.relief)
+    };
+    if !is_same {
+        // Turned as before; how much heights are drawn too high follows the relief.
+        let exaggeration = usual.exaggeration;
+        textures.view = Some(View3d {
+            exaggeration,
+            ..textures.view.unwrap_or(usual)
+        });
+        textures.made = Some(Arc::clone(made));
+    }
+    let view = textures.view.unwrap_or(usual);
+    if let Some(turned) = relief3d(ui, "Relief of the cloth", &made.relief, view) {
+        textures.view = Some(turned);
+    }
+}

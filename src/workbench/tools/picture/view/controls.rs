@@ -1,0 +1,334 @@
+//! The steps: what is chosen and typed, and what came of it in words.
+
+use eframe::egui::{RichText, Ui};
+
+use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::follower::Standing;
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::slider::{RowShape, slider_row_as};
+use crate::kit::widgets::text::{button, toggle};
+use crate::tools::import::view::fields::{Need, Tone, note, row_of, step_title, text};
+use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
+use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
+use crate::tools::picture::view::hemisphere;
+use crate::tools::picture::{PictureCommand, Picturing};
+use selvedge_foundation::quantity::{self, with_unit};
+use selvedge_textile::picture::Directions;
+use selvedge_textile::picture::shading::Method;
+
+/// Room for the name of a field, points.
+const NAME: f32 = 52.0;
+/// Width of a typed number, points.
+const NUMBER: f32 = 72.0;
+
+/// Shows the steps.
+pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) {
+    let found = picturing.found().cloned();
+    let found = found.as_deref();
+    let standing = picturing.standing();
+    show_picture(ui, picturing, found, wishes);
+    if let Standing::Working(share) = standing {
+        ui.horizontal(|ui| {
+            note(ui, &format!("working {:.0} %", 100.0 * share), Tone::Quiet);
+            if button(ui, "Stop", "Stop working it out", None) {
+                wishes.push(PictureCommand::Cancel.into());
+            }
+        });
+    }
+    let cloth = found.and_then(|found| found.cloth.as_deref());
+    show_repeats(ui, &mut picturing.draft, cloth);
+    let shaped = found.and_then(|found| found.shaped.as_deref());
+    show_light(ui, &mut picturing.draft, shaped);
+    show_failure(ui, found, Step::Light);
+}
+
+fn show_failure(ui: &mut Ui, found: Option<&Found>, step: Step) {
+    let failure = found.and_then(|found| found.failure.as_ref());
+    if let Some((_, line)) = failure.filter(|(at, _)| *at == step) {
+        note(ui, line, Tone::Wrong);
+    }
+}
+
+fn show_picture(
+    ui: &mut Ui,
+    picturing: &mut Picturing,
+    found: Option<&Found>,
+    wishes: &mut Wishes,
+) {
+    let draft = &mut picturing.draft;
+    let name = draft.source.as_ref().map(|chosen| chosen.file().name());
+    step_title(ui, 1, "File and scale", &name.unwrap_or_default());
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        if button(ui, "Another…", "Choose another picture", None) {
+            wishes.push(FileCommand::Ask(Purpose::OpenPicture).into());
+        }
+        if button(
+            ui,
+            "Begin anew",
+            "Let go of the picture and of what was typed",
+            None,
+        ) {
+            wishes.push(PictureCommand::Clear.into());
+        }
+    });
+    show_failure(ui, found, Step::Picture);
+    row_of(ui, NAME, ("scale", ""), |ui, label| {
+        let need = Need::of(draft.px_per_mm().is_none());
+        text(ui, label, &mut draft.scale, ("600", NUMBER, need));
+        for (unit, word, tip) in [
+            (ScaleUnit::Dpi, "dpi", "Dots to an inch, as scanners count"),
+            (ScaleUnit::PxPerMm, "px/mm", "Pixels to a millimetre"),
+        ] {
+            if toggle(ui, word, draft.unit == unit, tip) {
+                draft.unit = unit;
+            }
+        }
+    });
+    let size = found
+        .and_then(|found| found.loaded.as_deref())
+        .map(|loaded| loaded.size);
+    if let Some(size) = size {
+        show_part(ui, draft, size);
+    }
+    let was_evened = found
+        .and_then(|found| found.correlated.as_deref())
+        .is_some_and(|correlated| correlated.was_evened);
+    row_of(
+        ui,
+        NAME,
+        ("light", if was_evened { "was evened out" } else { "" }),
+        |ui, _| {
+            let tip = "Divide out light that changes slowly over the picture";
+            if toggle(ui, "even out", draft.is_evened, tip) {
+                draft.is_evened = !draft.is_evened;
+            }
+        },
+    );
+}
+
+fn show_part(ui: &mut Ui, draft: &mut Draft, size: [usize; 2]) {
+    row_of(ui, NAME, ("part", ""), |ui, _| {
+        let quarter = size.map(|n| n / 4);
+        let [w, h] = size.map(|n| n as f64);
+        let corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]];
+        let corners = corners.map(|[x, y]| [(x * w).round(), (y * h).round()]);
+        let [half_w, half_h] = size.map(|n| n / 2);
+        let region = [quarter[0], quarter[1], half_w.max(1), half_h.max(1)];
+        let is_region = matches!(draft.part, Part::Region(_));
+        let is_corners = matches!(draft.part, Part::Corners(_));
+        if toggle(ui, "all", draft.part == Part::Whole, "The whole picture") {
+            draft.part = Part::Whole;
+        }
+        if toggle(
+            ui,
+            "region",
+            is_region,
+            "A rectangle, dragged on the picture",
+        ) && !is_region
+        {
+            draft.part = Part::Region(region);
+        }
+        let tip = "Four corners, dragged on a picture that was taken at a slant";
+        if toggle(ui, "corners", is_corners, tip) && !is_corners {
+            draft.part = Part::Corners(corners);
+        }
+    });
+}
+
+fn slider(ui: &mut Ui, name: &str, scale: Scale, value: f64) -> Option<f64> {
+    let shape = RowShape {
+        name: NAME + STEP,
+        takes_any: false,
+    };
+    let ink = Palette::in_ui(ui).line;
+    slider_row_as(ui, (name, ink), (shape, scale), value).0
+}
+
+fn scale_of([least, most]: [f64; 2], resting: f64, unit: &'static str) -> Scale {
+    Scale {
+        least,
+        most,
+        resting,
+        step: 1.0,
+        decimals: 0,
+        unit,
+        factor: 1.0,
+        noticed: None,
+        curve: Curve::Even,
+    }
+}
+
+/// Directions, lattice and tile.
+fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
+    let directions = cloth.and_then(|cloth| cloth.directions.as_ref());
+    let n = cloth.map_or(0, |cloth| cloth.maxima.len());
+    ui.add_space(STEP);
+    step_title(ui, 2, "Autocorrelation", &format!("{n} maxima count"));
+    if let Some(directions) = directions {
+        show_directions(ui, draft, directions);
+    }
+    match cloth.map(|cloth| &cloth.found) {
+        Some(Ok(tiled)) => {
+            let lattice = &tiled.lattice;
+            let confidence = with_unit(100.0 * lattice.confidence, 0, "%");
+            step_title(ui, 4, "Lattice", &format!("confidence {confidence}"));
+            for (name, vector) in [("p1", lattice.p1_px), ("p2", lattice.p2_px)] {
+                note(
+                    ui,
+                    &vector_words(name, vector, draft.px_per_mm()),
+                    Tone::Quiet,
+                );
+            }
+            let share = tiled
+                .flat_part
+                .map_or(tiled.explained_variance, |(_, share)| share);
+            let share = with_unit(100.0 * share, 0, "%");
+            step_title(ui, 5, "Tile", &format!("explains {share} of the variance"));
+            if tiled.flat_part.is_some() {
+                note(
+                    ui,
+                    "Repeats drift: the tile is of the part that lies flattest.",
+                    Tone::Quiet,
+                );
+            }
+            if tiled.colour.is_printed() {
+                let words = "Colour changes with the period: the pattern may be printed, and \
+                             brightness then says nothing about relief.";
+                note(ui, words, Tone::Wrong);
+            }
+        }
+        Some(Err(reason)) => {
+            step_title(ui, 4, "Lattice", "none");
+            note(ui, &format!("No lattice: {reason}."), Tone::Wrong);
+        }
+        None => step_title(ui, 4, "Lattice", ""),
+    }
+}
+
+fn show_directions(ui: &mut Ui, draft: &mut Draft, directions: &Directions) {
+    step_title(
+        ui,
+        3,
+        "Directions",
+        if draft.lambda.is_none() {
+            "λ by the maxima"
+        } else {
+            ""
+        },
+    );
+    let scale = Scale {
+        least: 0.02,
+        most: 5.0,
+        resting: directions.lambda_per_px,
+        step: 0.01,
+        decimals: 2,
+        unit: "1/px",
+        curve: Curve::Decades(2.4),
+        ..scale_of([0.02, 5.0], 0.5, "1/px")
+    };
+    let now = draft.lambda.unwrap_or(directions.lambda_per_px);
+    if let Some(lambda) = slider(ui, "λ", scale, now) {
+        draft.lambda = Some(lambda.max(0.02));
+    }
+    if draft.lambda.is_some() && button(ui, "λ by the maxima", "", None) {
+        draft.lambda = None;
+    }
+}
+
+fn vector_words(name: &str, [x, y]: [f64; 2], px_per_mm: Option<f64>) -> String {
+    let length = x.hypot(y);
+    let [dx, dy, px] = [x, y, length].map(|value| quantity::fixed(value, 2));
+    let mm = px_per_mm.map(|scale| format!(" = {}", with_unit(length / scale, 3, "mm")));
+    format!(
+        "{name} ({dx}, {dy}) px, length {px} px{}",
+        mm.unwrap_or_default()
+    )
+}
+
+fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
+    ui.add_space(STEP);
+    let state = if draft.is_light_estimated {
+        "estimated"
+    } else {
+        "as given"
+    };
+    step_title(ui, 6, "Light and relief", state);
+    let light = shaped
+        .filter(|_| draft.is_light_estimated)
+        .map_or(draft.light, |s| s.light);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+        if let Some(dragged) = hemisphere::show(ui, light) {
+            (draft.light, draft.is_light_estimated) = (dragged, false);
+        }
+        ui.vertical(|ui| {
+            let slant = slider(
+                ui,
+                "slant",
+                scale_of([5.0, 80.0], 45.0, "°"),
+                light.slant_deg,
+            );
+            let tilt = slider(
+                ui,
+                "tilt",
+                scale_of([-180.0, 180.0], 90.0, "°"),
+                light.tilt_deg,
+            );
+            if slant.is_some() || tilt.is_some() {
+                draft.light = light;
+                draft.is_light_estimated = false;
+            }
+            draft.light.slant_deg = slant.unwrap_or(draft.light.slant_deg);
+            draft.light.tilt_deg = tilt.unwrap_or(draft.light.tilt_deg);
+            if toggle(
+                ui,
+                "estimate it",
+                draft.is_light_estimated,
+                "Estimate the light",
+            ) {
+                draft.is_light_estimated = !draft.is_light_estimated;
+            }
+        });
+    });
+    show_method(ui, draft);
+    if let Some(shaped) = shaped {
+        show_trust(ui, shaped);
+    }
+}
+
+fn show_method(ui: &mut Ui, draft: &mut Draft) {
+    row_of(ui, NAME, ("method", ""), |ui, _| {
+        for method in Method::ALL.into_iter().rev() {
+            let tip = format!("Shape from shading: {}", method.label());
+            if toggle(ui, method.label(), draft.method == method, &tip) {
+                draft.method = method;
+            }
+        }
+    });
+}
+
+/// How well the heights fit the brightness, and how far the method can be trusted.
+fn show_trust(ui: &mut Ui, shaped: &Shaped) {
+    if let Some(residual) = shaped.shape.residuals.last() {
+        let n = shaped.shape.n_iterations();
+        let residual = quantity::fixed(*residual, 4);
+        note(
+            ui,
+            &format!("residual {residual} after {n} iterations"),
+            Tone::Quiet,
+        );
+    }
+    let more = shaped
+        .estimate
+        .as_ref()
+        .map_or("", |estimate| &estimate.words);
+    let palette = Palette::in_ui(ui);
+    let words = format!("{} {more}", shaped.shape.reliability);
+    let words = RichText::new(words.trim())
+        .font(theme::small())
+        .color(palette.dim);
+    ui.add(eframe::egui::Label::new(words).wrap());
+}

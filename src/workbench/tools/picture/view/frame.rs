@@ -1,0 +1,123 @@
+//! The part of the picture that is looked at, dragged on it: a rectangle, or four corners.
+
+use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use crate::kit::theme::Palette;
+use crate::tools::picture::draft::Part;
+
+/// Half the width of a handle, points.
+const GRIP: f32 = 7.0;
+/// The smallest region, px.
+const LEAST_PX: f64 = 16.0;
+/// Which edges of a region (left, top, right, bottom as 0 … 3) meet at its corners.
+const EDGES: [[usize; 2]; 4] = [[0, 1], [2, 1], [2, 3], [0, 3]];
+
+/// Shows the part over a picture of this many pixels that is drawn in `rect`; lets it be dragged.
+pub(crate) fn show(ui: &Ui, rect: Rect, size: [usize; 2], part: &mut Part) {
+    let size = size.map(|n| n as f64);
+    match part {
+        Part::Whole => {}
+        Part::Corners(corners) => {
+            let places = corners.map(|place| on_screen(rect, size, place));
+            outline(ui, &places);
+            for (nth, corner) in corners.iter_mut().enumerate() {
+                *corner = handle(ui, (rect, size), nth, *corner);
+            }
+        }
+        Part::Region(region) => {
+            let [x, y, w, h] = region.map(|n| n as f64);
+            let mut ends = [x, y, x + w, y + h];
+            let corner = |ends: [f64; 4], nth: usize| [ends[EDGES[nth][0]], ends[EDGES[nth][1]]];
+            let places = [0, 1, 2, 3].map(|nth| on_screen(rect, size, corner(ends, nth)));
+            outline(ui, &places);
+            for nth in 0..4 {
+                let before = corner(ends, nth);
+                let after = handle(ui, (rect, size), nth, before);
+                (ends[EDGES[nth][0]], ends[EDGES[nth][1]]) = (after[0], after[1]);
+            }
+            *region = region_of(ends, size);
+        }
+    }
+}
+
+/// A region of whole pixels that is not too small and lies inside.
+fn region_of(ends: [f64; 4], size: [f64; 2]) -> [usize; 4] {
+    let side = |axis: usize| {
+        let least = LEAST_PX.min(size[axis]);
+        let low = ends[axis]
+            .min(ends[axis + 2])
+            .clamp(0.0, size[axis] - least);
+        let high = ends[axis]
+            .max(ends[axis + 2])
+            .clamp(low + least, size[axis]);
+        [low.round(), high.round() - low.round()]
+    };
+    let ([x, w], [y, h]) = (side(0), side(1));
+    [x, y, w, h].map(|n| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "inside a picture"
+        )]
+        let n = n as usize;
+        n
+    })
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
+fn on_screen(rect: Rect, size: [f64; 2], [x, y]: [f64; 2]) -> Pos2 {
+    let share = vec2((x / size[0]) as f32, (y / size[1]) as f32);
+    rect.min + share * rect.size()
+}
+
+fn outline(ui: &Ui, places: &[Pos2; 4]) {
+    let palette = Palette::in_ui(ui);
+    for (nth, from) in places.iter().enumerate() {
+        let line = [*from, places[(nth + 1) % 4]];
+        // Dark below light: the line shows on every cloth.
+        ui.painter()
+            .line_segment(line, Stroke::new(3.0, palette.rim));
+        let white = Stroke::new(1.0, eframe::egui::Color32::WHITE);
+        ui.painter().line_segment(line, white);
+    }
+}
+
+/// A corner that can be dragged; says where it is, px.
+fn handle(ui: &Ui, (rect, size): (Rect, [f64; 2]), nth: usize, place: [f64; 2]) -> [f64; 2] {
+    let name = ["Upper left", "Upper right", "Lower right", "Lower left"][nth];
+    let at = on_screen(rect, size, place);
+    let grip = Rect::from_center_size(at, vec2(2.0 * GRIP, 2.0 * GRIP));
+    let response = ui.interact(grip, ui.scope_id().with(("corner", nth)), Sense::drag());
+    let label = format!("{name} corner of the part");
+    response.widget_info(|| WidgetInfo::labeled(eframe::egui::Role::Slider, true, &label));
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let palette = Palette::in_ui(ui);
+    let knob = Rect::from_center_size(at, vec2(7.0, 7.0));
+    ui.painter().rect_filled(knob.expand(1.0), 1, palette.rim);
+    ui.painter()
+        .rect_filled(knob, 1, eframe::egui::Color32::WHITE);
+    if !response.dragged() {
+        return place;
+    }
+    let to = pos2(at.x, at.y) + response.drag_delta();
+    let share = (to - rect.min) / rect.size();
+    [
+        (f64::from(share.x) * size[0]).clamp(0.0, size[0]),
+        (f64::from(share.y) * size[1]).clamp(0.0, size[1]),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_stays_inside_and_is_never_too_small() {
+        let size = [100.0, 80.0];
+        assert_eq!(region_of([10.0, 20.0, 60.0, 70.0], size), [10, 20, 50, 50]);
+        assert_eq!(region_of([60.0, 70.0, 10.0, 20.0], size), [10, 20, 50, 50]);
+        assert_eq!(region_of([99.0, 79.0, 100.0, 80.0], size), [84, 64, 16, 16]);
+        let [x, y, w, h] = region_of([-5.0, -5.0, 400.0, 400.0], size);
+        assert_eq!([x, y, w, h], [0, 0, 100, 80]);
+    }
+}

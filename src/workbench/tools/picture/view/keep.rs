@@ -1,0 +1,107 @@
+//! The last step, always in sight: what it is called, and to the fingertip.
+
+use eframe::egui::{Button, Ui, vec2};
+
+use crate::bench::command::Wishes;
+use crate::kit::theme::{ROW, STEP};
+use crate::kit::widgets::text::{button, toggle};
+use crate::tools::import::view::fields::{Need, Tone, note, row_of, step_title, text};
+use crate::tools::picture::draft::{Draft, Known};
+use crate::tools::picture::found::Step;
+use crate::tools::picture::{PictureCommand, Picturing};
+use selvedge_foundation::quantity::with_unit;
+use selvedge_textile::surface::Representation;
+
+/// Shows the step.
+pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) {
+    ui.spacing_mut().item_spacing.y = STEP;
+    let made = picturing.found().and_then(|found| found.made.clone());
+    let figures = made.map_or_else(String::new, |made| {
+        let relief = with_unit(made.relief_um, 0, "µm");
+        format!("relief {relief}, SMD {}", with_unit(made.smd_um, 2, "µm"))
+    });
+    step_title(ui, 7, "To the fingertip", &figures);
+    show_height(ui, &mut picturing.draft);
+    let own = picturing.draft.own_name();
+    row_of(ui, 44.0, ("name", ""), |ui, label| {
+        let felt = &mut picturing.draft.representation;
+        let width = ui.available_width() - 96.0;
+        text(
+            ui,
+            label,
+            &mut picturing.draft.name,
+            (&own, width, Need::Optional),
+        );
+        for (value, word, tip) in [
+            (
+                Representation::Economical,
+                "strokes",
+                "Felt along four strokes, as the tester does",
+            ),
+            (
+                Representation::Areal,
+                "area",
+                "Felt at every point of the relief",
+            ),
+        ] {
+            if toggle(ui, word, *felt == value, tip) {
+                *felt = value;
+            }
+        }
+    });
+    let refusal = picturing.refusal();
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        let tip = "Keep it in the library and lay it under the display";
+        let feel = Button::new("Feel it").min_size(vec2(96.0, ROW));
+        let response = ui.add_enabled(refusal.is_none(), feel);
+        let response = match &refusal {
+            Some(why) => response.on_disabled_hover_text(why),
+            None => response.on_hover_text(tip),
+        };
+        if response.clicked() {
+            wishes.push(PictureCommand::Keep { is_felt: true }.into());
+        }
+        let save = "Write it into the library";
+        if button(ui, "Save to the library", save, refusal.as_deref()) {
+            wishes.push(PictureCommand::Keep { is_felt: false }.into());
+        }
+    });
+    show_outcome(ui, picturing, refusal);
+}
+
+/// What was kept, or why nothing can be.
+fn show_outcome(ui: &mut Ui, picturing: &Picturing, refusal: Option<String>) {
+    let failure = picturing.found().and_then(|found| found.failure.clone());
+    if let Some((Step::Felt, line)) = failure {
+        return note(ui, &line, Tone::Wrong);
+    }
+    match (refusal, picturing.kept()) {
+        (Some(line), _) => note(ui, &line, Tone::Quiet),
+        (None, Some(id)) => note(ui, &format!("handed to the library: {id}"), Tone::Quiet),
+        (None, None) => {}
+    }
+}
+
+fn show_height(ui: &mut Ui, draft: &mut Draft) {
+    row_of(ui, 44.0, ("height", "µm"), |ui, label| {
+        let need = Need::of(draft.height_scale().is_none());
+        text(ui, label, &mut draft.height, ("80", 72.0, need));
+        for (known, word, tip) in [
+            (
+                Known::Relief,
+                "relief",
+                "From the lowest to the highest point",
+            ),
+            (
+                Known::Smd,
+                "SMD",
+                "The roughness that the surface tester reads",
+            ),
+        ] {
+            if toggle(ui, word, draft.known == known, tip) {
+                draft.known = known;
+            }
+        }
+    });
+}

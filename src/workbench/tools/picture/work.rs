@@ -1,0 +1,330 @@
+//! The stages from a picture to a textile, on a thread. What was made before of the same words is
+//! used again, so that whoever changes a parameter waits for the later stages only.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::bench::follower::Answer;
+use crate::bench::keep::NewTextile;
+use crate::kit::widgets::relief3d::Relief3d;
+use crate::tools::picture::draft::{Draft, Part};
+use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shaped, Step};
+use crate::tools::picture::images;
+use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_textile::picture::felt::{Brightness, brightness_of, shape_of, textile_of};
+use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
+use selvedge_textile::picture::{
+    Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
+    PictureTextile, SignificantMaxima, even_light, load,
+};
+use selvedge_textile::surface::{Direction, HeightMap};
+use selvedge_textile::{Construction, Manifest, Source, TextileError, n_threads, read_profile};
+
+/// Why a run ended early.
+enum End {
+    Cancelled(Cancelled),
+    Failed(Step, String),
+}
+
+impl From<Cancelled> for End {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Cancelled(cancelled)
+    }
+}
+
+impl Answer for Found {
+    type Inputs = Draft;
+    const THREAD: &str = "selvedge-picture";
+
+    fn inputs(&self) -> &Draft {
+        &self.inputs
+    }
+
+    fn work(
+        inputs: Draft,
+        prior: Option<&Self>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        read(inputs, prior, progress)
+    }
+
+    fn broken(inputs: Draft, why: &str) -> Self {
+        let line = format!("nothing was worked out: {why}; open the picture again");
+        Self::failed(inputs, Step::Picture, line)
+    }
+
+    /// What was made so far of a file is kept only when the run ends.
+    fn serves(under_way: &Draft, now: &Draft) -> bool {
+        under_way.source == now.source
+    }
+}
+
+/// Runs the stages that are not known from `prior`.
+pub(crate) fn read(
+    inputs: Draft,
+    prior: Option<&Found>,
+    progress: &mut Progress<'_>,
+) -> Result<Found, Cancelled> {
+    let mut found = Found::begun(inputs);
+    match stages(&mut found, prior, progress) {
+        Ok(()) => {}
+        Err(End::Cancelled(cancelled)) => return Err(cancelled),
+        Err(End::Failed(step, line)) => found.failure = Some((step, line)),
+    }
+    Ok(found)
+}
+
+/// A stage of before, if it was made of the same words.
+fn known<T>(
+    prior: Option<&Found>,
+    is_same: impl Fn(&Draft) -> bool,
+    stage: impl Fn(&Found) -> &Option<Arc<T>>,
+) -> Option<Arc<T>> {
+    let prior = prior.filter(|prior| is_same(&prior.inputs))?;
+    stage(prior).clone()
+}
+
+fn stages(
+    found: &mut Found,
+    prior: Option<&Found>,
+    progress: &mut Progress<'_>,
+) -> Result<(), End> {
+    let inputs = found.inputs.clone();
+    progress.step(0.0, "reading the picture")?;
+    let loaded = match known(prior, |of| of.has_same_file(&inputs), |found| &found.loaded) {
+        Some(loaded) => loaded,
+        None => Arc::new(loaded(&inputs)?),
+    };
+    found.loaded = Some(Arc::clone(&loaded));
+    progress.step(0.1, "correlating")?;
+    let correlated = match known(prior, |of| of.has_same_part(&inputs), |f| &f.correlated) {
+        Some(correlated) => correlated,
+        None => Arc::new(correlated(&inputs, &loaded)?),
+    };
+    found.correlated = Some(Arc::clone(&correlated));
+    progress.step(0.5, "fitting the lattice")?;
+    let cloth = match known(prior, |of| of.has_same_tile(&inputs), |found| &found.cloth) {
+        Some(cloth) => cloth,
+        None => Arc::new(cloth(&inputs, &correlated, progress)?),
+    };
+    found.cloth = Some(Arc::clone(&cloth));
+    let Ok(tiled) = &cloth.found else {
+        return Ok(());
+    };
+    progress.step(0.7, "shape from shading")?;
+    let shaped = match known(
+        prior,
+        |of| of.has_same_shape(&inputs),
+        |found| &found.shaped,
+    ) {
+        Some(shaped) => shaped,
+        None => Arc::new(shaped(&inputs, tiled, progress)?),
+    };
+    found.shaped = Some(Arc::clone(&shaped));
+    progress.step(0.9, "drawing the tester over it")?;
+    if inputs.missing().is_none() {
+        found.made = Some(
+            match known(prior, |of| of.has_same_textile(&inputs), |f| &f.made) {
+                Some(made) => made,
+                None => Arc::new(made(&inputs, &loaded, tiled, &shaped)?),
+            },
+        );
+    }
+    progress.step(1.0, "done")?;
+    Ok(())
+}
+
+fn loaded(inputs: &Draft) -> Result<Loaded, End> {
+    let failed = |line: String| End::Failed(Step::Picture, line);
+    let chosen = inputs.source.as_ref();
+    let chosen = chosen.ok_or_else(|| failed("no picture was chosen".to_owned()))?;
+    let file = chosen.file();
+    let bytes = file.bytes().map_err(|line| failed(line.to_owned()))?;
+    let picture = load(bytes, file.file_name()).map_err(|error| failed(error.to_string()))?;
+    Ok(Loaded {
+        sha256: sha256_hex([bytes]),
+        image: images::thumbnail(&picture.luminance),
+        size: [picture.luminance.width(), picture.luminance.height()],
+        picture,
+    })
+}
+
+fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
+    let part = match inputs.part {
+        Part::Whole => Ok(loaded.picture.clone()),
+        Part::Region(region) => loaded.picture.part(region),
+        Part::Corners(corners) => loaded.picture.rectified(corners),
+    };
+    let picture = part.map_err(|error| End::Failed(Step::Picture, error.to_string()))?;
+    let how = if inputs.is_evened {
+        EvenLight::Auto
+    } else {
+        EvenLight::Off
+    };
+    let (luminance, was_evened) = even_light(&picture.luminance, how);
+    let n = luminance.values().len().max(1) as f64;
+    let mean = luminance.values().iter().sum::<f64>() / n;
+    let variance = luminance
+        .values()
+        .iter()
+        .map(|x| (x - mean).powi(2))
+        .sum::<f64>()
+        / n;
+    let looked = Lattice::worth_looking(luminance.width(), luminance.height(), variance);
+    let read = looked.map_err(|reason| reason.to_string()).map(|()| {
+        let rho = Autocorrelation::of(&luminance, n_threads());
+        let maxima = Maxima::of(&rho);
+        let significant = SignificantMaxima::of(&maxima, &rho);
+        (rho, maxima, significant)
+    });
+    Ok(Correlated {
+        picture,
+        luminance,
+        was_evened,
+        read,
+    })
+}
+
+fn cloth(
+    inputs: &Draft,
+    correlated: &Correlated,
+    progress: &mut Progress<'_>,
+) -> Result<Cloth, Cancelled> {
+    let (rho, maxima, significant) = match &correlated.read {
+        Ok(read) => read,
+        Err(reason) => {
+            return Ok(Cloth {
+                correlation: None,
+                maxima: Vec::new(),
+                directions: None,
+                found: Err(reason.clone()),
+                images: None,
+            });
+        }
+    };
+    let options = DirectionOptions {
+        lambda_per_px: inputs.lambda,
+    };
+    let directions = Directions::of(significant, options);
+    let lattice = Lattice::find(rho, maxima, significant, &directions);
+    let luminance = &correlated.luminance;
+    let found = match lattice {
+        Ok(lattice) => {
+            let picture = &correlated.picture;
+            let tiled = Tiled::of(luminance, picture, lattice, n_threads(), progress)?;
+            Ok(Box::new(tiled))
+        }
+        Err(reason) => Err(reason.to_string()),
+    };
+    let images = found.as_deref().ok().map(|tiled| {
+        let corner = tiled.flat_part.map_or([0, 0], |([x, y, ..], _)| [x, y]);
+        let part = images::part(luminance, &tiled.lattice, corner);
+        let [again, rest] = images::synthesized(&part, &tiled.tile, n_threads());
+        [images::with_lattice(&part, &tiled.lattice), again, rest]
+    });
+    let lattice = found.as_deref().ok().map(|tiled| &tiled.lattice);
+    let mut ranked: Vec<_> = significant.all().to_vec();
+    ranked.sort_by(|a, b| b.dominance_px.total_cmp(&a.dominance_px));
+    Ok(Cloth {
+        correlation: Some(images::correlation(rho, lattice)),
+        maxima: ranked.iter().map(|m| (m.place, m.height)).collect(),
+        directions: Some(directions),
+        images,
+        found,
+    })
+}
+
+fn shaped(inputs: &Draft, tiled: &Tiled, progress: &mut Progress<'_>) -> Result<Shaped, End> {
+    let failed = |error: ShadingError| match error {
+        ShadingError::Cancelled(cancelled) => End::Cancelled(cancelled),
+        error => End::Failed(Step::Light, error.to_string()),
+    };
+    // Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
+    let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
+    let brightness = brightness_of(&tiled.tile, px_per_mm, n_threads());
+    let estimate = if inputs.is_light_estimated {
+        Some(brightness.estimated_light().map_err(failed)?)
+    } else {
+        None
+    };
+    let light = estimate
+        .as_ref()
+        .map_or(inputs.light, |estimate| estimate.light);
+    let options = ShadingOptions {
+        method: inputs.method,
+        ..ShadingOptions::default()
+    };
+    let shape = shape_of(&brightness, light, &options, progress).map_err(failed)?;
+    Ok(Shaped {
+        brightness,
+        shape,
+        light,
+        estimate,
+    })
+}
+
+fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Result<Made, End> {
+    let failed = |error: TextileError| End::Failed(Step::Felt, error.to_string());
+    let file = inputs.source.as_ref().map(|chosen| chosen.file().name());
+    let px_per_mm = inputs.px_per_mm().unwrap_or_default();
+    let about = PictureTextile {
+        name: inputs.final_name(),
+        construction: Construction::Other,
+        px_per_mm,
+        scale: inputs.height_scale().unwrap_or_default(),
+        picture: file.map(|name| [name, loaded.sha256.clone()]),
+        light_is_estimated: shaped.estimate.is_some(),
+        representation: inputs.representation,
+        ..PictureTextile::default()
+    };
+    let (shape, brightness) = (&shaped.shape, &shaped.brightness);
+    let files = textile_of(shape, brightness, &tiled.tile, &about).map_err(failed)?;
+    let text = |name: &str| {
+        let file = files.iter().find(|file| file.name == name)?;
+        String::from_utf8(file.bytes.clone()).ok()
+    };
+    let manifest = text("textile.toml").unwrap_or_default();
+    let manifest = Manifest::from_toml(&manifest, Path::new("textile.toml")).map_err(failed)?;
+    let relief_um = match &manifest.source {
+        Source::Picture(keys) => keys.relief_um,
+        _ => 0.0,
+    };
+    let mut profiles = Vec::new();
+    for direction in Direction::ALL {
+        let name = format!("{}.csv", direction.key());
+        if let Some(text) = text(&name) {
+            let profile = read_profile(&text, Path::new(&name)).map_err(failed)?;
+            profiles.push((direction, profile.heights_um().to_vec(), profile.step_mm()));
+        }
+    }
+    let map = map_of(shape, brightness, (relief_um, px_per_mm));
+    let map = map.map_err(|error| End::Failed(Step::Felt, error.to_string()))?;
+    Ok(Made {
+        relief: Relief3d::of(&map),
+        relief_um,
+        smd_um: manifest.measured.get("smd_um").copied().unwrap_or_default(),
+        profiles,
+        textile: Arc::new(vec![NewTextile {
+            id: inputs.id(),
+            name: about.name,
+            files,
+        }]),
+    })
+}
+
+/// The heights as the textile has them.
+fn map_of(
+    shape: &Shape,
+    brightness: &Brightness,
+    (relief_um, px_per_mm): (f64, f64),
+) -> Result<HeightMap, selvedge_textile::surface::SurfaceError> {
+    let [low, high] = shape.range_px();
+    let mut heights_um = shape.height_px.clone();
+    for height in heights_um.values_mut() {
+        *height *= relief_um / (high - low);
+    }
+    let n = [heights_um.width() as f64, heights_um.height() as f64];
+    let step_mm = [0, 1].map(|axis| brightness.size_px[axis] / n[axis] / px_per_mm);
+    HeightMap::new(heights_um, step_mm)
+}

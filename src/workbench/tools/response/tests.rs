@@ -1,0 +1,190 @@
+//! The pane under the hands of a simulated user, empty and loaded.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use super::*;
+use crate::bench::command::Command;
+use crate::tools::response::curves::Wanted;
+use selvedge_render::RenderScene;
+use selvedge_render::array::{ContactInspector, TextileResponse};
+use selvedge_render::scene::LoadedScene;
+
+struct Bench {
+    response: TextileResponse,
+    curves: Curves,
+    probe: Probe,
+    wishes: Wishes,
+    rotation_deg: f64,
+}
+
+fn bench() -> Bench {
+    let scene = RenderScene::of(&LoadedScene::shipped().unwrap());
+    let response = ContactInspector::new(&scene).response(0).unwrap();
+    Bench {
+        response,
+        curves: Curves::default(),
+        probe: Probe::default().with_direction(30.0),
+        wishes: Wishes::new(),
+        rotation_deg: 0.0,
+    }
+}
+
+fn window(bench: Bench) -> Harness<'static, Bench> {
+    let mut is_styled = false;
+    let show_bench = move |ui: &mut Ui, bench: &mut Bench| {
+        if !is_styled {
+            theme::install(ui.ctx());
+            is_styled = true;
+        }
+        let points = bench.response.points_at([20.0, 30.0]);
+        let wanted = Wanted {
+            response: bench.response.clone(),
+            points: Some(points),
+            probe: bench.probe,
+        };
+        bench.curves.catch_up(ui.ctx(), wanted, true);
+        let view = ResponseView {
+            textile: "1 Silk",
+            rotation_deg: bench.rotation_deg,
+            factors: bench.response.factors(),
+            place: Some((9, points)),
+            curves: &bench.curves,
+            probe: bench.probe,
+            moving: Some(Velocity::new(30.0, -40.0)),
+            scale: AmplitudeScale::default(),
+        };
+        let mut wishes = Wishes::new();
+        show(ui, Some(&view), &mut wishes);
+        for wish in &wishes {
+            if let Command::Show(ShowCommand::Probe(probe)) = wish {
+                bench.probe = *probe;
+            }
+        }
+        bench.wishes.extend(wishes);
+    };
+    Harness::builder()
+        .with_size(vec2(480.0, 216.0))
+        .build_ui_state(show_bench, bench)
+}
+
+#[test]
+fn dragging_in_the_polar_plot_chooses_the_direction_and_in_the_other_the_speed() {
+    let mut harness = window(bench());
+    harness.run();
+    let n_first = harness.state().curves.n_computed();
+    let dial = harness.get_by_role_and_label(Role::Slider, "Direction of movement");
+    let rect = dial.rect();
+    let above = rect.center() - vec2(0.0, 0.3 * rect.height());
+    harness.drag_at(above);
+    harness.run();
+    assert_eq!(harness.state().probe.direction_deg, 90.0, "straight up");
+    harness.hover_at(rect.center() - vec2(40.0, 0.0));
+    harness.run();
+    harness.drop_at(rect.center() - vec2(40.0, 0.0));
+    harness.run();
+    assert_eq!(
+        harness.state().probe.direction_deg,
+        180.0,
+        "dragged to the left"
+    );
+    let speeds = harness.get_by_role_and_label(Role::Slider, "Speed of movement");
+    let rect = speeds.rect();
+    let at = rect.center() - vec2(30.0, 0.0);
+    harness.drag_at(at);
+    harness.run();
+    harness.drop_at(at);
+    harness.run();
+    let probe = harness.state().probe;
+    assert!(
+        probe.speed_mm_per_s > 2.0 && probe.speed_mm_per_s < 60.0,
+        "{probe:?}"
+    );
+    assert_eq!(probe.direction_deg, 180.0, "the other plot keeps its own");
+    assert!(harness.state().curves.n_computed() > n_first, "asked anew");
+    let n_before = harness.state().curves.n_computed();
+    harness.run_steps(5);
+    assert_eq!(harness.state().curves.n_computed(), n_before, "still");
+}
+
+#[test]
+fn keys_and_assistive_tools_choose_too() {
+    let mut harness = window(bench());
+    harness.run();
+    harness
+        .get_by_role_and_label(Role::Slider, "Direction of movement")
+        .focus();
+    harness.run();
+    harness.key_press(Key::ArrowLeft);
+    harness.run();
+    assert_eq!(harness.state().probe.direction_deg, 35.0);
+    harness
+        .get_by_role_and_label(Role::Slider, "Speed of movement")
+        .set_value_accesskit(250.0);
+    harness.run();
+    assert_eq!(harness.state().probe.speed_mm_per_s, 250.0);
+}
+
+#[test]
+fn a_place_in_the_polar_plot_and_its_direction_undo_each_other() {
+    let bench = bench();
+    let curves = Curves::default();
+    let view = ResponseView {
+        textile: "",
+        rotation_deg: 23.0,
+        factors: [1.0; 2],
+        place: None,
+        curves: &curves,
+        probe: bench.probe,
+        moving: None,
+        scale: AmplitudeScale::default(),
+    };
+    let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(200.0, 180.0));
+    let plot = polar::Plot::new(rect, &view);
+    for direction_deg in [-170.0, -90.0, 0.0, 45.0, 133.0] {
+        let found = plot.direction_deg(plot.at(direction_deg, 10.0)).unwrap();
+        assert!((found - direction_deg).abs() < 1e-3, "{found}");
+    }
+    assert_eq!(plot.direction_deg(rect.center()), None);
+    for silent in [f64::NEG_INFINITY, f64::NAN, -400.0] {
+        assert_eq!(plot.at(45.0, silent), rect.center(), "{silent}");
+    }
+    let plot = over_speed::Plot::new(rect, &view);
+    for speed in [1.0, 87.0, 2000.0] {
+        let found = plot.speed_mm_per_s(plot.x(speed));
+        assert!((found / speed - 1.0).abs() < 1e-4, "{found}");
+    }
+}
+
+#[test]
+fn nothing_odd_harms_the_pane() {
+    let mut harness = Harness::builder()
+        .with_size(vec2(400.0, 200.0))
+        .build_ui(|ui| {
+            let curves = Curves::default();
+            let odd = ResponseView {
+                textile: "",
+                rotation_deg: f64::NAN,
+                factors: [f64::INFINITY, 0.0],
+                place: None,
+                curves: &curves,
+                probe: Probe::default(),
+                moving: Some(Velocity::new(f64::NAN, f64::INFINITY)),
+                scale: AmplitudeScale::default(),
+            };
+            show(ui, None, &mut Wishes::new());
+            show(ui, Some(&odd), &mut Wishes::new());
+        });
+    harness.run();
+    for size in [vec2(30.0, 20.0), vec2(1000.0, 40.0), vec2(60.0, 900.0)] {
+        let mut harness = window(Bench {
+            rotation_deg: 300.0,
+            ..bench()
+        });
+        harness.set_size(size);
+        harness.run();
+        assert!(harness.state().wishes.is_empty(), "{size:?}");
+    }
+}

@@ -1,0 +1,212 @@
+//! The contact spectrogram: the vibration that arrives at the selected contactor, over felt time.
+//!
+//! What arrives are the surface's heights as the contactor's motion turns them into vibration,
+//! before filters and gains. The two filters stand beside it on the same frequency axis.
+
+use eframe::egui::{
+    self, Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
+};
+
+use crate::bench::signals::contact::ContactColumns;
+use crate::bench::signals::history::History;
+use crate::kit::spectrogram;
+use crate::kit::spectrogram::{ColourScale, Layout, ShownColumn, Under, Waterfall};
+use crate::kit::theme::Palette;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use selvedge_foundation::quantity;
+use selvedge_render::array::ContactInspector;
+use selvedge_textile::tactile::{Band, Filters};
+
+/// Ends of the colour scale, dB re 1 µm.
+pub(crate) const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
+/// Width of the filters' strip, points.
+const STRIP: f32 = 40.0;
+/// The same where the pane is narrow.
+const NARROW_STRIP: f32 = 28.0;
+
+/// What the pane shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ContactSpectrumView<'a> {
+    /// The last seconds.
+    pub(crate) history: &'a History,
+    /// The contactor of the first display.
+    pub contactor: usize,
+    /// The filters of the two bands.
+    pub filters: &'a Filters,
+    /// The colours of levels.
+    pub map: ColourMap,
+    /// Changes when the textiles, their places or the displays change; not with gains or filters,
+    /// which come after what is shown.
+    pub scene_serial: u64,
+}
+
+/// What a spectrogram is made for: history, scene, contactor, colours.
+type Key = (u64, u64, usize, ColourMap);
+
+/// The columns that were computed and the texture that holds them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactSpectrogram {
+    waterfall: Waterfall<Key>,
+    columns: ContactColumns,
+}
+
+impl ContactSpectrogram {
+    /// Columns computed so far: it stands still while nothing moves or nobody looks.
+    pub(crate) fn n_columns_computed(&self) -> u64 {
+        self.waterfall.ring.n_columns_computed()
+    }
+
+    /// How often its texture was written.
+    #[cfg(test)]
+    pub(crate) fn n_uploads(&self) -> u64 {
+        self.waterfall.image.n_uploads()
+    }
+
+    /// The columns that are shown, old to new, all of them caught up.
+    pub(crate) fn shown(
+        &mut self,
+        ctx: &egui::Context,
+        inspector: &mut ContactInspector,
+        view: &ContactSpectrumView<'_>,
+    ) -> Vec<ShownColumn> {
+        while self.catch_up(ctx, inspector, view) {}
+        self.waterfall.shown(view.history)
+    }
+
+    /// Computes what is new, as much as one frame may; says whether more is due.
+    fn catch_up(
+        &mut self,
+        ctx: &egui::Context,
+        inspector: &mut ContactInspector,
+        view: &ContactSpectrumView<'_>,
+    ) -> bool {
+        let ContactSpectrumView {
+            history, contactor, ..
+        } = *view;
+        let key = (history.n_clears(), view.scene_serial, contactor, view.map);
+        let colour = |level_db: f32| view.map.colour(share_of(level_db));
+        let columns = &mut self.columns;
+        let name = (ctx, "contact spectrogram");
+        self.waterfall
+            .catch_up(name, (history, key), colour, |entry, levels_db| {
+                columns.levels_db(inspector, contactor, &entry.glimpse.pose, levels_db);
+            })
+    }
+}
+
+/// Shows the spectrogram in the space that is left; `inspector` is the scene's.
+pub(crate) fn show(
+    ui: &mut Ui,
+    state: &mut ContactSpectrogram,
+    inspector: &mut ContactInspector,
+    view: &ContactSpectrumView<'_>,
+) {
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    let name = format!(
+        "Contact spectrum of contactor {} over time, 10 Hz to 1 kHz",
+        view.contactor
+    );
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
+    let strip = if rect.width() < 340.0 {
+        NARROW_STRIP
+    } else {
+        STRIP
+    };
+    let Some(layout) = Layout::of(rect, strip) else {
+        return;
+    };
+    state.catch_up(ui.ctx(), inspector, view);
+    let Waterfall { ring, image, .. } = &state.waterfall;
+    let painter = ui.painter();
+    spectrogram::paint(painter, &layout, (ring, image), &scale(view.map));
+    if view.history.newest().is_none() {
+        let words = "Move over a textile: what arrives at the contactor is drawn here";
+        spectrogram::paint_sentence(painter, layout.picture, words);
+    }
+    paint_filters(painter, layout.strip, view.filters);
+    let pointer = response.hover_pos();
+    if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
+        response.on_hover_text_at_pointer(filter_words(layout.strip, at, view.filters));
+    } else if let Some(under) = pointer.and_then(|at| state.waterfall.read(&layout, at)) {
+        spectrogram::tell(ui, response, &layout, || words_of(&under));
+    }
+}
+
+/// Where a level stands on the colour scale, 0…1.
+pub(crate) fn share_of(level_db: f32) -> f64 {
+    let [least_db, most_db] = LEVELS_DB;
+    (f64::from(level_db) - least_db) / (most_db - least_db)
+}
+
+fn scale(map: ColourMap) -> ColourScale {
+    let levels_db = Axis::linear(LEVELS_DB[0], LEVELS_DB[1]);
+    let mark = |tick: Tick| Tick {
+        value: levels_db.share(tick.value),
+        ..tick
+    };
+    ColourScale {
+        map,
+        marks: levels_db.ticks(4.0, 1.0).into_iter().map(mark).collect(),
+        unit: "dB re 1 µm",
+    }
+}
+
+fn words_of(under: &Under) -> String {
+    let level = match under.value {
+        None => "nothing was felt".to_owned(),
+        Some(level_db) if level_db < -300.0 => "nothing arrives".to_owned(),
+        Some(level_db) => quantity::with_unit(f64::from(level_db), 1, "dB re 1 µm"),
+    };
+    format!(
+        "{}\n{level}\nPeak amplitude of a row 4.9 % of the frequency wide, at the surface: before \
+         filters and gains. The power of each bin of the spatial spectrum is spread evenly over \
+         its width, Δf = speed × 0.23 cycles/mm.",
+        spectrogram::place_words(under)
+    )
+}
+
+fn filter_words(strip: Rect, at: Pos2, filters: &Filters) -> String {
+    let frequency_hz = spectrogram::frequency_axis().value_at_y(strip.y_range(), at.y);
+    let gain = |band| quantity::fixed(filters.gain(band, frequency_hz), 2);
+    format!(
+        "Filters at {}\n40 Hz  {}\n320 Hz  {}\namplitude gain",
+        quantity::with_unit(frequency_hz, 0, "Hz"),
+        gain(Band::Low),
+        gain(Band::High)
+    )
+}
+
+/// Draws both filters upright: gain 0…1 to the right, frequency as in the picture beside.
+fn paint_filters(painter: &Painter, strip: Rect, filters: &Filters) {
+    let palette = Palette::of(painter.ctx().theme());
+    painter.rect_filled(strip, 0, palette.floor);
+    let frequencies = spectrogram::frequency_axis();
+    let gains = Axis::linear(0.0, 1.0);
+    let clip = painter.with_clip_rect(strip.expand(1.0));
+    for band in Band::ALL {
+        let ink = palette.band(band);
+        let carrier_y = frequencies.y(strip.y_range(), band.carrier_hz());
+        let carrier_y = painter.round_to_pixel_center(carrier_y);
+        clip.hline(strip.x_range(), carrier_y, Stroke::new(1.0, faint(ink)));
+        let points = (0..=96_u8).map(|i| {
+            let frequency_hz = frequencies.value(f64::from(i) / 96.0);
+            let gain = filters.gain(band, frequency_hz);
+            pos2(
+                gains.x(strip.x_range(), gain),
+                frequencies.y(strip.y_range(), frequency_hz),
+            )
+        });
+        clip.add(Shape::line(points.collect(), Stroke::new(1.5, ink)));
+    }
+    let most = [Tick::number(1.0)];
+    paint_outer_ticks(painter, strip, (&gains, Side::Bottom), &most);
+    let unit_at = pos2(strip.center().x, strip.top() - 6.0);
+    if strip.width() >= STRIP {
+        paint_unit(painter, unit_at, Align2::CENTER_BOTTOM, "gain");
+    }
+}
+
+fn faint(ink: Color32) -> Color32 {
+    ink.gamma_multiply(0.4)
+}

@@ -1,0 +1,184 @@
+//! The controls of the bar: record, play, step, rewind, loop; the source; files.
+
+use eframe::egui::{Align, Layout, Ui, vec2};
+
+use crate::bench::command::{Command, FileCommand, PlayCommand, PlaySource, Purpose, Wishes};
+use crate::kit::theme::STEP;
+use crate::kit::widgets::text::button;
+use crate::shell::keys::hint;
+use crate::tools::timeline::TransportView;
+use crate::tools::timeline::icons::{Face, Icon, icon_button, segments};
+
+/// Why recording is not to be had.
+const STOPPED: &str = "Everything is off: arm first";
+/// Why there is nothing to step through.
+const LIVE: &str = "The pointer cannot be stepped or rewound: choose By itself or Recording";
+
+/// Shows the controls.
+pub(crate) fn show(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+    ui.spacing_mut().item_spacing = vec2(STEP, 2.0 * STEP);
+    ui.add_space(STEP);
+    ui.horizontal(|ui| {
+        show_buttons(ui, view, wishes);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            show_files(ui, view, wishes);
+        });
+    });
+    show_sources(ui, view, wishes);
+}
+
+fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+    let is_recording = view.recorded_ticks.is_some();
+    let icon = Icon::Record {
+        is_on: is_recording,
+    };
+    let (label, what) = if is_recording {
+        ("End recording", "End the recording and keep it at hand")
+    } else {
+        (
+            "Record",
+            "Record the exploration, whatever moves the display",
+        )
+    };
+    let refusal = (view.is_stopped && !is_recording).then_some(STOPPED);
+    let act = Act::new(icon, label, what, refusal);
+    act.show(ui, PlayCommand::ToggleRecording, Some(is_recording), wishes);
+    let act = play_act(view);
+    act.show(ui, PlayCommand::Toggle, None, wishes);
+    let refusal = view.is_live().then_some(LIVE);
+    let act = Act::new(Icon::Step, "Step", "Play one tick, then hold", refusal);
+    act.show(ui, PlayCommand::Step, None, wishes);
+    let act = Act::new(Icon::Rewind, "Rewind", "Back to the first tick", refusal);
+    act.show(ui, PlayCommand::Rewind, None, wishes);
+    let what = if view.does_loop {
+        "Stop at the end instead of beginning again"
+    } else {
+        "Begin again at the end"
+    };
+    let refusal = refusal.map(|_| "The pointer has no end: choose By itself or Recording");
+    let act = Act::new(Icon::Loop, "Loop", what, refusal);
+    let toggled = PlayCommand::Loop(!view.does_loop);
+    act.show(ui, toggled, Some(view.does_loop), wishes);
+}
+
+fn play_act(view: &TransportView<'_>) -> Act {
+    if view.is_running() {
+        let what = "Hold: silent, the screen keeps what it showed";
+        return Act::new(Icon::Pause, "Pause", what, None);
+    }
+    let what = match view.source {
+        PlaySource::Pointer | PlaySource::Input => "Let the display explore by itself",
+        PlaySource::Stroke => "Go on exploring",
+        PlaySource::Recording => "Replay the recording",
+    };
+    Act::new(Icon::Play, "Play", what, None)
+}
+
+fn show_files(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+    let mut ask = |ui: &mut Ui, text: &str, what: &str, purpose, refusal| {
+        let command: Command = FileCommand::Ask(purpose).into();
+        if button(ui, text, &tip(ui, what, &command), refusal) {
+            wishes.push(command);
+        }
+    };
+    let (what, refusal) = match view.take {
+        _ if view.recorded_ticks.is_some() => (String::new(), Some("End the recording first")),
+        None => (String::new(), Some("Nothing was recorded yet")),
+        Some(take) if take.file().is_some() => {
+            (format!("Save {} under another name", take.name()), None)
+        }
+        Some(_) => (
+            "Save the recording, which is in no file yet".to_owned(),
+            None,
+        ),
+    };
+    // From right to left.
+    ask(ui, "Save…", &what, Purpose::SaveRecording, refusal);
+    let what = "Open a recorded exploration to replay";
+    ask(ui, "Open…", what, Purpose::OpenRecording, None);
+}
+
+fn show_sources(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+    let none = view
+        .take
+        .is_none()
+        .then_some("There is no recording: record one or open one");
+    let replay = view.take.map(|take| match take.file() {
+        Some(file) => format!("Replay {}", file.display()),
+        None => "Replay the new recording, which is in no file yet".to_owned(),
+    });
+    let pointer = "The display follows the pointer".to_owned();
+    let stroke = "The display explores by itself, in a circle".to_owned();
+    let input = view.input.unwrap_or_default();
+    let input = format!("The display follows {input}");
+    let unchosen = view
+        .input
+        .is_none()
+        .then_some("Choose a tablet or program in the Bridge pane");
+    let parts = [
+        ("Pointer", pointer, None),
+        ("By itself", stroke, None),
+        ("Recording", replay.unwrap_or_default(), none),
+        ("Input", input, unchosen),
+    ];
+    let sources = [
+        PlaySource::Pointer,
+        PlaySource::Stroke,
+        PlaySource::Recording,
+        PlaySource::Input,
+    ];
+    let chosen = sources.iter().position(|source| *source == view.source);
+    if let Some(index) = segments(ui, ui.available_width(), &parts, chosen.unwrap_or(0)) {
+        wishes.push(PlayCommand::Source(sources[index]).into());
+    }
+}
+
+/// A button with a sign: what it is called, what it does or why it does nothing.
+struct Act {
+    icon: Icon,
+    label: &'static str,
+    what: &'static str,
+    refusal: Option<&'static str>,
+}
+
+impl Act {
+    fn new(
+        icon: Icon,
+        label: &'static str,
+        what: &'static str,
+        refusal: Option<&'static str>,
+    ) -> Self {
+        Self {
+            icon,
+            label,
+            what,
+            refusal,
+        }
+    }
+
+    /// Shows it; wishes for the command when it is pressed.
+    fn show(self, ui: &mut Ui, command: PlayCommand, is_on: Option<bool>, wishes: &mut Wishes) {
+        let command: Command = command.into();
+        let face = Face {
+            icon: self.icon,
+            label: self.label,
+            tip: self
+                .refusal
+                .map_or_else(|| tip(ui, self.what, &command), str::to_owned),
+            is_enabled: self.refusal.is_none(),
+        };
+        if icon_button(ui, face, is_on) {
+            wishes.push(command);
+        }
+    }
+}
+
+/// What it does, and its key if it has one.
+fn tip(ui: &Ui, what: &str, command: &Command) -> String {
+    let key = hint(ui.ctx(), command);
+    if key.is_empty() {
+        what.to_owned()
+    } else {
+        format!("{what} ({key})")
+    }
+}

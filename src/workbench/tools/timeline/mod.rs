@@ -1,0 +1,187 @@
+//! The bar at the bottom: what moves the display, recording and replay, and the exploration over
+//! time.
+//!
+//! Left the controls, in the middle the timeline, right the numbers. It plays, records and seeks
+//! nothing itself: it says what the user wants.
+
+pub(crate) mod controls;
+pub(crate) mod export;
+pub(crate) mod felt;
+pub(crate) mod icons;
+pub(crate) mod live;
+pub(crate) mod picture;
+pub(crate) mod plot;
+pub(crate) mod strip;
+#[cfg(test)]
+#[cfg(test)]
+mod tests;
+pub(crate) mod timeline;
+
+use std::fmt;
+
+use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use crate::bench::command::{PlaySource, Wishes};
+use crate::bench::export::Exportable;
+use crate::bench::export::button::{place_in, show as show_export};
+use crate::bench::recording::Take;
+use crate::bench::signals::history::History;
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::tools::timeline::picture::Picture;
+use selvedge_foundation::quantity;
+
+/// Height of the bar without its margins, points.
+pub(crate) const HEIGHT: f32 = 68.0;
+/// Width of the controls, points.
+const CONTROLS: f32 = 304.0;
+/// Width of the numbers, points.
+const NUMBERS: f32 = 116.0;
+/// Time between two ticks, ms.
+const TICK_MS: u64 = 25;
+
+/// What the bar shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TransportView<'a> {
+    /// What moves the display.
+    pub source: PlaySource,
+    /// The tablet or program that was chosen.
+    pub input: Option<&'a str>,
+    /// Whether a recording or stroke moves on at the next tick.
+    pub is_playing: bool,
+    /// Whether a recording or stroke begins again at its end.
+    pub does_loop: bool,
+    /// Whether everything was switched off and nothing was armed since.
+    pub is_stopped: bool,
+    /// Ticks recorded so far; `None` when nothing records.
+    pub(crate) recorded_ticks: Option<u64>,
+    /// The tick of the recording or stroke that is shown.
+    pub tick: u64,
+    /// How fast the display moves, mm/s.
+    pub speed_mm_per_s: f64,
+    /// The recording at hand.
+    pub take: Option<&'a Take>,
+    /// What was felt last.
+    pub live: &'a History,
+}
+
+/// What the bar remembers from frame to frame.
+#[derive(Default)]
+pub(crate) struct TransportState {
+    picture: Option<Picture>,
+    /// The tick that was asked for last in the drag that goes on.
+    asked: Option<u64>,
+}
+
+impl TransportView<'_> {
+    /// The take that the timeline shows: the one that moves the display. While something is
+    /// recorded, the timeline shows what is felt.
+    fn shown_take(&self) -> Option<&Take> {
+        let is_shown = self.source == PlaySource::Recording && self.recorded_ticks.is_none();
+        self.take.filter(|_| is_shown)
+    }
+
+    /// Whether positions come as they happen.
+    fn is_live(&self) -> bool {
+        matches!(self.source, PlaySource::Pointer | PlaySource::Input)
+    }
+
+    /// Whether something runs that could be held.
+    fn is_running(&self) -> bool {
+        self.is_playing && !self.is_live()
+    }
+
+    /// The tick that the numbers show, and what it counts.
+    fn counted(&self) -> (u64, &'static str) {
+        if let Some(n_ticks) = self.recorded_ticks {
+            return (n_ticks, "Ticks recorded, 25 ms each");
+        }
+        match self.source {
+            PlaySource::Pointer | PlaySource::Input => {
+                let newest = self.live.newest();
+                let tick = newest.map_or(0, |entry| entry.glimpse.tick);
+                (
+                    tick,
+                    "The last tick in which something moved, since the program started",
+                )
+            }
+            PlaySource::Stroke => (self.tick, "The tick of the stroke, 25 ms each"),
+            PlaySource::Recording => (self.tick, "The tick of the recording, 25 ms each"),
+        }
+    }
+}
+
+/// Shows the bar in the width that there is.
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &TransportView<'_>,
+    state: &mut TransportState,
+    wishes: &mut Wishes,
+) {
+    let size = vec2(ui.available_width(), HEIGHT);
+    let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
+    let (controls, rest) = bar.split_left_right_at_x(bar.left() + CONTROLS);
+    let (middle, numbers) = rest.split_left_right_at_x(rest.right() - NUMBERS);
+    ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| {
+        controls::show(ui, view, wishes);
+    });
+    let timeline = Rect::from_min_max(
+        pos2(middle.left() + 3.0 * STEP, middle.top()),
+        pos2(middle.right() - 4.0 * STEP, middle.bottom()),
+    );
+    timeline::show(ui, timeline, view, state, wishes);
+    // It stands a little above the bar's content, which must not grow by it.
+    let export = UiBuilder::new().max_rect(place_in(timeline));
+    show_export(&mut ui.new_child(export), Exportable::Timeline, wishes);
+    show_numbers(ui, numbers, view);
+}
+
+/// Time, tick and speed in digits that stand still.
+fn show_numbers(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
+    let palette = Palette::in_ui(ui);
+    let (tick, what) = view.counted();
+    let time = quantity::clock(tick * TICK_MS);
+    let response = ui.interact(
+        rect,
+        ui.scope_id().with("transport numbers"),
+        Sense::hover(),
+    );
+    response.widget_info(|| {
+        let speed = quantity::with_unit(view.speed_mm_per_s, 1, "mm/s");
+        let words = format!("Time {time}, tick {tick}, speed {speed}");
+        WidgetInfo::labeled(egui::Role::Label, true, words)
+    });
+    let painter = ui.painter();
+    let large = FontId::monospace(theme::title().size);
+    let at = pos2(rect.right(), rect.top() + 14.0);
+    painter.text(at, Align2::RIGHT_CENTER, time, large, palette.text);
+    let rows = [
+        ("tick", tick.to_string(), ""),
+        ("speed", quantity::fixed(view.speed_mm_per_s, 1), "mm/s"),
+    ];
+    for ((name, digits, unit), y) in rows.into_iter().zip([38.0, 56.0]) {
+        let y = rect.top() + y;
+        let dim = |x: f32, anchor: Align2, words: &str| {
+            painter.text(pos2(x, y), anchor, words, theme::small(), palette.dim);
+        };
+        dim(rect.left(), Align2::LEFT_CENTER, name);
+        dim(rect.right(), Align2::RIGHT_CENTER, unit);
+        let right = pos2(rect.right() - if unit.is_empty() { 0.0 } else { 30.0 }, y);
+        painter.text(
+            right,
+            Align2::RIGHT_CENTER,
+            digits,
+            theme::number(),
+            palette.text,
+        );
+    }
+    response.on_hover_text(format!("{what}\nSpeed of the middle of the display"));
+}
+
+impl fmt::Debug for TransportState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("TransportState")
+            .field("asked", &self.asked)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,287 @@
+//! Gains, compression and what it does to the library, and the filters in force.
+
+pub(crate) mod curve;
+pub(crate) mod export;
+
+use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
+
+use crate::bench::command::edit::Edit;
+use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::mute_solo::Audition;
+use crate::bench::perceptual_level::{SOURCE, above_words, felt_words, noticed_db, of_textile};
+use crate::bench::view::{Live, SceneView};
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::slider::{slider_row, tip_beside};
+use crate::kit::widgets::text::{row, toggle};
+use selvedge_foundation::quantity;
+use selvedge_textile::tactile::{Band, Filters, Perception, Tuning};
+
+/// What every slider can do.
+const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on the number types";
+/// Bounds of the filters' width, octaves.
+const OCTAVES: [f64; 2] = [0.5, 6.0];
+
+/// Shows the pane.
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    audition: &Audition,
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let (now, rest) = (scene.tuning, scene.default_tuning);
+    let under = live.cloth_under_display();
+    let felt = under.and_then(|cloth| of_textile(scene, cloth, live.dots.len()));
+    let marked = last_felt(ui, felt);
+    let noticed = marked.and_then(|felt| noticed_db(&felt, None));
+    let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
+    let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
+    tip_beside(ui, &response, slider_tip(noticed));
+    wishes.extend(new.map(|db| Edit::MasterGain(db).into()));
+    for band in Band::ALL {
+        let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
+        show_band(ui, band, noticed, (scene, audition), wishes);
+    }
+    show_textile(ui, scene, (under, noticed), wishes);
+    show_felt(ui, felt.as_ref());
+    let scale = Scale::share(rest.compression);
+    let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
+    let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
+    tip_beside(ui, &response, tip);
+    wishes.extend(new.map(|share| Edit::Compression(share).into()));
+    curve::show(ui, scene, wishes);
+    show_ranges(ui, scene);
+    ui.add_space(theme::STEP);
+    show_filters(ui, scene.filters, wishes);
+}
+
+/// A band's own gain, without the master's, dB.
+fn own_gain_db(tuning: &Tuning, band: Band) -> f64 {
+    match band {
+        Band::Low => tuning.gain_40_db,
+        Band::High => tuning.gain_320_db,
+    }
+}
+
+/// A band's gain, with its mute and solo.
+fn show_band(
+    ui: &mut Ui,
+    band: Band,
+    noticed: Option<f64>,
+    (scene, audition): (&SceneView, &Audition),
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
+    let scale = Scale::gain(own_gain_db(&scene.default_tuning, band)).with_noticed(noticed);
+    let ink = palette.band(band);
+    let value = own_gain_db(&scene.tuning, band);
+    let (new, response) = slider_row(ui, &name, ink, scale, value);
+    wishes.extend(new.map(|db| Edit::BandGain(band, db).into()));
+    // Mute and solo stand between the name and the rail.
+    let part = Part::Band(band);
+    let middle = response.rect.left_center();
+    let letters = [
+        ("M", -42.0, audition.is_muted(part), ShowCommand::Mute(part)),
+        ("S", -22.0, audition.is_solo(part), ShowCommand::Solo(part)),
+    ];
+    for (letter, left, is_on, command) in letters {
+        let corner = middle + vec2(left, -9.0);
+        let rect = Rect::from_min_size(corner, vec2(18.0, 18.0));
+        let label = match letter {
+            "M" => format!("Mute {name}"),
+            _ => format!("Feel {name} alone"),
+        };
+        let mut corner_ui = ui.new_child(UiBuilder::new().max_rect(rect));
+        if toggle(&mut corner_ui, letter, is_on, &label) {
+            wishes.push(command.into());
+        }
+    }
+    tip_beside(ui, &response, slider_tip(noticed));
+}
+
+/// How the textile felt that is under the display or was last, so that marks do not come and go
+/// while the display moves over gaps.
+fn last_felt(ui: &Ui, felt: Option<Perception>) -> Option<Perception> {
+    let id = ui.scope_id().with("last felt");
+    let Some(felt) = felt else {
+        return ui.data(|data| data.get_temp(id));
+    };
+    ui.data_mut(|data| data.insert_temp(id, felt));
+    Some(felt)
+}
+
+/// What a gain's slider can do, and what its marks are.
+fn slider_tip(noticed_db: Option<f64>) -> String {
+    noticed_db.map_or_else(
+        || SLIDER_TIP.to_owned(),
+        |noticed_db| {
+            let change = quantity::with_unit(noticed_db, 1, "dB");
+            format!("{SLIDER_TIP}\nMarks: ±1, 2 … just noticeable differences of {change}, a model")
+        },
+    )
+}
+
+/// How the textile under the display feels on average; without one the row keeps its place.
+fn show_felt(ui: &mut Ui, felt: Option<&Perception>) {
+    let palette = Palette::in_ui(ui);
+    let small = |words: &str| RichText::new(words).font(theme::small()).color(palette.dim);
+    let response = row(ui, "Felt (model)", |ui| {
+        ui.spacing_mut().item_spacing.x = theme::STEP;
+        let Some(felt) = felt else {
+            ui.label(small("no textile with a level"));
+            return;
+        };
+        let balance = felt.balance().map_or_else(
+            || "–".to_owned(),
+            |balance| quantity::fixed(balance * 100.0, 0),
+        );
+        let number = |words: String| RichText::new(words).font(theme::number());
+        ui.label(small("%"));
+        ui.label(number(format!("{balance:>3}")));
+        let intensity = quantity::fixed(felt.intensity(), 1);
+        ui.label(number(format!("{intensity:>4}")));
+        ui.label(small("int."));
+        ui.label(small("dB SL"));
+        for band in [Band::High, Band::Low] {
+            let above_db = quantity::fixed(felt.sensation_db[band.index()], 1);
+            let words = number(format!("{above_db:>5}"));
+            ui.label(words.color(palette.band(band)));
+        }
+    });
+    let words = felt.map_or_else(String::new, |felt| {
+        let [low, high] = felt.sensation_db.map(above_words);
+        format!("40 Hz  {low}\n320 Hz  {high}\n{}\n", felt_words(felt))
+    });
+    response.on_hover_text(format!(
+        "The textile under the display, on average at 100 mm/s with these gains: levels above \
+         threshold, intensity, share of the 320 Hz channel\n{words}{SOURCE}"
+    ));
+}
+
+/// The gain of the textile under the display; without one the row keeps its place.
+fn show_textile(
+    ui: &mut Ui,
+    scene: &SceneView,
+    (under, noticed): (Option<usize>, Option<f64>),
+    wishes: &mut Wishes,
+) {
+    let palette = Palette::in_ui(ui);
+    let Some((index, cloth)) = under.and_then(|i| scene.cloths.get(i).map(|cloth| (i, cloth)))
+    else {
+        row(ui, "Textile", |ui| {
+            ui.label(RichText::new("none under the display").color(palette.dim));
+        });
+        ui.add_space(theme::ROW - 20.0);
+        return;
+    };
+    let name = format!("Textile {}", cloth.label);
+    let scale = Scale::gain(0.0).with_noticed(noticed);
+    let name = name.trim_end();
+    let is_marked = scene.is_marked(index);
+    let ground = ui.painter().add(egui::Shape::Noop);
+    let row = ui
+        .available_rect_before_wrap()
+        .with_max_y(ui.cursor().top() + theme::ROW);
+    let (new, response) = slider_row(ui, name, palette.text, scale, cloth.gain_db);
+    if response.hovered() {
+        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+    }
+    if is_marked {
+        let lit = egui::Shape::rect_filled(row.expand2(vec2(6.0, 0.0)), 4, palette.raised);
+        ui.painter().set(ground, lit);
+    }
+    tip_beside(
+        ui,
+        &response,
+        format!("Gain of {}\n{}", cloth.name, slider_tip(noticed)),
+    );
+    wishes.extend(new.map(|db| Edit::TextileGain(index, db).into()));
+}
+
+fn show_ranges(ui: &mut Ui, scene: &SceneView) {
+    let Some(reference_db) = scene.reference_db else {
+        return;
+    };
+    let plain = Tuning {
+        compression: 0.0,
+        ..scene.tuning
+    };
+    let before = curve::ranges_db(&scene.library, &plain, reference_db);
+    let after = curve::ranges_db(&scene.library, &scene.tuning, reference_db);
+    let response = row(ui, "Library range", |ui| {
+        let palette = Palette::in_ui(ui);
+        ui.spacing_mut().item_spacing.x = 2.0 * theme::STEP;
+        ui.label(RichText::new("dB").font(theme::small()).color(palette.dim));
+        for band in [Band::High, Band::Low] {
+            let [from, to] = [before, after].map(|r| quantity::fixed(r[band.index()], 1));
+            let words = RichText::new(format!("{from:>5} → {to:>4}"));
+            ui.label(words.font(theme::number()).color(palette.band(band)));
+        }
+    });
+    response.on_hover_text(
+        "From the weakest to the strongest textile of the library at 40 Hz and at 320 Hz, mean \
+         over all points and directions at 100 mm/s: without compression → with it",
+    );
+}
+
+/// Kind and width of the filters.
+fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
+    let octaves = match filters {
+        Filters::LogGaussian { octaves } => octaves,
+        Filters::Receptor => 2.0,
+    };
+    let kinds = [Filters::LogGaussian { octaves }, Filters::Receptor];
+    let is_gaussian = filters != Filters::Receptor;
+    let mut chosen = filters;
+    row(ui, "Filters", |ui| {
+        let combo = ComboBox::from_id_salt("filters").selected_text(kind(filters));
+        let response = combo.width(150.0).show_ui(ui, |ui| {
+            for choice in kinds {
+                ui.selectable_value(&mut chosen, choice, kind(choice));
+            }
+        });
+        let label = "Kind of the filters";
+        ui.ctx()
+            .accesskit_node_builder(response.response.id, |node| node.set_label(label));
+        response.response.on_hover_text(
+            "How much of each frequency a band takes in. The original's filters are not published: \
+             both kinds are ours",
+        );
+    });
+    if chosen != filters {
+        wishes.push(Edit::Filters(chosen).into());
+    }
+    let scale = Scale {
+        least: OCTAVES[0],
+        most: OCTAVES[1],
+        resting: 2.0,
+        step: 0.1,
+        decimals: 1,
+        unit: "oct",
+        factor: 1.0,
+        noticed: None,
+        curve: Curve::Even,
+    };
+    ui.add_enabled_ui(is_gaussian, |ui| {
+        let ink = Palette::in_ui(ui).text;
+        let (new, response) = slider_row(ui, "Width", ink, scale, octaves);
+        if is_gaussian {
+            tip_beside(ui, &response, "Width of both filters at half power");
+            wishes
+                .extend(new.map(|octaves| Edit::Filters(Filters::LogGaussian { octaves }).into()));
+        } else {
+            response.on_disabled_hover_text("Receptor thresholds have the width that they have");
+        }
+    });
+}
+
+fn kind(filters: Filters) -> &'static str {
+    match filters {
+        Filters::LogGaussian { .. } => "log-Gaussian",
+        Filters::Receptor => "receptor thresholds",
+    }
+}

@@ -1,0 +1,293 @@
+//! Textiles drawn as cloth: their own picture, tiled from their origin and turned with them.
+
+use eframe::egui::{
+    Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, TextureId, pos2, vec2,
+};
+use eframe::epaint::Vertex;
+use eframe::epaint::text::{LayoutJob, TextWrapping};
+
+use crate::bench::view::{Cloth, ClothPicture};
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
+use crate::tools::workspace::transform::ViewTransform;
+
+/// How far a shadow reaches beyond its textile, points.
+const SHADOW: f32 = 16.0;
+/// Height of a tag, points.
+const TAG: f32 = 20.0;
+/// How much is seen of a muted textile.
+const MUTED: f32 = 0.4;
+/// A tag on a textile narrower than this leaves the name out, points.
+const NAMED: f32 = 72.0;
+/// No tag's name is cut shorter than this, points.
+const NARROWEST: f32 = 20.0;
+
+/// Draws a textile, if it is in sight; one under the display is lifted a little.
+pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
+    if !is_in_sight(painter, screen_bounds(view, cloth).expand(SHADOW)) {
+        return;
+    }
+    let palette = Palette::of(painter.ctx().theme());
+    let corners = screen_corners(view, cloth);
+    let presence = if cloth.is_muted { MUTED } else { 1.0 };
+    let drop = vec2(0.0, if is_lifted { 5.0 } else { 2.0 });
+    for spread in [1.0_f32, 3.0, 5.0] {
+        let veil = palette.shadow.gamma_multiply(0.4 * presence);
+        let shadow = corners.map(|corner| corner + drop).to_vec();
+        painter.add(Shape::convex_polygon(
+            shadow,
+            veil,
+            Stroke::new(2.0 * spread, veil.gamma_multiply(0.5)),
+        ));
+    }
+    let tint = if is_lifted {
+        Color32::WHITE
+    } else {
+        palette.resting_cloth
+    };
+    let tint = tint.gamma_multiply(presence);
+    match cloth.picture {
+        Some(picture) => {
+            painter.add(Shape::mesh(textured(corners, cloth.size_mm, picture, tint)));
+        }
+        None => {
+            painter.add(Shape::convex_polygon(
+                corners.to_vec(),
+                palette.raised.gamma_multiply(presence),
+                Stroke::NONE,
+            ));
+        }
+    }
+    if cloth.is_muted && !is_lifted {
+        paint_outline(painter, corners, Stroke::new(1.0, palette.hairline));
+    }
+}
+
+/// Draws the line around the textile that is felt, over whatever lies on it.
+pub(crate) fn paint_lifted(painter: &Painter, view: &ViewTransform, cloth: &Cloth) {
+    if is_in_sight(painter, screen_bounds(view, cloth).expand(SHADOW)) {
+        let palette = Palette::of(painter.ctx().theme());
+        let edge = Stroke::new(1.5, palette.selection);
+        paint_outline(painter, screen_corners(view, cloth), edge);
+    }
+}
+
+/// Draws a line around a textile.
+pub(crate) fn paint_outline(painter: &Painter, corners: [Pos2; 4], stroke: Stroke) {
+    painter.add(Shape::closed_line(corners.to_vec(), stroke));
+}
+
+/// Draws the tag with the textile's label and name at its lower left corner on the screen. Says
+/// where it is, if it is in sight.
+pub(crate) fn paint_tag(
+    painter: &Painter,
+    view: &ViewTransform,
+    cloth: &Cloth,
+    is_lifted: bool,
+) -> Option<Rect> {
+    let corner = lower_left(&screen_corners(view, cloth));
+    // No text is laid out where no tag can be seen; none is wider than this.
+    let room = Rect::from_min_size(corner - vec2(0.0, TAG), vec2(400.0, TAG));
+    if !is_in_sight(painter, room) {
+        return None;
+    }
+    let palette = Palette::of(painter.ctx().theme());
+    let ink = if is_lifted { palette.text } else { palette.dim };
+    let label = painter.layout_no_wrap(cloth.label.clone(), theme::body(), palette.text);
+    let width = screen_bounds(view, cloth).width();
+    let is_narrow = width < NAMED;
+    let name = match (is_narrow && !cloth.label.is_empty(), cloth.is_muted) {
+        (false, false) => cloth.name.clone(),
+        (false, true) => format!("{}  ·  muted", cloth.name),
+        (true, false) => String::new(),
+        (true, true) => "muted".to_owned(),
+    };
+    let label_width = if cloth.label.is_empty() {
+        0.0
+    } else {
+        label.size().x + if name.is_empty() { 0.0 } else { 6.0 }
+    };
+    // A tag covers no neighbour: what does not fit on the textile is cut.
+    let mut job = LayoutJob::simple_singleline(name, theme::small(), ink);
+    job.wrap = TextWrapping::truncate_at_width((width - label_width - 14.0).max(NARROWEST));
+    let name = painter.layout_job(job);
+    let size = vec2(label_width + name.size().x + 14.0, TAG);
+    let tag = Rect::from_min_size(pos2(corner.x, corner.y - size.y), size);
+    let rounding = CornerRadius {
+        ne: 5,
+        ..CornerRadius::ZERO
+    };
+    painter.rect_filled(tag, rounding, palette.tag);
+    let middle = tag.center().y;
+    let at = |x: f32, height: f32| pos2(tag.left() + 7.0 + x, middle - 0.5 * height);
+    painter.galley(at(0.0, label.size().y), label, palette.text);
+    painter.galley(at(label_width, name.size().y), name, ink);
+    Some(tag)
+}
+
+fn is_in_sight(painter: &Painter, rect: Rect) -> bool {
+    painter.clip_rect().intersects(rect)
+}
+
+/// The corner that looks most like "lower left".
+fn lower_left(corners: &[Pos2; 4]) -> Pos2 {
+    let leftness = |corner: &Pos2| corner.y - corner.x;
+    corners
+        .iter()
+        .copied()
+        .max_by(|a, b| leftness(a).total_cmp(&leftness(b)))
+        .unwrap_or_default()
+}
+
+fn textured(corners: [Pos2; 4], size_mm: [f64; 2], picture: ClothPicture, tint: Color32) -> Mesh {
+    let [width, height] = size_mm.map(narrow);
+    let n_across = width / picture.tile_mm.x.max(1e-3);
+    let n_up = height / picture.tile_mm.y.max(1e-3);
+    // Row 0 of a picture is its top, and the textile's origin is at the picture's lower left.
+    let uv = Rect {
+        min: pos2(0.0, 1.0),
+        max: pos2(n_across, 1.0 - n_up),
+    };
+    tiled(corners, uv, picture.texture, tint)
+}
+
+/// A quad from the textile's origin along its warp and its weft, with a texture from `uv.min` at
+/// the origin to `uv.max` at the far corner.
+pub(crate) fn tiled(corners: [Pos2; 4], uv: Rect, texture_id: TextureId, tint: Color32) -> Mesh {
+    let places = [
+        uv.min,
+        pos2(uv.max.x, uv.min.y),
+        uv.max,
+        pos2(uv.min.x, uv.max.y),
+    ];
+    let vertex = |(pos, uv): (Pos2, Pos2)| Vertex {
+        pos,
+        uv,
+        color: tint,
+    };
+    Mesh {
+        indices: vec![0, 1, 2, 0, 2, 3],
+        vertices: corners.into_iter().zip(places).map(vertex).collect(),
+        texture_id,
+    }
+}
+
+/// A number as the screen draws it.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the screen is drawn in single precision"
+)]
+pub(crate) fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+/// Draws what the workspace says when no textile is placed.
+pub(crate) fn paint_empty(painter: &Painter, ground: Rect) {
+    let palette = Palette::of(painter.ctx().theme());
+    let words =
+        "No textile is placed. Drag one here from the library, or open a scene with Ctrl+O."
+            .to_owned();
+    let width = (ground.width() - 64.0).max(64.0);
+    let galley = painter.layout(words, theme::body(), palette.dim, width);
+    let corner = ground.center() - 0.5 * galley.size();
+    painter.galley(corner, galley, palette.dim);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_tiled_from_the_textiles_lower_left_corner() {
+        let picture = ClothPicture {
+            texture: TextureId::default(),
+            tile_mm: vec2(25.0, 50.0),
+        };
+        let corners = [
+            pos2(0.0, 100.0),
+            pos2(100.0, 100.0),
+            pos2(100.0, 0.0),
+            pos2(0.0, 0.0),
+        ];
+        let mesh = textured(corners, [100.0, 100.0], picture, Color32::WHITE);
+        assert_eq!(mesh.vertices[0].uv, pos2(0.0, 1.0));
+        assert_eq!(mesh.vertices[2].uv, pos2(4.0, -1.0));
+    }
+
+    #[test]
+    fn the_tag_hangs_on_the_lower_left_corner_however_the_textile_is_turned() {
+        let corners = [
+            pos2(100.0, 100.0),
+            pos2(100.0, 0.0),
+            pos2(0.0, 0.0),
+            pos2(0.0, 100.0),
+        ];
+        assert_eq!(lower_left(&corners), pos2(0.0, 100.0));
+    }
+
+    fn cloth(name: &str, side_mm: f64) -> Cloth {
+        Cloth {
+            id: String::new(),
+            label: "1".to_owned(),
+            name: name.to_owned(),
+            workspace_from_textile: selvedge_foundation::geometry::Frame::default(),
+            size_mm: [side_mm; 2],
+            rotation_deg: 0.0,
+            is_muted: false,
+            gain_db: 0.0,
+            picture: None,
+        }
+    }
+
+    #[test]
+    fn no_tag_covers_the_neighbour_of_its_textile() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 400.0));
+        let mut widths = Vec::new();
+        let mut output = ctx.run_ui(eframe::egui::RawInput::default(), |ui| {
+            for side_mm in [40.0, 80.0, 300.0] {
+                let centre = selvedge_foundation::geometry::Point::new(100.0, 100.0);
+                let view = ViewTransform::new(sight, centre, 1.0);
+                let cloth = cloth("Cotton and polyester denim", side_mm);
+                let tag = paint_tag(&ui.painter_at(sight), &view, &cloth, false);
+                widths.push(tag.map_or(0.0, |tag| tag.width()));
+            }
+        });
+        output.textures_delta.clear();
+        assert!(widths[0] > 0.0 && widths[0] <= 40.0, "{widths:?}");
+        assert!(widths[1] > widths[0] && widths[1] <= 80.0, "{widths:?}");
+        assert!(widths[2] > 120.0, "the whole name: {widths:?}");
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_not_drawn() {
+        let ctx = eframe::egui::Context::default();
+        let sight = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 100.0));
+        let cloth = cloth("Felt", 50.0);
+        let input = eframe::egui::RawInput {
+            screen_rect: Some(sight),
+            ..eframe::egui::RawInput::default()
+        };
+        let mut tags = Vec::new();
+        let mut output = ctx.run_ui(input, |ui| {
+            for x_mm in [-500.0, 25.0, 500.0] {
+                let centre = selvedge_foundation::geometry::Point::new(x_mm, 25.0);
+                let view = ViewTransform::new(sight, centre, 1.0);
+                let painter = ui.painter_at(sight);
+                paint(&painter, &view, &cloth, false);
+                tags.push(paint_tag(&painter, &view, &cloth, false).is_some());
+            }
+        });
+        output.textures_delta.clear();
+        tags.truncate(3);
+        assert_eq!(tags, [false, true, false]);
+        // Three shadows, the cloth, the tag and its two texts: once.
+        let n_shapes = output
+            .shapes
+            .iter()
+            .filter(|s| s.clip_rect == sight)
+            .count();
+        assert_eq!(n_shapes, 7);
+    }
+}

@@ -1,0 +1,331 @@
+//! The workspace: the scene in mm from above, with the display moving over it, and a lens that
+//! shows what lies under the finger.
+//!
+//! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
+//! Draws, says where the pointer feels, and wishes; what is done about it is decided elsewhere.
+
+pub(crate) mod access;
+pub(crate) mod arrange;
+pub(crate) mod asked;
+pub(crate) mod calibration;
+pub(crate) mod camera;
+pub(crate) mod cloth;
+pub(crate) mod display;
+pub(crate) mod drag;
+pub(crate) mod drop;
+pub(crate) mod export;
+pub(crate) mod lens;
+pub(crate) mod maps;
+pub(crate) mod menu;
+pub(crate) mod navigate;
+pub(crate) mod overlay;
+pub(crate) mod ruler;
+pub(crate) mod state;
+#[cfg(test)]
+mod tests;
+pub(crate) mod tips;
+pub(crate) mod tools;
+pub(crate) mod trail;
+pub(crate) mod transform;
+
+#[cfg(test)]
+pub(crate) use crate::tools::workspace::drop::LibraryItem;
+pub(crate) use crate::tools::workspace::overlay::Layers;
+#[cfg(test)]
+pub(crate) use crate::tools::workspace::overlay::lattice::Lattice;
+pub(crate) use crate::tools::workspace::state::WorkspaceState;
+pub(crate) use crate::tools::workspace::tools::show as show_tools;
+pub(crate) use crate::tools::workspace::trail::Trail;
+pub(crate) use crate::tools::workspace::transform::ViewTransform;
+
+use eframe::egui::{
+    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Response, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, vec2,
+};
+
+use crate::bench::command::{Part, ShowCommand, Tool, Wishes};
+use crate::bench::view::{Live, SceneView};
+use crate::kit::theme;
+use crate::kit::theme::Palette;
+use selvedge_foundation::geometry::Point;
+
+/// What came of showing the workspace.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shown {
+    /// How mm are laid on the screen.
+    pub view: ViewTransform,
+    /// The part of the screen where the pointer feels.
+    pub ground: Rect,
+    /// Whether the pointer feels there now: not while it arranges, pans, or handles a control.
+    pub feels: bool,
+}
+
+/// What the parts of the pane share during one frame.
+pub(crate) struct Stage<'a> {
+    scene: &'a SceneView,
+    live: &'a Live,
+    state: &'a WorkspaceState,
+    layers: Layers<'a>,
+    /// The part of the screen where mm are.
+    ground: Rect,
+    view: ViewTransform,
+    /// What the pointer does on the ground.
+    response: Response,
+}
+
+impl Stage<'_> {
+    /// Whether a drag moves textiles now.
+    fn arranges(&self) -> bool {
+        self.state.tool == Tool::Arrange && !self.state.is_calibrating
+    }
+
+    /// The chosen textile, if there still is one at its place.
+    fn selected(&self) -> Option<(usize, &crate::bench::view::Cloth)> {
+        let index = self.state.cloth?;
+        Some((index, self.scene.cloths.get(index)?))
+    }
+}
+
+/// Shows the workspace in all the space that is left.
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &SceneView,
+    live: &Live,
+    (trail, layers): (&Trail, Layers<'_>),
+    state: &WorkspaceState,
+    wishes: &mut Wishes,
+) -> Shown {
+    let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
+    let inner = Rect::from_min_max(frame.min + vec2(ruler::LEFT, ruler::TOP), frame.max);
+    let (ground, lens) = lens::split(inner, scene.size_mm);
+    let response = ui.interact(
+        ground,
+        ui.scope_id().with("ground"),
+        Sense::click_and_drag(),
+    );
+    response.widget_info(|| {
+        let words = format!("Workspace with {} textiles", scene.cloths.len());
+        WidgetInfo::labeled(egui::Role::Canvas, true, words)
+    });
+    let stage = Stage {
+        scene,
+        live,
+        state,
+        layers,
+        ground,
+        view: state.camera.view(ground, scene.size_mm),
+        response,
+    };
+    let tag = paint(ui, &stage, trail);
+    access::declare(ui, &stage);
+    paint_rulers(ui, frame, &stage);
+    let feels = handle(ui, &stage, tag, wishes);
+    if let Some(lens) = lens {
+        lens::show(ui, lens, &stage, trail, wishes);
+    }
+    if let Some(band) = state.overlays.map() {
+        let beside = lens.and_then(lens::room_below);
+        overlay::paint_legend(ui.painter(), &stage, (beside, band));
+    }
+    if live.is_stopped {
+        paint_all_off(&ui.painter_at(ground), ground);
+    }
+    Shown {
+        view: stage.view,
+        ground,
+        feels,
+    }
+}
+
+/// Does what the pointer and the keys want, with the controls that lie on the ground. Says whether
+/// the pointer feels.
+fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, wishes: &mut Wishes) -> bool {
+    calibration::forget_unless(ui, stage);
+    if stage.state.is_calibrating {
+        calibration::show(ui, stage, wishes);
+        return false;
+    }
+    let is_panning = navigate::navigate(ui, stage, wishes);
+    if stage.arranges() {
+        drag::arrange(ui, stage, wishes);
+    } else {
+        drag::paint_choice(&ui.painter_at(stage.ground), stage);
+        if stage.response.hovered() {
+            ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+        }
+    }
+    drop::take(ui, stage, wishes);
+    menu::show(ui, stage, wishes);
+    tips::tell(ui, stage, tag);
+    say_hovered(stage, wishes);
+    let is_busy = Popup::is_any_open(ui.ctx()) || DragAndDrop::has_any_payload(ui.ctx());
+    stage.state.tool == Tool::Explore && !(is_panning || is_busy)
+}
+
+/// Draws what lies on the ground. Says whose tag is under the pointer.
+fn paint(ui: &Ui, stage: &Stage<'_>, trail: &Trail) -> Option<usize> {
+    let painter = ui.painter_at(stage.ground);
+    paint_extent(&painter, &stage.view, stage.scene.size_mm);
+    paint_cloths(&painter, &stage.view, stage);
+    let tag = paint_tags(&painter, stage);
+    if stage.scene.cloths.is_empty() {
+        cloth::paint_empty(&painter, stage.ground);
+    }
+    paint_marked(&painter, stage);
+    paint_display(&painter, &stage.view, stage, trail);
+    tag
+}
+
+/// Draws a cloth that lies straight, with nothing on it that tells which it is.
+pub(crate) fn paint_plain_cloth(
+    painter: &Painter,
+    view: &ViewTransform,
+    (origin_mm, size_mm): (Point, [f64; 2]),
+    picture: Option<crate::bench::view::ClothPicture>,
+) {
+    let plain = crate::bench::view::Cloth {
+        id: String::new(),
+        label: String::new(),
+        name: String::new(),
+        workspace_from_textile: selvedge_foundation::geometry::Frame {
+            origin: origin_mm,
+            ..selvedge_foundation::geometry::Frame::default()
+        },
+        size_mm,
+        rotation_deg: 0.0,
+        is_muted: false,
+        gain_db: 0.0,
+        picture,
+    };
+    cloth::paint(painter, view, &plain, false);
+    let palette = Palette::of(painter.ctx().theme());
+    let edge = Stroke::new(1.0, palette.line);
+    cloth::paint_outline(painter, arrange::screen_corners(view, &plain), edge);
+}
+
+/// Draws the textiles through a view; the lens uses it too.
+fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
+    let lifted = lifted(stage);
+    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
+        cloth::paint(painter, view, cloth, lifted == Some(index));
+        overlay::paint_on_cloth(painter, view, stage, (index, cloth));
+        if lifted == Some(index) {
+            cloth::paint_lifted(painter, view, cloth);
+        }
+    }
+}
+
+/// The textile that is felt; where textiles are arranged, none is.
+fn lifted(stage: &Stage<'_>) -> Option<usize> {
+    match stage.state.tool {
+        Tool::Explore => stage.live.cloth_under_display(),
+        Tool::Arrange => None,
+    }
+}
+
+/// Draws trail and contactors through a view; the lens uses it too.
+fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, trail: &Trail) {
+    display::paint_trail(painter, view, trail.aged());
+    if stage.live.centre.is_some() {
+        let pointed = stage.scene.marks.hovered.contactor;
+        overlay::paint_velocities(painter, view, stage);
+        display::paint(painter, view, stage.live, (stage.state, pointed));
+        overlay::paint_readings(painter, view, stage);
+    }
+}
+
+/// Marks the textile that the pointer rests on in another view.
+fn paint_marked(painter: &Painter, stage: &Stage<'_>) {
+    let hovered = stage.scene.marks.hovered.cloth;
+    let elsewhere = hovered.filter(|_| stage.response.hover_pos().is_none());
+    if let Some(cloth) = elsewhere.and_then(|index| stage.scene.cloths.get(index)) {
+        let palette = Palette::of(painter.ctx().theme());
+        let corners = arrange::screen_corners(&stage.view, cloth);
+        let edge = Stroke::new(1.5, palette.selection.gamma_multiply(0.7));
+        cloth::paint_outline(painter, corners, edge);
+    }
+}
+
+/// Says what the pointer rests on.
+fn say_hovered(stage: &Stage<'_>, wishes: &mut Wishes) {
+    let Some(at) = stage.response.hover_pos() else {
+        return;
+    };
+    let place = stage.view.workspace(at);
+    if let Some(index) = arrange::topmost(&stage.scene.cloths, place) {
+        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+    }
+    if stage.arranges()
+        && let Some(index) = drag::dot_at(stage, at)
+    {
+        wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
+    }
+}
+
+fn paint_tags(painter: &Painter, stage: &Stage<'_>) -> Option<usize> {
+    let lifted = lifted(stage);
+    let pointer = stage.response.hover_pos();
+    let mut hovered = None;
+    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
+        let is_lit = lifted == Some(index) || stage.scene.is_marked(index);
+        let tag = cloth::paint_tag(painter, &stage.view, cloth, is_lit);
+        if let (Some(tag), Some(at)) = (tag, pointer)
+            && tag.contains(at)
+        {
+            hovered = Some(index);
+        }
+    }
+    hovered
+}
+
+fn paint_rulers(ui: &Ui, frame: Rect, stage: &Stage<'_>) {
+    let pointer = stage
+        .response
+        .hover_pos()
+        .or_else(|| stage.response.interact_pointer_pos())
+        .filter(|_| stage.arranges());
+    let pointed = ruler::Pointed {
+        display: stage.live.centre,
+        pointer: pointer.map(|at| stage.view.workspace(at)),
+    };
+    let painter = ui.painter_at(Rect::from_min_max(frame.min, stage.ground.max));
+    ruler::paint(&painter, frame, &stage.view, stage.scene.size_mm, pointed);
+}
+
+/// Says that everything is off, and what ends that.
+fn paint_all_off(painter: &Painter, ground: Rect) {
+    let palette = Palette::of(painter.ctx().theme());
+    let words = "Everything is off. Arm to feel again.".to_owned();
+    let galley = painter.layout_no_wrap(words, theme::body(), palette.text);
+    let middle = ground.center_top() + vec2(0.0, 30.0);
+    let pill = Rect::from_center_size(middle, galley.size() + vec2(32.0, 14.0));
+    painter.rect_filled(pill, 15, palette.raised);
+    painter.rect_stroke(
+        pill,
+        15,
+        Stroke::new(1.0, palette.danger),
+        StrokeKind::Inside,
+    );
+    painter.galley(middle - 0.5 * galley.size(), galley, palette.text);
+}
+
+fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
+    let palette = Palette::of(painter.ctx().theme());
+    let corners = [Point::default(), Point::new(size_mm[0], size_mm[1])];
+    let [low, high] = corners.map(|corner| view.screen(corner));
+    let extent = Rect::from_two_pos(low, high);
+    painter.rect_stroke(
+        extent,
+        0,
+        Stroke::new(1.0, palette.hairline),
+        StrokeKind::Outside,
+    );
+}
+
+/// Whether a place is in the workspace or so close that the display still reaches into it.
+pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
+    let reach_mm = 20.0;
+    let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
+    within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])
+}
