@@ -28,6 +28,7 @@ pub(crate) mod kit;
 pub(crate) mod shell;
 pub(crate) mod tools;
 
+pub use crate::bench::Drive;
 pub use crate::bench::applied_gains::Felt;
 pub use crate::bench::document::Document;
 pub use crate::bench::recording::Take;
@@ -45,5 +46,4 @@ pub use crate::shell::screenshot::Screenshot;
 pub use crate::shell::screenshot::Theme;
 pub use crate::shell::screenshot::screenshot;
 pub use crate::shell::study::studies;
-pub use crate::shell::window::Drive;
 pub use crate::shell::window::Workbench;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::task::{Task, taken};
-use crate::shell::window::Workbench;
 use selvedge_engine::{ClipKind, ClipWriter, Written, write_clip};
 use selvedge_render::{RenderScene, Replay};
 
@@ -45,7 +45,7 @@ pub(crate) fn ending(kind: ClipKind) -> &'static str {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// How it stands with files for other programs.
     pub(crate) fn clips_view(&self) -> ClipsView {
         let task = self.transient.clips.task.as_ref();
@@ -151,9 +151,9 @@ fn said(written: &Written) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Drive;
     use crate::bench::command::{FileCommand, Purpose};
     use crate::bench::recording::Take;
-    use crate::shell::window::Drive;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::{ExplorationPath, PathRow};
     use selvedge_scratch::ScratchFolder;
@@ -161,9 +161,9 @@ mod tests {
     #[test]
     fn the_recording_at_hand_is_written_as_every_kind() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         let folder = ScratchFolder::made("clips");
-        let write = |bench: &mut Workbench, kind| {
+        let write = |bench: &mut Bench, kind| {
             let path = folder.join(format!("a.{}", ending(kind)));
             let file = FileCommand::Use(Purpose::Clip(kind), path.clone());
             bench.dispatch(&ctx, file.into());

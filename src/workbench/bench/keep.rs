@@ -173,7 +173,7 @@ mod tests {
     fn window(name: &str) -> (Headless, ScratchFolder) {
         let folder = ScratchFolder::new(name);
         let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
-        window.bench.transient.keeping.own_folder = Some(folder.to_owned());
+        window.workbench.bench.transient.keeping.own_folder = Some(folder.to_owned());
         window.pass(1);
         (window, folder)
     }
@@ -199,7 +199,7 @@ mod tests {
         let (mut window, folder) = window("feel");
         window.dispatch(Keep::Feel(new_textiles(1)));
         window.pass(1);
-        let bench = &window.bench;
+        let bench = &window.workbench.bench;
         let own = folder.join("textiles");
         assert_eq!(
             bench.document.scene().library.as_deref(),
@@ -211,7 +211,7 @@ mod tests {
         assert!(bench.shelf.item("own").is_some() && bench.shelf.items().len() == 17);
         window.dispatch(Command::Undo);
         window.pass(1);
-        let bench = &window.bench;
+        let bench = &window.workbench.bench;
         assert_eq!(bench.loaded.textiles().len(), 4, "one step back");
         assert_eq!(
             bench.document.scene().library.as_deref(),
@@ -226,21 +226,25 @@ mod tests {
         window.dispatch(Keep::Save(new_textiles(2)));
         window.dispatch(Keep::Save(new_textiles(1)));
         window.pass(1);
-        let ids = window.bench.loaded.library().ids()[16..].to_vec();
+        let ids = window.workbench.bench.loaded.library().ids()[16..].to_vec();
         assert_eq!(ids, ["own", "own-2", "own-3"]);
-        assert_eq!(window.bench.loaded.textiles().len(), 4, "none was placed");
+        assert_eq!(
+            window.workbench.bench.loaded.textiles().len(),
+            4,
+            "none was placed"
+        );
     }
 
     #[test]
     fn without_a_folder_nothing_is_kept_and_a_sentence_says_so() {
         let (mut window, folder) = window("nowhere");
-        window.bench.transient.keeping.own_folder = None;
+        window.workbench.bench.transient.keeping.own_folder = None;
         window.dispatch(Keep::Feel(new_textiles(1)));
         window.pass(1);
-        let shown = window.bench.transient.notices.shown();
+        let shown = window.workbench.bench.transient.notices.shown();
         assert_eq!(shown.len(), 1);
         assert!(shown[0].text.contains("no folder"), "{}", shown[0].text);
-        assert_eq!(window.bench.loaded.library().ids().len(), 16);
+        assert_eq!(window.workbench.bench.loaded.library().ids().len(), 16);
         assert!(!folder.exists());
     }
 }

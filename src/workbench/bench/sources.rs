@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::job::{Job, Polled};
 use crate::bench::view::Source;
-use crate::shell::window::Workbench;
 use selvedge_engine::{
     Area, InputDevice, InputError, InputSource, PointerInput, ProgramCounts, ProgramLink,
     list_input_devices, open_input_device,
@@ -146,7 +146,7 @@ fn described(device: &InputDevice) -> String {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// Does what is wanted of sources.
     pub(crate) fn dispatch_source(&mut self, ctx: &egui::Context, command: SourceCommand) {
         match command {
@@ -288,13 +288,13 @@ mod tests {
     use std::time::{Duration, Instant};
 
     use super::*;
-    use crate::shell::window::Drive;
+    use crate::bench::Drive;
     use selvedge_engine::AxisRange;
 
     #[test]
     fn a_program_that_joins_moves_the_display_and_hears_what_is_felt() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.dispatch(&ctx, SourceCommand::Listen.into());
         bench.dispatch(&ctx, SourceCommand::Program.into());
         let (address, _) = bench.transient.sources.view().programs.unwrap();
@@ -346,7 +346,7 @@ mod tests {
     #[test]
     fn the_area_of_a_tablet_is_kept_by_its_name_and_nonsense_is_refused_in_a_line() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.transient.sources.take_listed(Ok(vec![Ok(tablet())]));
         assert_eq!(bench.sources_view().surface, None, "none was chosen");
         bench.dispatch(&ctx, SourceCommand::Device("/nowhere/event7".into()).into());
@@ -380,7 +380,7 @@ mod tests {
     #[test]
     fn a_device_that_is_not_there_is_a_notice() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.dispatch(&ctx, SourceCommand::Device("/nowhere/event1".into()).into());
         let shown = bench.transient.notices.shown();
         assert!(

@@ -7,6 +7,7 @@ use eframe::egui::{
 };
 use egui_tiles::Tree;
 
+use crate::bench::Bench;
 use crate::bench::command::{Command, PlaySource, ShowCommand, Wishes};
 use crate::bench::recording::Take;
 use crate::bench::view::{Hovered, SceneView, Source};
@@ -18,7 +19,6 @@ use crate::shell::perspective::Perspective;
 use crate::shell::pointer::{Ground, Pointed};
 use crate::shell::state::{After, Transient};
 use crate::shell::tab_row::TabRow;
-use crate::shell::window::Workbench;
 use crate::tools::workspace;
 
 /// Width of the frame around the window of an armed device, points.
@@ -27,7 +27,7 @@ const ARMED_FRAME: f32 = 5.0;
 const HEADER: f32 = 44.0;
 
 /// Shows one frame; says what the user wants.
-pub(crate) fn show(bench: &mut Workbench, ui: &mut Ui) -> Wishes {
+pub(crate) fn show(bench: &mut Bench, ui: &mut Ui) -> Wishes {
     let mut wishes = Wishes::new();
     let scene = bench.scene_view();
     show_header(bench, ui, &scene, &mut wishes);
@@ -66,7 +66,7 @@ pub(crate) fn frame_as_armed(ctx: &egui::Context) {
 }
 
 /// Lets every view mark what the pointer rests on, from the next frame on if that has changed.
-fn mark_hovered(bench: &mut Workbench, ctx: &egui::Context, wishes: &mut Wishes) {
+fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, wishes: &mut Wishes) {
     let mut hovered = Hovered::default();
     wishes.retain(|command| {
         if let Command::Show(ShowCommand::Hover(part)) = command {
@@ -81,7 +81,7 @@ fn mark_hovered(bench: &mut Workbench, ctx: &egui::Context, wishes: &mut Wishes)
     }
 }
 
-fn show_header(bench: &Workbench, ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+fn show_header(bench: &Bench, ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
     let header = Panel::top("header").exact_size(HEADER);
     header.frame(panel(ui, 16, 0)).show(ui, |ui| {
         crate::shell::header::show(
@@ -94,7 +94,7 @@ fn show_header(bench: &Workbench, ui: &mut Ui, scene: &SceneView, wishes: &mut W
     });
 }
 
-fn show_transport(bench: &mut Workbench, ui: &mut Ui, wishes: &mut Wishes) {
+fn show_transport(bench: &mut Bench, ui: &mut Ui, wishes: &mut Wishes) {
     let bottom = Panel::bottom("transport").resizable(false);
     bottom.frame(panel(ui, 12, 6)).show(ui, |ui| {
         let mut state = std::mem::take(&mut bench.transient.transport);
@@ -131,7 +131,7 @@ pub(crate) fn transport_view<'a>(
 
 /// The panes in their tiles.
 fn show_desk(
-    bench: &mut Workbench,
+    bench: &mut Bench,
     ui: &mut Ui,
     scene: &SceneView,
     wishes: &mut Wishes,
@@ -156,7 +156,7 @@ fn show_desk(
 }
 
 /// Notices, questions and help over the panes.
-fn show_overlays(bench: &mut Workbench, ui: &Ui, over: Rect, wishes: &mut Wishes) {
+fn show_overlays(bench: &mut Bench, ui: &Ui, over: Rect, wishes: &mut Wishes) {
     let whole = ui.ctx().content_rect();
     crate::bench::notices::show(ui, over, &bench.transient.notices, wishes);
     let recent = &bench.settings.kept.recent_scenes;
@@ -179,7 +179,7 @@ fn panel(ui: &Ui, across: i8, down: i8) -> Frame {
         .inner_margin(Margin::symmetric(across, down))
 }
 
-impl Workbench {
+impl Bench {
     /// What the menus tick.
     fn appearance(&self) -> crate::shell::menu::Appearance {
         let kept = &self.settings.kept;
@@ -247,7 +247,7 @@ impl Workbench {
 pub(crate) type Felt = (workspace::Shown, Pointed, f32);
 
 /// Tells the tap where the workspace is, and feeds it when nobody else does.
-fn feel(bench: &Workbench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {
+fn feel(bench: &Bench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {
     let transient = &bench.transient;
     let is_covered =
         transient.ask.is_some() || transient.question.is_some() || transient.is_help_shown;

@@ -6,9 +6,10 @@ use std::path::Path;
 use eframe::App as _;
 use eframe::egui::{Context, FullOutput, Pos2, RawInput, Rect, Vec2};
 
+use crate::bench::Drive;
 use crate::bench::command::Command;
 use crate::shell::error::AppError;
-use crate::shell::window::{Drive, Workbench};
+use crate::shell::window::Workbench;
 
 /// Ticks from frame to frame where time passes quickly.
 #[cfg(test)]
@@ -17,7 +18,7 @@ const TICKS_A_FRAME: u32 = 4;
 /// A workbench, the toolkit around it, and no display.
 pub(crate) struct Headless {
     pub(crate) ctx: Context,
-    pub(crate) bench: Workbench,
+    pub(crate) workbench: Workbench,
     frame: eframe::Frame,
     size: Vec2,
     pixels_per_point: f32,
@@ -37,7 +38,7 @@ impl Headless {
     ) -> Result<Self, AppError> {
         let ctx = Context::default();
         Ok(Self {
-            bench: Workbench::new(&ctx, scene, Drive::Stepped)?,
+            workbench: Workbench::new(&ctx, scene, Drive::Stepped)?,
             frame: eframe::Frame::_new_kittest(),
             ctx,
             size,
@@ -48,7 +49,7 @@ impl Headless {
 
     /// Does what a user could want.
     pub(crate) fn dispatch(&mut self, command: impl Into<Command>) {
-        self.bench.dispatch(&self.ctx, command.into());
+        self.workbench.dispatch(&self.ctx, command.into());
     }
 
     /// Runs the next frame.
@@ -61,11 +62,14 @@ impl Headless {
         self.n_ticks += n_ticks;
         let input = self.input();
         let Self {
-            ctx, bench, frame, ..
+            ctx,
+            workbench,
+            frame,
+            ..
         } = self;
         ctx.run_ui(input, |ui| {
-            bench.logic(ui.ctx(), frame);
-            bench.ui(ui, frame);
+            workbench.logic(ui.ctx(), frame);
+            workbench.ui(ui, frame);
         })
     }
 

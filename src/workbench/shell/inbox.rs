@@ -5,19 +5,20 @@ use std::time::Duration;
 
 use eframe::egui;
 
+use crate::bench::Bench;
+use crate::bench::FRAME;
 use crate::bench::command::{Command, FileCommand};
 use crate::bench::job::{Job, Polled};
 use crate::bench::opening::Opening;
 use crate::bench::query;
 use crate::shell::dialogs::Answer;
-use crate::shell::window::{FRAME, Workbench};
 use selvedge_device::BridgeState;
 use selvedge_engine::{Notice, TICKS_PER_S};
 
 /// At most as many notices are taken in a frame as anybody can be told of.
 const MOST_NOTICES: usize = 64;
 
-impl Workbench {
+impl Bench {
     /// Empties the inboxes.
     pub(crate) fn take_news(&mut self, ctx: &egui::Context) {
         if self.is_stepped {

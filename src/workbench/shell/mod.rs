@@ -15,6 +15,7 @@ pub(crate) mod header;
 pub(crate) mod headless;
 pub(crate) mod help;
 pub(crate) mod inbox;
+pub(crate) mod inspect;
 pub(crate) mod keys;
 pub(crate) mod menu;
 pub(crate) mod native;

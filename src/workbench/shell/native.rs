@@ -16,13 +16,14 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
+use crate::bench::Drive;
 use crate::bench::command::device::DeviceCommand;
 use crate::shell::error::AppError;
 use crate::shell::pending_motion::Backlog;
 use crate::shell::pointer::{Pointed, PointerTap};
 #[cfg(target_os = "linux")]
 use crate::shell::pointer_x11::Listener;
-use crate::shell::window::{Drive, Workbench};
+use crate::shell::window::Workbench;
 use selvedge_engine::StopSwitch;
 
 /// What the event handler shares with the workbench; both live on the window's thread.
@@ -109,12 +110,12 @@ pub fn run(
         options,
         Box::new(move |cc| match workbench(cc, scene.as_deref()) {
             Ok(workbench) => {
-                let stop = workbench.switch.clone();
+                let stop = workbench.bench.switch.clone();
                 *for_app.borrow_mut() = Some(Ears {
-                    tap: Arc::clone(&workbench.tap),
+                    tap: Arc::clone(&workbench.bench.tap),
                     stop: stop.clone(),
                     workbench: cc.winit_window().map(|window| window.id()),
-                    listener: listener(cc, &workbench.tap),
+                    listener: listener(cc, &workbench.bench.tap),
                     participant: None,
                 });
                 on_open(EndSwitch {
@@ -161,7 +162,7 @@ fn workbench(
     scene: Option<&Path>,
 ) -> Result<Workbench, AppError> {
     let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
-    workbench.switch.press_on_panic();
+    workbench.bench.switch.press_on_panic();
     workbench.dispatch(&cc.egui_ctx, DeviceCommand::ConnectEmulator.into());
     Ok(workbench)
 }

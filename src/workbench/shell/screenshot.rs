@@ -82,7 +82,7 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     let mut window = Headless::new(wanted.scene.as_deref(), size, scale)?;
     window.ctx.set_theme(theme);
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
-    let bench = &mut window.bench;
+    let bench = &mut window.workbench.bench;
     bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
     bench.transient.target = bench
         .transient

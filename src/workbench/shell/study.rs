@@ -118,7 +118,7 @@ fn moving(setting: Setting) -> Result<Headless, ReportError> {
 
 fn show_only(window: &mut Headless, setting: Setting) {
     for pane in Pane::ALL {
-        if arrangement::is_shown(&window.bench.tree, pane) != setting.shows(pane) {
+        if arrangement::is_shown(&window.workbench.bench.tree, pane) != setting.shows(pane) {
             window.dispatch(ShowCommand::Pane(pane));
         }
     }
@@ -215,9 +215,12 @@ mod tests {
             (Some(true), Some(true))
         );
         let mut bare = moving(Setting::NothingElse).unwrap();
-        let n_drawn = bare.bench.transient.n_drawn;
+        let n_drawn = bare.workbench.bench.transient.n_drawn;
         let drawn = tessellated(&mut bare);
-        assert_eq!(bare.bench.transient.n_drawn, n_drawn, "none is drawn");
+        assert_eq!(
+            bare.workbench.bench.transient.n_drawn, n_drawn,
+            "none is drawn"
+        );
         let mut full = moving(Setting::Default).unwrap();
         assert!(tessellated(&mut full).n_vertices > 4 * drawn.n_vertices);
     }
@@ -225,7 +228,8 @@ mod tests {
     #[test]
     fn every_view_has_a_row_and_only_it_was_in_sight() {
         let window = moving(Setting::Only(Pane::Heatmaps)).unwrap();
-        let in_sight = Pane::ALL.map(|pane| arrangement::is_shown(&window.bench.tree, pane));
+        let in_sight =
+            Pane::ALL.map(|pane| arrangement::is_shown(&window.workbench.bench.tree, pane));
         let n_in_sight = in_sight.into_iter().filter(|is| *is).count();
         assert_eq!((n_in_sight, in_sight[Pane::Heatmaps.index()]), (1, true));
         let mut report = |_: f64, _: &str| {};

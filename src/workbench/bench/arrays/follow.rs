@@ -5,13 +5,13 @@ use std::time::Duration;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::query;
 use crate::bench::view::BridgePhase;
-use crate::shell::window::Workbench;
 use selvedge_device::{ArrayProfile, BridgeEvent, DeviceUid};
 use selvedge_engine::{Command, Notice};
 
-impl Workbench {
+impl Bench {
     /// The profile that ought to be in force.
     pub fn array(&self) -> ArrayProfile {
         let chosen = self.settings.kept.array.as_deref();
@@ -115,27 +115,39 @@ mod tests {
         window.pass(2);
         window.dispatch(ArrayCommand::Limit(Band::High, 12.5));
         window.pass(2);
-        assert_eq!(window.bench.engine.profile().limit_um, [50.0, 12.5]);
-        assert!(window.bench.arrays.is_own("exeter-24"));
+        assert_eq!(
+            window.workbench.bench.engine.profile().limit_um,
+            [50.0, 12.5]
+        );
+        assert!(window.workbench.bench.arrays.is_own("exeter-24"));
         window.dispatch(ArrayCommand::Copy("rig 2".to_owned()));
         window.dispatch(ArrayCommand::Limit(Band::Low, 1.0));
         window.pass(2);
-        assert_eq!(window.bench.engine.profile().name, "rig 2");
-        assert_eq!(window.bench.settings.kept.array.as_deref(), Some("rig 2"));
+        assert_eq!(window.workbench.bench.engine.profile().name, "rig 2");
+        assert_eq!(
+            window.workbench.bench.settings.kept.array.as_deref(),
+            Some("rig 2")
+        );
         window.dispatch(ArrayCommand::Choose(Some("exeter-24".to_owned())));
         window.pass(2);
-        assert_eq!(window.bench.engine.profile().limit_um, [50.0, 12.5]);
+        assert_eq!(
+            window.workbench.bench.engine.profile().limit_um,
+            [50.0, 12.5]
+        );
         window.dispatch(ArrayCommand::Copy("exeter-24".to_owned()));
-        let notices = window.bench.notices();
+        let notices = window.workbench.notices();
         assert!(
             notices[0].contains("is the name of an array already"),
             "{notices:?}"
         );
         window.dispatch(ArrayCommand::Forget);
         window.pass(2);
-        assert_eq!(*window.bench.engine.profile(), ArrayProfile::default());
+        assert_eq!(
+            *window.workbench.bench.engine.profile(),
+            ArrayProfile::default()
+        );
         assert!(
-            window.bench.document.undo_name().is_none(),
+            window.workbench.bench.document.undo_name().is_none(),
             "no edit of the scene"
         );
     }
@@ -160,14 +172,14 @@ mod tests {
         for _ in 0..12 {
             rasteriser.apply(&mut window.run_after(4).textures_delta);
         }
-        let dots = &window.bench.transient.live.dots;
+        let dots = &window.workbench.bench.transient.live.dots;
         let off: Vec<usize> = (0..24).filter(|index| dots[*index].bite.off).collect();
         assert_eq!(off, [6, 13]);
         for dot in dots.iter().filter(|dot| !dot.bite.off) {
             assert_eq!(dot.bite.limited[0], dot.amplitude_um[0] > 2.0, "{dot:?}");
         }
         assert!(dots.iter().any(|dot| dot.bite.limited[0]));
-        let why = window.bench.transient.why.0.as_ref().unwrap();
+        let why = window.workbench.bench.transient.why.0.as_ref().unwrap();
         assert_eq!(why.output.limits.map(|limit| limit.um), [2.0, 50.0]);
         assert!(why.output.bite.limited[0], "{:?}", why.output);
         let mut last = window.run();

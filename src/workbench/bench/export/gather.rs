@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::Theme;
 
+use crate::bench::Bench;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
@@ -12,7 +13,6 @@ use crate::bench::query;
 use crate::kit::theme::Palette;
 use crate::shell::arrangement::Pane;
 use crate::shell::frame;
-use crate::shell::window::Workbench;
 
 /// Why there is nothing to export before anything was felt.
 const NOTHING_FELT: &str =
@@ -22,32 +22,32 @@ const NO_CONTACTOR: &str =
     "There is nothing to export: choose a contactor first, by a click on a cell of the heatmaps";
 
 /// Fetches what is shown, or says what to do where nothing is.
-type Gather = fn(&mut Workbench) -> Result<Exported, &'static str>;
+type Gather = fn(&mut Bench) -> Result<Exported, &'static str>;
 
 /// How the numbers of a pane are fetched; `None` where a pane shows none.
 fn gather_of(what: Exportable) -> Option<Gather> {
     let pane = match what {
-        Exportable::Timeline => return Some(Workbench::gather_timeline),
-        Exportable::Analysed => return Some(Workbench::gather_analysed),
+        Exportable::Timeline => return Some(Bench::gather_timeline),
+        Exportable::Analysed => return Some(Bench::gather_analysed),
         Exportable::Pane(pane) => pane,
     };
     match pane {
-        Pane::Heatmaps => Some(Workbench::gather_heatmaps),
-        Pane::ContactSpectrum => Some(Workbench::gather_contact_spectrum),
-        Pane::DriveSpectrum => Some(Workbench::gather_drive_spectrum),
-        Pane::DriveWave => Some(Workbench::gather_drive_wave),
-        Pane::SpatialSpectra => Some(Workbench::gather_spatial),
-        Pane::Tuning => Some(Workbench::gather_compression),
-        Pane::Why => Some(Workbench::gather_why),
-        Pane::Response => Some(Workbench::gather_response),
-        Pane::Accuracy => Some(Workbench::gather_accuracy),
-        Pane::Compare => Some(Workbench::gather_comparison),
-        Pane::Lab => Some(Workbench::gather_lab),
-        Pane::Import => Some(Workbench::gather_import),
-        Pane::Picture => Some(Workbench::gather_picture),
-        Pane::Workspace => Some(Workbench::gather_maps),
-        Pane::Collection => Some(Workbench::gather_collection),
-        Pane::Bridge => Some(Workbench::gather_link),
+        Pane::Heatmaps => Some(Bench::gather_heatmaps),
+        Pane::ContactSpectrum => Some(Bench::gather_contact_spectrum),
+        Pane::DriveSpectrum => Some(Bench::gather_drive_spectrum),
+        Pane::DriveWave => Some(Bench::gather_drive_wave),
+        Pane::SpatialSpectra => Some(Bench::gather_spatial),
+        Pane::Tuning => Some(Bench::gather_compression),
+        Pane::Why => Some(Bench::gather_why),
+        Pane::Response => Some(Bench::gather_response),
+        Pane::Accuracy => Some(Bench::gather_accuracy),
+        Pane::Compare => Some(Bench::gather_comparison),
+        Pane::Lab => Some(Bench::gather_lab),
+        Pane::Import => Some(Bench::gather_import),
+        Pane::Picture => Some(Bench::gather_picture),
+        Pane::Workspace => Some(Bench::gather_maps),
+        Pane::Collection => Some(Bench::gather_collection),
+        Pane::Bridge => Some(Bench::gather_link),
         Pane::Library | Pane::Participant | Pane::Experimenter | Pane::Analysis => None,
     }
 }
@@ -68,7 +68,7 @@ pub(crate) struct Exports {
     pub(crate) jobs: Vec<Job<Result<Option<String>, ExportError>>>,
 }
 
-impl Workbench {
+impl Bench {
     /// What a pane shows now.
     ///
     /// # Errors

@@ -99,8 +99,9 @@ fn name_of(file: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Bench;
+    use crate::bench::Drive;
     use crate::bench::command::PlayCommand;
-    use crate::shell::window::{Drive, Workbench};
     use selvedge_engine::Command;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::PathRow;
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn a_recording_replays_what_was_felt() {
         let ctx = eframe::egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.dispatch(&ctx, PlayCommand::Toggle.into());
         bench.engine.advance_ticks(3).unwrap();
         bench.engine.send(Command::StartRecording).unwrap();

@@ -6,6 +6,7 @@ pub(crate) mod tiles;
 
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
+use crate::bench::Bench;
 use crate::bench::command::Wishes;
 use crate::bench::export::Exportable;
 use crate::bench::export::gather::is_exportable;
@@ -17,7 +18,6 @@ use crate::kit::theme::Palette;
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
 use crate::shell::tab_row::TabRow;
-use crate::shell::window::Workbench;
 use crate::tools::collection::measuring::Asked;
 use crate::tools::collection::view::Typed as CollectionTyped;
 use crate::tools::compare::view::CompareView;
@@ -32,7 +32,7 @@ use crate::tools::workspace;
 /// Everything that panes are drawn from, and what came of drawing them.
 pub(crate) struct Desk<'a> {
     /// The window.
-    pub bench: &'a mut Workbench,
+    pub bench: &'a mut Bench,
     /// The scene.
     pub scene: &'a SceneView,
     /// What the user wants.
@@ -248,7 +248,7 @@ impl Desk<'_> {
 }
 
 /// Views that are drawn and exported.
-impl Workbench {
+impl Bench {
     /// Has the library measured as the pane shows it.
     fn measure_collection(&mut self, ctx: &egui::Context) {
         let collection = &mut self.transient.collection;

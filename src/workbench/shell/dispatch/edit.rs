@@ -2,17 +2,17 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::applied_gains::Felt;
 use crate::bench::command::edit::Edit;
 use crate::bench::document::Document;
 use crate::bench::preparing::Ready;
 use crate::bench::{editing, preparing};
 use crate::shell::error::AppError;
-use crate::shell::window::Workbench;
 
 use selvedge_render::scene::Scene;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn edit(&mut self, ctx: &egui::Context, edit: &Edit) {
         let before = self.document.scene().clone();
         if let Err(error) = self.document.edit(edit, self.transient.moment) {

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
 use crate::bench::job::{Job, Polled};
-use crate::shell::window::Workbench;
 
 /// What a job ends with: a table to be copied, or nothing where a file was written.
 type Outcome = Result<Option<String>, ExportError>;
 
-impl Workbench {
+impl Bench {
     /// Keeps what is seen and asks where it goes; says what to do when there is nothing.
     pub(crate) fn ask_export(&mut self, ctx: &egui::Context, what: Exportable) {
         match self.exported(what) {

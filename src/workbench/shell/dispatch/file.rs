@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::{FileCommand, Purpose};
 use crate::bench::job::Job;
 use crate::bench::opening::{Opened, Opening, Origin, open};
@@ -12,7 +13,6 @@ use crate::bench::recording::Take;
 use crate::shell::ask::Ask;
 use crate::shell::error::AppError;
 use crate::shell::state::After;
-use crate::shell::window::Workbench;
 use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::form::Chosen;
@@ -21,7 +21,7 @@ use crate::tools::picture::PictureCommand;
 
 use selvedge_render::scene::{ExplorationPath, SceneError};
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_file(&mut self, ctx: &egui::Context, command: FileCommand) {
         match command {
             FileCommand::Ask(Purpose::Export(what)) => self.ask_export(ctx, what),

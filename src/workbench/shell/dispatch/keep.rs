@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
 use crate::bench::keep::{Keep, Kept};
 use crate::bench::library_view::Shelf;
 use crate::shell::error::AppError;
-use crate::shell::window::Workbench;
 use selvedge_foundation::geometry::Point;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn keep(&mut self, ctx: &egui::Context, keep: Keep) {
         let library = Arc::clone(self.loaded.library());
         let keeping = &mut self.transient.keeping;

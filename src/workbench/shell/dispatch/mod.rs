@@ -9,12 +9,12 @@ pub(crate) mod show;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Chosen, Command, Part, PlayCommand, PlaySource, ShowCommand};
 use crate::bench::document::Document;
-use crate::shell::window::Workbench;
 
-impl Workbench {
+impl Bench {
     /// Does what the user wants.
     pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
         if !self.transient.experiment.allows(&command) {

@@ -2,10 +2,10 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
 use crate::bench::recording::Take;
 use crate::bench::view::Source;
-use crate::shell::window::Workbench;
 use selvedge_engine::InputSource;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{Scene, Stroke};
@@ -13,7 +13,7 @@ use selvedge_render::scene::{Scene, Stroke};
 /// How fast the display explores by itself, mm/s.
 const STROKE_MM_PER_S: f64 = 120.0;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_play(&mut self, command: PlayCommand) {
         match command {
             PlayCommand::Toggle => self.toggle_play(),

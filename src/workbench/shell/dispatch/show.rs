@@ -2,14 +2,14 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::Audition;
 use crate::shell::arrangement;
-use crate::shell::window::Workbench;
 use crate::tools::why::text::to_text;
 use crate::tools::workspace::state::Place;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_show(&mut self, ctx: &egui::Context, command: &ShowCommand) {
         let place = Place {
             pane: self.transient.ground.unwrap_or(egui::Rect::ZERO),

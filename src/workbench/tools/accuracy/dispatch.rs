@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use eframe::egui;
 
-use crate::shell::window::Workbench;
+use crate::bench::Bench;
 use crate::tools::accuracy::AccuracyCommand;
 use crate::tools::accuracy::measuring::{Measuring, Wanted};
 use selvedge_studies::Effort;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_accuracy(&mut self, ctx: &egui::Context, command: AccuracyCommand) {
         match command {
             AccuracyCommand::Method(method) => {

@@ -28,10 +28,10 @@ use std::sync::Arc;
 use crate::tools::accuracy::checker::{Checker, Setting, TickSample};
 use crate::tools::accuracy::worker::Checking;
 
+use crate::bench::Bench;
 use crate::bench::command::Command;
 use crate::bench::job::Polled;
 use crate::bench::rendering::Rendering;
-use crate::shell::window::Workbench;
 use selvedge_engine::{ClockView, DurationHistogram, Snapshot};
 use selvedge_foundation::geometry::Velocity;
 use selvedge_render::array::Method;
@@ -192,7 +192,7 @@ impl AccuracyWatch {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// Looks at the tick that the engine did last, and lets it be checked. To be called while the
     /// pane is drawn.
     pub(crate) fn watch_accuracy(&mut self) {

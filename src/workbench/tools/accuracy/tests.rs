@@ -1,35 +1,35 @@
 //! The window checking its own engine: what is sampled, what is left out, what the budget does.
 
 use super::*;
+use crate::bench::Drive;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Part, PlayCommand, ShowCommand};
-use crate::shell::window::Drive;
 
 use eframe::egui;
 
 /// A window whose display explores by itself.
-fn exploring() -> (egui::Context, Workbench) {
+fn exploring() -> (egui::Context, Bench) {
     let ctx = egui::Context::default();
-    let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+    let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
     bench.dispatch(&ctx, PlayCommand::Toggle.into());
     bench.engine.advance_ticks(2).unwrap();
     (ctx, bench)
 }
 
 /// Lets ticks go by while the pane is looked at.
-fn watch(bench: &mut Workbench, n_ticks: u64) {
+fn watch(bench: &mut Bench, n_ticks: u64) {
     for _ in 0..n_ticks {
         bench.engine.advance_ticks(1).unwrap();
         bench.watch_accuracy();
     }
 }
 
-fn largest_db(bench: &mut Workbench) -> f64 {
+fn largest_db(bench: &mut Bench) -> f64 {
     let bands = bench.transient.accuracy.found().bands;
     bands.iter().map(|band| band.max_db).fold(0.0, f64::max)
 }
 
-fn tally(bench: &Workbench) -> Tally {
+fn tally(bench: &Bench) -> Tally {
     bench.transient.accuracy.tally()
 }
 

@@ -9,7 +9,7 @@ use std::thread;
 use eframe::egui;
 use triple_buffer::{Input, Output};
 
-use crate::shell::window::FRAME;
+use crate::bench::FRAME;
 use crate::tools::accuracy::checker::{Checker, ErrorView, TickSample};
 
 /// Samples that may wait: the ticks of 0.4 s.

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::{FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exportable;
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
-use crate::shell::window::Workbench;
 use crate::tools::analysis::command::AnalysisCommand;
 use selvedge_experiment::analysis::Table;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_analysis(&mut self, ctx: &egui::Context, command: AnalysisCommand) {
         let is_stepped = self.is_stepped;
         let analysing = &mut self.transient.analysing;

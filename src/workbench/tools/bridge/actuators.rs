@@ -6,7 +6,7 @@
 use eframe::egui;
 use std::time::Duration;
 
-use crate::shell::window::Workbench;
+use crate::bench::Bench;
 use selvedge_device::{Bimorph, ContactorModel, FULL_CODE, PlantReading, Skin};
 
 /// How soon a first reading is looked for again.
@@ -68,7 +68,7 @@ pub(crate) struct PlantCell {
     pub(crate) held_share: f64,
 }
 
-impl Workbench {
+impl Bench {
     /// What the section shows; `None` where no emulator of this program is connected. To be called
     /// while its pane is drawn.
     pub(crate) fn peek_at_plant(&mut self, ctx: &egui::Context) -> Option<&PlantView> {
@@ -146,17 +146,17 @@ fn cells(reading: &PlantReading, full_scale_um: [f64; 2]) -> impl Iterator<Item 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Drive;
     use crate::bench::command::device::DeviceCommand;
-    use crate::shell::window::Drive;
 
     #[test]
     fn contactors_are_modelled_only_while_the_open_section_is_drawn() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         assert!(bench.peek_at_plant(&ctx).is_none(), "no emulator yet");
         bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
         assert!(!bench.peek_at_plant(&ctx).unwrap().is_open);
-        let is_looking = |bench: &mut Workbench| bench.engine.plant().unwrap().is_looking();
+        let is_looking = |bench: &mut Bench| bench.engine.plant().unwrap().is_looking();
         assert!(!is_looking(&mut bench), "the section is closed");
         bench.dispatch(&ctx, DeviceCommand::ShowContactors(true).into());
         assert!(bench.peek_at_plant(&ctx).unwrap().is_open);
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn the_finger_that_is_chosen_outlasts_the_link() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
         bench.dispatch(&ctx, DeviceCommand::LoadContactors(Skin::FIRM).into());
         assert_eq!(bench.peek_at_plant(&ctx).unwrap().skin, Skin::FIRM);

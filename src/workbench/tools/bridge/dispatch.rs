@@ -2,12 +2,12 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::query;
-use crate::shell::window::Workbench;
 use selvedge_device::{FaultWords, Target};
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_device(&mut self, ctx: &egui::Context, command: DeviceCommand) {
         match command {
             DeviceCommand::Arm => self.send(selvedge_engine::Command::Arm),

@@ -1,14 +1,14 @@
 //! Commands to array profiles.
 
+use crate::bench::Bench;
 use crate::bench::arrays;
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
-use crate::shell::window::Workbench;
 use selvedge_device::ArrayProfile;
 use selvedge_engine::Command;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_array(&mut self, command: ArrayCommand) {
         match command {
             ArrayCommand::Choose(name) => self.settings.kept.array = name,

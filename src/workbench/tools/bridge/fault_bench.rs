@@ -62,8 +62,9 @@ mod tests {
     use eframe::egui;
 
     use super::*;
+    use crate::bench::Bench;
+    use crate::bench::Drive;
     use crate::bench::command::device::DeviceCommand;
-    use crate::shell::window::{Drive, Workbench};
 
     #[test]
     fn every_preset_is_read_whole_and_none_is_none() {
@@ -78,7 +79,7 @@ mod tests {
     #[test]
     fn faults_last_until_something_else_is_connected() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         assert_eq!(bench.transient.faults.running, None);
         let words = FaultWords::of(&[("seed", "7"), ("drop", "0.1%")]);
         bench.dispatch(&ctx, DeviceCommand::StartFaults(words.clone()).into());
@@ -94,7 +95,7 @@ mod tests {
     #[test]
     fn what_cannot_be_had_is_a_notice_and_nothing_is_started() {
         let ctx = egui::Context::default();
-        let mut bench = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         for (option, text, told) in [
             ("dead", "24", "Channel 24: this array has channels 0 to 23"),
             ("drop", "often", "Drop: \"often\" is no share"),

@@ -2,13 +2,13 @@
 
 use eframe::egui::Ui;
 
+use crate::bench::Bench;
 use crate::bench::command::Wishes;
-use crate::shell::window::Workbench;
 use crate::tools::bridge::array::ArrayView;
 use crate::tools::bridge::{BridgePane, BridgeTyped};
 use selvedge_device::LARGEST_CHANNELS;
 
-impl Workbench {
+impl Bench {
     /// Shows the pane of the device and the array that it drives.
     pub(crate) fn show_bridge(&mut self, ui: &mut Ui, wishes: &mut Wishes) {
         let has_plant = self.peek_at_plant(ui.ctx()).is_some();

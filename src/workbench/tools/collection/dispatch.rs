@@ -2,13 +2,13 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
-use crate::shell::window::Workbench;
 use crate::tools::collection::CollectionCommand;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_collection(&mut self, ctx: &egui::Context, command: CollectionCommand) {
         let collection = &mut self.transient.collection;
         match command {

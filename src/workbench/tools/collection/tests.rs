@@ -29,25 +29,25 @@ fn in_front() -> Headless {
 fn measure(window: &mut Headless, n_measured: u64) {
     for _ in 0..6000 {
         window.pass(1);
-        if window.bench.n_textiles_measured() >= n_measured {
+        if window.workbench.n_textiles_measured() >= n_measured {
             return;
         }
         thread::sleep(Duration::from_millis(5));
     }
-    panic!("never measured: {}", window.bench.n_textiles_measured());
+    panic!("never measured: {}", window.workbench.n_textiles_measured());
 }
 
 /// What the pane shows, by a function of its entries in order.
 fn shown<T>(window: &mut Headless, of: impl Fn(&Entry<'_>) -> T) -> Vec<T> {
-    let scene = window.bench.scene_view();
-    let items = window.bench.shelf.shared_items();
-    let collection = &window.bench.transient.collection;
+    let scene = window.workbench.bench.scene_view();
+    let items = window.workbench.bench.shelf.shared_items();
+    let collection = &window.workbench.bench.transient.collection;
     let view = collection.view(&items, &scene, &collection.search);
     view.entries.iter().map(of).collect()
 }
 
 fn choose(window: &mut Headless, change: impl FnOnce(&mut Choice)) {
-    let mut choice = window.bench.transient.collection.choice.clone();
+    let mut choice = window.workbench.bench.transient.collection.choice.clone();
     change(&mut choice);
     window.dispatch(CollectionCommand::Choose(choice));
 }
@@ -58,7 +58,7 @@ fn raw_figures_are_the_levels_of_the_surface_at_the_chosen_speed() {
     measure(&mut window, 16);
     choose(&mut window, |choice| choice.speed_mm_per_s = 20.0);
     measure(&mut window, 32);
-    let library = Arc::clone(window.bench.shelf.library());
+    let library = Arc::clone(window.workbench.bench.shelf.library());
     for speed_mm_per_s in [20.0, 100.0] {
         choose(&mut window, |choice| choice.speed_mm_per_s = speed_mm_per_s);
         window.pass(2);
@@ -71,7 +71,11 @@ fn raw_figures_are_the_levels_of_the_surface_at_the_chosen_speed() {
             assert_eq!(figures.map(|figures| figures.levels), Some(levels), "{id}");
         }
     }
-    assert_eq!(window.bench.n_textiles_measured(), 32, "100 mm/s was kept");
+    assert_eq!(
+        window.workbench.n_textiles_measured(),
+        32,
+        "100 mm/s was kept"
+    );
 }
 
 #[test]
@@ -81,8 +85,8 @@ fn tuned_levels_are_what_gains_and_compression_make_of_them() {
     window.dispatch(Edit::Compression(1.0));
     window.dispatch(Edit::MasterGain(-6.0));
     window.pass(2);
-    let n_measured = window.bench.n_textiles_measured();
-    let reference_db = window.bench.transient.reference_db.unwrap();
+    let n_measured = window.workbench.n_textiles_measured();
+    let reference_db = window.workbench.bench.transient.reference_db.unwrap();
     let levels = shown(&mut window, |one| one.value(&Measure::Level, true).unwrap());
     let manifests = shown(&mut window, |one| one.item.gain_db);
     for (level_db, manifest_db) in levels.iter().zip(manifests) {
@@ -99,7 +103,7 @@ fn tuned_levels_are_what_gains_and_compression_make_of_them() {
         );
     }
     assert_eq!(
-        window.bench.n_textiles_measured(),
+        window.workbench.n_textiles_measured(),
         n_measured,
         "no slider measures"
     );
@@ -109,22 +113,22 @@ fn tuned_levels_are_what_gains_and_compression_make_of_them() {
 fn nothing_is_measured_behind_other_panes_and_work_ends_when_nobody_looks() {
     let mut window = window();
     window.pass(40);
-    assert_eq!(window.bench.n_textiles_measured(), 0, "hidden");
+    assert_eq!(window.workbench.n_textiles_measured(), 0, "hidden");
     window.dispatch(ShowCommand::Pane(Pane::Collection));
     measure(&mut window, 2);
     window.dispatch(ShowCommand::Pane(Pane::Workspace));
     window.pass(2);
-    let n_measured = window.bench.n_textiles_measured();
+    let n_measured = window.workbench.n_textiles_measured();
     thread::sleep(Duration::from_millis(100));
     window.pass(10);
     assert_eq!(
-        window.bench.n_textiles_measured(),
+        window.workbench.n_textiles_measured(),
         n_measured,
         "hidden again"
     );
     window.dispatch(ShowCommand::Pane(Pane::Collection));
     measure(&mut window, 16);
-    assert_eq!(window.bench.n_textiles_measured(), 16, "each once");
+    assert_eq!(window.workbench.n_textiles_measured(), 16, "each once");
 }
 
 #[test]
@@ -133,11 +137,11 @@ fn measuring_stops_when_told_and_goes_on_when_told() {
     measure(&mut window, 1);
     window.dispatch(CollectionCommand::Stop);
     window.pass(2);
-    let n_measured = window.bench.n_textiles_measured();
+    let n_measured = window.workbench.n_textiles_measured();
     assert!(n_measured < 16, "{n_measured}: stopped in time");
     thread::sleep(Duration::from_millis(100));
     window.pass(5);
-    assert_eq!(window.bench.n_textiles_measured(), n_measured);
+    assert_eq!(window.workbench.n_textiles_measured(), n_measured);
     window.dispatch(CollectionCommand::GoOn);
     measure(&mut window, 16);
 }
@@ -146,7 +150,7 @@ fn measuring_stops_when_told_and_goes_on_when_told() {
 fn search_kind_and_order_work_together() {
     let mut window = in_front();
     measure(&mut window, 16);
-    window.bench.transient.collection.search = "polyester".to_owned();
+    window.workbench.bench.transient.collection.search = "polyester".to_owned();
     choose(&mut window, |choice| {
         choice.only = Only::Construction("knitted");
         choice.sort = Sort {
@@ -217,9 +221,13 @@ fn what_is_selected_joins_toggles_and_is_marked_in_the_library() {
         (ids(&["denim"]), Joining::Alone, ids(&["denim"])),
     ] {
         window.dispatch(CollectionCommand::Select(chosen, joining));
-        assert_eq!(window.bench.selected_textiles(), expected, "{joining:?}");
+        assert_eq!(
+            window.workbench.selected_textiles(),
+            expected,
+            "{joining:?}"
+        );
     }
-    let scene = window.bench.scene_view();
+    let scene = window.workbench.bench.scene_view();
     assert!(scene.is_marked_id("denim") && !scene.is_marked_id("wool-rib"));
 }
 

@@ -2,11 +2,11 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::CompareCommand;
-use crate::shell::window::Workbench;
 use crate::tools::compare::choice::{HeldTuning, TuningChoice, What};
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_compare(&mut self, ctx: &egui::Context, command: CompareCommand) {
         match command {
             CompareCommand::Choose(choice) => self.transient.comparison.choice = choice,

@@ -27,11 +27,11 @@ use std::time::Duration;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::job::{Job, Polled};
 use crate::bench::task::Watch;
 use crate::shell::dispatch::play::resting_stroke;
 use crate::shell::error::AppError;
-use crate::shell::window::Workbench;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::{LoadedScene, TICKS_PER_S};
@@ -260,7 +260,7 @@ fn compare(
     Ok(end.is_continue().then(|| meter.finish()))
 }
 
-impl Workbench {
+impl Bench {
     /// What is asked for now.
     pub(crate) fn comparison_inputs(&self) -> Result<Inputs, &'static str> {
         let comparison = &self.transient.comparison;

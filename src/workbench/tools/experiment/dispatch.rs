@@ -4,13 +4,14 @@ use std::time::SystemTime;
 
 use eframe::egui;
 
+use crate::bench::Bench;
+use crate::bench::FRAME;
 use crate::bench::command::ShowCommand;
 use crate::bench::task::taken;
 use crate::bench::view::Source;
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
 use crate::shell::perspective::Perspective;
-use crate::shell::window::{FRAME, Workbench};
 use crate::tools::experiment::Begun;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::draft::Mark;
@@ -22,7 +23,7 @@ use selvedge_engine::{InputSource, Recording};
 /// How often a time that is shown in seconds is drawn anew.
 const SECOND: std::time::Duration = std::time::Duration::from_secs(1);
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_experiment(&mut self, ctx: &egui::Context, command: ExperimentCommand) {
         match command {
             ExperimentCommand::Choose(name) => {

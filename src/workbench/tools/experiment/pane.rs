@@ -6,12 +6,12 @@ use eframe::egui::{
     CentralPanel, Context, Frame, Key, Ui, ViewportBuilder, ViewportClass, ViewportId,
 };
 
+use crate::bench::Bench;
 use crate::bench::command::{Command, Wishes};
 use crate::shell::arrangement::Pane;
 use crate::shell::desk::Desk;
 use crate::shell::frame::{Felt, frame_as_armed};
 use crate::shell::pointer::Pointed;
-use crate::shell::window::Workbench;
 use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
 use crate::tools::experiment::experimenter::ExperimenterHands;
 use crate::tools::experiment::view::{Link, ParticipantView};
@@ -75,7 +75,7 @@ impl Desk<'_> {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// Shows the participant's view in a window of its own, while that is open; where the pointer
     /// feels there, if there is such a place.
     pub(crate) fn show_participants_window(

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::rendering::Rendering;
 use crate::bench::task::{Task, taken};
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
-use crate::shell::window::Workbench;
 use crate::tools::experiment::Begun;
 use crate::tools::experiment::form::list;
 use crate::tools::experiment::materials::Materials;
@@ -19,7 +19,7 @@ use selvedge_experiment::session::{Origin, Session, Sidecar};
 use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::Display;
 
-impl Workbench {
+impl Bench {
     pub(crate) fn list_sessions(&mut self, ctx: &egui::Context, is_asked: bool) {
         let form = &mut self.transient.experiment.form;
         let folder = form.folder();

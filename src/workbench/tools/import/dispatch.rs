@@ -2,12 +2,12 @@
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
-use crate::shell::window::Workbench;
 use crate::tools::import::{ImportCommand, Importing};
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_import(&mut self, ctx: &egui::Context, command: ImportCommand) {
         let importing = &mut self.transient.importing;
         match command {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::follower::Standing;
 use crate::bench::job::{Job, Polled};
 use crate::bench::keep::{Keep, NewTextile};
-use crate::shell::window::Workbench;
 use crate::tools::import::draft::WordsDraft;
 use crate::tools::import::failure::{Failure, Step};
 use crate::tools::import::work::{Body, Found};
@@ -96,7 +96,7 @@ impl Importing {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// Begins to make the textiles and keeps them.
     pub(crate) fn keep_import(&mut self, ctx: &egui::Context, is_felt: bool) {
         let importing = &mut self.transient.importing;

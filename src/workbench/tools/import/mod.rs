@@ -38,11 +38,11 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::follower::{Follower, Standing};
 use crate::bench::job::Job;
 use crate::bench::keep::NewTextile;
 use crate::kit::widgets::relief::{Relief, ReliefPicture};
-use crate::shell::window::Workbench;
 
 /// More files than these are no import.
 const MOST_FILES: usize = 8;
@@ -212,7 +212,7 @@ impl Importing {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// Lets the import follow what was chosen: to be called while its pane is in sight.
     pub(crate) fn follow_import(&mut self, ctx: &egui::Context) {
         let is_stepped = self.is_stepped;

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::keep::Keep;
 use crate::bench::task::{Task, taken};
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
-use crate::shell::window::Workbench;
 use crate::tools::lab;
 use crate::tools::lab::command::{Beginning, LabCommand, Plan};
 use crate::tools::lab::family::Family;
@@ -17,7 +17,7 @@ use crate::tools::lab::preview::{Compared, Preview};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Manifest, RECIPES};
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_lab(&mut self, ctx: &egui::Context, command: LabCommand) {
         let lab = &mut self.transient.lab;
         match command {

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::keep::Keep;
 use crate::shell::arrangement;
 use crate::shell::arrangement::Pane;
-use crate::shell::window::Workbench;
 use crate::tools::picture::{PictureCommand, Picturing};
 
-impl Workbench {
+impl Bench {
     pub(crate) fn dispatch_picture(&mut self, ctx: &egui::Context, command: PictureCommand) {
         let picturing = &mut self.transient.picturing;
         match command {

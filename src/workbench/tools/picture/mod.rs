@@ -26,8 +26,8 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
 use crate::bench::follower::{Follower, Standing};
-use crate::shell::window::Workbench;
 use crate::tools::import::draft::SourceFile;
 
 /// What can be wanted of a picture. Never undoable.
@@ -155,7 +155,7 @@ impl Picturing {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// Lets the stages follow what was chosen: to be called while the pane is in sight.
     pub(crate) fn follow_picture(&mut self, ctx: &egui::Context) {
         let is_stepped = self.is_stepped;

@@ -17,10 +17,10 @@ pub(crate) use crate::tools::why::text::sheet;
 #[cfg(test)]
 pub(crate) use crate::tools::why::text::to_text;
 
+use crate::bench::Bench;
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::Sensation;
 use crate::bench::view::Source;
-use crate::shell::window::Workbench;
 use selvedge_device::{ArrayProfile, Bite, Calibration, Coder, Limit};
 use selvedge_render::array::{ContactTrace, Touch};
 
@@ -137,7 +137,7 @@ impl Why {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// The limits of the chosen contactor, or of one that nothing is known of.
     pub fn limits(&self) -> [Limit; 2] {
         let contactor = self.workspace.contactor.unwrap_or(usize::MAX);

@@ -3,8 +3,8 @@
 
 use eframe::egui::{self, Ui};
 
+use crate::bench::Bench;
 use crate::shell::desk::Desk;
-use crate::shell::window::Workbench;
 use crate::tools::response::{ResponseView, curves};
 use crate::tools::workspace;
 use crate::tools::workspace::maps;
@@ -53,7 +53,7 @@ impl Desk<'_> {
     }
 }
 
-impl Workbench {
+impl Bench {
     /// What the Response pane draws of a textile with this name and turn, degrees.
     pub(crate) fn response_view<'a>(
         &'a self,

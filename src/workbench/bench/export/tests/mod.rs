@@ -58,7 +58,7 @@ impl Headless {
         desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
         desk.dispatch(LabCommand::Begin(Beginning::Example("brownian")));
-        desk.bench.follow_lab(&desk.ctx);
+        desk.workbench.bench.follow_lab(&desk.ctx);
         let panes = [Pane::Response, Pane::Accuracy, Pane::Compare];
         for pane in panes {
             desk.dispatch(ShowCommand::Pane(pane));
@@ -73,8 +73,8 @@ impl Headless {
         let mut desk = Self::explored(n_ticks);
         desk.dispatch(ShowCommand::Pane(Pane::Collection));
         desk.pass_ticks(2);
-        let n_textiles = desk.bench.shelf.items().len() as u64;
-        while desk.bench.n_textiles_measured() < n_textiles {
+        let n_textiles = desk.workbench.bench.shelf.items().len() as u64;
+        while desk.workbench.n_textiles_measured() < n_textiles {
             thread::sleep(Duration::from_millis(5));
             // However long it takes, the display stays where it is.
             desk.run_after(0).drop_without_applying_deltas();
@@ -85,20 +85,20 @@ impl Headless {
     /// Waits for the threads that compare and check.
     fn settle(&mut self) {
         for _ in 0..2000 {
-            let [sampled, _] = self.bench.ticks_checked();
-            let is_checked = self.bench.accuracy_view().found.n_ticks == sampled;
-            let standing = self.bench.comparison_standing();
+            let [sampled, _] = self.workbench.ticks_checked();
+            let is_checked = self.workbench.bench.accuracy_view().found.n_ticks == sampled;
+            let standing = self.workbench.bench.comparison_standing();
             if is_checked && !matches!(standing, Standing::Running(_)) {
                 return;
             }
             thread::sleep(Duration::from_millis(5));
-            self.bench.transient.comparison.poll();
+            self.workbench.bench.transient.comparison.poll();
         }
         panic!("a thread never came to its end");
     }
 
     fn exported(&mut self, what: Exportable) -> Exported {
-        let exported = self.bench.exported(what);
+        let exported = self.workbench.bench.exported(what);
         exported.unwrap_or_else(|words| panic!("{what:?}: {words}"))
     }
 
@@ -107,7 +107,7 @@ impl Headless {
     }
 
     fn notices(&self) -> String {
-        self.bench.notices().join("\n")
+        self.workbench.notices().join("\n")
     }
 }
 
@@ -177,7 +177,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
 fn heatmaps_hold_the_amplitudes_of_every_contactor() {
     let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::Heatmaps));
-    let dots = &desk.bench.transient.live.dots;
+    let dots = &desk.workbench.bench.transient.live.dots;
     for (band, name) in ["a40_um", "a320_um"].into_iter().enumerate() {
         let shown: Vec<f64> = dots.iter().map(|dot| dot.amplitude_um[band]).collect();
         assert_eq!(column(&exported, name), shown);
@@ -187,7 +187,7 @@ fn heatmaps_hold_the_amplitudes_of_every_contactor() {
         "felt"
     );
     let textile = table_of(&exported).text("textile").unwrap()[0].to_owned();
-    let scene = desk.bench.scene();
+    let scene = desk.workbench.scene();
     assert!(
         scene.textiles.iter().any(|placed| placed.id == textile),
         "{textile}"
@@ -207,8 +207,8 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
         column(&exported, "level_in_db"),
         column(&exported, "level_out_db"),
     );
-    assert_eq!(before.len(), desk.bench.library.len());
-    let reference = desk.bench.transient.reference_db.unwrap();
+    assert_eq!(before.len(), desk.workbench.bench.library.len());
+    let reference = desk.workbench.bench.transient.reference_db.unwrap();
     for (before, after) in before.iter().zip(after) {
         assert!(
             (after - 0.5 * (before + reference)).abs() < 1e-9,
@@ -221,7 +221,14 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
 fn the_timeline_holds_speed_and_means_of_every_tick() {
     let mut desk = Headless::explored(80);
     let exported = desk.exported(Exportable::Timeline);
-    let glimpses: Vec<_> = desk.bench.transient.history.glimpses().copied().collect();
+    let glimpses: Vec<_> = desk
+        .workbench
+        .bench
+        .transient
+        .history
+        .glimpses()
+        .copied()
+        .collect();
     let ticks: Vec<f64> = glimpses.iter().map(|glimpse| glimpse.tick as f64).collect();
     assert_eq!(column(&exported, "tick"), ticks);
     let means = column(&exported, "mean_a320_um");
@@ -242,14 +249,14 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         desk.pass_ticks(7);
-        let ask = desk.bench.transient.ask.as_ref();
+        let ask = desk.workbench.bench.transient.ask.as_ref();
         let suggested = ask.map(|ask| ask.path.clone()).unwrap_or_default();
-        let last = desk.bench.transient.exports.last.clone();
+        let last = desk.workbench.bench.transient.exports.last.clone();
         let kind = last.map_or(Kind::Png, |(_, kind)| kind);
         assert!(suggested.ends_with(&what.file_name(kind)), "{suggested}");
         desk.file(FileCommand::Use(Purpose::Export(what), path.clone()));
         assert_eq!(fs::read(&path).unwrap(), seen, "{what:?}");
-        assert!(desk.bench.transient.ask.is_none(), "answered");
+        assert!(desk.workbench.bench.transient.ask.is_none(), "answered");
     }
     assert_eq!(desk.notices(), "");
     assert_eq!(fs::read_dir(&folder).unwrap().count(), ALL.len());
@@ -271,7 +278,10 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
             notices.contains("end its name in .png, .svg or .csv"),
             "{notices}"
         );
-        assert!(desk.bench.transient.ask.is_some(), "the field stays");
+        assert!(
+            desk.workbench.bench.transient.ask.is_some(),
+            "the field stays"
+        );
     }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
     let path = folder.join("WAVE.SVG");
@@ -293,18 +303,25 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
     let has_levels = |what: &Exportable| *what == Exportable::Pane(Pane::Tuning);
     for what in ALL.into_iter().filter(|what| !has_levels(what)) {
         let is_chosen = what == Exportable::Timeline || what == ALL[0] || what == ALL[1];
-        desk.bench.workspace.contactor = is_chosen.then_some(9);
-        let words = desk.bench.exported(what).expect_err("nothing is shown yet");
+        desk.workbench.bench.workspace.contactor = is_chosen.then_some(9);
+        let words = desk
+            .workbench
+            .bench
+            .exported(what)
+            .expect_err("nothing is shown yet");
         assert!(
             words.starts_with("There is nothing to export"),
             "{what:?}: {words}"
         );
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         assert!(desk.notices().contains(words), "{what:?}");
-        assert!(desk.bench.transient.exports.seen.is_none(), "{what:?}");
+        assert!(
+            desk.workbench.bench.transient.exports.seen.is_none(),
+            "{what:?}"
+        );
     }
     let library = Exportable::Pane(Pane::Library);
-    assert!(!is_exportable(Pane::Library) && desk.bench.exported(library).is_err());
+    assert!(!is_exportable(Pane::Library) && desk.workbench.bench.exported(library).is_err());
 }
 
 #[test]
@@ -327,13 +344,14 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
     let mut desk = Headless::explored(90);
     let response = desk.exported(Exportable::Pane(Pane::Response));
     let rms_um = column(&response, "a320_rms_um");
-    let curves = &desk.bench.transient.curves;
+    let curves = &desk.workbench.bench.transient.curves;
     assert_eq!(
         rms_um.len(),
         curves.around().len() + curves.over_speed().len()
     );
-    let textile = desk.bench.transient.asked_textile.unwrap();
+    let textile = desk.workbench.bench.transient.asked_textile.unwrap();
     let factors = desk
+        .workbench
         .bench
         .eye
         .inspector
@@ -345,7 +363,7 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
 
     let accuracy = desk.exported(Exportable::Pane(Pane::Accuracy));
     let counted: f64 = column(&accuracy, "count").iter().sum();
-    let view = desk.bench.accuracy_view();
+    let view = desk.workbench.bench.accuracy_view();
     let errors: u64 = view.found.counts.iter().flatten().sum();
     let ticks: u64 = view.cost.costs.buckets().map(|b| u64::from(b.count)).sum();
     assert_eq!(counted, (errors + ticks) as f64);
@@ -353,7 +371,7 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
 
     let compared = desk.exported(Exportable::Pane(Pane::Compare));
     let means_db = column(&compared, "mean_db");
-    let found = desk.bench.comparison().unwrap();
+    let found = desk.workbench.comparison().unwrap();
     assert_eq!(
         means_db.len(),
         2 * (found.by_contactor.len() + found.over_time.len())

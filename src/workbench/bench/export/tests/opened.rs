@@ -11,7 +11,7 @@ impl Headless {
         let folder = ScratchFolder::made("strokes");
         let path = folder.write("twill.txt", export());
         self.dispatch(ImportCommand::Add(vec![path]));
-        self.bench.follow_import(&self.ctx);
+        self.workbench.bench.follow_import(&self.ctx);
     }
 
     /// Works out a picture of a cloth.
@@ -32,6 +32,6 @@ impl Headless {
         };
         fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
         self.dispatch(PictureCommand::Open(path));
-        self.bench.follow_picture(&self.ctx);
+        self.workbench.bench.follow_picture(&self.ctx);
     }
 }

@@ -11,14 +11,14 @@ fn the_map_holds_what_lies_under_the_pointer_at_every_point_of_every_textile() {
     let numbers = ["place", "u_mm", "w_mm", "amplitude_um"].map(|name| column(&exported, name));
     let table = table_of(&exported);
     let textiles = table.text("textile").unwrap();
-    let scene = desk.bench.scene();
+    let scene = desk.workbench.scene();
     let n_points: f64 = scene
         .textiles
         .iter()
         .map(|cloth| (cloth.size_mm[0] + 1.0) * (cloth.size_mm[1] + 1.0))
         .sum();
     assert_eq!(numbers[3].len() as f64, n_points);
-    let maps = &desk.bench.transient.maps;
+    let maps = &desk.workbench.bench.transient.maps;
     for (row, (place, amplitude_um)) in numbers[0].iter().zip(&numbers[3]).enumerate() {
         let index = (0..scene.textiles.len()).find(|index| *index as f64 == *place);
         let index = index.unwrap();
@@ -54,7 +54,7 @@ fn the_collection_holds_the_levels_of_every_textile() {
     let exported = desk.exported(Exportable::Pane(Pane::Collection));
     let table = table_of(&exported);
     let ids = table.text("textile").unwrap();
-    let library = std::sync::Arc::clone(desk.bench.shelf.library());
+    let library = std::sync::Arc::clone(desk.workbench.bench.shelf.library());
     assert_eq!(ids, library.ids());
     for (band, name) in Band::ALL.into_iter().zip(["raw_a40_um", "raw_a320_um"]) {
         for (id, um) in ids.iter().zip(column(&exported, name)) {

@@ -14,7 +14,14 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
         let exported = desk.exported(Exportable::Pane(what));
         let (values, ticks) = (column(&exported, name), column(&exported, "tick"));
         assert_eq!(values.len(), 320 * N_ROWS, "8 s, whether drawn or not");
-        let newest = desk.bench.transient.history.newest().unwrap().glimpse;
+        let newest = desk
+            .workbench
+            .bench
+            .transient
+            .history
+            .newest()
+            .unwrap()
+            .glimpse;
         assert_eq!(ticks.last().copied(), Some(newest.tick as f64));
         let times = column(&exported, "t_s");
         assert_eq!(
@@ -31,10 +38,10 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
                 "{largest} of {most}"
             );
         } else {
-            let contactor = desk.bench.workspace.contactor.unwrap();
+            let contactor = desk.workbench.bench.workspace.contactor.unwrap();
             let mut expected = [0.0; N_ROWS];
             crate::bench::signals::contact::ContactColumns::default().levels_db(
-                &mut desk.bench.eye.inspector,
+                &mut desk.workbench.bench.eye.inspector,
                 contactor,
                 &newest.pose,
                 &mut expected,
@@ -55,7 +62,7 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
 fn the_waveform_is_the_sum_of_both_bands_with_their_amplitudes() {
     let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::DriveWave));
-    let shown = desk.bench.drive_wave_view();
+    let shown = desk.workbench.bench.drive_wave_view();
     let times = column(&exported, "t_s");
     for (band, name) in ["wave_40_um", "wave_320_um"].into_iter().enumerate() {
         let wave = column(&exported, name);

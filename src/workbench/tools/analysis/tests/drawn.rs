@@ -25,8 +25,8 @@ impl Drawn {
         drawn.pass(2);
         let mut tiles = Tiles::default();
         let root = arrangement::tabs(&mut tiles, &[Pane::Analysis]);
-        drawn.window.bench.tree = Tree::new(Id::unique("alone"), root, tiles);
-        let analysing = &mut drawn.window.bench.transient.analysing;
+        drawn.window.workbench.bench.tree = Tree::new(Id::unique("alone"), root, tiles);
+        let analysing = &mut drawn.window.workbench.bench.transient.analysing;
         analysing.fields.seed = asked.seed.to_string();
         analysing.choice = asked.choice.clone();
         drawn

@@ -58,14 +58,14 @@ fn window(asked: &Asked) -> Headless {
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
     window.dispatch(ShowCommand::Pane(Pane::Analysis));
-    let analysing = &mut window.bench.transient.analysing;
+    let analysing = &mut window.workbench.bench.transient.analysing;
     analysing.fields.seed = asked.seed.to_string();
     window.dispatch(AnalysisCommand::Choose(asked.choice.clone()));
     window
 }
 
 fn analysing(window: &Headless) -> &Analysing {
-    &window.bench.transient.analysing
+    &window.workbench.bench.transient.analysing
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn a_folder_that_is_missing_or_empty_says_so_in_one_line_and_the_last_result_sta
         );
         assert!(view.is_past, "and says that it is of another folder");
     }
-    window.bench.transient.analysing.fields.seed = "seven".to_owned();
+    window.workbench.bench.transient.analysing.fields.seed = "seven".to_owned();
     window.dispatch(AnalysisCommand::Begin);
     window.pass(2);
     let refusal = analysing(&window).view(None).refusal.unwrap();
@@ -241,7 +241,10 @@ fn figures_are_drawn_once_and_only_while_they_are_in_sight() {
     assert_eq!(analysing(&window).n_drawn(), 1, "nothing has changed");
     let toggle = ShowCommand::Pane(Pane::Analysis);
     window.dispatch(toggle.clone());
-    assert!(!arrangement::is_shown(&window.bench.tree, Pane::Analysis));
+    assert!(!arrangement::is_shown(
+        &window.workbench.bench.tree,
+        Pane::Analysis
+    ));
     window.dispatch(AnalysisCommand::Select(map + 1));
     window.dispatch(AnalysisCommand::Begin);
     window.pass(10);
@@ -273,13 +276,13 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     let mut window = window(&asked(&folder.0));
     window.dispatch(AnalysisCommand::Open(folder.0.clone()));
     window.pass(3);
-    let form = &mut window.bench.transient.experiment.form;
+    let form = &mut window.workbench.bench.transient.experiment.form;
     form.choose(Chosen::Shipped("threshold-40"));
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = "p07".to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
-    assert!(window.bench.transient.experiment.is_held());
+    assert!(window.workbench.bench.transient.experiment.is_held());
     window.dispatch(ShowCommand::Pane(Pane::Analysis));
     window.pass(2);
     assert!(analysing(&window).view(Some("p07")).is_covered);
@@ -288,7 +291,7 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     assert!(!analysing(&window).view(Some("p07")).is_covered);
     window.dispatch(AnalysisCommand::Begin);
     window.pass(2);
-    assert_eq!(window.bench.notices(), [""; 0], "that is allowed");
+    assert_eq!(window.workbench.notices(), [""; 0], "that is allowed");
     let found = analysing(&window).found().unwrap();
     assert_eq!(
         (found.n_sessions, &found.left_out[..]),
@@ -296,6 +299,6 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
-    assert!(!window.bench.transient.experiment.is_held());
+    assert!(!window.workbench.bench.transient.experiment.is_held());
     assert!(!analysing(&window).is_uncovered, "the next one is covered");
 }

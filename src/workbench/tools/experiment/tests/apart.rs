@@ -14,11 +14,11 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     let folder = Folder::new("apart");
     let mut window = begun(&folder, "odd-one-out", "p01");
     to_trial(&mut window);
-    let before = window.bench.transient.ground;
+    let before = window.workbench.bench.transient.ground;
     assert!(before.is_some());
     window_act(&mut window, WindowAct::Open);
     assert_eq!(
-        window.bench.transient.ground, None,
+        window.workbench.bench.transient.ground, None,
         "the workbench shows one line in its place"
     );
     // Without a display a second window is one within the first.
@@ -31,16 +31,22 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
         })
         .unwrap();
     for n in 0..30_u8 {
-        let stamp = window.bench.stamp();
+        let stamp = window.workbench.bench.stamp();
         let to = at.center() + vec2(-90.0 + 6.0 * f32::from(n), -60.0);
-        window.bench.tap.lock().unwrap().moved_to(stamp, to);
+        window
+            .workbench
+            .bench
+            .tap
+            .lock()
+            .unwrap()
+            .moved_to(stamp, to);
         window.pass(1);
     }
-    let amplitudes_um = window.bench.amplitudes_um();
+    let amplitudes_um = window.workbench.amplitudes_um();
     assert!(amplitudes_um.iter().flatten().any(|um| *um > 0.0));
     mark(&mut window, Mark::Place(1));
     window_act(&mut window, WindowAct::Close);
-    assert_eq!(window.bench.transient.ground, before);
+    assert_eq!(window.workbench.bench.transient.ground, before);
     assert!(held(&window).trial().is_some(), "the session goes on");
     assert!(matches!(
         held(&window).draft,
@@ -57,22 +63,22 @@ fn a_session_that_begins_while_the_window_is_open_brings_no_second_view() {
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
     window_act(&mut window, WindowAct::Open);
-    let form = &mut window.bench.transient.experiment.form;
+    let form = &mut window.workbench.bench.transient.experiment.form;
     form.choose(small(&folder, "odd-one-out"));
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = "p01".to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
-    assert!(window.bench.transient.experiment.is_held());
-    assert_eq!(window.bench.transient.ground, None);
+    assert!(window.workbench.bench.transient.experiment.is_held());
+    assert_eq!(window.workbench.bench.transient.ground, None);
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
-    assert!(window.bench.transient.experiment.window.is_open);
+    assert!(window.workbench.bench.transient.experiment.window.is_open);
     assert!(arrangement_shows(&window, Pane::Experimenter));
 }
 
 fn arrangement_shows(window: &Headless, pane: Pane) -> bool {
-    crate::shell::arrangement::is_shown(&window.bench.tree, pane)
+    crate::shell::arrangement::is_shown(&window.workbench.bench.tree, pane)
 }
 
 #[test]
@@ -100,12 +106,12 @@ fn a_movement_over_the_other_window_is_not_felt() {
     to_trial(&mut window);
     explore(&mut window, 4);
     let mut moved_to = |over, pixel| {
-        let stamp = window.bench.stamp();
-        let mut tap = window.bench.tap.lock().unwrap();
+        let stamp = window.workbench.bench.stamp();
+        let mut tap = window.workbench.bench.tap.lock().unwrap();
         tap.moved_to_pixel(stamp, over, pixel);
         drop(tap);
         window.pass(2);
-        window.bench.transient.live.centre
+        window.workbench.bench.transient.live.centre
     };
     let before = moved_to(Pointed::Workbench, [320.0, 300.0]);
     assert!(before.is_some());

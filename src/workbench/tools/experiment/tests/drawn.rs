@@ -40,13 +40,20 @@ impl Drawn {
             rasteriser: crate::shell::raster::Rasteriser::default(),
         };
         drawn.pass(2);
-        let form = &mut drawn.window.bench.transient.experiment.form;
+        let form = &mut drawn.window.workbench.bench.transient.experiment.form;
         form.choose(chosen);
         form.folder = folder.0.display().to_string();
         form.who.pseudonym = pseudonym.to_owned();
         drawn.window.dispatch(ExperimentCommand::Begin);
         drawn.pass(3);
-        let failure = &drawn.window.bench.transient.experiment.form.failure;
+        let failure = &drawn
+            .window
+            .workbench
+            .bench
+            .transient
+            .experiment
+            .form
+            .failure;
         assert_eq!(*failure, None);
         drawn
     }
@@ -128,7 +135,7 @@ fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone
         let folder = Folder::new(&format!("drawn-{name}"));
         let mut drawn = Drawn::trial(&folder, "ranking-virtual-target", name, Theme::Dark);
         let picture = drawn.picture();
-        let pane = drawn.window.bench.transient.ground.unwrap();
+        let pane = drawn.window.workbench.bench.transient.ground.unwrap();
         let size_mm = held(&drawn.window).layout.size_mm;
         (
             target(&drawn),
@@ -286,20 +293,31 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
     drawn.keep_picture(&name("5-end"));
     drawn.window.dispatch(ExperimentCommand::End);
     drawn.pass(3);
-    let form = &mut drawn.window.bench.transient.experiment.form;
+    let form = &mut drawn.window.workbench.bench.transient.experiment.form;
     form.choose(Chosen::Shipped("ranking-real-target"));
     drawn.keep_picture(&name("6-form"));
-    assert_eq!(drawn.window.bench.transient.experiment.form.found.len(), 1);
+    assert_eq!(
+        drawn
+            .window
+            .workbench
+            .bench
+            .transient
+            .experiment
+            .form
+            .found
+            .len(),
+        1
+    );
 }
 
 #[test]
 fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_types() {
     let folder = Folder::new("drawn-blank");
     let mut drawn = Drawn::trial(&folder, "odd-one-out", "p01", Theme::Dark);
-    assert!(drawn.window.bench.transient.ground.is_some());
+    assert!(drawn.window.workbench.bench.transient.ground.is_some());
     drawn.window.dispatch(ExperimentCommand::Blank(true));
     drawn.pass(2);
-    let ground = drawn.window.bench.transient.ground;
+    let ground = drawn.window.workbench.bench.transient.ground;
     assert!(ground.is_some(), "what lies there is still felt");
     let picture = drawn.picture();
     let colour = |x: usize, y: usize| picture.rgba[4 * (y * SIZE[0] + x)..][..4].to_vec();
@@ -320,7 +338,14 @@ fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_type
     }
     drawn.window.dispatch(ExperimentCommand::Answer);
     drawn.pass(4);
-    let held = drawn.window.bench.transient.experiment.held.as_ref();
+    let held = drawn
+        .window
+        .workbench
+        .bench
+        .transient
+        .experiment
+        .held
+        .as_ref();
     assert_eq!(held.unwrap().progress.0, 1, "typed by the experimenter");
     drawn.window.dispatch(ExperimentCommand::Blank(false));
     drawn.pass(2);

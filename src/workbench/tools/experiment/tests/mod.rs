@@ -25,13 +25,13 @@ use selvedge_scratch::ScratchFolder as Folder;
 fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
-    let form = &mut window.bench.transient.experiment.form;
+    let form = &mut window.workbench.bench.transient.experiment.form;
     form.choose(small(folder, design));
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = pseudonym.to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
-    let experiment = &window.bench.transient.experiment;
+    let experiment = &window.workbench.bench.transient.experiment;
     assert_eq!(experiment.form.failure, None);
     assert!(experiment.is_held());
     window
@@ -53,7 +53,14 @@ fn small(folder: &Folder, design: &'static str) -> Chosen {
 }
 
 fn held(window: &Headless) -> &Held {
-    window.bench.transient.experiment.held.as_deref().unwrap()
+    window
+        .workbench
+        .bench
+        .transient
+        .experiment
+        .held
+        .as_deref()
+        .unwrap()
 }
 
 /// Goes on until a trial waits.
@@ -72,8 +79,14 @@ fn to_trial(window: &mut Headless) {
 fn explore(window: &mut Headless, n_ticks: u16) {
     for n in 0..n_ticks {
         let at = Pos2::new(300.0 + 6.0 * f32::from(n % 40), 300.0);
-        let stamp = window.bench.stamp();
-        window.bench.tap.lock().unwrap().moved_to(stamp, at);
+        let stamp = window.workbench.bench.stamp();
+        window
+            .workbench
+            .bench
+            .tap
+            .lock()
+            .unwrap()
+            .moved_to(stamp, at);
         window.pass(1);
     }
 }
@@ -102,7 +115,7 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     explore(&mut window, 60);
     assert!(
         window
-            .bench
+            .workbench
             .amplitudes_um()
             .iter()
             .flatten()
@@ -128,9 +141,9 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
-    assert!(!window.bench.transient.experiment.is_held());
+    assert!(!window.workbench.bench.transient.experiment.is_held());
     assert_eq!(
-        window.bench.take.as_ref().map(|_| ()),
+        window.workbench.bench.take.as_ref().map(|_| ()),
         None,
         "no recording of the user's"
     );
@@ -158,8 +171,8 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     window.pass(2);
     window.dispatch(Edit::MasterGain(-7.5));
     window.dispatch(Edit::RemoveCloth(2));
-    let before = window.bench.document.scene().clone();
-    let form = &mut window.bench.transient.experiment.form;
+    let before = window.workbench.bench.document.scene().clone();
+    let form = &mut window.workbench.bench.transient.experiment.form;
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = "p01".to_owned();
     form.choose(small(&folder, "ranking-virtual-target"));
@@ -169,18 +182,21 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     window.dispatch(Edit::MasterGain(3.0));
     window.dispatch(Command::Undo);
     window.dispatch(DeviceCommand::ListPorts);
-    assert_eq!(window.bench.document.scene(), &before);
-    assert_eq!(window.bench.document.undo_name(), Some("removed textile"));
-    let told = window.bench.notices();
+    assert_eq!(window.workbench.bench.document.scene(), &before);
+    assert_eq!(
+        window.workbench.bench.document.undo_name(),
+        Some("removed textile")
+    );
+    let told = window.workbench.notices();
     assert!(
         told.iter().any(|line| line.contains("end it first")),
         "{told:?}"
     );
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
-    assert_eq!(window.bench.document.scene(), &before);
-    let serial = window.bench.scene_serial;
-    let snapshot = window.bench.engine.snapshot();
+    assert_eq!(window.workbench.bench.document.scene(), &before);
+    let serial = window.workbench.bench.scene_serial;
+    let snapshot = window.workbench.bench.engine.snapshot();
     assert_eq!(snapshot.scene_serial, serial);
     assert!((snapshot.tuning.gain_db + 7.5).abs() < 1e-9);
 }
@@ -205,6 +221,7 @@ fn a_row_that_cannot_be_written_waits_with_its_answer_until_it_is() {
     );
     assert_eq!((stuck.progress.0, stuck.trial()), (0, Some(&trial)));
     let view = window
+        .workbench
         .bench
         .transient
         .experiment
@@ -233,7 +250,7 @@ fn what_is_seen_of_a_trial_is_the_same_whatever_is_right() {
             panic!("a ranking")
         };
         let link = Link::of((None, None), false, [1.0; 2]);
-        let experiment = &window.bench.transient.experiment;
+        let experiment = &window.workbench.bench.transient.experiment;
         let told = format!("{:?}", experiment.experimenter(link, 0.0));
         let view = experiment.participant(&Live::default(), 0.0);
         let words = format!("{view:?}");
@@ -265,12 +282,12 @@ fn nothing_that_tells_what_is_felt_is_drawn_while_a_session_is_held() {
     let folder = Folder::new("veil");
     let mut window = begun(&folder, "odd-one-out", "p01");
     to_trial(&mut window);
-    let columns = window.bench.columns_computed();
-    let trail = window.bench.transient.n_drawn;
+    let columns = window.workbench.columns_computed();
+    let trail = window.workbench.bench.transient.n_drawn;
     explore(&mut window, 20);
-    assert_eq!(window.bench.columns_computed(), columns);
+    assert_eq!(window.workbench.columns_computed(), columns);
     let participant = crate::shell::arrangement::Pane::Participant.index();
-    assert!(window.bench.transient.n_drawn[participant] > trail[participant]);
+    assert!(window.workbench.bench.transient.n_drawn[participant] > trail[participant]);
 }
 
 #[test]
@@ -280,6 +297,7 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     to_trial(&mut window);
     let trial = held(&window).trial().unwrap().clone();
     window
+        .workbench
         .bench
         .transient
         .experiment
@@ -317,7 +335,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     let folder = Folder::new("adjust");
     let mut window = begun(&folder, "gain-matching", "p01");
     to_trial(&mut window);
-    let felt_db = |window: &mut Headless| window.bench.engine.snapshot().tuning.gain_db;
+    let felt_db = |window: &mut Headless| window.workbench.bench.engine.snapshot().tuning.gain_db;
     let start = held(&window).tuning().gain_db;
     assert!((felt_db(&mut window) - start).abs() < 1e-9);
     mark(&mut window, Mark::Turn(0, 2));
@@ -344,7 +362,7 @@ fn a_vibration_is_played_at_the_beginning_of_its_trial_and_again_when_asked() {
     let mut window = begun(&folder, "magnitude", "p01");
     to_trial(&mut window);
     let loudest = |window: &Headless| {
-        let all = window.bench.amplitudes_um();
+        let all = window.workbench.amplitudes_um();
         all.iter().flatten().copied().fold(0.0, f64::max)
     };
     window.pass(40);
@@ -367,7 +385,7 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     let mut window = begun(&folder, "odd-one-out", "p01");
     window.dispatch(ExperimentCommand::End);
     window.pass(3);
-    let form = &window.bench.transient.experiment.form;
+    let form = &window.workbench.bench.transient.experiment.form;
     let [row] = &form.found[..] else {
         panic!("one session")
     };
@@ -377,9 +395,23 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     );
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
-    let failure = window.bench.transient.experiment.form.failure.clone();
+    let failure = window
+        .workbench
+        .bench
+        .transient
+        .experiment
+        .form
+        .failure
+        .clone();
     assert!(failure.unwrap().contains("resume it below"));
-    window.bench.transient.experiment.form.who.pseudonym = "p02".to_owned();
+    window
+        .workbench
+        .bench
+        .transient
+        .experiment
+        .form
+        .who
+        .pseudonym = "p02".to_owned();
     window.dispatch(ExperimentCommand::Begin);
     window.pass(3);
     assert_eq!(held(&window).subject.nth, 1, "the second of the study");

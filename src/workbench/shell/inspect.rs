@@ -14,7 +14,8 @@ use selvedge_textile::tactile::Tuning;
 impl Workbench {
     /// Peak amplitudes [A40, A320] of every contactor after gains, before output limits, µm.
     pub fn amplitudes_um(&self) -> Vec<[f64; 2]> {
-        self.transient
+        self.bench
+            .transient
             .live
             .dots
             .iter()
@@ -24,38 +25,38 @@ impl Workbench {
 
     /// Gains and compression in force.
     pub fn tuning(&self) -> Tuning {
-        self.document.tuning()
+        self.bench.document.tuning()
     }
 
     /// The scene as it is edited.
     pub fn scene(&self) -> &Scene {
-        self.document.scene()
+        self.bench.document.scene()
     }
 
     /// The display's turn on top of the scene's, degrees counter-clockwise.
     pub fn turn_deg(&self) -> f64 {
-        self.transient.live.turn_deg
+        self.bench.transient.live.turn_deg
     }
 
     /// Whether the exploration is being recorded.
     pub fn is_recording(&self) -> bool {
-        self.transient.live.play.is_recording
+        self.bench.transient.live.play.is_recording
     }
 
     /// Ticks of the recording that can be replayed; `None` without one.
     pub fn n_recorded_ticks(&self) -> Option<u64> {
-        self.take.as_ref().map(|take| take.path().n_ticks())
+        self.bench.take.as_ref().map(|take| take.path().n_ticks())
     }
 
     /// The tick of the recording that is replayed; `None` while something else moves the display.
     pub fn replayed_tick(&self) -> Option<u64> {
-        let play = self.transient.live.play;
+        let play = self.bench.transient.live.play;
         (play.source == Source::Recording).then_some(play.tick)
     }
 
     /// How often each pane was drawn, by its title.
     pub fn panes_drawn(&self) -> Vec<(&'static str, u64)> {
-        let drawn = Pane::ALL.into_iter().zip(self.transient.n_drawn);
+        let drawn = Pane::ALL.into_iter().zip(self.bench.transient.n_drawn);
         drawn
             .map(|(pane, n_drawn)| (pane.title(), n_drawn))
             .collect()
@@ -64,131 +65,140 @@ impl Workbench {
     /// Columns computed for the contact spectrum and for the drive spectrum.
     pub fn columns_computed(&self) -> [u64; 2] {
         [
-            self.transient.contact_spectrogram.n_columns_computed(),
-            self.transient.drive_spectrogram.n_columns_computed(),
+            self.bench
+                .transient
+                .contact_spectrogram
+                .n_columns_computed(),
+            self.bench.transient.drive_spectrogram.n_columns_computed(),
         ]
     }
 
     /// Comparisons that were begun.
     pub fn n_comparisons(&self) -> u64 {
-        self.transient.comparison.n_begun()
+        self.bench.transient.comparison.n_begun()
     }
 
     /// The differences that were found last.
     pub fn comparison(&self) -> Option<&LevelDifference> {
-        self.transient.comparison.found()
+        self.bench.transient.comparison.found()
     }
 
     /// Ticks that were checked against `reference` since the statistics began, and ticks left out.
     pub fn ticks_checked(&self) -> [u64; 2] {
-        let tally = self.transient.accuracy.tally();
+        let tally = self.bench.transient.accuracy.tally();
         [tally.sampled, tally.busy + tally.changed]
     }
 
     /// The name of the rendering method that runs.
     pub fn rendered_by(&self) -> &'static str {
-        self.transient.live.status.method
+        self.bench.transient.live.status.method
     }
 
     /// The level error that rendering may make, dB.
     pub fn error_budget_db(&self) -> f64 {
-        self.settings.kept.rendering.budget_db
+        self.bench.settings.kept.rendering.budget_db
     }
 
     /// Methods that were measured on this scene.
     pub fn n_methods_measured(&self) -> usize {
-        let measured = self.transient.accuracy.measured.as_ref();
+        let measured = self.bench.transient.accuracy.measured.as_ref();
         measured.map_or(0, |measured| measured.rows.len())
     }
 
     /// The textile and the contactor that the pointer rests on, in whichever view.
     pub fn hovered(&self) -> [Option<usize>; 2] {
-        let hovered = self.transient.hovered;
+        let hovered = self.bench.transient.hovered;
         [hovered.cloth, hovered.contactor]
     }
 
     /// The textile and the contactor that are chosen in all views.
     pub fn chosen(&self) -> [Option<usize>; 2] {
-        [self.workspace.cloth, self.workspace.contactor]
+        [self.bench.workspace.cloth, self.bench.workspace.contactor]
     }
 
     /// Maps over the cloth and curves over direction and speed computed so far.
     pub fn responses_computed(&self) -> [u64; 2] {
-        let transient = &self.transient;
+        let transient = &self.bench.transient;
         [transient.maps.n_computed(), transient.curves.n_computed()]
     }
 
     /// Previews of recipes that were begun in the textile lab.
     pub fn previews_computed(&self) -> u64 {
-        self.transient.lab.n_computed
+        self.bench.transient.lab.n_computed
     }
 
     /// The textiles of the library that are selected, by their ids in order.
     pub fn selected_textiles(&self) -> Vec<String> {
-        self.transient.collection.selected.iter().cloned().collect()
+        self.bench
+            .transient
+            .collection
+            .selected
+            .iter()
+            .cloned()
+            .collect()
     }
 
     /// Textiles of the library measured so far, at whichever speed.
     pub fn n_textiles_measured(&self) -> u64 {
-        self.transient.collection.measurements.n_measured()
+        self.bench.transient.collection.measurements.n_measured()
     }
 
     /// The scene's name.
     pub fn scene_name(&self) -> &str {
-        &self.document.scene().name
+        &self.bench.document.scene().name
     }
 
     /// Whether the scene differs from its file.
     pub fn is_edited(&self) -> bool {
-        self.document.is_edited()
+        self.bench.document.is_edited()
     }
 
     /// Whether high voltage is on, or about to be.
     pub fn is_armed(&self) -> bool {
-        self.transient.live.is_armed()
+        self.bench.transient.live.is_armed()
     }
 
     /// Whether the device is ready to be armed.
     pub fn is_ready(&self) -> bool {
-        let bridge = self.transient.live.bridge.as_ref();
+        let bridge = self.bench.transient.live.bridge.as_ref();
         bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Ready)
     }
 
     /// Whether a device would play silence: everything is off, or a replay or stroke is held.
     pub fn is_silent(&self) -> bool {
-        self.transient.live.is_silent
+        self.bench.transient.live.is_silent
     }
 
     /// Whether everything was switched off and nothing was armed since.
     pub fn is_stopped(&self) -> bool {
-        self.transient.live.is_stopped
+        self.bench.transient.live.is_stopped
     }
 
     /// Readings of measurements that were begun.
     pub fn n_measurements_read(&self) -> u64 {
-        self.transient.importing.n_read()
+        self.bench.transient.importing.n_read()
     }
 
     /// The figures of what is imported, one line each: SMD of every stroke, or of every place.
     pub fn imported_figures(&self) -> Vec<String> {
-        let found = self.transient.importing.found();
+        let found = self.bench.transient.importing.found();
         found.map_or_else(Vec::new, |found| found.figures())
     }
 
     /// Takes a file of measurements, as when it is dropped or chosen.
     pub fn import_file(&mut self, path: PathBuf) {
-        let ctx = self.ctx.clone();
+        let ctx = self.bench.ctx.clone();
         self.dispatch(&ctx, FileCommand::Use(Purpose::ImportFiles, path).into());
     }
 
     /// Runs of the stages from a picture to a textile that were begun.
     pub fn n_pictures_worked_out(&self) -> u64 {
-        self.transient.picturing.n_begun()
+        self.bench.transient.picturing.n_begun()
     }
 
     /// The lattice vectors found on the picture, px: x right, y down.
     pub fn picture_lattice(&self) -> Option<[[f64; 2]; 2]> {
-        let found = self.transient.picturing.found()?;
+        let found = self.bench.transient.picturing.found()?;
         let cloth = found.cloth.as_ref()?;
         let lattice = cloth.found.as_ref().ok()?.lattice;
         Some([lattice.p1_px, lattice.p2_px])
@@ -196,13 +206,14 @@ impl Workbench {
 
     /// Takes a picture of a cloth, as when it is dropped or chosen.
     pub fn open_picture(&mut self, path: PathBuf) {
-        let ctx = self.ctx.clone();
+        let ctx = self.bench.ctx.clone();
         self.dispatch(&ctx, FileCommand::Use(Purpose::OpenPicture, path).into());
     }
 
     /// The sentences that are shown.
     pub fn notices(&self) -> Vec<String> {
-        self.transient
+        self.bench
+            .transient
             .notices
             .shown()
             .iter()
@@ -212,13 +223,13 @@ impl Workbench {
 
     /// Connects to the emulator in this process, as the window does when it starts.
     pub fn connect_emulator(&mut self) {
-        let ctx = self.ctx.clone();
+        let ctx = self.bench.ctx.clone();
         self.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
     }
 
     /// Opens the scene at this path, as the field does that asks for one.
     pub fn open_scene(&mut self, path: PathBuf) {
-        let ctx = self.ctx.clone();
+        let ctx = self.bench.ctx.clone();
         self.dispatch(&ctx, FileCommand::Use(Purpose::OpenScene, path).into());
     }
 }
