@@ -1,0 +1,89 @@
+//! Commands that talk to a device, here an emulated one. It lives in real time: what is said is
+//! compared without its numbers, and of logs what their columns are and what happens in them.
+
+use std::collections::BTreeSet;
+
+use super::compare::Golden;
+use super::script::Script;
+use crate::bridge_device::Device;
+use crate::bridge_end_to_end::undisturbed;
+use crate::program::{Lab, Outcome};
+
+/// Every number becomes `#`, and times have one unit.
+fn without_numbers(line: &str) -> String {
+    let mut text = String::new();
+    for letter in line.chars() {
+        let is_number = letter.is_ascii_digit() || (letter == '.' && text.ends_with('#'));
+        if !is_number {
+            text.push(letter);
+        } else if !text.ends_with('#') {
+            text.push('#');
+        }
+    }
+    let text = text.replace("# µs", "# ms").replace("# ns", "# ms");
+    text.replace("# s", "# ms")
+}
+
+/// The header of a log, and every word that a column holds.
+fn words_of(log: &str, column: &str) -> String {
+    let mut lines = log.lines().filter(|line| !line.starts_with('#'));
+    let header = lines.next().unwrap_or_default();
+    let at = header.split(',').position(|name| name == column);
+    let at = at.unwrap_or_else(|| panic!("no {column} in {header}"));
+    let word = |line: &str| without_numbers(line.split(',').nth(at).unwrap_or_default());
+    let words: BTreeSet<String> = lines.map(word).collect();
+    let words: Vec<String> = words.into_iter().collect();
+    format!("{header}\n{column}: {}", words.join(", "))
+}
+
+/// Runs a command on a device of its own, again where the machine was too busy.
+fn on_device(script: &mut Script, options: &[&str], line: &str) {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let outcome = undisturbed(|| {
+        let device = Device::start(&script.lab, options);
+        let outcome = script.lab.run(&words);
+        device.end(&script.lab);
+        let disturbed = ["no frame reached it", "no STATUS", "did not"];
+        let is_disturbed = disturbed.iter().any(|words| outcome.err.contains(words));
+        (!is_disturbed).then_some(outcome)
+    });
+    let steady = |text: &str| {
+        let lines = text
+            .lines()
+            .map(|line| format!("{}\n", without_numbers(line)));
+        lines.collect::<String>()
+    };
+    let outcome = Outcome {
+        code: outcome.code,
+        out: steady(&outcome.out),
+        err: steady(&outcome.err),
+    };
+    script.tell(line, &outcome);
+}
+
+#[test]
+fn golden_devices() {
+    let mut golden = Golden::of("commands/devices");
+    let mut script = Script::in_lab(Lab::with_scene());
+    let answers: String = (0..24).map(|channel| format!("{channel}\n")).collect();
+    script.lab.write("answers.txt", answers);
+    on_device(&mut script, &[], "bridge test --port array");
+    let identify = "bridge identify --port array --out rig.toml --answers answers.txt";
+    on_device(&mut script, &[], identify);
+    script.file("rig.toml");
+    let play = "play a.scene.toml --path a.csv --port array --log host.csv";
+    on_device(&mut script, &[], &format!("{play} --session-log link.csv"));
+    let header = |log: String| log.lines().next().unwrap_or_default().to_owned();
+    script.note("host.csv", &header(script.lab.read("host.csv")));
+    script.note("link.csv", &words_of(&script.lab.read("link.csv"), "event"));
+    script.note(
+        "device.csv",
+        &words_of(&script.lab.read("device.csv"), "state"),
+    );
+    let able = ["--modes", "a,b,ident", "--max-body", "1024"];
+    on_device(&mut script, &able, &format!("{play} --samples"));
+    on_device(&mut script, &[], &format!("{play} --samples"));
+    on_device(&mut script, &[], &format!("{play} --array 5x5"));
+    script.compare(&mut golden, "devices");
+    golden.finish();
+}
