@@ -7,6 +7,7 @@ use eframe::egui::{Key, Modifiers};
 
 use super::compare::Golden;
 use super::condense::condensed;
+use super::samples::export;
 use super::stage::Stage;
 use crate::program::Lab;
 
@@ -35,7 +36,7 @@ const CHARTS: [(&str, &str, &str); 13] = [
 
 #[test]
 fn golden_charts() {
-    let mut golden = Golden::of("charts");
+    let mut golden = Golden::of("charts/panes");
     let lab = Lab::named("charts");
     let mut stage = Stage::alone(None);
     stage.press(Modifiers::NONE, Key::Space);
@@ -63,6 +64,28 @@ fn golden_charts() {
                 _ => golden.text_as(name, ending, &condensed(&text)),
             }
         }
+    }
+    golden.finish();
+}
+
+#[test]
+fn golden_sheets() {
+    let mut golden = Golden::of("charts/sheets");
+    let lab = Lab::with_scene();
+    lab.write("twill.txt", export());
+    let line = "textile import-kes twill.txt --out textiles/twill --name Twill";
+    let words: Vec<&str> = line.split(' ').collect();
+    let outcome = lab.run(&words);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    let line = "textile catalogue --library textiles --out sheets";
+    lab.print(&line.split(' ').collect::<Vec<_>>());
+    for (name, file) in [
+        ("catalogue-twill", "sheets/twill.svg"),
+        ("catalogue-fine", "sheets/fine.svg"),
+        ("import-twill", "textiles/twill/import.svg"),
+    ] {
+        let text = lab.read(file).replace(env!("CARGO_PKG_VERSION"), "VERSION");
+        golden.text_as(name, "svg", &text);
     }
     golden.finish();
 }

@@ -1,7 +1,7 @@
 //! Every command of the guide that needs no device, on small inputs, and the help of every one.
 
 use super::compare::Golden;
-use super::samples::{MATRIX_SCALE, export, height_matrix, lit_cloth, profile};
+use super::samples::{MATRIX_SCALE, export, height_matrix, lit_cloth, profile, readings};
 use super::script::Script;
 use crate::program::Lab;
 
@@ -107,6 +107,11 @@ fn golden_made_textiles() {
     for (name, phase) in [("a.csv", 0.0), ("b.csv", 1.0), ("c.csv", 2.5)] {
         script.lab.write(name, profile(phase));
     }
+    for (name, phase) in [("a-probe.csv", 0.0), ("b-probe.csv", 1.0)] {
+        let [probe, tracker] = readings(phase);
+        script.lab.write(name, probe);
+        script.lab.write("tracker.csv", tracker);
+    }
     for (id, file) in [("jute-plain", "weave.toml"), ("polyamide-rib", "knit.toml")] {
         let recipe = script.lab.print(&["textile", "show", id, "--recipe"]);
         script.lab.write(file, recipe);
@@ -115,6 +120,9 @@ fn golden_made_textiles() {
         .run("textile make weave weave.toml --out mine/weave")
         .run("textile make knit knit.toml --out mine/knit")
         .run("textile make brownian --hurst 0.3 --smd-um 6 --seed 4 --step-mm 0.1 --out mine/brownian")
+        .run("textile learn-fourier --readings a-probe.csv tracker.csv \
+              --readings b-probe.csv tracker.csv --out read.toml")
+        .file("read.toml")
         .run("textile learn-fourier a.csv b.csv c.csv --name linen --out linen.toml")
         .file("linen.toml")
         .run("textile make fourier --template linen.toml --seed 4 --out mine/fourier")
@@ -189,6 +197,8 @@ fn golden_picture_and_mds() {
               --textile mine/scan",
         )
         .folder("mine")
+        .run("picture scan.png --out part --region 20,10,200,180 --even-light off --lambda 1.5")
+        .file("part/periodicity.json")
         .run("mds d.csv --dims 1-2 --starts 5 --json m.json")
         .file("m.json")
         .run("mds d.csv --dims 1-2 --starts 5 --ties secondary --loss sstress --seed 3");
@@ -204,7 +214,7 @@ fn golden_experiment() {
     let mut golden = Golden::of("commands/experiment");
     let mut script = Script::in_lab(Lab::new());
     script.lab.write("cloth.toml", CLOTH);
-    let answers: String = (0..10).map(|n| format!("\n{} easy\n", n % 3 + 1)).collect();
+    let answers = "\n1 easy\n\n2 easy\n\n3 hard\n".repeat(4);
     script.run("experiment designs");
     let list = script.lab.print(&["experiment", "designs"]);
     for name in list
@@ -215,7 +225,21 @@ fn golden_experiment() {
     }
     script
         .run_on("experiment run cloth.toml --subject p01", &answers)
+        .run("experiment run cloth.toml --subject p01")
+        .run_on(
+            "experiment run cloth.toml --subject p01 --restart",
+            "\n1 easy\nquit\n",
+        )
+        .run_on(
+            "experiment run cloth.toml --subject p01 --resume",
+            "note loud\nquit\n",
+        )
         .run("experiment run jnd-40 --subject p01")
+        .run(
+            "experiment simulate odd-one-out --observers 1 --out looks --looks 4 --strategy all \
+              --weighting learnt --lapse 0.1 --spread 0.2 --sessions 2",
+        )
+        .folder("looks")
         .run("experiment noise --out noise.wav --minutes 1 --seed 4")
         .file("noise.wav")
         .run("experiment replicate --studies 20 --brief --out again")
@@ -278,7 +302,8 @@ fn golden_report_and_bridge() {
         .run("bridge kit --out kit")
         .folder("kit")
         .run("bridge kit --out kit")
-        .run("bridge test --port nowhere");
+        .run("bridge test --port nowhere")
+        .run("");
     script.compare(&mut golden, "report-and-bridge");
     golden.finish();
 }

@@ -174,7 +174,7 @@ fn difference_of(old: &RgbImage, new: &RgbImage) -> Option<String> {
         return Some(format!("{wide} × {high} px in place of {w} × {h}"));
     }
     let pairs = old.enumerate_pixels().zip(new.pixels());
-    let differing = pairs.filter(|((_, _, old), new)| differ(old, new));
+    let differing = pairs.filter(|((_, _, old), new)| differ(**old, **new));
     let places: Vec<_> = differing.map(|((x, y, _), _)| (x, y)).collect();
     if places.len() <= N_PIXELS {
         return None;
@@ -200,7 +200,7 @@ fn in_steps(picture: &RgbImage) -> RgbImage {
     picture
 }
 
-fn differ(old: &Rgb<u8>, new: &Rgb<u8>) -> bool {
+fn differ(old: Rgb<u8>, new: Rgb<u8>) -> bool {
     let mut channels = old.0.iter().zip(new.0);
     channels.any(|(old, new)| old.abs_diff(new) > CHANNEL)
 }
@@ -210,7 +210,7 @@ fn marked(old: &RgbImage, new: &RgbImage) -> RgbImage {
     RgbImage::from_fn(new.width(), new.height(), |x, y| {
         let pixel = new.get_pixel(x, y);
         let before = old.get_pixel_checked(x, y);
-        if before.is_none_or(|before| differ(before, pixel)) {
+        if before.is_none_or(|before| differ(*before, *pixel)) {
             return Rgb([255, 0, 0]);
         }
         Rgb(pixel.0.map(|channel| 96 + channel / 4))

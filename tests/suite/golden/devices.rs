@@ -65,8 +65,8 @@ fn on_device(script: &mut Script, options: &[&str], line: &str) {
 fn golden_devices() {
     let mut golden = Golden::of("commands/devices");
     let mut script = Script::in_lab(Lab::with_scene());
-    let answers: String = (0..24).map(|channel| format!("{channel}\n")).collect();
-    script.lab.write("answers.txt", answers);
+    let answers: Vec<String> = (0..24).map(|channel| channel.to_string()).collect();
+    script.lab.write("answers.txt", answers.join("\n"));
     on_device(&mut script, &[], "bridge test --port array");
     let identify = "bridge identify --port array --out rig.toml --answers answers.txt";
     on_device(&mut script, &[], identify);
@@ -84,6 +84,7 @@ fn golden_devices() {
     on_device(&mut script, &able, &format!("{play} --samples"));
     on_device(&mut script, &[], &format!("{play} --samples"));
     on_device(&mut script, &[], &format!("{play} --array 5x5"));
+    script.run("play a.scene.toml --path a.csv --port nowhere");
     script.compare(&mut golden, "devices");
     golden.finish();
 }

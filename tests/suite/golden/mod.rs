@@ -18,8 +18,9 @@ mod windows;
 use std::path::Path;
 
 /// Every folder of references, each with one test that makes them.
-const GROUPS: [&str; 20] = [
-    "charts",
+const GROUPS: [&str; 22] = [
+    "charts/panes",
+    "charts/sheets",
     "commands/devices",
     "commands/experiment",
     "commands/help",
@@ -31,6 +32,7 @@ const GROUPS: [&str; 20] = [
     "commands/report",
     "commands/report-and-bridge",
     "pictures/analysis",
+    "pictures/armed",
     "pictures/felt",
     "pictures/made",
     "pictures/overlays",

@@ -14,6 +14,24 @@ pub(super) fn profile(phase: f64) -> String {
     text
 }
 
+/// What a probe and a tracker read over time, as CSV: a stroke of 60 mm in 3 s.
+pub(super) fn readings(phase: f64) -> [String; 2] {
+    let mut probe = String::from("t_s,height_um\n");
+    let mut tracker = String::from("t_s,x_mm\n");
+    for i in 0..600_u16 {
+        let t_s = f64::from(i) * 0.005;
+        let x_mm = 20.0 * t_s;
+        writeln!(
+            probe,
+            "{t_s:.3},{:.3}",
+            9.0 * (TAU * x_mm / 4.0 + phase).sin()
+        )
+        .unwrap();
+        writeln!(tracker, "{t_s:.3},{x_mm:.3}").unwrap();
+    }
+    [probe, tracker]
+}
+
 /// An export of the surface tester: both ways over 30 mm, by place, and the friction.
 pub(super) fn export() -> String {
     let mut text = String::from("KES-FB4\n\ndistance mm;forward um;return um;mu\n");

@@ -22,7 +22,7 @@ const HEADER: f32 = 44.0;
 const TABS: f32 = 24.0;
 const TIMELINE: f32 = 80.0;
 /// Frames in a second.
-const RATE_HZ: f64 = 40.0;
+const RATE_HZ: f32 = 40.0;
 
 /// A window, and what is in front in it.
 pub(super) struct Stage {
@@ -42,7 +42,7 @@ impl Stage {
         let harness = Harness::builder()
             .with_size(size)
             .with_pixels_per_point(pixels_per_point)
-            .with_step_dt(1.0 / RATE_HZ as f32)
+            .with_step_dt(1.0 / RATE_HZ)
             .with_max_steps(200)
             .renderer(Soft(Rasteriser::default()))
             .build_eframe(move |cc| {
@@ -168,6 +168,22 @@ impl Stage {
         self.restart();
     }
 
+    /// Steps in real time until something is so in two frames on end, the latter of which shows it.
+    pub(super) fn wait_to_see(&mut self, is_so: fn(&Workbench) -> bool) {
+        let patience = Instant::now() + Duration::from_mins(2);
+        let mut was_so = false;
+        loop {
+            self.harness.step();
+            let is_so = is_so(self.harness.state());
+            if is_so && was_so {
+                return;
+            }
+            was_so = is_so;
+            assert!(Instant::now() < patience, "it is never seen");
+            thread::sleep(Duration::from_millis(2));
+        }
+    }
+
     /// Counts ticks from now on: other threads took as long as they did.
     fn restart(&mut self) {
         self.start += self.tick();
@@ -186,7 +202,7 @@ impl Stage {
             clippy::cast_sign_loss,
             reason = "a whole number of frames"
         )]
-        let tick = (now_s * RATE_HZ).round() as u32;
+        let tick = (now_s * f64::from(RATE_HZ)).round() as u32;
         tick - self.start
     }
 

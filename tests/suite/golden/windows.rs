@@ -3,10 +3,11 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Rect, Theme, pos2};
 use egui_kittest::kittest::Queryable as _;
-use selvedge::app::{Screenshot, screenshot};
+use selvedge::app::Workbench;
 
 use super::compare::Golden;
 use super::stage::Stage;
+use crate::program::Lab;
 
 /// Name, size in pixels, pixels per point.
 const SIZES: [(&str, [u16; 2], f32); 3] = [
@@ -52,21 +53,37 @@ fn golden_perspectives() {
 #[test]
 fn golden_screenshot() {
     let mut golden = Golden::of("pictures/screenshot");
-    let picture = screenshot(&Screenshot::default()).unwrap();
-    let [width, height] = [1400, 900];
-    let picture = image::RgbaImage::from_raw(width, height, picture.rgba).unwrap();
+    let lab = Lab::named("screenshot");
+    lab.print(&["screenshot", "--out", "window.png"]);
+    let picture = image::open(lab.path("window.png")).unwrap().into_rgba8();
     // The rest looks as in the window; here the emulator is ready.
-    let right = image::imageops::crop_imm(&picture, 1072, 0, 328, height).to_image();
+    let right = image::imageops::crop_imm(&picture, 1072, 0, 328, 900).to_image();
     golden.picture("with-the-emulator-ready", &right);
     golden.finish();
 }
 
+#[test]
+fn golden_armed() {
+    let mut golden = Golden::of("pictures/armed");
+    let mut stage = Stage::new(None, [1400, 900], 1.0);
+    stage.harness.state_mut().connect_emulator();
+    stage.wait(Workbench::is_ready);
+    stage.click(Role::Button, "Arm");
+    stage.wait_to_see(Workbench::is_armed);
+    // The device lives in real time, and so do its state and its counters beside these.
+    golden.picture("header", &stage.part(place([1190.0, 0.0, 1400.0, 44.0])));
+    golden.picture("disarm", &stage.part(place([1072.0, 464.0, 1400.0, 516.0])));
+    golden.finish();
+}
+
+fn place([left, top, right, bottom]: [f32; 4]) -> Rect {
+    Rect::from_min_max(pos2(left, top), pos2(right, bottom))
+}
+
 /// A part of the window as a picture of its own, points.
-fn over(golden: &mut Golden, stage: &mut Stage, name: &str, place: [f32; 4]) {
+fn over(golden: &mut Golden, stage: &mut Stage, name: &str, corners: [f32; 4]) {
     stage.harness.run_steps(20);
-    let [left, top, right, bottom] = place;
-    let place = Rect::from_min_max(pos2(left, top), pos2(right, bottom));
-    golden.picture(name, &stage.part(place));
+    golden.picture(name, &stage.part(place(corners)));
 }
 
 #[test]
