@@ -119,15 +119,22 @@ fn golden_made_textiles() {
     script
         .run("textile make weave weave.toml --out mine/weave")
         .run("textile make knit knit.toml --out mine/knit")
-        .run("textile make brownian --hurst 0.3 --smd-um 6 --seed 4 --step-mm 0.1 --out mine/brownian")
-        .run("textile learn-fourier --readings a-probe.csv tracker.csv \
-              --readings b-probe.csv tracker.csv --out read.toml")
+        .run(
+            "textile make brownian --hurst 0.3 --smd-um 6 --seed 4 --step-mm 0.1 \
+              --out mine/brownian",
+        )
+        .run(
+            "textile learn-fourier --readings a-probe.csv tracker.csv \
+              --readings b-probe.csv tracker.csv --out read.toml",
+        )
         .file("read.toml")
         .run("textile learn-fourier a.csv b.csv c.csv --name linen --out linen.toml")
         .file("linen.toml")
         .run("textile make fourier --template linen.toml --seed 4 --out mine/fourier")
-        .run("textile make restoration --warp a.csv --weft b.csv --harmonics 12 \
-              --composition additive --out mine/restoration")
+        .run(
+            "textile make restoration --warp a.csv --weft b.csv --harmonics 12 \
+              --composition additive --out mine/restoration",
+        )
         .folder("mine")
         .run("textile make library mine --out built")
         .file("built/library.toml")

@@ -21,8 +21,15 @@ fn without_numbers(line: &str) -> String {
         }
     }
     let text = text.replace("# µs", "# ms").replace("# ns", "# ms");
-    text.replace("# s", "# ms")
+    let text = text.replace("# s ", "# ms ").replace("# s,", "# ms,");
+    match text.strip_suffix("# s") {
+        Some(before) => format!("{before}# ms"),
+        None => text,
+    }
 }
+
+/// What happens, or is told of, only where the machine was busy, or only where it was not.
+const OF_LOAD: [&str; 4] = ["delays", "depth", "device-counters", "HOLD"];
 
 /// The header of a log, and every word that a column holds.
 fn words_of(log: &str, column: &str) -> String {
@@ -32,7 +39,8 @@ fn words_of(log: &str, column: &str) -> String {
     let at = at.unwrap_or_else(|| panic!("no {column} in {header}"));
     let word = |line: &str| without_numbers(line.split(',').nth(at).unwrap_or_default());
     let words: BTreeSet<String> = lines.map(word).collect();
-    let words: Vec<String> = words.into_iter().collect();
+    let is_steady = |word: &String| !OF_LOAD.contains(&word.as_str());
+    let words: Vec<String> = words.into_iter().filter(is_steady).collect();
     format!("{header}\n{column}: {}", words.join(", "))
 }
 

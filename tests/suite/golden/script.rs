@@ -99,7 +99,11 @@ impl Script {
             .replace(place.trim_end_matches('/'), "LAB")
             .replace(env!("CARGO_PKG_VERSION"), "VERSION");
         let steady: Vec<String> = text.lines().map(self.unsteady).collect();
-        writeln!(self.told, "{PART}{head}").unwrap();
+        let mut head = format!("{PART}{head}\n");
+        while self.told.contains(&head) {
+            head.insert_str(head.len() - 1, " (again)");
+        }
+        self.told.push_str(&head);
         for line in steady {
             // A line of the text may look as the beginning of a part.
             writeln!(self.told, "{}", line.replace(PART.trim_end(), "= = =")).unwrap();

@@ -1,4 +1,4 @@
-//! The real window on the shipped scene, one pane of it alone: without a display, by simulated time.
+//! The real window on the shipped scene, one pane of it alone: no display, and simulated time.
 //!
 //! What is shown depends on the tick at which it is looked at. So that a picture does not change
 //! with what was clicked for the one before it, every picture is taken at a tick of its own.
