@@ -17,6 +17,7 @@ mod commands;
 mod experiment;
 mod experiment_analyse;
 mod firmware;
+mod golden;
 mod import;
 mod import_kes;
 mod mds;

@@ -35,7 +35,7 @@ use selvedge_workbench::{Drive, Rasteriser, Workbench};
 use crate::program::Lab;
 
 /// The rasteriser of the window's own screenshots as the renderer of the tests.
-struct Soft(Rasteriser);
+pub(crate) struct Soft(pub(crate) Rasteriser);
 
 impl TestRenderer for Soft {
     fn handle_delta(&mut self, delta: &mut TexturesDelta) {
