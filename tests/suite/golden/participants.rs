@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
-use selvedge::experiment::design::Design;
+use selvedge_experiment::design::Design;
 
 use super::compare::Golden;
 use super::stage::Stage;

@@ -12,7 +12,7 @@ use eframe::egui::{Event, Key, Modifiers, Rect, Theme, Vec2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use image::RgbaImage;
-use selvedge::app::{Drive, Rasteriser, Workbench};
+use selvedge_workbench::{Drive, Rasteriser, Workbench};
 
 use crate::golden::compare::Golden;
 use crate::window::Soft;

@@ -3,7 +3,7 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Rect, Theme, pos2};
 use egui_kittest::kittest::Queryable as _;
-use selvedge::app::Workbench;
+use selvedge_workbench::Workbench;
 
 use super::compare::Golden;
 use super::stage::Stage;
