@@ -9,13 +9,14 @@ use egui_tiles::Tree;
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, PlaySource, ShowCommand, Wishes};
+use crate::bench::pane::Pane;
+use crate::bench::perspective::Perspective;
 use crate::bench::recording::Take;
 use crate::bench::view::{Hovered, SceneView, Source};
 use crate::kit::theme::Palette;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::shell::desk::Desk;
-use crate::shell::perspective::Perspective;
+use crate::shell::perspective::arrangement_for;
 use crate::shell::pointer::{Ground, Pointed};
 use crate::shell::state::{After, Transient};
 use crate::shell::tab_row::TabRow;
@@ -212,7 +213,7 @@ impl Bench {
                 resting.take_if(|_| kept.is_none());
             }
             if kept[perspective.index()].is_none() {
-                self.tree = perspective.default_tree(size);
+                self.tree = arrangement_for(perspective, size);
             }
         }
     }
@@ -227,7 +228,7 @@ impl Bench {
         }
         let size = self.transient.desk_size;
         tree.flatten()
-            .unwrap_or_else(|| perspective.default_tree(size))
+            .unwrap_or_else(|| arrangement_for(perspective, size))
     }
 
     /// Arranges the window for something else; what was arranged before stays as it is.

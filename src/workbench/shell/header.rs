@@ -5,13 +5,13 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Command, ShowCommand, Wishes};
+use crate::bench::perspective::Perspective;
 use crate::bench::view::{Live, SceneView, Status};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, mark};
 use crate::shell::keys::hint;
 use crate::shell::menu::{Appearance, show_scene_menu, show_view_menu};
-use crate::shell::perspective::Perspective;
 use selvedge_foundation::quantity;
 
 /// A window narrower than this has no room for the status, points.

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::{FileCommand, Purpose};
+use crate::bench::pane::Pane;
 use crate::bench::view::{BridgePhase, Source};
-use crate::shell::arrangement::Pane;
 use crate::shell::window::Workbench;
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::Scene;

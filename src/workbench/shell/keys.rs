@@ -5,7 +5,7 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use crate::bench::command::{
     Chosen, Command, FileCommand, Look, PlayCommand, PlaySource, Purpose, ShowCommand, Tool,
 };
-use crate::shell::perspective::Perspective;
+use crate::bench::perspective::Perspective;
 use crate::tools::workspace::overlay::Overlay;
 use selvedge_textile::tactile::Band;
 

@@ -6,11 +6,11 @@ use eframe::egui::{self, Button, ThemePreference, Ui};
 
 use crate::bench::clips::{CLIPS, ClipsView};
 use crate::bench::command::{Command, DotStyle, FileCommand, Purpose, ShowCommand, Wishes};
+use crate::bench::pane::Pane;
+use crate::bench::perspective::Perspective;
 use crate::bench::view::SceneView;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::shell::arrangement::Pane;
 use crate::shell::keys::hint;
-use crate::shell::perspective::Perspective;
 use crate::tools::workspace::overlay::Overlays;
 use selvedge_foundation::quantity;
 

@@ -1,12 +1,13 @@
-//! Perspectives: what the window is arranged for. Each keeps its own arrangement of all the panes.
-//!
-//! Another one joins as a variant with its words and its default tree; everything else follows.
+//! How the window is arranged for each perspective. Each keeps its own arrangement of all the
+//! panes.
 
 use eframe::egui::{Id, Vec2};
 use egui_tiles::{LinearDir, TileId, Tiles, Tree};
 
+use crate::bench::pane::Pane;
+use crate::bench::perspective::Perspective;
 use crate::shell::arrangement;
-use crate::shell::arrangement::{Pane, is_roomy, linear, tabs};
+use crate::shell::arrangement::{is_roomy, linear, tabs};
 
 /// Width of the library beside the lab, points.
 const LIBRARY: f32 = 200.0;
@@ -15,69 +16,19 @@ const BELOW: f32 = 168.0;
 /// Width of the experimenter's view, points.
 const EXPERIMENTER: f32 = 328.0;
 
-/// What the window is arranged for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Perspective {
-    /// To feel a scene.
-    #[default]
-    Explore,
-    /// To make cloth.
-    Cloth,
-    /// To run an experiment.
-    Experiment,
-}
-
-impl Perspective {
-    /// All, in the order in which they are offered.
-    pub(crate) const ALL: [Self; 3] = [Self::Explore, Self::Cloth, Self::Experiment];
-
-    /// Its place in [`Self::ALL`].
-    pub(crate) fn index(self) -> usize {
-        let mut all = Self::ALL.into_iter();
-        all.position(|one| one == self).unwrap_or_default()
-    }
-
-    /// What people call it.
-    pub(crate) fn title(self) -> &'static str {
-        match self {
-            Self::Explore => "Explore",
-            Self::Cloth => "Cloth",
-            Self::Experiment => "Experiment",
+/// The arrangement that a window of this size begins with, points.
+pub(crate) fn arrangement_for(perspective: Perspective, size: Vec2) -> Tree<Pane> {
+    match perspective {
+        Perspective::Explore => arrangement::default_tree(size),
+        Perspective::Cloth => {
+            let mut tiles = Tiles::default();
+            let root = cloth(&mut tiles, size);
+            Tree::new(Id::unique("cloth"), root, tiles)
         }
-    }
-
-    /// What it is for.
-    pub(crate) fn what(self) -> &'static str {
-        match self {
-            Self::Explore => "Feel a scene",
-            Self::Cloth => "Make cloth: the library and the textile lab",
-            Self::Experiment => "Run an experiment with a participant",
-        }
-    }
-
-    /// The word that files use.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Explore => "explore",
-            Self::Cloth => "cloth",
-            Self::Experiment => "experiment",
-        }
-    }
-
-    /// The arrangement that a window of this size begins with, points.
-    pub(crate) fn default_tree(self, size: Vec2) -> Tree<Pane> {
-        match self {
-            Self::Explore => arrangement::default_tree(size),
-            Self::Cloth => {
-                let mut tiles = Tiles::default();
-                let root = cloth(&mut tiles, size);
-                Tree::new(Id::unique("cloth"), root, tiles)
-            }
-            Self::Experiment => {
-                let mut tiles = Tiles::default();
-                let root = experiment(&mut tiles, size);
-                Tree::new(Id::unique("experiment"), root, tiles)
-            }
+        Perspective::Experiment => {
+            let mut tiles = Tiles::default();
+            let root = experiment(&mut tiles, size);
+            Tree::new(Id::unique("experiment"), root, tiles)
         }
     }
 }
@@ -149,7 +100,7 @@ mod tests {
     fn every_perspective_holds_every_pane_and_survives_being_kept() {
         for perspective in Perspective::ALL {
             for size in [Vec2::new(1400.0, 900.0), Vec2::new(700.0, 450.0)] {
-                let tree = perspective.default_tree(size);
+                let tree = arrangement_for(perspective, size);
                 for pane in Pane::ALL {
                     let tile = arrangement::tile_of(&tree, pane);
                     assert!(tile.is_some(), "{perspective:?} {pane:?}");
@@ -164,7 +115,7 @@ mod tests {
     fn the_lab_stands_in_front_where_cloth_is_made_and_behind_where_it_is_felt() {
         let size = Vec2::new(1400.0, 900.0);
         let shows =
-            |perspective: Perspective, pane| is_shown(&perspective.default_tree(size), pane);
+            |perspective: Perspective, pane| is_shown(&arrangement_for(perspective, size), pane);
         assert!(shows(Perspective::Cloth, Pane::Lab));
         assert!(shows(Perspective::Cloth, Pane::Library));
         assert!(!shows(Perspective::Cloth, Pane::Workspace));

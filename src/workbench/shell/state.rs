@@ -159,7 +159,7 @@ pub(crate) struct Transient {
     /// The level that compression leaves alone, dB re 1 µm.
     pub reference_db: Option<f64>,
     /// How often each pane was drawn.
-    pub n_drawn: [u64; crate::shell::arrangement::Pane::ALL.len()],
+    pub n_drawn: [u64; crate::bench::pane::Pane::ALL.len()],
 }
 
 /// What was asked for when there was something to save first.

@@ -8,8 +8,8 @@ use eframe::egui::epaint::{ClippedPrimitive, Primitive};
 use eframe::egui::{FullOutput, vec2};
 
 use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::shell::error::AppError;
 use crate::shell::headless::Headless;
 use selvedge_studies::{Bench, Findings, ReportError, Row, Study};

@@ -4,8 +4,8 @@ use eframe::egui::{Color32, Ui};
 
 use crate::bench::export::button::SIZE as EXPORT_SIZE;
 use crate::bench::export::gather::is_exportable;
+use crate::bench::pane::Pane;
 use crate::kit::theme;
-use crate::shell::arrangement::Pane;
 
 /// Space on both sides of a title, points.
 pub(crate) const TITLE_SPACING: f32 = 8.0;

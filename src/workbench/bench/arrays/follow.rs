@@ -99,7 +99,7 @@ mod tests {
 
     use crate::bench::command::array::ArrayCommand;
     use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
-    use crate::shell::arrangement::Pane;
+    use crate::bench::pane::Pane;
     use crate::shell::headless::Headless;
     use crate::shell::raster::Rasteriser;
     use selvedge_device::{ArrayProfile, Calibration};

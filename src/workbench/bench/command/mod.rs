@@ -17,11 +17,11 @@ use eframe::egui;
 
 use crate::bench::export::Exportable;
 use crate::bench::keep::Keep;
+use crate::bench::pane::Pane;
+use crate::bench::perspective::Perspective;
 use crate::bench::probe::Probe;
 use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::shell::arrangement::Pane;
-use crate::shell::perspective::Perspective;
 use crate::tools::accuracy::AccuracyCommand;
 use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::collection::CollectionCommand;

@@ -9,9 +9,9 @@ use crate::bench::export::origin::Origin;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
 use crate::bench::job::Job;
+use crate::bench::pane::Pane;
 use crate::bench::query;
 use crate::kit::theme::Palette;
-use crate::shell::arrangement::Pane;
 use crate::shell::frame;
 
 /// Why there is nothing to export before anything was felt.

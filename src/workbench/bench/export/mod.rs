@@ -38,8 +38,8 @@ pub(crate) use crate::bench::export::write::Kind;
 #[cfg(test)]
 pub(crate) use crate::tools::import::export::measurement;
 
+use crate::bench::pane::Pane;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::shell::arrangement::Pane;
 use selvedge_chart::{Axis, ColourBar, Figure, Row};
 
 /// Colours of a bar: more than the eye tells apart.

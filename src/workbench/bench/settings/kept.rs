@@ -7,9 +7,9 @@ use eframe::egui::ThemePreference;
 
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::DotStyle;
+use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::shell::perspective::Perspective;
 use crate::tools::workspace::overlay::Overlays;
 use selvedge_engine::Area;
 

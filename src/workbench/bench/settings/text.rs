@@ -11,10 +11,10 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::command::DotStyle;
+use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::kept::Kept;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::shell::perspective::Perspective;
 use crate::tools::workspace::overlay::Overlays;
 use selvedge_engine::Area;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, line_of_key};

@@ -6,9 +6,9 @@ use egui_tiles::{
     UiResponse,
 };
 
+use crate::bench::pane::Pane;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::shell::arrangement::Pane;
 use crate::shell::desk::Desk;
 use crate::shell::tab_row::{TITLE_SPACING, TabRow, corner_width};
 

@@ -6,6 +6,7 @@ use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::Audition;
 use crate::shell::arrangement;
+use crate::shell::perspective::arrangement_for;
 use crate::tools::why::text::to_text;
 use crate::tools::workspace::state::Place;
 
@@ -35,7 +36,7 @@ impl Bench {
             ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
             ShowCommand::DefaultArrangement => {
                 let perspective = self.settings.kept.perspective;
-                self.tree = perspective.default_tree(self.transient.desk_size);
+                self.tree = arrangement_for(perspective, self.transient.desk_size);
                 self.settings.kept.arrangements[perspective.index()] = None;
             }
             ShowCommand::SelectContactor(contactor) => {

@@ -7,8 +7,8 @@ use eframe::egui;
 use crate::bench::Bench;
 use crate::bench::command::{FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exportable;
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::tools::analysis::command::AnalysisCommand;
 use selvedge_experiment::analysis::Table;
 

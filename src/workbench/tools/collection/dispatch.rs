@@ -4,8 +4,8 @@ use eframe::egui;
 
 use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::tools::collection::CollectionCommand;
 
 impl Bench {

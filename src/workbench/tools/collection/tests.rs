@@ -8,7 +8,7 @@ use eframe::egui::vec2;
 use super::*;
 use crate::bench::command::ShowCommand;
 use crate::bench::command::edit::Edit;
-use crate::shell::arrangement::Pane;
+use crate::bench::pane::Pane;
 use crate::shell::headless::Headless;
 use selvedge_foundation::quantity::level_db;
 use selvedge_textile::tactile::{Filters, Levels};

@@ -8,7 +8,7 @@ use eframe::egui::{
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Wishes};
-use crate::shell::arrangement::Pane;
+use crate::bench::pane::Pane;
 use crate::shell::desk::Desk;
 use crate::shell::frame::{Felt, frame_as_armed};
 use crate::shell::pointer::Pointed;

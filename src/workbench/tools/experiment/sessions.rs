@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use eframe::egui;
 
 use crate::bench::Bench;
+use crate::bench::pane::Pane;
 use crate::bench::rendering::Rendering;
 use crate::bench::task::{Task, taken};
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::tools::experiment::Begun;
 use crate::tools::experiment::form::list;
 use crate::tools::experiment::materials::Materials;

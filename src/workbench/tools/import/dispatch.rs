@@ -3,8 +3,8 @@
 use eframe::egui;
 
 use crate::bench::Bench;
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::tools::import::{ImportCommand, Importing};
 
 impl Bench {

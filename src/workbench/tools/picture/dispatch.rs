@@ -6,8 +6,8 @@ use eframe::egui;
 
 use crate::bench::Bench;
 use crate::bench::keep::Keep;
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::tools::picture::{PictureCommand, Picturing};
 
 impl Bench {

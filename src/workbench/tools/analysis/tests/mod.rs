@@ -10,8 +10,8 @@ use eframe::egui::vec2;
 
 use super::*;
 use crate::bench::command::ShowCommand;
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::arrangement::Pane;
 use crate::shell::headless::Headless;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::form::Chosen;

@@ -1,7 +1,7 @@
 //! The participant's window: the view goes there and comes back, and the session goes on.
 
 use super::*;
-use crate::shell::arrangement::Pane;
+use crate::bench::pane::Pane;
 use crate::shell::pointer::Pointed;
 
 fn window_act(window: &mut Headless, act: WindowAct) {

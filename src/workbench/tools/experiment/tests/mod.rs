@@ -286,7 +286,7 @@ fn nothing_that_tells_what_is_felt_is_drawn_while_a_session_is_held() {
     let trail = window.workbench.bench.transient.n_drawn;
     explore(&mut window, 20);
     assert_eq!(window.workbench.columns_computed(), columns);
-    let participant = crate::shell::arrangement::Pane::Participant.index();
+    let participant = crate::bench::pane::Pane::Participant.index();
     assert!(window.workbench.bench.transient.n_drawn[participant] > trail[participant]);
 }
 
