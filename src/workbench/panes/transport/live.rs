@@ -4,7 +4,7 @@
 
 use crate::signals::History;
 use crate::take::{Extent, Felt};
-use selvedge_engine::Glimpse;
+use selvedge_engine::TickSample;
 
 /// Ticks of felt exploration that are shown: 12 s.
 pub(super) const N_TICKS: u64 = 480;
@@ -19,13 +19,13 @@ pub(super) struct Placed {
     /// Whether it goes on from the one before it: no tick is missing between them.
     pub(super) goes_on: bool,
     /// What was there.
-    pub(super) glimpse: Glimpse,
+    pub(super) glimpse: TickSample,
 }
 
 impl Placed {
     /// Speed and amplitudes; nothing was felt in silence.
     pub(super) fn felt(&self) -> Felt {
-        let Glimpse {
+        let TickSample {
             pose,
             is_silent,
             mean_um,
@@ -90,10 +90,10 @@ mod tests {
     fn history(ticks: impl IntoIterator<Item = u64>) -> History {
         let mut history = History::default();
         for tick in ticks {
-            history.take(Glimpse {
+            history.take(TickSample {
                 tick,
                 mean_um: [1.0, 2.0],
-                ..Glimpse::default()
+                ..TickSample::default()
             });
         }
         history
@@ -131,11 +131,11 @@ mod tests {
     #[test]
     fn silence_is_not_felt() {
         let mut history = History::default();
-        history.take(Glimpse {
+        history.take(TickSample {
             tick: 1,
             is_silent: true,
             mean_um: [1.0, 2.0],
-            ..Glimpse::default()
+            ..TickSample::default()
         });
         assert_eq!(placed(&history)[0].felt().mean_um, Some([0.0, 0.0]));
     }
