@@ -7,36 +7,13 @@
 
 use std::time::{Duration, Instant};
 
-use super::HostSession;
 use crate::message::Status;
-use crate::session_log::Note;
+use crate::session_log::DelaySource;
 
 /// Frames under way whose acceptance is still to be told.
 const UNCONFIRMED: usize = 4;
 /// How much later than at the start of their tick samples count that had not come by then.
 const MORE: Duration = Duration::from_millis(1);
-
-/// What delays are learned from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum DelaySource {
-    /// The number and age of the last accepted FRAME.
-    LastSeq,
-    /// How full the device's ring is, and the age of its last samples.
-    Ring,
-    /// Answers to PINGs.
-    RoundTrips,
-}
-
-impl DelaySource {
-    /// A word for the log.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::LastSeq => "last-seq",
-            Self::Ring => "ring",
-            Self::RoundTrips => "round-trips",
-        }
-    }
-}
 
 /// What was sent and is not known to have arrived.
 #[derive(Clone, Debug, Default)]
@@ -64,68 +41,43 @@ impl Evidence {
         self.unconfirmed[place..].fill(None);
         Some(due)
     }
-}
 
-impl HostSession {
-    /// A tick began at `start`, and its STATUS says what the device had by then.
-    pub(super) fn learn_from_status(&mut self, now: Instant, start: Instant, status: &Status) {
-        let age =
-            (status.age_ms < u16::MAX).then(|| Duration::from_millis(u64::from(status.age_ms)));
-        let (delay, source) = if self.plays_samples() {
-            (self.delay_of_samples(start, age, status), DelaySource::Ring)
-        } else {
-            (
-                self.delay_of_frame(start, age, status.last_seq),
-                DelaySource::LastSeq,
-            )
-        };
-        if let Some(delay) = delay {
-            self.learn(now, delay, source);
-        }
-    }
-
-    /// A PING was answered; a ring that tells says more.
-    pub(super) fn learn_from_answer(&mut self, now: Instant, round_trip: Duration) {
-        if self.plays_samples() && self.state.takes_frames() && !self.evidence.tells_ring {
-            self.learn(now, round_trip, DelaySource::RoundTrips);
-        }
-    }
-
-    fn delay_of_frame(
-        &mut self,
-        start: Instant,
-        age: Option<Duration>,
-        seq: u16,
-    ) -> Option<Duration> {
-        let age = age?;
-        let due = self.evidence.confirmed(seq.into())?;
+    /// What a STATUS tells of the last frame: how long it took from when it was due until the
+    /// device had it. The tick that the STATUS announces began at `start`.
+    pub(super) fn delay_of_frame(&mut self, start: Instant, status: &Status) -> Option<Duration> {
+        let age = age_of(status)?;
+        let due = self.confirmed(status.last_seq.into())?;
         let accepted = start.checked_sub(age).unwrap_or(start);
         Some(accepted.saturating_duration_since(due))
     }
 
-    fn delay_of_samples(
-        &mut self,
-        start: Instant,
-        age: Option<Duration>,
-        status: &Status,
-    ) -> Option<Duration> {
+    /// The same of samples (mode B).
+    pub(super) fn delay_of_samples(&mut self, start: Instant, status: &Status) -> Option<Duration> {
         let Status { tick, queued, .. } = *status;
         if queued == 0 {
-            let due = self.evidence.confirmed(tick)?;
+            let due = self.confirmed(tick)?;
             let until_start = start.saturating_duration_since(due);
-            return self.evidence.tells_ring.then_some(until_start + MORE);
+            return self.tells_ring.then_some(until_start + MORE);
         }
-        self.evidence.tells_ring = true;
+        self.tells_ring = true;
         let newest = tick.wrapping_add(u32::from(queued) - 1);
-        let due = self.evidence.confirmed(newest)?;
-        let accepted = start.checked_sub(age?).unwrap_or(start);
+        let due = self.confirmed(newest)?;
+        let accepted = start.checked_sub(age_of(status)?).unwrap_or(start);
         Some(accepted.saturating_duration_since(due))
     }
 
-    fn learn(&mut self, now: Instant, delay: Duration, source: DelaySource) {
-        self.latching.accepted(delay);
-        if self.evidence.source.replace(source) != Some(source) {
-            self.note(now, Note::Delays(source));
-        }
+    /// Whether the device was seen to count the samples in its ring.
+    pub(super) fn tells_ring(&self) -> bool {
+        self.tells_ring
     }
+
+    /// A delay was learned from this source; whether from another one than before.
+    pub(super) fn is_new_source(&mut self, source: DelaySource) -> bool {
+        self.source.replace(source) != Some(source)
+    }
+}
+
+/// How old the last accepted frame was at the start of the tick; `None` if there is none.
+fn age_of(status: &Status) -> Option<Duration> {
+    (status.age_ms < u16::MAX).then(|| Duration::from_millis(u64::from(status.age_ms)))
 }
