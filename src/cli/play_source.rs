@@ -94,7 +94,7 @@ impl Moving {
     /// Tells the programs the tick that was just done.
     pub(super) fn tell(&mut self) {
         if let Some(tap) = &mut self.tap {
-            tap.tell(&self.core);
+            self.core.write_to(tap);
         }
     }
 }

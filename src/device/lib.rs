@@ -68,12 +68,12 @@ pub use handle::{Bridge, SampleStream, Target};
 pub use hjif::{HjifSpec, HjifWriter};
 pub use host::HostSession;
 pub use host::{
-    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DeviceCounters, DisarmedBy,
-    SentFrame, Waveform,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DisarmedBy, SentFrame,
+    Waveform,
 };
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
-    Ack, Arm, Caps, Clear, Config, DeviceMessage, DeviceState, Fault, Hello, Ident,
+    Ack, Arm, Caps, Clear, Config, DeviceCounters, DeviceMessage, DeviceState, Fault, Hello, Ident,
     LARGEST_CHANNELS, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, fault_bit, frame, kind,
     samples,
 };

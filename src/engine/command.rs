@@ -4,12 +4,9 @@
 //! [`Engine::send`](super::Engine::send) before they reach the thread.
 
 use std::fmt;
-use std::io::BufRead;
-use std::sync::Arc;
 
-use super::{PointerInput, PreparedScene, Tap, VibrationStep};
+use super::{InputSource, PreparedScene, Tap, VibrationStep};
 use selvedge_device::{ArrayProfile, BridgeEvent, Target};
-use selvedge_render::scene::{ExplorationPath, Stroke};
 use selvedge_render::{PlacedLevel, RenderError};
 use selvedge_textile::tactile::Tuning;
 
@@ -43,8 +40,6 @@ pub enum Command {
     SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.
     SetSource(InputSource),
-    /// How velocity is estimated from samples.
-    SetVelocityMethod(VelocityMethod),
     /// Turns the display to this angle, degrees counter-clockwise, added to the scene's; a replay
     /// has its own.
     SetAngle(f64),
@@ -96,132 +91,15 @@ pub enum Command {
     StartRecording,
     /// Ends the recording; [`Engine::take_recording`](super::Engine::take_recording) has it.
     StopRecording,
-    /// Whether somebody takes [glimpses](super::Engine::next_glimpse); nobody does at first.
-    Glimpses(bool),
-    /// The contactor of the first display whose amplitudes glimpses tell, the first one at first.
+    /// Whether somebody takes [samples of ticks](super::Engine::next_tick_sample); nobody does at
+    /// first.
+    SampleTicks(bool),
+    /// The contactor of the first display whose amplitudes samples of ticks hold, the first one at first.
     Watch(usize),
     /// Tell other programs what is felt at every tick, or no longer.
     SetTap(Option<Box<Tap>>),
     /// Ends the thread.
     Shutdown,
-}
-
-/// Where positions come from.
-pub enum InputSource {
-    /// Live samples through a [`PointerSender`](super::PointerSender): the mouse.
-    Pointer,
-    /// A recorded exploration, tick for tick as an offline rendering takes it.
-    Replay(Arc<ExplorationPath>),
-    /// A generated stroke.
-    Stroke(Stroke),
-    /// Lines of text, `x_mm,y_mm` (stamped on arrival) or `t_s,x_mm,y_mm`, read on a thread of
-    /// their own.
-    Lines(Box<dyn BufRead + Send>),
-    /// Whatever yields positions: a device, a connection.
-    Live(Box<dyn PointerInput>),
-}
-
-/// How velocity is estimated from samples.
-///
-/// The lag is that of the estimate under constant acceleration: the true velocity was the estimate
-/// that long before the newest sample.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum VelocityMethod {
-    /// Difference of the last two samples. Lag: half their distance in time.
-    FiniteDifference,
-    /// Slope of the least-squares line through the samples of the last `window_s` seconds. Lag: the
-    /// newest time less the mean time of those samples, about half the window.
-    LineFit {
-        /// The window, s.
-        window_s: f64,
-    },
-    /// An alpha–beta filter. Lag at a constant sample distance T: (α/β − ½)·T.
-    AlphaBeta {
-        /// Share of the position error that corrects the position, 0…1.
-        alpha: f64,
-        /// Share of the position error that corrects the velocity, 0…1.
-        beta: f64,
-    },
-    /// A Kalman filter for a constant velocity that white acceleration disturbs; each step takes
-    /// the time that passed. Lag: carried along from sample to sample and exact under constant
-    /// acceleration; at dense samples T apart it settles at `√2 (σ²T/q)^¼`.
-    Kalman {
-        /// Power density of the acceleration, q: the velocity wanders by √(q t) in t seconds,
-        /// mm²/s³.
-        acceleration_mm2_per_s3: f64,
-        /// Standard deviation of a measured coordinate, σ, mm.
-        noise_mm: f64,
-    },
-    /// The one-euro filter (Casiez, Roussel and Vogel 2012) on the differences of neighbouring
-    /// samples: a low pass whose cutoff `f_min + β·speed` rises with the speed. With β = 0 it is
-    /// the derivative of low-passed positions. Lag: carried along and exact under constant
-    /// acceleration; it settles at 1/(2π·cutoff) and half a sample distance.
-    OneEuro {
-        /// Cutoff at rest, Hz.
-        min_cutoff_hz: f64,
-        /// What each mm/s adds to the cutoff, Hz/(mm/s), that is 1/mm.
-        beta_per_mm: f64,
-        /// Cutoff of the low pass that the speed is judged behind, Hz.
-        derivative_cutoff_hz: f64,
-    },
-}
-
-impl Default for VelocityMethod {
-    /// A Kalman filter that takes a coordinate to be 0.05 mm off and the acceleration of a hand
-    /// to have a density of 10⁴ mm²/s³. Of what the study `velocity` compares it has the least rms
-    /// error (17 mm/s over all strokes and pointers) among those that hold the level of a steady
-    /// stroke of 100 mm/s within 1 dB at the 99th percentile. A line through 40 ms is steadier
-    /// still (0.3 dB), but 26 ms late where this is 14, and so 27 mm/s off as soon as a hand turns
-    /// or stops. Samples that come in bursts disturb it no more than others; the bare difference
-    /// and alpha–beta break on them.
-    fn default() -> Self {
-        Self::Kalman {
-            acceleration_mm2_per_s3: 1e4,
-            noise_mm: 0.05,
-        }
-    }
-}
-
-impl VelocityMethod {
-    /// Whether its numbers make sense: a window of up to a second, shares of 0…1, cutoffs of
-    /// 0.01…1000 Hz that rise by at most 100 Hz for each mm/s, noise of 10⁻⁶…100 mm and an
-    /// acceleration density of 10⁻³…10¹² mm²/s³.
-    pub fn is_sound(self) -> bool {
-        let is_share = |share: f64| share > 0.0 && share <= 1.0;
-        match self {
-            Self::FiniteDifference => true,
-            Self::LineFit { window_s } => is_share(window_s),
-            Self::AlphaBeta { alpha, beta } => is_share(alpha) && is_share(beta),
-            Self::Kalman {
-                acceleration_mm2_per_s3,
-                noise_mm,
-            } => {
-                (1e-3..=1e12).contains(&acceleration_mm2_per_s3)
-                    && (1e-6..=100.0).contains(&noise_mm)
-            }
-            Self::OneEuro {
-                min_cutoff_hz,
-                beta_per_mm,
-                derivative_cutoff_hz,
-            } => {
-                let is_cutoff = |hz: f64| (0.01..=1000.0).contains(&hz);
-                is_cutoff(min_cutoff_hz)
-                    && is_cutoff(derivative_cutoff_hz)
-                    && (0.0..=100.0).contains(&beta_per_mm)
-            }
-        }
-    }
-
-    /// Its name for people.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::FiniteDifference => "finite difference",
-            Self::LineFit { .. } => "line fit",
-            Self::AlphaBeta { .. } => "alpha–beta",
-            Self::Kalman { .. } => "Kalman",
-            Self::OneEuro { .. } => "one-euro",
-        }
-    }
 }
 
 /// What the engine has to say, in the order in which it happened.
@@ -256,7 +134,6 @@ impl fmt::Debug for Command {
             Self::Vibrate(_) => "Vibrate",
             Self::SetLevels(_) => "SetLevels",
             Self::SetSource(_) => "SetSource",
-            Self::SetVelocityMethod(_) => "SetVelocityMethod",
             Self::SetAngle(_) => "SetAngle",
             Self::TurnBy(_) => "TurnBy",
             Self::Play => "Play",
@@ -276,22 +153,10 @@ impl fmt::Debug for Command {
             Self::StopAll => "StopAll",
             Self::StartRecording => "StartRecording",
             Self::StopRecording => "StopRecording",
-            Self::Glimpses(_) => "Glimpses",
+            Self::SampleTicks(_) => "SampleTicks",
             Self::Watch(_) => "Watch",
             Self::SetTap(_) => "SetTap",
             Self::Shutdown => "Shutdown",
-        })
-    }
-}
-
-impl fmt::Debug for InputSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Pointer => "Pointer",
-            Self::Replay(_) => "Replay",
-            Self::Stroke(_) => "Stroke",
-            Self::Lines(_) => "Lines",
-            Self::Live(_) => "Live",
         })
     }
 }

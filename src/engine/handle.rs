@@ -3,8 +3,8 @@
 //! It belongs to the window or to a command line. It prepares what commands need, and drops what
 //! they replaced; the engine's thread does neither.
 
+mod array;
 mod device;
-mod scene;
 
 use std::fmt;
 use std::thread::{self, JoinHandle};
@@ -13,23 +13,25 @@ use std::time::{Duration, Instant};
 use rtrb::{Consumer, Producer, RingBuffer};
 use triple_buffer::Output;
 
-use super::gist::Waker;
-use super::glimpse::{Glimpser, MOST_GLIMPSES};
-use super::input::{Control, PointerInput, ReplayInput, StrokeInput, start_lines};
-use super::order::{CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
+use super::input::{Control, playable};
+use super::ready::{CoreCommand, MAX_RETIRED, NextScene, ReadyCommand, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, NoticeRing, Runner};
+use super::snapshot_summary::Waker;
+use super::tick_sample::{MAX_TICK_SAMPLES, TickSampler};
 use super::vibration::Vibration;
 use super::{
-    Command, EngineCore, EngineError, Glimpse, InputSource, Notice, PointerSender, PreparedScene,
-    Recording, Snapshot, StopSwitch,
+    Command, EngineCore, EngineError, Notice, PointerSender, PreparedScene, Recording, Snapshot,
+    StopSwitch, TickSample,
 };
+use array::DrivenArray;
+use device::DeviceHandle;
 use selvedge_device::{ArrayProfile, PlantWatch, SessionLog};
 
 /// Commands on the way.
-const MOST_ORDERS: usize = 64;
+const MAX_COMMANDS: usize = 64;
 /// Notices on the way.
-const MOST_NOTICES: usize = 256;
+const MAX_NOTICES: usize = 256;
 
 /// What an engine starts with.
 pub struct EngineConfig {
@@ -42,11 +44,11 @@ pub struct EngineConfig {
 /// A running engine. Dropping it stops the device and ends the thread.
 pub struct Engine {
     body: Body,
-    orders: Producer<Order>,
+    commands: Producer<ReadyCommand>,
     commands_sent: u64,
     retired: Consumer<Retired>,
     notices: Consumer<Notice>,
-    glimpses: Consumer<Glimpse>,
+    samples: Consumer<TickSample>,
     snapshots: Output<Snapshot>,
     /// Channels of scenes that are on their way, oldest first.
     coming: Vec<Output<Snapshot>>,
@@ -54,15 +56,8 @@ pub struct Engine {
     pointer: Option<PointerSender>,
     recording: Option<Recording>,
     news: Option<JoinHandle<()>>,
-    n_contactors: usize,
-    n_felt: usize,
-    profile: ArrayProfile,
-    plant: Option<PlantWatch>,
-    pub(super) session_log: Option<SessionLog>,
-    /// The scene's own.
-    scene_profile: ArrayProfile,
-    /// The one that was chosen instead.
-    array: Option<Box<ArrayProfile>>,
+    driven: DrivenArray,
+    device: DeviceHandle,
 }
 
 enum Body {
@@ -97,20 +92,19 @@ impl Engine {
     /// The system gives no thread for the news.
     pub fn without_thread(config: EngineConfig, start: Instant) -> Result<Self, EngineError> {
         let scene = Box::new(config.scene);
-        let (n_contactors, n_felt) = (scene.n_contactors(), scene.n_felt());
-        let profile = scene.profile().clone();
-        let (snapshots_in, snapshots) = triple_buffer::triple_buffer(&Snapshot::of(&scene));
-        let (orders, orders_out) = RingBuffer::new(MOST_ORDERS);
-        // One more than an order needs, for a stop that comes right after it.
-        let (retired_in, retired) = RingBuffer::new(2 * MOST_RETIRED);
-        let (notices_in, notices) = RingBuffer::new(MOST_NOTICES);
-        let (glimpses_in, glimpses) = RingBuffer::new(MOST_GLIMPSES);
+        let driven = DrivenArray::of(&scene);
+        let (snapshots_in, snapshots) = triple_buffer::triple_buffer(&scene.first_snapshot());
+        let (commands, commands_out) = RingBuffer::new(MAX_COMMANDS);
+        // One more than a command needs, for a stop that comes right after it.
+        let (retired_in, retired) = RingBuffer::new(2 * MAX_RETIRED);
+        let (notices_in, notices) = RingBuffer::new(MAX_NOTICES);
+        let (samples_in, samples) = RingBuffer::new(MAX_TICK_SAMPLES);
         let channels = Channels {
-            orders: orders_out,
+            commands: commands_out,
             retired: retired_in,
             notices: NoticeRing::new(notices_in),
             snapshots: snapshots_in,
-            glimpser: Glimpser::new(glimpses_in),
+            sampler: TickSampler::new(samples_in),
             tap: None,
         };
         let (waker, news) = match config.on_news {
@@ -125,24 +119,19 @@ impl Engine {
         let runner = Runner::new(core, channels, switch.clone(), Clock::Told(start), waker);
         Ok(Self {
             body: Body::Still(Box::new(runner)),
-            orders,
+            commands,
             commands_sent: 0,
             retired,
             notices,
-            glimpses,
+            samples,
             snapshots,
             coming: Vec::new(),
             switch,
-            session_log: None,
             pointer: Some(pointer),
             recording: None,
             news,
-            n_contactors,
-            n_felt,
-            scene_profile: profile.clone(),
-            profile,
-            plant: None,
-            array: None,
+            driven,
+            device: DeviceHandle::default(),
         })
     }
 
@@ -185,62 +174,65 @@ impl Engine {
     /// lines. Nothing happened then.
     pub fn send(&mut self, command: Command) -> Result<(), EngineError> {
         self.collect();
-        if self.orders.is_full() && !matches!(command, Command::StopAll) {
+        if self.commands.is_full() && !matches!(command, Command::StopAll) {
             return Err(EngineError::Busy);
         }
-        let order = match command {
-            Command::SetScene(scene) => self.scene_order(NextScene::Other(scene)),
-            Command::UpdateScene(scene) => self.scene_order(NextScene::Edited(scene)),
-            Command::SetArray(array) => self.array_order(array),
-            Command::Identify(is_begun) => Order::Identify(is_begun),
+        let command = match command {
+            Command::SetScene(scene) => self.ready_scene(NextScene::Other(scene)),
+            Command::UpdateScene(scene) => self.ready_scene(NextScene::Edited(scene)),
+            Command::SetArray(array) => self.driven.choose(array),
+            Command::Identify(is_begun) => ReadyCommand::Identify(is_begun),
             Command::IdentifyChannel {
                 channel,
                 amplitude_um,
                 duration_ms,
-            } => Order::IdentifyChannel {
+            } => ReadyCommand::IdentifyChannel {
                 channel,
                 how: (amplitude_um, duration_ms),
             },
-            Command::SetSource(source) => Order::Core(CoreOrder::Source(playable(source)?)),
-            Command::Connect(target) => self.connect_order(target),
+            Command::SetSource(source) => {
+                ReadyCommand::Core(CoreCommand::Source(playable(source)?))
+            }
+            Command::Connect(target) => self.device.open(target, &self.driven, &self.switch),
             Command::Disconnect => {
                 self.switch.set_device(None);
-                self.plant = None;
-                Order::Disconnect
+                self.device.plant = None;
+                ReadyCommand::Disconnect
             }
-            Command::Arm => Order::Arm {
+            Command::Arm => ReadyCommand::Arm {
                 presses: self.switch.presses(),
             },
             Command::StopAll => {
                 self.switch.press();
                 return Ok(());
             }
-            Command::StartRecording => self.recording_order(),
-            Command::SetTuning(tuning) => Order::Core(CoreOrder::Tuning(tuning)),
+            Command::StartRecording => self.ready_recording(),
+            Command::SetTuning(tuning) => ReadyCommand::Core(CoreCommand::Tuning(tuning)),
             Command::SetTextileGain { textile, gain_db } => {
-                Order::Core(CoreOrder::TextileGain { textile, gain_db })
+                ReadyCommand::Core(CoreCommand::TextileGain { textile, gain_db })
             }
-            Command::SetLevels(levels) => Order::Core(CoreOrder::Levels(levels)),
-            Command::SetContactorMask(mask) => Order::Core(CoreOrder::Mask(mask)),
-            Command::Vibrate(steps) => Order::Core(CoreOrder::Vibrate(Vibration::of(steps))),
-            Command::SetVelocityMethod(method) => Order::Core(CoreOrder::Velocity(method)),
-            Command::SetAngle(angle_deg) => Order::Core(CoreOrder::Angle(angle_deg)),
-            Command::TurnBy(by_deg) => Order::Core(CoreOrder::Turn(by_deg)),
-            Command::Play => Order::control(Control::Play),
-            Command::Pause => Order::control(Control::Pause),
-            Command::Step => Order::control(Control::Step),
-            Command::Rewind => Order::control(Control::Rewind),
-            Command::Seek(tick) => Order::control(Control::Seek(tick)),
-            Command::SetLoop(does_loop) => Order::control(Control::Loop(does_loop)),
-            Command::StopRecording => Order::Core(CoreOrder::EndRecording),
-            Command::Disarm => Order::Disarm,
-            Command::ClearFaults => Order::ClearFaults,
-            Command::Glimpses(is_heard) => Order::Glimpses(is_heard),
-            Command::Watch(contactor) => Order::Watch(contactor),
-            Command::SetTap(tap) => Order::Tap(tap),
-            Command::Shutdown => Order::Shutdown,
+            Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
+            Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
+            Command::Vibrate(steps) => {
+                ReadyCommand::Core(CoreCommand::Vibrate(Vibration::of(steps)))
+            }
+            Command::SetAngle(angle_deg) => ReadyCommand::Core(CoreCommand::Angle(angle_deg)),
+            Command::TurnBy(by_deg) => ReadyCommand::Core(CoreCommand::Turn(by_deg)),
+            Command::Play => ReadyCommand::control(Control::Play),
+            Command::Pause => ReadyCommand::control(Control::Pause),
+            Command::Step => ReadyCommand::control(Control::Step),
+            Command::Rewind => ReadyCommand::control(Control::Rewind),
+            Command::Seek(tick) => ReadyCommand::control(Control::Seek(tick)),
+            Command::SetLoop(does_loop) => ReadyCommand::control(Control::Loop(does_loop)),
+            Command::StopRecording => ReadyCommand::Core(CoreCommand::EndRecording),
+            Command::Disarm => ReadyCommand::Disarm,
+            Command::ClearFaults => ReadyCommand::ClearFaults,
+            Command::SampleTicks(is_heard) => ReadyCommand::SampleTicks(is_heard),
+            Command::Watch(contactor) => ReadyCommand::Watch(contactor),
+            Command::SetTap(tap) => ReadyCommand::Tap(tap),
+            Command::Shutdown => ReadyCommand::Shutdown,
         };
-        self.push(order)
+        self.push(command)
     }
 
     /// The latest snapshot.
@@ -266,10 +258,10 @@ impl Engine {
         self.notices.pop().ok()
     }
 
-    /// The oldest glimpse that was not taken yet, of those left since
-    /// [`Command::Glimpses`] asked for them.
-    pub fn next_glimpse(&mut self) -> Option<Glimpse> {
-        self.glimpses.pop().ok()
+    /// The oldest sample that was not taken yet, of those left since
+    /// [`Command::SampleTicks`] asked for them.
+    pub fn next_tick_sample(&mut self) -> Option<TickSample> {
+        self.samples.pop().ok()
     }
 
     /// The end of the ring for live samples; there is one.
@@ -298,7 +290,22 @@ impl Engine {
     /// The array profile in force for the scene's first display: the one that was set last, or the
     /// scene's own.
     pub fn profile(&self) -> &ArrayProfile {
-        &self.profile
+        &self.driven.profile
+    }
+
+    /// A look at the contactors of the emulator that was connected last; `None` of other devices.
+    pub fn plant(&mut self) -> Option<&mut PlantWatch> {
+        self.device.plant.as_mut()
+    }
+
+    /// Writes what happens on every link that is opened from now on to a log.
+    pub fn log_links_to(&mut self, log: SessionLog) {
+        self.device.session_log = Some(log);
+    }
+
+    /// The log that links are written to.
+    pub fn session_log(&self) -> Option<&SessionLog> {
+        self.device.session_log.as_ref()
     }
 
     /// Whether the engine's thread is still there; an engine without one always is.
@@ -309,17 +316,29 @@ impl Engine {
         }
     }
 
-    pub(super) fn push(&mut self, order: Order) -> Result<(), EngineError> {
-        self.orders.push(order).map_err(|_full| EngineError::Busy)?;
+    pub(super) fn push(&mut self, command: ReadyCommand) -> Result<(), EngineError> {
+        self.commands
+            .push(command)
+            .map_err(|_full| EngineError::Busy)?;
         self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
     }
 
-    fn recording_order(&mut self) -> Order {
-        let (recorder, recording) = recording(self.n_contactors);
+    /// Another scene, with a channel for snapshots of its size.
+    fn ready_scene(&mut self, mut next: NextScene) -> ReadyCommand {
+        if self.driven.follow(next.scene_mut()) {
+            self.switch.set_device(None);
+        }
+        let (input, output) = triple_buffer::triple_buffer(&next.scene().first_snapshot());
+        self.coming.push(output);
+        ReadyCommand::Scene(next, input)
+    }
+
+    fn ready_recording(&mut self) -> ReadyCommand {
+        let (recorder, recording) = recording(self.driven.n_contactors);
         self.recording = Some(recording);
-        Order::Core(CoreOrder::Record(Box::new(recorder)))
+        ReadyCommand::Core(CoreCommand::Record(Box::new(recorder)))
     }
 
     /// Takes what came back.
@@ -334,8 +353,8 @@ impl Engine {
                 recording.end();
             }
         }
-        // Orders may have waited for room among the retired.
-        if self.orders.slots() < MOST_ORDERS {
+        // Commands may have waited for room among the retired.
+        if self.commands.slots() < MAX_COMMANDS {
             self.switch.wake_engine();
         }
     }
@@ -348,7 +367,7 @@ impl Drop for Engine {
             while !joined.is_finished() {
                 self.collect();
                 // A full queue is emptied by and by; the thread is never waited for in vain.
-                drop(self.push(Order::Shutdown));
+                drop(self.push(ReadyCommand::Shutdown));
                 joined.thread().unpark();
                 thread::sleep(Duration::from_millis(1));
             }
@@ -376,18 +395,4 @@ impl fmt::Debug for EngineConfig {
             .field("scene", &self.scene)
             .finish_non_exhaustive()
     }
-}
-
-/// A source as the engine polls it; `None` for live samples.
-pub(super) fn playable(source: InputSource) -> Result<Option<Box<dyn PointerInput>>, EngineError> {
-    Ok(match source {
-        InputSource::Pointer => None,
-        InputSource::Replay(path) => Some(Box::new(ReplayInput::new(path))),
-        InputSource::Stroke(stroke) => {
-            stroke.check()?;
-            Some(Box::new(StrokeInput::new(stroke)))
-        }
-        InputSource::Lines(lines) => Some(Box::new(start_lines(lines)?)),
-        InputSource::Live(input) => Some(input),
-    })
 }

@@ -27,55 +27,53 @@ mod clip;
 mod command;
 mod engine_core;
 mod error;
-mod gist;
-mod glimpse;
 mod handle;
 mod input;
 mod link;
 mod meters;
-mod order;
 mod pacer;
 mod prepared;
 mod programs;
+mod ready;
 mod recording;
 mod runner;
 mod sample;
 mod snapshot;
+mod snapshot_summary;
 mod stop;
 mod synth;
 mod tap;
+mod tick_sample;
 mod track;
 mod velocity;
 mod vibration;
 
 pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
 pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
-pub use command::{Command, InputSource, Notice, VelocityMethod};
+pub use command::{Command, Notice};
 pub use engine_core::EngineCore;
 pub use error::EngineError;
-pub use glimpse::Glimpse;
 pub use handle::{Engine, EngineConfig};
 pub use input::{
-    Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, PointerInput,
-    PointerSender, Reading, list_input_devices, open_input_device,
+    Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, InputSource,
+    Playback, PointerInput, PointerSender, Reading, SourceKind, list_input_devices,
+    open_input_device,
 };
 pub use meters::{DurationBucket, DurationHistogram};
 pub use pacer::PATIENCE;
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
-pub use recording::RecordedTick;
-pub use recording::{RecordedSample, Recording};
+pub use recording::{RecordedSample, RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
-pub use snapshot::EngineCounters;
-pub use snapshot::Playback;
-pub use snapshot::RecordingView;
 pub use snapshot::{
-    ClockView, ContactorView, DisplayView, LinkView, PointerView, Snapshot, SourceKind,
+    ClockView, ContactorView, DisplayView, EngineCounters, LinkView, PointerView, RecordingView,
+    RenderingView, Snapshot,
 };
 pub use stop::StopSwitch;
 pub use synth::DeviceWaveform;
 pub use tap::Tap;
-pub use velocity::{Estimate, VelocityEstimator};
+pub use tick_sample::TickSample;
+pub use velocity::{Estimate, VelocityEstimator, VelocityMethod};
 pub use vibration::VibrationStep;
 
 use std::time::Duration;

@@ -3,7 +3,10 @@
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{ContactorView, DisplayView, EngineError};
+use super::{
+    ClockView, ContactorView, DisplayView, EngineCounters, EngineError, Playback, PointerView,
+    RecordingView, RenderingView, Snapshot, SourceKind,
+};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::RenderScene;
@@ -56,17 +59,6 @@ impl PreparedScene {
         let renderer = ArrayRenderer::prepare_with_cache(&scene, method, accuracy, cache)?;
         let (profile, start) = place_of(loaded);
         Ok(Self::around(renderer, profile, start))
-    }
-
-    /// Whether [`prepare_cached`](Self::prepare_cached) would compute no table, so that it need not
-    /// be done on another thread.
-    pub(crate) fn is_cached(
-        loaded: &LoadedScene,
-        method: Method,
-        accuracy: &Accuracy,
-        cache: &TableCache,
-    ) -> bool {
-        cache.has_all(&RenderScene::of(loaded), method, accuracy)
     }
 
     /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer
@@ -208,8 +200,40 @@ impl PreparedScene {
         if is_silent { silence() } else { amplitudes() }.unwrap_or_default()
     }
 
+    /// A snapshot before the first tick, with room for every contactor.
+    pub(super) fn first_snapshot(&self) -> Snapshot {
+        let pose = Pose {
+            position: self.start,
+            ..Pose::default()
+        };
+        Snapshot {
+            scene_serial: self.serial,
+            revision: 0,
+            tick: 0,
+            t_s: 0.0,
+            pose,
+            rendered: pose,
+            turn_deg: 0.0,
+            displays: self.empty_views(),
+            is_stopped: false,
+            is_silent: false,
+            vibration: None,
+            rendering: RenderingView::of(&self.renderer),
+            pointer: PointerView::default(),
+            source: SourceKind::Pointer,
+            playback: Playback {
+                is_playing: true,
+                ..Playback::default()
+            },
+            recording: RecordingView::default(),
+            clock: ClockView::default(),
+            counters: EngineCounters::default(),
+            link: None,
+        }
+    }
+
     /// Views with room for every contactor.
-    pub(super) fn empty_views(&self) -> Vec<DisplayView> {
+    fn empty_views(&self) -> Vec<DisplayView> {
         let view = |output: &Output| DisplayView {
             contactors: vec![ContactorView::default(); output.codes.len()],
         };

@@ -1,4 +1,4 @@
-//! The engine's loop: stops first, then orders, then the device, then a tick if one is due.
+//! The engine's loop: stops first, then commands, then the device, then a tick if one is due.
 //!
 //! One step never waits; how long to sleep until the next is its answer. The clock is either the
 //! real one or one that is told, which makes a run repeatable.
@@ -9,12 +9,12 @@ use std::time::{Duration, Instant};
 use rtrb::{Consumer, Producer};
 use triple_buffer::Input;
 
-use super::gist::{Gist, Waker};
-use super::glimpse::Glimpser;
 use super::link::{Link, News};
 use super::meters::{DurationHistogram, RecentMedian};
-use super::order::{ArrayOrder, CoreOrder, MOST_RETIRED, NextScene, Order, Retired};
 use super::pacer::{Due, Pacer};
+use super::ready::{CoreCommand, MAX_RETIRED, NextArray, NextScene, ReadyCommand, Retired};
+use super::snapshot_summary::{SnapshotSummary, Waker};
+use super::tick_sample::TickSampler;
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch, Tap};
 use selvedge_device::{Bridge, SentFrame, StopHow};
 
@@ -43,11 +43,11 @@ impl Clock {
 
 /// The rings that a runner reads and writes.
 pub(super) struct Channels {
-    pub(super) orders: Consumer<Order>,
+    pub(super) commands: Consumer<ReadyCommand>,
     pub(super) retired: Producer<Retired>,
     pub(super) notices: NoticeRing,
     pub(super) snapshots: Input<Snapshot>,
-    pub(super) glimpser: Glimpser,
+    pub(super) sampler: TickSampler,
     /// Whom to tell what is felt.
     pub(super) tap: Option<Box<Tap>>,
 }
@@ -82,7 +82,7 @@ pub(super) struct Runner {
     cost: RecentMedian,
     costs: DurationHistogram,
     commands_obeyed: u64,
-    gist: Gist,
+    summary: SnapshotSummary,
     waker: Waker,
     is_over: bool,
 }
@@ -108,7 +108,7 @@ impl Runner {
             cost: RecentMedian::new(),
             costs: DurationHistogram::default(),
             commands_obeyed: 0,
-            gist: Gist::default(),
+            summary: SnapshotSummary::default(),
             waker,
             is_over: false,
         }
@@ -162,9 +162,9 @@ impl Runner {
         let notices = &mut self.channels.notices;
         let ended = self.core.record(sent, &mut |notice| notices.tell(notice));
         self.retire(ended);
-        self.channels.glimpser.look(&self.core);
+        self.channels.sampler.look(&self.core);
         if let Some(tap) = &mut self.channels.tap {
-            tap.tell(&self.core);
+            self.core.write_to(tap);
         }
         let done = self.clock.now();
         self.late += u64::from(started.saturating_duration_since(due) > LATE);
@@ -212,31 +212,33 @@ impl Runner {
         self.publish();
     }
 
-    /// Obeys orders while what they replace finds room.
+    /// Obeys commands while what they replace finds room.
     fn obey(&mut self) {
-        while self.channels.retired.slots() >= MOST_RETIRED {
-            let Ok(order) = self.channels.orders.pop() else {
+        while self.channels.retired.slots() >= MAX_RETIRED {
+            let Ok(command) = self.channels.commands.pop() else {
                 return;
             };
             self.commands_obeyed += 1;
-            match order {
-                Order::Core(order) => self.obey_core(order),
-                Order::Scene(next, snapshots) => self.set_scene(next, snapshots),
-                Order::Connect(bridge) => self.connect(Some(bridge)),
-                Order::Disconnect => self.connect(None),
-                Order::Array(array) => self.set_array(array),
-                Order::Identify(is_begun) => self.link.identify(is_begun),
-                Order::IdentifyChannel { channel, how } => self.identify_channel(channel, how),
-                Order::Arm { presses } => self.arm(presses),
-                Order::Disarm => self.link.stop(StopHow::Ramp),
-                Order::ClearFaults => self.link.clear_faults(),
-                Order::Glimpses(is_heard) => self.channels.glimpser.listen(is_heard),
-                Order::Watch(contactor) => self.channels.glimpser.watch(contactor),
-                Order::Tap(tap) => {
+            match command {
+                ReadyCommand::Core(command) => self.obey_core(command),
+                ReadyCommand::Scene(next, snapshots) => self.set_scene(next, snapshots),
+                ReadyCommand::Connect(bridge) => self.connect(Some(bridge)),
+                ReadyCommand::Disconnect => self.connect(None),
+                ReadyCommand::Array(array) => self.set_array(array),
+                ReadyCommand::Identify(is_begun) => self.link.identify(is_begun),
+                ReadyCommand::IdentifyChannel { channel, how } => {
+                    self.identify_channel(channel, how)
+                }
+                ReadyCommand::Arm { presses } => self.arm(presses),
+                ReadyCommand::Disarm => self.link.stop(StopHow::Ramp),
+                ReadyCommand::ClearFaults => self.link.clear_faults(),
+                ReadyCommand::SampleTicks(is_heard) => self.channels.sampler.listen(is_heard),
+                ReadyCommand::Watch(contactor) => self.channels.sampler.watch(contactor),
+                ReadyCommand::Tap(tap) => {
                     let last = std::mem::replace(&mut self.channels.tap, tap);
                     self.retire(last.map(Retired::Tap));
                 }
-                Order::Shutdown => {
+                ReadyCommand::Shutdown => {
                     self.link.stop(StopHow::Now);
                     self.is_over = true;
                 }
@@ -244,10 +246,10 @@ impl Runner {
         }
     }
 
-    fn obey_core(&mut self, order: CoreOrder) {
+    fn obey_core(&mut self, command: CoreCommand) {
         let notices = &mut self.channels.notices;
         let mut say = |notice| notices.tell(notice);
-        for retired in self.core.obey(order, &mut say) {
+        for retired in self.core.obey(command, &mut say) {
             self.retire(retired);
         }
     }
@@ -258,13 +260,13 @@ impl Runner {
             self.say(Notice::DisplayChanged);
         }
         next.scene_mut().set_link_limit(self.link.comp_limit());
-        self.obey_core(CoreOrder::Scene(next));
+        self.obey_core(CoreCommand::Scene(next));
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));
         self.publish();
     }
 
-    fn set_array(&mut self, mut array: Box<ArrayOrder>) {
+    fn set_array(&mut self, mut array: Box<NextArray>) {
         if self.link.set_array(&mut array.change) {
             self.core.exchange_coder(&mut array.coder);
         } else {
@@ -302,14 +304,12 @@ impl Runner {
     /// Writes a snapshot and wakes the window if it shows something new.
     fn publish(&mut self) {
         let until_felt = self.link.until_felt();
-        let (glimpses_lost, notices_lost) = (
-            self.channels.glimpser.n_lost(),
-            self.channels.notices.n_lost,
-        );
+        let (tick_samples_lost, notices_lost) =
+            (self.channels.sampler.n_lost(), self.channels.notices.n_lost);
         let snapshot = self.channels.snapshots.input_buffer_mut();
         self.core.fill(snapshot, until_felt);
         snapshot.counters.notices_lost = notices_lost;
-        snapshot.counters.glimpses_lost = glimpses_lost;
+        snapshot.counters.tick_samples_lost = tick_samples_lost;
         snapshot.counters.commands_obeyed = self.commands_obeyed;
         snapshot.counters.frames_unheard = self.link.n_unheard();
         snapshot.clock = ClockView {
@@ -322,10 +322,10 @@ impl Runner {
             costs: self.costs,
         };
         snapshot.link = self.link.view();
-        let gist = Gist::of(snapshot);
+        let summary = SnapshotSummary::of(snapshot);
         self.channels.snapshots.publish();
-        if gist != self.gist {
-            self.gist = gist;
+        if summary != self.summary {
+            self.summary = summary;
             self.waker.wake();
         }
     }
@@ -335,7 +335,7 @@ impl Runner {
         self.waker.wake();
     }
 
-    /// There is room: orders are only obeyed while there is, and a stop retires one thing.
+    /// There is room: commands are only obeyed while there is, and a stop retires one thing.
     fn retire(&mut self, retired: Option<Retired>) {
         if let Some(retired) = retired {
             drop(self.channels.retired.push(retired));

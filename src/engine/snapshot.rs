@@ -1,24 +1,24 @@
 //! What the engine shows of itself: plain data, copied whole at every tick.
 //!
 //! A snapshot has room for every contactor of its scene from the start, so that filling it
-//! allocates nothing. It holds no text: words are the window's.
+//! allocates nothing. It holds no text: that is the window's.
 
 use std::time::Duration;
 
-use super::{DurationHistogram, InputRate, PreparedScene, SampleCounters, VelocityMethod};
+use super::{DurationHistogram, InputRate, Playback, SampleCounters, SourceKind, VelocityMethod};
 use selvedge_device::{
     Bite, BridgeCounters, BridgeState, Caps, ClockFit, SentFrame, Spread, Status, Timings,
 };
 use selvedge_foundation::geometry::Point;
 use selvedge_render::Counters;
-use selvedge_render::array::{ErrorBound, Method};
+use selvedge_render::array::{ArrayRenderer, ErrorBound, Method};
 use selvedge_render::scene::Pose;
 use selvedge_textile::tactile::Tuning;
 
 /// The engine after a tick.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
-    /// Serial number of the scene that this shows, given by [`PreparedScene`].
+    /// Serial number of the scene that this shows, given by [`PreparedScene`](super::PreparedScene).
     pub scene_serial: u64,
     /// Changes of gains, levels and the contactor mask so far: a display that stands still may
     /// show other amplitudes after one.
@@ -44,18 +44,8 @@ pub struct Snapshot {
     pub is_silent: bool,
     /// Which step of a sequence of vibrations is played, from 0; `None` while none is.
     pub vibration: Option<u16>,
-    /// The rendering method chosen; never `auto`.
-    pub method: Method,
-    /// How far amplitudes may be from the reference, known before the first tick.
-    pub bound: ErrorBound,
-    /// What the renderer evaluated and what it left out, since the scene was set.
-    pub render: Counters,
-    /// The gains that sound.
-    pub tuning: Tuning,
-    /// Whether compression waits for levels.
-    pub compression_is_pending: bool,
-    /// The level that compression leaves alone, dB re 1 µm, once it is known.
-    pub compression_reference_db: Option<f64>,
+    /// How amplitudes are made.
+    pub rendering: RenderingView,
     /// The pointer and its velocity.
     pub pointer: PointerView,
     /// The replay, stroke or live source.
@@ -72,42 +62,33 @@ pub struct Snapshot {
     pub link: Option<LinkView>,
 }
 
-impl Snapshot {
-    /// A snapshot before the first tick, with room for every contactor of the scene.
-    pub fn of(scene: &PreparedScene) -> Self {
-        let renderer = scene.renderer();
-        let pose = Pose {
-            position: scene.start(),
-            ..Pose::default()
-        };
+/// How the amplitudes of a snapshot are made.
+#[derive(Debug, Clone, Copy)]
+pub struct RenderingView {
+    /// The rendering method chosen; never `auto`.
+    pub method: Method,
+    /// How far amplitudes may be from the reference, known before the first tick.
+    pub bound: ErrorBound,
+    /// What the renderer evaluated and what it left out, since the scene was set.
+    pub counters: Counters,
+    /// The gains that sound.
+    pub tuning: Tuning,
+    /// Whether compression waits for levels.
+    pub compression_is_pending: bool,
+    /// The level that compression leaves alone, dB re 1 µm, once it is known.
+    pub compression_reference_db: Option<f64>,
+}
+
+impl RenderingView {
+    /// What a renderer says of itself.
+    pub(super) fn of(renderer: &ArrayRenderer) -> Self {
         Self {
-            scene_serial: scene.serial(),
-            revision: 0,
-            tick: 0,
-            t_s: 0.0,
-            pose,
-            rendered: pose,
-            turn_deg: 0.0,
-            displays: scene.empty_views(),
-            is_stopped: false,
-            is_silent: false,
-            vibration: None,
             method: renderer.method(),
             bound: renderer.bound(),
-            render: *renderer.counters(),
+            counters: *renderer.counters(),
             tuning: *renderer.tuning(),
             compression_is_pending: renderer.compression_is_pending(),
             compression_reference_db: renderer.compression_reference_db(),
-            pointer: PointerView::default(),
-            source: SourceKind::Pointer,
-            playback: Playback {
-                is_playing: true,
-                ..Playback::default()
-            },
-            recording: RecordingView::default(),
-            clock: ClockView::default(),
-            counters: EngineCounters::default(),
-            link: None,
         }
     }
 }
@@ -130,38 +111,6 @@ pub struct ContactorView {
     pub amplitude_um: [f32; 2],
     /// The output limits that this amplitude meets at full soft-start gain.
     pub bite: Bite,
-}
-
-/// What moves the display.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SourceKind {
-    /// Live samples.
-    Pointer,
-    /// A recorded exploration.
-    Replay,
-    /// A generated stroke.
-    Stroke,
-    /// A stream of lines.
-    Lines,
-    /// A tablet or touch frame that is read directly.
-    Device,
-    /// Another program, by a connection.
-    Program,
-}
-
-/// How far a replay or stroke is. A live source is at 0 of 0, playing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Playback {
-    /// Whether it moves on at the next tick.
-    pub is_playing: bool,
-    /// Whether it came to its end.
-    pub has_ended: bool,
-    /// Whether it begins again at its end.
-    pub does_loop: bool,
-    /// The tick of the path that is shown.
-    pub tick: u64,
-    /// Ticks in the path.
-    pub n_ticks: u64,
 }
 
 /// The pointer in a snapshot.
@@ -221,8 +170,8 @@ pub struct EngineCounters {
     pub(crate) notices_lost: u64,
     /// Tunings, gains and angles that made no sense and were ignored.
     pub ignored: u64,
-    /// Glimpses that the full ring had no room for.
-    pub(crate) glimpses_lost: u64,
+    /// Samples that the full ring had no room for.
+    pub(crate) tick_samples_lost: u64,
     /// Frames not made because no armed device listened.
     pub frames_unheard: u64,
     /// Commands obeyed before this was shown: all that were sent once it equals

@@ -9,14 +9,14 @@ use std::thread::Thread;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use super::{EngineCore, TICKS_PER_S};
+use super::TICKS_PER_S;
 
 /// Ticks of the largest array that find room: a second and a half.
 const N_TICKS: usize = 64;
 /// Numbers of a tick before its amplitudes: how many contactors, tick, x, y, angle.
 const N_HEAD: usize = 5;
-/// Contactors that are told at most.
-const MOST_CONTACTORS: usize = 256;
+/// Contactors that are written at most.
+const MAX_CONTACTORS: usize = 256;
 
 /// The engine's end of a tap.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ impl FeltTick {
 
 /// Both ends; `reader` is woken when there is something to read.
 pub(super) fn tap(reader: Thread) -> (Tap, TapReader) {
-    let (sender, ring) = RingBuffer::new(N_TICKS * (N_HEAD + 2 * MOST_CONTACTORS));
+    let (sender, ring) = RingBuffer::new(N_TICKS * (N_HEAD + 2 * MAX_CONTACTORS));
     let n_lost = Arc::new(AtomicU64::new(0));
     let tap = Tap {
         ring: sender,
@@ -64,25 +64,18 @@ pub(super) fn tap(reader: Thread) -> (Tap, TapReader) {
 }
 
 impl Tap {
-    /// Tells the tick that `core` did last: what the device plays, before its limits.
-    pub fn tell(&mut self, core: &EngineCore) {
-        let felt_um = core.felt_um();
-        let felt_um = &felt_um[..felt_um.len().min(MOST_CONTACTORS)];
+    /// Writes a tick: its number, where the display is (mm) and how it is turned (degrees), and
+    /// `[A40, A320]` of every contactor that the device plays, µm.
+    pub(super) fn write(&mut self, tick: u64, place: [f64; 3], felt_um: &[[f32; 2]]) {
+        let felt_um = &felt_um[..felt_um.len().min(MAX_CONTACTORS)];
         let n_contactors = felt_um.len();
         let Ok(chunk) = self.ring.write_chunk_uninit(N_HEAD + 2 * n_contactors) else {
             self.n_lost.fetch_add(1, Ordering::Relaxed);
             return;
         };
-        let pose = core.pose();
-        let head = [
-            n_contactors as f64,
-            core.tick_count() as f64,
-            pose.position.x_mm,
-            pose.position.y_mm,
-            pose.angle_deg,
-        ];
+        let head = [n_contactors as f64, tick as f64].into_iter().chain(place);
         let amplitudes_um = felt_um.iter().flatten().copied().map(f64::from);
-        chunk.fill_from_iter(head.into_iter().chain(amplitudes_um));
+        chunk.fill_from_iter(head.chain(amplitudes_um));
         self.reader.unpark();
     }
 }
@@ -93,8 +86,8 @@ impl TapReader {
         let Ok(&n_contactors) = self.ring.peek() else {
             return false;
         };
-        // A whole number that `tell` wrote.
-        let n_contactors = (0..=MOST_CONTACTORS)
+        // A whole number that `write` wrote.
+        let n_contactors = (0..=MAX_CONTACTORS)
             .find(|&n| n as f64 >= n_contactors)
             .unwrap_or(0);
         let Ok(chunk) = self.ring.read_chunk(N_HEAD + 2 * n_contactors) else {
@@ -109,7 +102,7 @@ impl TapReader {
         true
     }
 
-    /// Whether nobody will tell anything any more.
+    /// Whether nobody will write any more.
     pub(super) fn is_abandoned(&self) -> bool {
         self.ring.is_abandoned()
     }

@@ -101,11 +101,6 @@ impl Track {
         self.age = age.filter(|age| *age <= REST);
     }
 
-    /// Chooses another method; the estimate begins anew.
-    pub(super) fn set_method(&mut self, method: VelocityMethod) {
-        self.estimator.set_method(method);
-    }
-
     /// Where the newest sample is.
     pub(super) fn position(&self) -> Option<Point> {
         self.newest.map(|newest| newest.position)

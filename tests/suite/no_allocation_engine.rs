@@ -74,7 +74,7 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
     let start = Instant::now();
     let (mut engine, mut pointer) = engine(start);
     engine.send(Command::StartRecording).unwrap();
-    engine.send(Command::Glimpses(true)).unwrap();
+    engine.send(Command::SampleTicks(true)).unwrap();
     // Fewer than a block of the recording: collecting one is the window's affair.
     for n in 0..390_u32 {
         let gain_db = f64::from(n % 20);
@@ -93,15 +93,15 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
                 push(&mut pointer, stamp, (stamp - start).as_secs_f64());
             }
             engine.step_uncollected(start + TICK * (n + 1));
-            assert!(engine.next_glimpse().is_some(), "it moved");
+            assert!(engine.next_tick_sample().is_some(), "it moved");
         });
     }
     let snapshot = engine.snapshot();
     assert_eq!(snapshot.recording.n_ticks, 390);
     assert!(
-        snapshot.render.directions_evaluated > 1000,
+        snapshot.rendering.counters.directions_evaluated > 1000,
         "{:?}",
-        snapshot.render
+        snapshot.rendering.counters
     );
 }
 

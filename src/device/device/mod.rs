@@ -12,27 +12,23 @@ mod model;
 mod output;
 mod queue;
 mod requests;
+mod sample_ring;
 mod samples;
+mod sense;
 mod sink;
 mod trouble;
 
 use super::framing::{Decoder, Packet};
-use super::message::{Config, DeviceState, Fault, LogText, Message, Status, TICK_US, fault_bit};
-pub use lie::Lie;
-pub use lie::Miswiring;
+use super::message::{Config, DeviceState, Fault, LogText, Message, Status, fault_bit};
+pub use lie::{Lie, Miswiring};
 pub use model::DeviceModel;
-use output::OutputStage;
+use output::{OutputStage, TICK};
 use queue::FrameQueue;
-use samples::SampleRing;
-pub use sink::AppliedFrame;
-pub use sink::DeviceSink;
-pub use sink::SampledTick;
-pub use sink::{Moment, SampleCount};
-pub use trouble::Load;
-pub use trouble::Sense;
+use sample_ring::SampleRing;
+pub use sense::{Load, Sense};
+pub use sink::{AppliedFrame, DeviceSink, Moment, SampleCount, SampledTick};
 
 const MS_US: u64 = 1000;
-const TICK: u64 = TICK_US as u64;
 const FAULT_PERIOD_US: u64 = 100_000;
 
 /// Event counts since boot; on the wire they wrap at 65536.

@@ -1,7 +1,7 @@
 //! What an emulated device says of itself in CAPS.
 
 use super::lie::{Lie, Miswiring};
-use super::trouble::Load;
+use super::sense::Load;
 use crate::codes::ArrayProfile;
 use crate::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::message::{Caps, Config, MAGIC, TICK_US, frame};

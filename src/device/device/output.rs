@@ -4,8 +4,10 @@
 //! The gain is a whole number of ramp steps, so that silence is reached exactly and never by
 //! rounding.
 
-use super::TICK;
-use crate::message::Config;
+use crate::message::{Config, TICK_US};
+
+/// A tick of the device, µs.
+pub(super) const TICK: u64 = TICK_US as u64;
 
 /// One contactor driven on its own.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 
 use super::lie::caps_packet;
 use super::output::{IdentDrive, allow};
-use super::{DeviceCore, DeviceSink, MS_US, Session, samples, wrapped_u32};
+use super::{DeviceCore, DeviceSink, MS_US, Session, sample_ring, wrapped_u32};
 use crate::framing::Received;
 use crate::message::{
     ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC,
@@ -59,7 +59,7 @@ impl DeviceCore {
             kind::STOP => Stop::decode(payload).map(|stop| Answer::Ack(self.stop(stop))),
             kind::PING => Ping::decode(payload).map(|ping| self.pong(ping, sink)),
             kind::CLEAR => Clear::decode(payload).map(|clear| Answer::Ack(self.clear(clear))),
-            kind::SAMPLES if payload.len() < samples::HEAD_LEN => None,
+            kind::SAMPLES if payload.len() < sample_ring::HEAD_LEN => None,
             kind::SAMPLES if self.model.modes & Caps::MODE_B != 0 => {
                 Some(self.take_samples(payload))
             }

@@ -2,7 +2,6 @@
 
 use super::DeviceCore;
 use crate::message::DeviceState;
-use crate::wire::Injection;
 
 /// A FRAME that took effect at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,8 +75,6 @@ pub trait DeviceSink {
     fn changed(&mut self, _moment: &Moment) {}
     /// A step of the 1 ms clock is done; what the device puts out now holds until the next.
     fn stepped(&mut self, _device: &DeviceCore) {}
-    /// A fault was injected into the device or its link.
-    fn injected(&mut self, _moment: &Moment, _injection: &Injection) {}
 }
 
 /// Collects the bytes and drops the rest.

@@ -16,7 +16,7 @@ use super::BridgeError;
 use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment, SampledTick};
 use super::plant::PlantFeed;
 use super::port::{PairPort, Port, pair};
-use super::wire::{Faults, Injection, WiredDevice};
+use super::wire::{Faults, Injection, WireSink, WiredDevice};
 pub(crate) use log::DeviceLog;
 #[cfg(unix)]
 pub use pty::PtyEmulator;
@@ -30,15 +30,9 @@ pub(crate) struct EmulatorThread;
 
 impl EmulatorThread {
     /// Boots a device and gives the host's end of its link; the thread ends when all copies of that
-    /// end are gone.
-    pub(crate) fn start(model: DeviceModel) -> Result<PairPort, BridgeError> {
-        Self::start_with(model, &Faults::default(), None)
-    }
-
-    /// The same with a device and a link that have these faults, and with contactors that somebody
-    /// may look at. Within a process nothing can be plugged in again: a cable that is pulled ends
-    /// the link.
-    pub(crate) fn start_with(
+    /// end are gone. Device and link have these faults, and somebody may look at the contactors.
+    /// Within a process nothing can be plugged in again: a cable that is pulled ends the link.
+    pub(crate) fn start(
         model: DeviceModel,
         faults: &Faults,
         plant: Option<PlantFeed>,
@@ -194,15 +188,17 @@ impl DeviceSink for LiveSink<'_> {
         }
     }
 
-    fn injected(&mut self, moment: &Moment, injection: &Injection) {
-        if let Some(log) = &mut self.log {
-            log.injected(moment, injection);
-        }
-    }
-
     fn stepped(&mut self, device: &DeviceCore) {
         if let Some(plant) = &mut self.plant {
             plant.stepped(device);
+        }
+    }
+}
+
+impl WireSink for LiveSink<'_> {
+    fn injected(&mut self, moment: &Moment, injection: &Injection) {
+        if let Some(log) = &mut self.log {
+            log.injected(moment, injection);
         }
     }
 }

@@ -42,7 +42,7 @@ fn greet(port: &mut dyn Port, session: u32) {
 
 #[test]
 fn an_emulator_in_process_answers_and_ticks() {
-    let mut port = EmulatorThread::start(DeviceModel::default()).unwrap();
+    let mut port = EmulatorThread::start(DeviceModel::default(), &Faults::default(), None).unwrap();
     greet(&mut port, 7);
 }
 
@@ -57,7 +57,7 @@ fn an_emulator_in_process_whose_cable_is_pulled_ends_its_link() {
         once: vec![unplug],
         ..Faults::default()
     };
-    let mut port = EmulatorThread::start_with(DeviceModel::default(), &faults, None).unwrap();
+    let mut port = EmulatorThread::start(DeviceModel::default(), &faults, None).unwrap();
     let mut buffer = [0; 256];
     let error = loop {
         match port.read(&mut buffer, Duration::from_millis(50)) {

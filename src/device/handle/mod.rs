@@ -63,7 +63,7 @@ impl Target {
     fn open(&self, profile: &ArrayProfile, plant: Option<PlantFeed>) -> Result<Ends, BridgeError> {
         let emulate = |faults: &Faults| -> Result<Ends, BridgeError> {
             let model = DeviceModel::for_array(profile);
-            let port = EmulatorThread::start_with(model, faults, plant)?;
+            let port = EmulatorThread::start(model, faults, plant)?;
             Ok((Box::new(port.clone()), Box::new(port)))
         };
         match self {

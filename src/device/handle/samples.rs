@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::Bridge;
-use crate::host::{MOST_TICKS, SentFrame, Waveform};
+use crate::host::{MAX_TICKS, SentFrame, Waveform};
 use crate::link::{QueuedFrame, QueuedSamples, SAMPLE_TICKS};
 use crate::message::TICK_US;
 use crate::session_log::Note;
@@ -95,7 +95,7 @@ impl Bridge {
         let link = self.link.as_mut()?;
         let sampling = self.sampling.as_mut()?;
         sampling.stream?;
-        let most = MOST_TICKS * self.session.sample_packets_per_tick();
+        let most = MAX_TICKS * self.session.sample_packets_per_tick();
         if !self.session.state().takes_frames() || !link.has_room(most) {
             return None;
         }

@@ -5,7 +5,8 @@
 
 use std::time::Instant;
 
-use super::{BridgeEvent, BridgeState, HostSession};
+use super::HostSession;
+use super::report::{BridgeEvent, BridgeState};
 use crate::array::DeviceUid;
 use crate::codes::{ArrayProfile, Coder};
 use crate::session_log::Note;
@@ -31,19 +32,19 @@ impl ArrayChange {
 impl HostSession {
     /// The link before this one had this device: another one is told. Before it is opened.
     pub fn came_after(&mut self, device: DeviceUid) {
-        self.before = Some(device);
+        self.device.before = Some(device);
     }
 
     /// Tells when the device is not the one of before, and writes down when it is not the one that
     /// the profile was measured on.
     pub(super) fn compare_device(&mut self, now: Instant, device: DeviceUid) {
-        let before = self.before;
-        let other = before.and_then(|before| self.profile.other_device(before, device));
-        if let Some(words) = other {
-            self.note(now, Note::Said("other-device", words.clone()));
-            self.event(BridgeEvent::OtherDevice(words));
+        let before = self.device.before;
+        let other = before.and_then(|before| self.drive.profile.other_device(before, device));
+        if let Some(message) = other {
+            self.note(now, Note::Said("other-device", message.clone()));
+            self.event(BridgeEvent::OtherDevice(message));
         }
-        if let Some(doubt) = self.profile.wiring_doubt(device) {
+        if let Some(doubt) = self.drive.profile.wiring_doubt(device) {
             self.note(now, Note::Said("wiring-doubt", doubt));
         }
     }
@@ -53,21 +54,21 @@ impl HostSession {
     ///
     /// # Errors
     /// The device may move and the profile does not only lower, or it is of another array: nothing
-    /// changed then, and the words say why.
+    /// changed then, and the text says why.
     pub fn set_array(
         &mut self,
         now: Instant,
         change: &mut ArrayChange,
     ) -> Result<(), &'static str> {
-        if change.profile.n_contactors() != self.profile.n_contactors() {
+        if change.profile.n_contactors() != self.drive.profile.n_contactors() {
             return Err("the array profile has another number of contactors");
         }
-        if self.state.is_live() && !change.profile.only_lowers(&self.profile) {
+        if self.state.is_live() && !change.profile.only_lowers(&self.drive.profile) {
             return Err("the array profile waits until the device is disarmed");
         }
-        change.coder.go_on_from(&self.coder);
-        std::mem::swap(&mut self.profile, &mut change.profile);
-        std::mem::swap(&mut self.coder, &mut change.coder);
+        change.coder.go_on_from(&self.drive.coder);
+        std::mem::swap(&mut self.drive.profile, &mut change.profile);
+        std::mem::swap(&mut self.drive.coder, &mut change.coder);
         if matches!(self.state, BridgeState::Ready | BridgeState::Configuring) {
             self.configure(now);
         }

@@ -7,6 +7,8 @@
 
 use std::time::{Duration, Instant};
 
+/// The time between two ticks of a device.
+pub(super) const TICK: Duration = Duration::from_millis(25);
 /// Answers that are remembered: a minute at one a second.
 const N_ECHOES: usize = 64;
 /// An answer that took this much longer than the quickest weighs a quarter of it.

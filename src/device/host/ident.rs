@@ -1,22 +1,14 @@
 //! IDENT: one channel driven alone, so that a person can say which contactor it is.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use super::{BridgeEvent, BridgeState, HostSession};
+use super::HostSession;
+use super::pending::Identifying;
+use super::report::{BridgeEvent, BridgeState};
 use crate::message::{Ack, AckCode, Caps, Ident, Message as _, kind};
 
 /// Longest time that a channel is driven alone, ms.
 const LONGEST_IDENT_MS: u16 = 1000;
-/// The device acknowledges within this, or never.
-const PATIENCE: Duration = Duration::from_millis(250);
-
-/// An IDENT without its acknowledgement.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Identifying {
-    channel: u16,
-    seq: u16,
-    sent: Instant,
-}
 
 impl HostSession {
     /// Drives one channel alone at 320 Hz for `ms` (at most 1000) with this amplitude, µm, held by
@@ -24,7 +16,7 @@ impl HostSession {
     /// first FRAME. Only while armed and before any frame.
     ///
     /// # Errors
-    /// Nothing was sent; the words say why.
+    /// Nothing was sent; the text says why.
     pub fn identify(
         &mut self,
         now: Instant,
@@ -32,22 +24,22 @@ impl HostSession {
         (amplitude_um, ms): (f32, u16),
     ) -> Result<(), &'static str> {
         let can_ident = |caps: &Caps| caps.modes & Caps::MODE_IDENT != 0;
-        if !self.caps.as_ref().is_some_and(can_ident) {
+        if !self.device.caps.as_ref().is_some_and(can_ident) {
             return Err("the device cannot drive a channel alone");
         }
         if self.state != BridgeState::Armed {
             return Err("a channel is driven alone only while armed, before anything is played");
         }
-        if usize::from(channel) >= self.n_contactors {
+        if usize::from(channel) >= self.drive.n_contactors {
             return Err("the device has no such channel");
         }
         let ident = Ident {
             channel,
             ms: ms.min(LONGEST_IDENT_MS),
-            amp: self.coder.ident_code(amplitude_um),
+            amp: self.drive.coder.ident_code(amplitude_um),
         };
-        let seq = self.sequence.next();
-        self.queue(ident.packet(seq).as_ref(), now);
+        let seq = self.outbox.sequence.next();
+        self.outbox.queue(ident.packet(seq).as_ref(), now);
         self.ident = Some(Identifying {
             channel,
             seq,
@@ -71,9 +63,7 @@ impl HostSession {
     }
 
     pub(super) fn check_ident(&mut self, now: Instant) {
-        let is_late =
-            |ident: &mut Identifying| now.saturating_duration_since(ident.sent) >= PATIENCE;
-        if let Some(Identifying { channel, .. }) = self.ident.take_if(is_late) {
+        if let Some(Identifying { channel, .. }) = self.ident.take_if(|ident| ident.is_late(now)) {
             self.event(BridgeEvent::NotIdentified {
                 channel,
                 reason: String::from("the device did not answer"),

@@ -13,7 +13,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::TICK;
+use super::clock::TICK;
 
 /// What is added to the 99.9th percentile of the delays.
 const MARGIN: Duration = Duration::from_millis(3);

@@ -9,7 +9,8 @@
 mod array;
 mod checks;
 mod clock;
-mod delays;
+mod drive;
+mod evidence;
 mod frames;
 mod ident;
 mod latching;
@@ -17,6 +18,7 @@ mod notes;
 mod pending;
 mod replies;
 mod report;
+mod reported;
 mod samples;
 mod timers;
 
@@ -25,33 +27,26 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
-use super::array::DeviceUid;
-use super::codes::{ArrayProfile, Bite, Coder};
+use super::codes::{ArrayProfile, Bite};
 use super::framing::Packet;
-use super::message::{
-    Arm, Caps, ChannelMask, Clear, Config, LARGEST_CHANNELS, Message as _, Ping, Status, Stop,
-    StopHow, kind,
-};
-use super::session_log::Note;
+use super::message::{Arm, Caps, Clear, Config, Message as _, Ping, Status, Stop, StopHow, kind};
+use super::session_log::{Entry, Note};
 pub use array::ArrayChange;
 pub use clock::ClockFit;
 use clock::DeviceClock;
-pub(super) use delays::DelaySource;
-use delays::Evidence;
-#[cfg(test)]
-pub(crate) use frames::SOFT_START_TICKS;
-use ident::Identifying;
+use drive::Drive;
+use evidence::Evidence;
 use latching::Latching;
 use notes::Notes;
-use pending::Pending;
-pub use report::{BridgeCounters, BridgeEvent, BridgeState, DeviceCounters, DisarmedBy, SentFrame};
+use pending::{Identifying, Pending, Pings, Presence};
+pub use report::{BridgeCounters, BridgeEvent, BridgeState, DisarmedBy, SentFrame};
+use reported::Reported;
 pub(crate) use samples::CutSamples;
-pub(super) use samples::MOST_TICKS;
+pub(super) use samples::MAX_TICKS;
 pub use samples::Waveform;
 
-const TICK: Duration = Duration::from_millis(25);
-const MOST_EVENTS: usize = 64;
-const MOST_PACKETS: usize = 16;
+const MAX_EVENTS: usize = 64;
+const MAX_PACKETS: usize = 16;
 
 /// The host's packet counter, shared by everything that may send on one link.
 #[derive(Clone, Debug, Default)]
@@ -64,52 +59,55 @@ impl Sequence {
     }
 }
 
+/// What goes to the device.
+#[derive(Debug)]
+struct Outbox {
+    sequence: Sequence,
+    packets: VecDeque<Packet>,
+    /// A STOP, ahead of all of them.
+    stop_packet: Option<Packet>,
+    last_sent: Option<Instant>,
+}
+
+impl Outbox {
+    fn queue(&mut self, packet: Option<&Packet>, now: Instant) {
+        if let Some(packet) = packet
+            && self.packets.len() < MAX_PACKETS
+        {
+            self.packets.push_back(*packet);
+            self.last_sent = Some(now);
+        }
+    }
+}
+
+/// The STOP under way.
+#[derive(Debug)]
+struct Stopping {
+    pending: Option<Pending>,
+    how: StopHow,
+    /// Whether it ends output, rather than making sure of rest.
+    ends_output: bool,
+}
+
 /// One session with one device.
 #[derive(Debug)]
 pub struct HostSession {
     nonce: u32,
-    profile: ArrayProfile,
-    n_contactors: usize,
-    sequence: Sequence,
-    /// Whether samples are sent where the device plays them.
-    prefers_samples: bool,
-    coder: Coder,
-    codes: Vec<[u16; 2]>,
     state: BridgeState,
-    caps: Option<Caps>,
-    config: Option<Config>,
-    status: Option<Status>,
-    status_received: Option<Instant>,
-    counters: DeviceCounters,
-    frames_rejected: u64,
+    device: Reported,
+    drive: Drive,
+    outbox: Outbox,
     request: Option<Pending>,
-    stopping: Option<Pending>,
-    stop_how: StopHow,
-    /// Whether the STOP under way ends output, rather than making sure of rest.
-    stop_ends_output: bool,
-    /// Token and time of the last PING.
-    ping: Option<(u32, Instant)>,
-    last_ping: Option<Instant>,
+    stopping: Stopping,
+    pings: Pings,
     ident: Option<Identifying>,
-    first_apply_tick: Option<u32>,
-    /// The last tick whose samples were made since ARM (mode B).
-    last_played_tick: Option<u32>,
+    frames_rejected: u64,
     clock: DeviceClock,
     latching: Latching,
-    /// The device that the link before this one had.
-    before: Option<DeviceUid>,
-    /// Start of the last STATUS's tick, by our clock.
-    tick_start: Option<Instant>,
-    /// When the answer to the last STATUS is due; taken by the frame that is it.
-    due: Option<Instant>,
     evidence: Evidence,
-    last_sent: Option<Instant>,
-    last_time: Option<Instant>,
-    silent_for: Duration,
+    presence: Presence,
     notes: Notes,
     events: VecDeque<BridgeEvent>,
-    packets: VecDeque<Packet>,
-    stop_packet: Option<Packet>,
 }
 
 impl HostSession {
@@ -122,41 +120,30 @@ impl HostSession {
     ) -> Self {
         Self {
             nonce: nonce.max(1),
-            coder: Coder::new(&profile, n_contactors),
-            codes: vec![[0; 2]; n_contactors.min(LARGEST_CHANNELS)],
-            profile,
-            prefers_samples: false,
-            n_contactors,
-            sequence,
             state: BridgeState::Opening,
-            caps: None,
-            config: None,
-            status: None,
-            status_received: None,
-            counters: DeviceCounters::default(),
-            frames_rejected: 0,
+            device: Reported::default(),
+            drive: Drive::new(profile, n_contactors),
+            outbox: Outbox {
+                sequence,
+                packets: VecDeque::with_capacity(MAX_PACKETS),
+                stop_packet: None,
+                last_sent: None,
+            },
             request: None,
-            stopping: None,
-            stop_how: StopHow::Ramp,
-            stop_ends_output: false,
-            ping: None,
-            last_ping: None,
+            stopping: Stopping {
+                pending: None,
+                how: StopHow::Ramp,
+                ends_output: false,
+            },
+            pings: Pings::default(),
             ident: None,
-            first_apply_tick: None,
-            last_played_tick: None,
+            frames_rejected: 0,
             clock: DeviceClock::new(),
             latching: Latching::new(),
-            before: None,
-            tick_start: None,
-            due: None,
             evidence: Evidence::default(),
-            last_sent: None,
-            last_time: None,
-            silent_for: Duration::ZERO,
+            presence: Presence::default(),
             notes: Notes::default(),
-            events: VecDeque::with_capacity(MOST_EVENTS),
-            packets: VecDeque::with_capacity(MOST_PACKETS),
-            stop_packet: None,
+            events: VecDeque::with_capacity(MAX_EVENTS),
         }
     }
 
@@ -166,7 +153,7 @@ impl HostSession {
             return;
         }
         self.state = BridgeState::Greeting;
-        self.queue(Some(&Packet::delimiter()), now);
+        self.outbox.queue(Some(&Packet::delimiter()), now);
         self.request(kind::HELLO, now);
     }
 
@@ -181,8 +168,7 @@ impl HostSession {
             return false;
         }
         self.state = BridgeState::Arming;
-        self.first_apply_tick = None;
-        self.last_played_tick = None;
+        self.drive.begin();
         self.request(kind::ARM, now);
         true
     }
@@ -193,19 +179,19 @@ impl HostSession {
             return;
         }
         // A gentler wish never softens a STOP under way.
-        if self.stopping.is_none() || how == StopHow::Now {
-            self.stop_how = how;
+        if self.stopping.pending.is_none() || how == StopHow::Now {
+            self.stopping.how = how;
         }
-        self.stop_ends_output |= self.state.is_live() && self.state != BridgeState::Stopping;
+        self.stopping.ends_output |= self.state.is_live() && self.state != BridgeState::Stopping;
         if self.state.is_live() || self.state == BridgeState::Ready {
             self.request = None;
-            self.packets.clear();
+            self.outbox.packets.clear();
             self.state = BridgeState::Stopping;
         }
         let mut stopping = Pending::new(kind::STOP, now);
         self.send_stop(&mut stopping, now);
         // A device that has not answered HELLO cannot be expected to answer STOP.
-        self.stopping = self.caps.is_some().then_some(stopping);
+        self.stopping.pending = self.device.caps.is_some().then_some(stopping);
     }
 
     /// Asks the device to clear all latched faults.
@@ -217,21 +203,21 @@ impl HostSession {
 
     /// Sends a PING; `Pong` follows.
     pub(crate) fn ping(&mut self, now: Instant) {
-        let seq = self.sequence.next();
+        let seq = self.outbox.sequence.next();
         let token = u32::from(seq) | self.nonce << 16;
-        self.ping = Some((token, now));
-        self.last_ping = Some(now);
-        self.queue(Ping { token }.packet(seq).as_ref(), now);
+        self.pings.under_way = Some((token, now));
+        self.pings.last = Some(now);
+        self.outbox.queue(Ping { token }.packet(seq).as_ref(), now);
     }
 
     /// The next packet to write, STOP excepted.
     pub(crate) fn next_packet(&mut self) -> Option<Packet> {
-        self.packets.pop_front()
+        self.outbox.packets.pop_front()
     }
 
     /// A STOP to write ahead of everything else.
     pub(crate) fn take_stop(&mut self) -> Option<Packet> {
-        self.stop_packet.take()
+        self.outbox.stop_packet.take()
     }
 
     /// The next piece of news.
@@ -246,22 +232,17 @@ impl HostSession {
 
     /// The device's CAPS, once accepted.
     pub fn caps(&self) -> Option<&Caps> {
-        self.caps.as_ref()
+        self.device.caps.as_ref()
     }
 
     /// The device's effective settings.
     pub fn config(&self) -> Option<&Config> {
-        self.config.as_ref()
+        self.device.config.as_ref()
     }
 
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
-        self.status.as_ref()
-    }
-
-    /// When the last STATUS arrived.
-    pub(crate) fn status_received(&self) -> Option<Instant> {
-        self.status_received
+        self.device.status.as_ref()
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -287,14 +268,14 @@ impl HostSession {
 
     /// What the last frame's amplitudes ran into, per contactor.
     pub fn limited(&self) -> &[Bite] {
-        self.coder.limited()
+        self.drive.coder.limited()
     }
 
     /// The counters that a session knows; those of the link's threads are 0.
     pub fn counters(&self) -> BridgeCounters {
         BridgeCounters {
-            device: self.counters,
-            codes: self.coder.counters(),
+            device: self.device.counters,
+            codes: self.drive.coder.counters(),
             frames_rejected: self.frames_rejected,
             ..BridgeCounters::default()
         }
@@ -303,7 +284,39 @@ impl HostSession {
     /// How much it holds room for: events, packets, codes.
     #[cfg(test)]
     pub fn held(&self) -> usize {
-        self.events.capacity() + self.packets.capacity() + self.codes.capacity()
+        self.events.capacity() + self.outbox.packets.capacity() + self.drive.codes.capacity()
+    }
+
+    /// From now on what happens is written down. Allocates.
+    pub fn keep_notes(&mut self) {
+        self.notes.begin();
+    }
+
+    /// The next thing that was written down.
+    pub(crate) fn next_note(&mut self) -> Option<Entry> {
+        self.notes.next()
+    }
+
+    /// Writes something down, with the times of host and device.
+    pub(crate) fn note(&mut self, now: Instant, note: Note) {
+        let tick = self.device.status.map(|_| self.device.present_tick(now));
+        let device_us = self.clock.device_us(now);
+        self.notes.add(Entry {
+            at: now,
+            tick,
+            device_us,
+            note,
+        });
+    }
+
+    /// The note of a request that is sent.
+    fn note_of(&self, request: u8) -> Note {
+        match request {
+            kind::HELLO => Note::Hello(self.nonce),
+            kind::CONFIG => Note::Config(self.drive.request(&self.device)),
+            kind::CLEAR => Note::Clear,
+            _ => Note::Arm,
+        }
     }
 
     fn request(&mut self, kind: u8, now: Instant) {
@@ -313,46 +326,31 @@ impl HostSession {
     }
 
     fn send_request(&mut self, request: &mut Pending, now: Instant) {
-        let seq = self.sequence.next();
+        let seq = self.outbox.sequence.next();
         request.sent(seq, now);
         self.note(now, self.note_of(request.kind()));
         let packet = match request.kind() {
             kind::HELLO => self.hello().packet(seq),
-            kind::CONFIG => self.wish().request(seq, self.n_contactors),
+            kind::CONFIG => self
+                .drive
+                .request(&self.device)
+                .request(seq, self.drive.n_contactors),
             kind::CLEAR => Clear { bits: u16::MAX }.packet(seq),
             _ => Arm::new(self.nonce).packet(seq),
         };
-        self.queue(packet.as_ref(), now);
+        self.outbox.queue(packet.as_ref(), now);
     }
 
     fn send_stop(&mut self, stopping: &mut Pending, now: Instant) {
-        let seq = self.sequence.next();
+        let seq = self.outbox.sequence.next();
         stopping.sent(seq, now);
-        self.note(now, Note::Stop(self.stop_how));
-        self.stop_packet = Stop {
+        self.note(now, Note::Stop(self.stopping.how));
+        self.outbox.stop_packet = Stop {
             reason: 0,
-            how: self.stop_how,
+            how: self.stopping.how,
         }
         .packet(seq);
-        self.last_sent = Some(now);
-    }
-
-    /// What to ask of the device, within its CAPS.
-    fn wish(&self) -> Config {
-        let (hv_max_dv, most) = self
-            .caps
-            .map_or((0, [0; 2]), |caps| (caps.hv_max_dv, caps.comp_limit));
-        let wanted = self.coder.comp_limit();
-        Config {
-            mode: self.mode(),
-            flags: 0,
-            hold_ms: self.profile.hold_ms,
-            ramp_ms: self.profile.ramp_ms,
-            slew: 0,
-            hv_dv: self.profile.hv_dv.min(hv_max_dv),
-            comp_limit: [0, 1].map(|band| wanted[band].min(most[band])),
-            mask: ChannelMask::first(self.n_contactors),
-        }
+        self.outbox.last_sent = Some(now);
     }
 
     fn lose(&mut self, reason: String) {
@@ -361,11 +359,11 @@ impl HostSession {
         }
         if self.state.is_live() {
             // Perhaps only the way back is broken.
-            self.stop_packet = Stop {
+            self.outbox.stop_packet = Stop {
                 reason: 0,
                 how: StopHow::Now,
             }
-            .packet(self.sequence.next());
+            .packet(self.outbox.sequence.next());
         }
         self.end(BridgeState::Lost);
         self.event(BridgeEvent::Lost(reason));
@@ -374,25 +372,16 @@ impl HostSession {
     fn end(&mut self, state: BridgeState) {
         self.state = state;
         self.request = None;
-        self.stopping = None;
-        self.packets.clear();
+        self.stopping.pending = None;
+        self.outbox.packets.clear();
     }
 
     fn disarmed(&mut self, by: DisarmedBy, reason: String) {
         self.event(BridgeEvent::Disarmed { by, reason });
     }
 
-    fn queue(&mut self, packet: Option<&Packet>, now: Instant) {
-        if let Some(packet) = packet
-            && self.packets.len() < MOST_PACKETS
-        {
-            self.packets.push_back(*packet);
-            self.last_sent = Some(now);
-        }
-    }
-
     fn event(&mut self, event: BridgeEvent) {
-        if self.events.len() >= MOST_EVENTS {
+        if self.events.len() >= MAX_EVENTS {
             // Ticks are the only news that comes in numbers, and an old one is worth nothing.
             self.events.pop_front();
         }

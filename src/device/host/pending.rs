@@ -1,5 +1,5 @@
-//! A request without its reply yet: when to send it again, when to give up, which replies are its
-//! own.
+//! What waits for the device: requests without their reply (when to send them again, when to give
+//! up, which replies are their own), PINGs, and a device that says nothing.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,9 @@ use crate::message::kind;
 
 const REPEAT_AFTER: Duration = Duration::from_millis(250);
 const HELLO_PATIENCE: Duration = Duration::from_secs(5);
-const MOST_REPEATS: u8 = 8;
+/// The device acknowledges IDENT within this, or never.
+const IDENT_PATIENCE: Duration = Duration::from_millis(250);
+const MAX_REPEATS: u8 = 8;
 
 /// What to do about a request now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +62,7 @@ impl Pending {
         let worn_out = if self.kind == kind::HELLO {
             now.saturating_duration_since(self.began) >= HELLO_PATIENCE
         } else {
-            self.sendings > MOST_REPEATS
+            self.sendings > MAX_REPEATS
         };
         if worn_out {
             Verdict::GiveUp
@@ -75,4 +77,34 @@ impl Pending {
         let span = self.last_seq.wrapping_sub(self.first_seq);
         kind == self.kind && seq.wrapping_sub(self.first_seq) <= span
     }
+}
+
+/// An IDENT without its acknowledgement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Identifying {
+    pub(super) channel: u16,
+    pub(super) seq: u16,
+    pub(super) sent: Instant,
+}
+
+impl Identifying {
+    /// Whether no acknowledgement will come any more.
+    pub(super) fn is_late(&self, now: Instant) -> bool {
+        now.saturating_duration_since(self.sent) >= IDENT_PATIENCE
+    }
+}
+
+/// PINGs of a session.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pings {
+    /// Token and time of the last one, until it is answered.
+    pub(super) under_way: Option<(u32, Instant)>,
+    pub(super) last: Option<Instant>,
+}
+
+/// How long the device has been silent, counted while the caller was there to hear it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Presence {
+    pub(super) last_time: Option<Instant>,
+    pub(super) silent_for: Duration,
 }

@@ -2,14 +2,16 @@
 
 use std::time::{Duration, Instant};
 
+use super::HostSession;
 use super::checks::refusal;
+use super::clock::TICK;
 use super::latching::Deepened;
-use super::{BridgeEvent, BridgeState, DisarmedBy, HostSession, TICK};
+use super::report::{BridgeEvent, BridgeState, DisarmedBy};
 use crate::array::DeviceUid;
 use crate::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
-use crate::session_log::Note;
+use crate::session_log::{DelaySource, Note};
 
 /// A line of the device's clock that moved further than this makes what was measured by it void.
 const MOVED: Duration = Duration::from_millis(1);
@@ -23,12 +25,12 @@ impl HostSession {
         }
         match message {
             DeviceMessage::Caps(caps) => self.on_caps(received, caps),
-            _ if self.caps.is_none() => {}
+            _ if self.device.caps.is_none() => {}
             DeviceMessage::Cfg(config) => self.on_config(received, config),
             DeviceMessage::Ack(ack) => self.on_ack(received, *ack),
             DeviceMessage::Status(status) => self.on_status(received, status),
             DeviceMessage::Fault(fault) => {
-                if self.is_news(fault.faults) {
+                if self.notes.is_news(fault.faults) {
                     self.note(received, Note::Fault(*fault));
                 }
                 self.event(BridgeEvent::Fault(*fault));
@@ -44,12 +46,12 @@ impl HostSession {
             return;
         }
         self.note(received, Note::Caps(*caps));
-        if let Some(reason) = refusal(caps, self.n_contactors) {
+        if let Some(reason) = refusal(caps, self.drive.n_contactors) {
             self.end(BridgeState::Refused);
             self.event(BridgeEvent::Refused(reason));
             return;
         }
-        self.caps = Some(*caps);
+        self.device.caps = Some(*caps);
         self.event(BridgeEvent::Connected(*caps));
         self.compare_device(received, DeviceUid(caps.uid));
         self.configure(received);
@@ -66,9 +68,9 @@ impl HostSession {
         }
         self.request = None;
         self.note(received, Note::Effective(*config));
-        self.coder.set_link_limit(config.comp_limit);
-        self.config = Some(*config);
-        self.latching.set_queue(self.deepest());
+        self.drive.coder.set_link_limit(config.comp_limit);
+        self.device.config = Some(*config);
+        self.latching.set_queue(self.device.deepest());
         self.state = BridgeState::Ready;
         self.event(BridgeEvent::Ready(*config));
     }
@@ -81,6 +83,7 @@ impl HostSession {
         }
         if self
             .stopping
+            .pending
             .is_some_and(|stopping| stopping.is_answered_by(ack.kind, ack.seq))
         {
             self.note(received, Note::Stopped);
@@ -121,36 +124,35 @@ impl HostSession {
     /// STOP is acknowledged. The device may still ramp: `Stopping` lasts until a STATUS shows it at
     /// rest.
     fn on_stopped(&mut self) {
-        self.stopping = None;
-        if self.stop_ends_output {
-            self.stop_ends_output = false;
+        self.stopping.pending = None;
+        if self.stopping.ends_output {
+            self.stopping.ends_output = false;
             self.disarmed(DisarmedBy::Host, String::from("stopped"));
         }
     }
 
     fn on_status(&mut self, received: Instant, status: &Status) {
-        let before = self.status.replace(*status);
-        let counted = self.counters;
+        let before = self.device.status.replace(*status);
+        let counted = self.device.counters;
         if let Some(before) = before {
-            self.counters.add(&before, status);
+            self.device.counters.add(&before, status);
         }
-        self.status_received = Some(received);
-        self.silent_for = Duration::ZERO;
+        self.presence.silent_for = Duration::ZERO;
         self.time(received, status);
         if before.is_none_or(|before| before.state != status.state) {
             self.note(received, Note::State(status.state));
         }
-        if self.counters != counted {
-            self.note(received, Note::DeviceCounters(self.counters));
+        if self.device.counters != counted {
+            self.note(received, Note::DeviceCounters(self.device.counters));
         }
-        let late = self.counters.late - counted.late;
-        let missing = self.counters.underrun - counted.underrun;
+        let late = self.device.counters.late - counted.late;
+        let missing = self.device.counters.underrun - counted.underrun;
         self.latch(received, [late, missing]);
         self.follow(received, status);
         if self.state.is_open() {
-            let start = self.tick_start.unwrap_or(received);
+            let start = self.device.tick_start.unwrap_or(received);
             let due = self.latching.due(start, received);
-            self.due = Some(due);
+            self.drive.due = Some(due);
             self.event(BridgeEvent::Tick {
                 tick: status.tick,
                 received,
@@ -167,12 +169,15 @@ impl HostSession {
         let start = self.clock.at(device_us).unwrap_or(received).min(received);
         let earliest = received.checked_sub(TICK).unwrap_or(received);
         let start = start.max(earliest);
-        self.tick_start = Some(start);
+        self.device.tick_start = Some(start);
         self.learn_from_status(received, start, status);
     }
 
     fn latch(&mut self, now: Instant, lost: [u64; 2]) {
-        let news = self.tick_start.map(|at| now.saturating_duration_since(at));
+        let news = self
+            .device
+            .tick_start
+            .map(|at| now.saturating_duration_since(at));
         let depth = match self.latching.tick(now, news.unwrap_or_default(), lost) {
             Deepened::No => return,
             Deepened::Raised => BridgeEvent::DepthRaised(self.latching.depth()),
@@ -188,7 +193,7 @@ impl HostSession {
     fn follow(&mut self, received: Instant, status: &Status) {
         let device = status.device_state();
         let at_rest = !device.is_some_and(DeviceState::is_live);
-        let acknowledged = self.stopping.is_none();
+        let acknowledged = self.stopping.pending.is_none();
         match self.state {
             BridgeState::Armed | BridgeState::Streaming if at_rest => {
                 self.rest(device);
@@ -213,11 +218,39 @@ impl HostSession {
         };
     }
 
+    /// A tick began at `start`, and its STATUS says what the device had by then.
+    fn learn_from_status(&mut self, now: Instant, start: Instant, status: &Status) {
+        let (delay, source) = if self.plays_samples() {
+            let delay = self.evidence.delay_of_samples(start, status);
+            (delay, DelaySource::Ring)
+        } else {
+            let delay = self.evidence.delay_of_frame(start, status);
+            (delay, DelaySource::LastSeq)
+        };
+        if let Some(delay) = delay {
+            self.learn(now, delay, source);
+        }
+    }
+
+    /// A PING was answered; a ring that tells says more.
+    fn learn_from_answer(&mut self, now: Instant, round_trip: Duration) {
+        if self.plays_samples() && self.state.takes_frames() && !self.evidence.tells_ring() {
+            self.learn(now, round_trip, DelaySource::RoundTrips);
+        }
+    }
+
+    fn learn(&mut self, now: Instant, delay: Duration, source: DelaySource) {
+        self.latching.accepted(delay);
+        if self.evidence.is_new_source(source) {
+            self.note(now, Note::Delays(source));
+        }
+    }
+
     fn on_pong(&mut self, received: Instant, pong: Pong) {
-        if let Some((token, sent)) = self.ping
+        if let Some((token, sent)) = self.pings.under_way
             && token == pong.token
         {
-            self.ping = None;
+            self.pings.under_way = None;
             let round_trip = received.saturating_duration_since(sent);
             let moved = self.clock.answered(sent, received, pong.dev_us);
             if moved > MOVED {

@@ -7,16 +7,16 @@
 use std::fmt::Debug;
 use std::time::{Duration, Instant};
 
-use super::{HostSession, SentFrame, TICK};
+use super::HostSession;
+use super::clock::TICK;
+use super::report::SentFrame;
 use crate::framing::Packet;
-use crate::message::{Caps, Config, Hello, TICK_US, samples};
+use crate::message::{Config, Hello, samples};
 
-/// Ticks that a device's ring must hold: one that plays, one that comes, and what is under way.
-const FEWEST_TICKS: u8 = 3;
 /// Ticks that a larger depth may leave out, and that are then played as the next one.
-const MOST_BETWEEN: u32 = 1;
+const MAX_BETWEEN: u32 = 1;
 /// Ticks of samples that one call may make.
-pub(crate) const MOST_TICKS: usize = MOST_BETWEEN as usize + 1;
+pub(crate) const MAX_TICKS: usize = MAX_BETWEEN as usize + 1;
 
 /// Makes the drive waveform of codes, for a device that plays samples.
 pub trait Waveform: Debug + Send {
@@ -45,22 +45,21 @@ pub(crate) struct CutSamples {
 impl HostSession {
     /// From now on samples are asked for where a device plays them; before it is opened.
     pub fn prefer_samples(&mut self) {
-        self.prefers_samples = true;
+        self.drive.prefers_samples = true;
     }
 
     /// Whether the device plays samples (mode B): its CFG says so.
     pub fn plays_samples(&self) -> bool {
-        self.config
-            .is_some_and(|config| config.mode == Config::SAMPLES)
+        self.device.plays_samples()
     }
 
     /// Why a configured device is not played by samples, though they were asked for; `None` when
     /// it is, or before it is configured.
     pub fn no_samples(&self) -> Option<&'static str> {
-        let (caps, config) = self.caps.as_ref().zip(self.config.as_ref())?;
+        let (caps, config) = self.device.caps.as_ref().zip(self.device.config.as_ref())?;
         let refused = (config.mode != Config::SAMPLES)
             .then_some("the device answers the wish for mode B (samples) with mode A");
-        lack(caps, self.n_contactors).or(refused)
+        self.drive.lack(caps).or(refused)
     }
 
     /// Makes the samples of the coming tick, limits and soft start applied, and gives them to `out`
@@ -82,17 +81,17 @@ impl HostSession {
         let mut sent = self.prepare(now, 0, amplitudes_um)?;
         let last = sent.apply_tick;
         let first = self.first_unplayed(now, last);
-        let n_ticks = last.wrapping_sub(first).min(MOST_BETWEEN) + 1;
+        let n_ticks = last.wrapping_sub(first).min(MAX_BETWEEN) + 1;
         let mut first_seq = None;
         for between in (0..n_ticks).rev() {
             let tick = last.wrapping_sub(between);
-            let values = wave.tick(&self.codes);
+            let values = wave.tick(&self.drive.codes);
             let ahead = sent.ahead.saturating_sub(TICK * between);
             let due = sent.due.filter(|_| between == 0);
             let seq = self.cut(tick, values, (due, ahead), &mut out)?;
             first_seq.get_or_insert(seq);
         }
-        self.last_played_tick = Some(last);
+        self.drive.last_played_tick = Some(last);
         sent.seq = first_seq?;
         Some(sent)
     }
@@ -100,12 +99,14 @@ impl HostSession {
     /// The first tick to play on the way to `tick`: after the last one that was played, if that is
     /// not long ago and has not begun.
     fn first_unplayed(&self, now: Instant, tick: u32) -> u32 {
-        let Some(last) = self.last_played_tick else {
+        let Some(last) = self.drive.last_played_tick else {
             return tick;
         };
         let left_out = tick.wrapping_sub(last).wrapping_sub(1);
-        let coming = tick.wrapping_sub(self.present_tick(now)).wrapping_sub(1);
-        if left_out <= MOST_BETWEEN {
+        let coming = tick
+            .wrapping_sub(self.device.present_tick(now))
+            .wrapping_sub(1);
+        if left_out <= MAX_BETWEEN {
             tick.wrapping_sub(left_out.min(coming))
         } else {
             tick
@@ -121,15 +122,15 @@ impl HostSession {
         out: &mut impl FnMut(CutSamples),
     ) -> Option<u16> {
         let per_packet = self.samples_per_packet();
-        let parts = values.chunks(per_packet.max(1) * self.n_contactors);
+        let parts = values.chunks(per_packet.max(1) * self.drive.n_contactors);
         let n_parts = parts.len();
-        let mut first = tick.wrapping_mul(self.samples_per_tick());
+        let mut first = tick.wrapping_mul(self.device.samples_per_tick());
         let mut first_seq = None;
         for (part, values) in parts.enumerate() {
-            let seq = self.sequence.next();
+            let seq = self.outbox.sequence.next();
             first_seq.get_or_insert(seq);
             out(CutSamples {
-                packet: samples::packet(seq, first, self.n_contactors, values)?,
+                packet: samples::packet(seq, first, self.drive.n_contactors, values)?,
                 ends_tick: part + 1 == n_parts,
                 due,
                 ahead,
@@ -141,42 +142,13 @@ impl HostSession {
 
     /// The most samples for each channel that one packet takes.
     pub(crate) fn samples_per_packet(&self) -> usize {
-        let max_body = self.caps.map_or(0, |caps| caps.max_body);
-        samples::most(max_body, self.n_contactors)
+        self.device.samples_per_packet(self.drive.n_contactors)
     }
 
     /// SAMPLES packets that a tick takes.
     pub(crate) fn sample_packets_per_tick(&self) -> usize {
-        let per_tick = usize::try_from(self.samples_per_tick()).unwrap_or(0);
+        let per_tick = usize::try_from(self.device.samples_per_tick()).unwrap_or(0);
         per_tick.div_ceil(self.samples_per_packet().max(1))
-    }
-
-    fn samples_per_tick(&self) -> u32 {
-        let rate_hz = self.caps.map_or(0, |caps| u32::from(caps.sample_hz));
-        rate_hz / (1_000_000 / TICK_US)
-    }
-
-    /// What to ask for: samples only where they can be played.
-    pub(super) fn mode(&self) -> u8 {
-        let can = self
-            .caps
-            .is_some_and(|caps| lack(&caps, self.n_contactors).is_none());
-        if self.prefers_samples && can {
-            Config::SAMPLES
-        } else {
-            Config::AMPLITUDES
-        }
-    }
-
-    /// How many ticks ahead may be sent: a ring keeps room for the tick that plays, so that the
-    /// last sample of a tick always finds a place.
-    pub(super) fn deepest(&self) -> u8 {
-        let queue = self.caps.map_or(1, |caps| caps.queue);
-        if self.plays_samples() {
-            queue.saturating_sub(2)
-        } else {
-            queue
-        }
     }
 
     /// The greeting: STATUS and LOG are wanted.
@@ -185,21 +157,5 @@ impl HostSession {
             host_flags: Hello::WANT_STATUS | Hello::WANT_LOG,
             ..Hello::new(self.nonce)
         }
-    }
-}
-
-/// What a device lacks for samples.
-fn lack(caps: &Caps, n_channels: usize) -> Option<&'static str> {
-    let ticks_are_whole = u64::from(caps.sample_hz) * u64::from(TICK_US) % 1_000_000 == 0;
-    if caps.modes & Caps::MODE_B == 0 {
-        Some("the device offers no mode B (samples)")
-    } else if caps.sample_hz == 0 || !ticks_are_whole {
-        Some("a tick of the device is no whole number of samples")
-    } else if caps.queue < FEWEST_TICKS {
-        Some("the device's ring holds fewer than three ticks of samples")
-    } else if samples::most(caps.max_body, n_channels) == 0 {
-        Some("the device's packets have no room for a sample of every channel")
-    } else {
-        None
     }
 }

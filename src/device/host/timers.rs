@@ -3,8 +3,9 @@
 
 use std::time::{Duration, Instant};
 
+use super::HostSession;
 use super::pending::Verdict;
-use super::{BridgeState, DisarmedBy, HostSession};
+use super::report::{BridgeState, DisarmedBy};
 use crate::message::{StopHow, kind};
 
 /// A host that has nothing to send for this long sends a PING: below a quarter of the lease of 1 s.
@@ -25,9 +26,10 @@ impl HostSession {
     /// 100 ms.
     pub(crate) fn on_time(&mut self, now: Instant) {
         let step = self
+            .presence
             .last_time
             .map_or(Duration::ZERO, |last| now.saturating_duration_since(last));
-        self.last_time = Some(now);
+        self.presence.last_time = Some(now);
         if !self.state.is_open() || self.state == BridgeState::Opening {
             return;
         }
@@ -36,9 +38,10 @@ impl HostSession {
         self.check_ident(now);
         self.check_silence(step.min(LONGEST_STEP));
         let quiet = self
+            .outbox
             .last_sent
             .is_none_or(|sent| now.duration_since(sent) >= PING_EVERY);
-        if self.state.is_open() && self.caps.is_some() && (quiet || self.wants_time(now)) {
+        if self.state.is_open() && self.device.caps.is_some() && (quiet || self.wants_time(now)) {
             self.ping(now);
         }
     }
@@ -47,12 +50,13 @@ impl HostSession {
     fn wants_time(&self, now: Instant) -> bool {
         let is_new = self.clock.fit_view().n_answers < FIRST_PINGS;
         // One that is under way would not be recognised any more.
-        let pause = if is_new && self.ping.is_none() {
+        let pause = if is_new && self.pings.under_way.is_none() {
             FIRST_PAUSE
         } else {
             PAUSE
         };
-        self.last_ping
+        self.pings
+            .last
             .is_none_or(|last| now.saturating_duration_since(last) >= pause)
     }
 
@@ -75,7 +79,7 @@ impl HostSession {
             )),
             kind::ARM => {
                 self.stop(now, StopHow::Now);
-                self.stop_ends_output = false;
+                self.stopping.ends_output = false;
                 self.disarmed(
                     DisarmedBy::Device,
                     String::from("the device did not answer ARM"),
@@ -87,14 +91,14 @@ impl HostSession {
     }
 
     fn check_stop(&mut self, now: Instant) {
-        let Some(mut stopping) = self.stopping else {
+        let Some(mut stopping) = self.stopping.pending else {
             return;
         };
         match stopping.verdict(now) {
             Verdict::Wait => {}
             Verdict::Repeat => {
                 self.send_stop(&mut stopping, now);
-                self.stopping = Some(stopping);
+                self.stopping.pending = Some(stopping);
             }
             Verdict::GiveUp => self.lose(String::from("the device did not acknowledge STOP")),
         }
@@ -103,16 +107,16 @@ impl HostSession {
     /// Silence is counted in steps of the caller's own presence: a program that was suspended
     /// starts afresh.
     fn check_silence(&mut self, step: Duration) {
-        if self.caps.is_none() {
+        if self.device.caps.is_none() {
             return;
         }
-        self.silent_for += step;
+        self.presence.silent_for += step;
         let patience = if self.state.is_live() {
             SILENCE_ARMED
         } else {
             SILENCE_IDLE
         };
-        if self.silent_for >= patience && self.state.is_open() {
+        if self.presence.silent_for >= patience && self.state.is_open() {
             self.lose(format!(
                 "no STATUS for {} ms: check the cable and that the bridge is powered",
                 patience.as_millis()

@@ -40,6 +40,7 @@ impl ChannelMask {
     }
 
     /// A mask whose first 32 channels are the bits of `word`.
+    #[cfg(test)]
     pub(crate) fn from_first_word(word: u32) -> Self {
         let mut mask = Self::default();
         mask.words[0] = word;

@@ -272,3 +272,30 @@ impl DeviceMessage {
         message.ok_or(Unreadable::Short)
     }
 }
+
+/// The device's counters since this session began; the wire's wrap at 65536 is undone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DeviceCounters {
+    /// Ticks without a frame while armed.
+    pub underrun: u64,
+    /// Frames that came after their tick had begun.
+    pub late: u64,
+    /// Repeated frames.
+    pub dup: u64,
+    /// Texts that were no packet.
+    pub bad: u64,
+    /// Values and channels that the device had to lower.
+    pub clipped: u64,
+}
+
+impl DeviceCounters {
+    /// Adds what happened between two STATUS.
+    pub(crate) fn add(&mut self, before: &Status, now: &Status) {
+        let difference = |now: u16, before: u16| u64::from(now.wrapping_sub(before));
+        self.underrun += difference(now.underrun, before.underrun);
+        self.late += difference(now.late, before.late);
+        self.dup += difference(now.dup, before.dup);
+        self.bad += difference(now.bad, before.bad);
+        self.clipped += difference(now.clipped, before.clipped);
+    }
+}

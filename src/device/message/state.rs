@@ -10,16 +10,10 @@ pub mod fault_bit {
     pub(crate) const OVER_CURRENT: u16 = 1 << 1;
     /// High voltage out of range.
     pub(crate) const HIGH_VOLTAGE: u16 = 1 << 2;
-    /// Converter or its bus failed.
-    pub(crate) const CONVERTER: u16 = 1 << 3;
     /// The device restarted by its watchdog.
     pub(crate) const WATCHDOG: u16 = 1 << 4;
     /// The host's lease ran out (informative, never latched).
     pub(crate) const LEASE_LOST: u16 = 1 << 5;
-    /// The emergency stop is pressed.
-    pub(crate) const EMERGENCY_STOP: u16 = 1 << 6;
-    /// Configuration or self-test failed.
-    pub(crate) const SELF_TEST: u16 = 1 << 7;
 
     /// The bits' names for people, joined with commas.
     pub fn names(faults: u16) -> String {

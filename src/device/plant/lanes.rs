@@ -183,6 +183,7 @@ impl Plant {
     }
 
     /// Displacement of a contactor's pin from rest now, µm; 0 for one that is not there.
+    #[cfg(test)]
     pub(crate) fn displacement_um(&self, contactor: usize) -> f64 {
         let block = self.blocks.get(contactor / LANES);
         block.map_or(0.0, |block| 1e6 * block.states[X_PIN][contactor % LANES])

@@ -5,8 +5,7 @@
 use std::time::{Instant, SystemTime};
 
 use super::note::{Entry, HostCounters, Note};
-use crate::host::DeviceCounters;
-use crate::message::{Caps, Config, DeviceState, StopHow, fault_bit, kind};
+use crate::message::{Caps, Config, DeviceCounters, DeviceState, StopHow, fault_bit, kind};
 use selvedge_foundation::quantity::rfc3339;
 
 /// The first line of a log.

@@ -5,8 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::host::{DelaySource, DeviceCounters};
-use crate::message::{AckCode, Caps, Config, Fault, StopHow};
+use crate::message::{AckCode, Caps, Config, DeviceCounters, Fault, StopHow};
 
 /// One thing that happened on a link.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,4 +70,26 @@ pub(crate) struct HostCounters {
     pub bad_received: u64,
     pub events_dropped: u64,
     pub write_timeouts: u64,
+}
+
+/// What delays are learned from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DelaySource {
+    /// The number and age of the last accepted FRAME.
+    LastSeq,
+    /// How full the device's ring is, and the age of its last samples.
+    Ring,
+    /// Answers to PINGs.
+    RoundTrips,
+}
+
+impl DelaySource {
+    /// A word for the log.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::LastSeq => "last-seq",
+            Self::Ring => "ring",
+            Self::RoundTrips => "round-trips",
+        }
+    }
 }

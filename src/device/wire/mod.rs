@@ -18,11 +18,12 @@ mod parse;
 mod simulation;
 mod wired;
 
-pub use faults::Injection;
-pub use faults::{Direction, Faults, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind};
+pub use faults::{
+    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
+};
 pub use options::{FaultGroup, FaultKind, FaultOption, FaultWords};
-pub use simulation::Simulation;
-pub use simulation::SimulationLog;
+pub use simulation::{Simulation, SimulationLog};
+pub(super) use wired::WireSink;
 pub use wired::WiredDevice;
 
 #[cfg(test)]

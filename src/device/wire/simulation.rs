@@ -7,6 +7,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::wired::WireSink;
 use super::{Faults, Injection, WiredDevice};
 use crate::codes::ArrayProfile;
 use crate::device::{AppliedFrame, DeviceModel, DeviceSink, Moment, SampleCount, SampledTick};
@@ -26,12 +27,15 @@ const NONCE: u32 = 0x1234_5678;
 /// Host, link and device on one virtual clock.
 #[derive(Debug)]
 pub struct Simulation {
+    /// The host.
     pub host: HostSession,
+    /// The device and its link.
     pub device: WiredDevice,
     /// The host's clock when virtual time was 0.
     pub start: Instant,
     /// True time, µs.
     pub us: u64,
+    /// What the device did.
     pub log: SimulationLog,
     /// What the host told, ticks and pongs left out.
     pub events: Vec<BridgeEvent>,
@@ -94,7 +98,9 @@ impl DeviceSink for SimulationLog {
     fn changed(&mut self, moment: &Moment) {
         self.changes.push(*moment);
     }
+}
 
+impl WireSink for SimulationLog {
     fn injected(&mut self, _moment: &Moment, injection: &Injection) {
         self.injections.push(*injection);
     }

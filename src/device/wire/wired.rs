@@ -15,9 +15,9 @@ const OVER_CURRENT_MA: u16 = 900;
 const SAGGING_PER_MILLE: u16 = 600;
 
 /// The way out of the device, borrowing all but the device itself.
-macro_rules! outlet {
+macro_rules! link_sink {
     ($wired:expr, $sink:expr) => {
-        Outlet {
+        LinkSink {
             lane: &mut $wired.to_host,
             now_us: $wired.now_us,
             sink: $sink,
@@ -26,6 +26,14 @@ macro_rules! outlet {
         }
     };
 }
+
+/// Takes what a [`WiredDevice`] emits: what its device does, and what was done to both.
+pub(crate) trait WireSink: DeviceSink {
+    /// A fault was injected into the device or its link.
+    fn injected(&mut self, _moment: &Moment, _injection: &Injection) {}
+}
+
+impl WireSink for Vec<u8> {}
 
 /// An emulated device as a host finds it at the end of a cable, in told true time.
 #[derive(Clone, Debug)]
@@ -102,7 +110,7 @@ impl WiredDevice {
 
     /// Lets true time pass up to `now_us` (going back is ignored). What arrives at the host goes to
     /// `sink` as packets, which may be cut anywhere.
-    pub(crate) fn advance(&mut self, now_us: u64, sink: &mut impl DeviceSink) {
+    pub(crate) fn advance(&mut self, now_us: u64, sink: &mut impl WireSink) {
         let end_us = now_us.max(self.now_us);
         while let Some(at_us) = self.next_deadline_us().filter(|at_us| *at_us <= end_us) {
             self.now_us = at_us.max(self.now_us);
@@ -136,6 +144,7 @@ impl WiredDevice {
     }
 
     /// The same, to change what it senses or to break it.
+    #[cfg(test)]
     pub(crate) fn core_mut(&mut self) -> &mut DeviceCore {
         &mut self.core
     }
@@ -179,7 +188,7 @@ impl WiredDevice {
     }
 
     /// Everything that is due now.
-    fn step(&mut self, sink: &mut impl DeviceSink) {
+    fn step(&mut self, sink: &mut impl WireSink) {
         while let Some(&(at_us, begins, once)) = self.schedule.last()
             && at_us <= self.now_us
         {
@@ -199,14 +208,14 @@ impl WiredDevice {
         }
     }
 
-    fn advance_core(&mut self, sink: &mut impl DeviceSink) {
+    fn advance_core(&mut self, sink: &mut impl WireSink) {
         let device_us = self.device_us();
-        let mut out = outlet!(self, sink);
+        let mut out = link_sink!(self, sink);
         self.core.advance(device_us, &mut out);
     }
 
     /// Both directions' bytes that have arrived.
-    fn deliver(&mut self, sink: &mut impl DeviceSink) {
+    fn deliver(&mut self, sink: &mut impl WireSink) {
         self.to_device.make_due(self.now_us);
         self.to_host.make_due(self.now_us);
         if !self.is_plugged() {
@@ -225,7 +234,7 @@ impl WiredDevice {
             }
             #[cfg(test)]
             self.tap.delivered(device_us, &bytes);
-            let mut out = outlet!(self, sink);
+            let mut out = link_sink!(self, sink);
             self.core.receive(device_us, &bytes, &mut out);
         }
         while let Some(bytes) = self.to_host.take(self.now_us) {
@@ -233,8 +242,8 @@ impl WiredDevice {
         }
     }
 
-    fn begin(&mut self, once: OneOff, sink: &mut impl DeviceSink) {
-        self.tell(InjectionKind::Begins(once.kind), once, sink);
+    fn begin(&mut self, once: OneOff, sink: &mut impl WireSink) {
+        self.report(InjectionKind::Begins(once.kind), once, sink);
         let until_us = once.at_us.saturating_add(once.for_us);
         match once.kind {
             OneOffKind::StallReading => {
@@ -246,7 +255,7 @@ impl WiredDevice {
                 self.n_unplugged += 1;
                 #[cfg(test)]
                 self.tap.hung_up();
-                let mut out = outlet!(self, sink);
+                let mut out = link_sink!(self, sink);
                 self.core.hang_up(&mut out);
             }
             OneOffKind::Reboot | OneOffKind::Watchdog => self.go_down(sink),
@@ -280,7 +289,7 @@ impl WiredDevice {
         }
     }
 
-    fn end(&mut self, once: OneOff, sink: &mut impl DeviceSink) {
+    fn end(&mut self, once: OneOff, sink: &mut impl WireSink) {
         match once.kind {
             OneOffKind::StallReading | OneOffKind::StallWriting => {}
             OneOffKind::Unplug => self.n_unplugged -= 1,
@@ -288,7 +297,7 @@ impl WiredDevice {
             OneOffKind::Watchdog => {
                 self.come_up();
                 let bits = fault_bit::WATCHDOG;
-                let mut out = outlet!(self, sink);
+                let mut out = link_sink!(self, sink);
                 self.core.raise_fault(bits, u16::MAX, 0, &mut out);
                 self.core.end_fault_cause(bits);
             }
@@ -296,11 +305,11 @@ impl WiredDevice {
             OneOffKind::OverCurrent => self.mend(fault_bit::OVER_CURRENT),
             OneOffKind::HvSag => self.mend(fault_bit::HIGH_VOLTAGE),
         }
-        self.tell(InjectionKind::Ends(once.kind), once, sink);
+        self.report(InjectionKind::Ends(once.kind), once, sink);
     }
 
     /// Output is gone with the processor.
-    fn go_down(&mut self, sink: &mut impl DeviceSink) {
+    fn go_down(&mut self, sink: &mut impl WireSink) {
         #[cfg(test)]
         self.tap.booted();
         self.n_booting += 1;
@@ -320,9 +329,9 @@ impl WiredDevice {
         self.to_host.say(self.now_us, BOOT_BANNER);
     }
 
-    fn fail(&mut self, bits: u16, value: i32, sense: Sense, sink: &mut impl DeviceSink) {
+    fn fail(&mut self, bits: u16, value: i32, sense: Sense, sink: &mut impl WireSink) {
         self.core.set_sense(sense);
-        let mut out = outlet!(self, sink);
+        let mut out = link_sink!(self, sink);
         self.core.raise_fault(bits, u16::MAX, value, &mut out);
     }
 
@@ -331,7 +340,7 @@ impl WiredDevice {
         self.core.end_fault_cause(bits);
     }
 
-    fn tell(&self, kind: InjectionKind, once: OneOff, sink: &mut impl DeviceSink) {
+    fn report(&self, kind: InjectionKind, once: OneOff, sink: &mut impl WireSink) {
         let amount = once.for_us;
         sink.injected(&self.core.moment(), &Injection { kind, amount });
     }
@@ -346,7 +355,7 @@ fn earlier(a: Option<u64>, b: Option<u64>) -> Option<u64> {
 }
 
 /// What the device emits: bytes into the link, the rest on to whoever listens.
-struct Outlet<'a, S> {
+struct LinkSink<'a, S> {
     lane: &'a mut Lane,
     now_us: u64,
     sink: &'a mut S,
@@ -354,7 +363,7 @@ struct Outlet<'a, S> {
     tap: &'a mut super::tests::Tap,
 }
 
-impl<S: DeviceSink> DeviceSink for Outlet<'_, S> {
+impl<S: DeviceSink> DeviceSink for LinkSink<'_, S> {
     fn packet(&mut self, bytes: &[u8]) {
         #[cfg(test)]
         self.tap.emitted(bytes);

@@ -6,17 +6,16 @@ mod obey;
 
 use std::time::{Duration, Instant};
 
-use super::handle::playable;
 use super::input::{
-    Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring,
+    Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring, playable,
 };
-use super::order::Retired;
+use super::ready::Retired;
 use super::recording::{RecordedTick, Recorder};
 use super::track::Track;
 use super::vibration::Vibration;
 use super::{
-    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView, Snapshot,
-    SourceKind, TICKS_PER_S, VelocityMethod,
+    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
+    RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
 };
 use selvedge_device::{Coder, SentFrame};
 use selvedge_render::scene::Pose;
@@ -178,6 +177,17 @@ impl EngineCore {
         self.scene.felt_um(self.is_silent())
     }
 
+    /// Writes the last tick to whoever listens at a tap: what the device plays, before its limits.
+    pub fn write_to(&self, tap: &mut Tap) {
+        let Pose {
+            position,
+            angle_deg,
+            ..
+        } = self.pose();
+        let place = [position.x_mm, position.y_mm, angle_deg];
+        tap.write(self.tick, place, self.felt_um());
+    }
+
     /// Whether the device plays silence: stopped or held.
     pub(super) fn is_silent(&self) -> bool {
         self.is_stopped || self.is_held
@@ -239,7 +249,6 @@ impl EngineCore {
     /// caller's. `until_felt` is how long after a tick the middle of that comes in which a device
     /// plays it.
     pub(super) fn fill(&self, snapshot: &mut Snapshot, until_felt: Option<Duration>) {
-        let renderer = &self.scene.renderer;
         snapshot.scene_serial = self.scene.serial();
         snapshot.revision = self.revision;
         snapshot.tick = self.tick;
@@ -251,12 +260,7 @@ impl EngineCore {
         snapshot.is_stopped = self.is_stopped;
         snapshot.is_silent = self.is_silent();
         snapshot.vibration = self.vibration.step();
-        snapshot.method = renderer.method();
-        snapshot.bound = renderer.bound();
-        snapshot.render = *renderer.counters();
-        snapshot.tuning = *renderer.tuning();
-        snapshot.compression_is_pending = renderer.compression_is_pending();
-        snapshot.compression_reference_db = renderer.compression_reference_db();
+        snapshot.rendering = RenderingView::of(&self.scene.renderer);
         snapshot.pointer = self.track.view(self.losses(), until_felt);
         snapshot.source = self
             .source()

@@ -1,57 +1,56 @@
-//! What orders do to the core: scenes, gains, masks, sources, angles, recordings.
+//! What commands do to the core: scenes, gains, masks, sources, angles, recordings.
 //!
 //! Everything takes effect at the next tick. What is replaced goes back to be dropped elsewhere.
 
 use super::{EngineCore, Say};
+use crate::Notice;
 use crate::input::PointerInput;
-use crate::order::{CoreOrder, NextScene, Retired};
+use crate::ready::{CoreCommand, NextScene, Retired};
 use crate::vibration::Vibration;
-use crate::{Notice, VelocityMethod};
 use selvedge_render::RenderError;
 use selvedge_render::scene::Pose;
 
 impl EngineCore {
     /// Obeys, and hands back what was replaced: at most two things.
-    pub(crate) fn obey(&mut self, order: CoreOrder, say: Say<'_>) -> [Option<Retired>; 2] {
+    pub(crate) fn obey(&mut self, command: CoreCommand, say: Say<'_>) -> [Option<Retired>; 2] {
         let mut retired = [None, None];
-        match order {
-            CoreOrder::Scene(next) => retired = self.next_scene(next),
-            CoreOrder::Tuning(tuning) => {
+        match command {
+            CoreCommand::Scene(next) => retired = self.next_scene(next),
+            CoreCommand::Tuning(tuning) => {
                 let tuned = self.scene.renderer.set_tuning(&tuning);
                 self.revise(tuned, say);
             }
-            CoreOrder::TextileGain { textile, gain_db } => {
+            CoreCommand::TextileGain { textile, gain_db } => {
                 let set = self.scene.renderer.set_scene_gain(textile, gain_db);
                 self.revise(set, say);
             }
-            CoreOrder::Levels(levels) => {
+            CoreCommand::Levels(levels) => {
                 let set = self.scene.renderer.set_levels(&levels);
                 self.revise(set, say);
                 retired[0] = Some(Retired::Levels(levels));
             }
-            CoreOrder::Mask(mask) => {
+            CoreCommand::Mask(mask) => {
                 retired[0] = Some(Retired::Mask(std::mem::replace(&mut self.mask, mask)));
                 self.revision += 1;
             }
-            CoreOrder::Vibrate(next) => {
+            CoreCommand::Vibrate(next) => {
                 let next = self.playable_vibration(next, say);
                 let last = std::mem::replace(&mut self.vibration, next);
                 retired[0] = Some(Retired::Vibration(last));
             }
-            CoreOrder::Source(source) => retired[0] = self.set_source(source),
-            CoreOrder::Velocity(method) => self.set_velocity_method(method, say),
-            CoreOrder::Angle(angle_deg) => self.set_angle(angle_deg, say),
-            CoreOrder::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
-            CoreOrder::Control(control) => self.control(control),
-            CoreOrder::Record(recorder) if self.is_stopped => {
+            CoreCommand::Source(source) => retired[0] = self.set_source(source),
+            CoreCommand::Angle(angle_deg) => self.set_angle(angle_deg, say),
+            CoreCommand::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
+            CoreCommand::Control(control) => self.control(control),
+            CoreCommand::Record(recorder) if self.is_stopped => {
                 say(Notice::Refused("everything is off: arm before recording"));
                 retired[0] = Some(Retired::Recorder(recorder));
             }
-            CoreOrder::Record(recorder) => {
+            CoreCommand::Record(recorder) => {
                 retired[0] = self.end_recording();
                 self.recorder = Some(recorder);
             }
-            CoreOrder::EndRecording => retired[0] = self.end_recording(),
+            CoreCommand::EndRecording => retired[0] = self.end_recording(),
         }
         retired
     }
@@ -65,10 +64,10 @@ impl EngineCore {
         } else {
             None
         };
-        if let Some(words) = refusal {
+        if let Some(reason) = refusal {
             self.ignored += 1;
             vibration.end();
-            say(Notice::Refused(words));
+            say(Notice::Refused(reason));
         }
         vibration
     }
@@ -118,17 +117,6 @@ impl EngineCore {
         self.has_ended = false;
         self.pose = self.pose.at_rest();
         std::mem::replace(&mut self.playable, source).map(Retired::Source)
-    }
-
-    fn set_velocity_method(&mut self, method: VelocityMethod, say: Say<'_>) {
-        if method.is_sound() {
-            self.track.set_method(method);
-        } else {
-            self.ignored += 1;
-            say(Notice::Refused(
-                "the velocity method's numbers make no sense; it stays as it was",
-            ));
-        }
     }
 
     fn set_angle(&mut self, angle_deg: f64, say: Say<'_>) {

@@ -10,8 +10,8 @@ use std::time::Instant;
 
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
-use super::{InputLosses, PointerInput, Reading};
-use crate::{PointerSample, SourceKind};
+use super::pointer::{InputLosses, PointerInput, Reading, SourceKind};
+use crate::PointerSample;
 
 /// Room for positions between two ticks: 8 kHz and then some.
 pub(super) const CAPACITY: usize = 1024;

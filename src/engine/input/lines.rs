@@ -11,7 +11,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::feed::{FeedInput, FeedItem, FeedSender, feed};
-use crate::{EngineError, PointerSample, SourceKind};
+use super::pointer::SourceKind;
+use crate::{EngineError, PointerSample};
 use selvedge_foundation::geometry::Point;
 
 /// A longer line is bad, whatever it holds, in bytes.

@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use super::{InputLosses, PointerInput, Reading};
-use crate::{PointerSample, SourceKind};
+use super::pointer::{InputLosses, PointerInput, Reading, SourceKind};
+use crate::PointerSample;
 
 /// Room for samples between two ticks: a mouse with 8 kHz and then some.
 const CAPACITY: usize = 1024;

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::{Control, PointerInput, Reading};
-use crate::{Playback, PointerSample, SourceKind};
+use super::pointer::{Control, Playback, PointerInput, Reading, SourceKind};
+use crate::PointerSample;
 use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Stroke, TICKS_PER_S};
 
 /// Whether the next tick moves on.

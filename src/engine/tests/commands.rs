@@ -75,12 +75,10 @@ fn senseless_gains_angles_and_methods_are_ignored_with_a_notice() {
         .unwrap();
     engine.send(Command::SetLevels(vec![])).unwrap();
     engine.send(Command::SetAngle(f64::NAN)).unwrap();
-    let method = VelocityMethod::LineFit { window_s: f64::NAN };
-    engine.send(Command::SetVelocityMethod(method)).unwrap();
     engine.advance_ticks(1);
-    assert_eq!(engine.snapshot().counters.ignored, 6);
-    assert_eq!(engine.snapshot().tuning, Tuning::default());
-    assert_eq!(std::iter::from_fn(|| engine.next_notice()).count(), 6);
+    assert_eq!(engine.snapshot().counters.ignored, 5);
+    assert_eq!(engine.snapshot().rendering.tuning, Tuning::default());
+    assert_eq!(std::iter::from_fn(|| engine.next_notice()).count(), 5);
     let circle = Stroke::Circle {
         centre: Point::default(),
         radius_mm: 0.0,

@@ -8,7 +8,7 @@ use std::thread;
 
 use super::*;
 use crate::input::PointerInput;
-use crate::order::{CoreOrder, Order};
+use crate::ready::{CoreCommand, ReadyCommand};
 use selvedge_device::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
 #[cfg(unix)]
 use selvedge_device::{DeviceModel, PtyEmulator};
@@ -227,10 +227,10 @@ fn a_new_scene_keeps_to_the_limits_of_the_device_at_hand() {
     let (counts, _) = with_device("limits", model, |link, _| {
         let mut engine = start_streaming(Target::Port(link.to_owned()));
         let mut counts = vec![n_limited(&mut engine)];
-        for order in [Command::SetScene, Command::UpdateScene] {
+        for command in [Command::SetScene, Command::UpdateScene] {
             let scene = Box::new(prepared(exeter(), Method::Table));
             let serial = scene.serial();
-            engine.send(order(scene)).unwrap();
+            engine.send(command(scene)).unwrap();
             wait(&mut engine, "a tick of the scene", |engine| {
                 let snapshot = engine.snapshot();
                 let is_felt = snapshot.scene_serial == serial && !is_silent(snapshot);
@@ -294,7 +294,9 @@ fn states_through_a_panic(number: u32) -> Vec<String> {
     let ((), log) = with_terminal(&format!("panic-{number}"), |link, _| {
         let mut engine = start_streaming(Target::Port(link.to_owned()));
         let source: Option<Box<dyn PointerInput>> = Some(Box::new(Panics));
-        engine.push(Order::Core(CoreOrder::Source(source))).unwrap();
+        engine
+            .push(ReadyCommand::Core(CoreCommand::Source(source)))
+            .unwrap();
         wait(&mut engine, "the panic", |engine| {
             (!engine.is_running()).then_some(())
         });

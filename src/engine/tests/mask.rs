@@ -22,7 +22,7 @@ fn a_masked_contactor_is_silent_everywhere_and_the_others_are_as_before() {
         let source = InputSource::Replay(path);
         engine.send(Command::SetSource(source)).unwrap();
         engine.send(without(&[3, 11])).unwrap();
-        engine.send(Command::Glimpses(true)).unwrap();
+        engine.send(Command::SampleTicks(true)).unwrap();
         engine.send(Command::Watch(11)).unwrap();
         engine.send(Command::StartRecording).unwrap();
         engine.send(Command::Play).unwrap();
@@ -35,7 +35,7 @@ fn a_masked_contactor_is_silent_everywhere_and_the_others_are_as_before() {
             expected[3] = [0.0; 2];
             expected[11] = [0.0; 2];
             assert_eq!(recording.amplitudes_um(n), expected, "tick {n}");
-            assert_eq!(engine.next_glimpse().unwrap().watched_um, [0.0; 2]);
+            assert_eq!(engine.next_tick_sample().unwrap().watched_um, [0.0; 2]);
         }
         assert!(is_silent_at(&mut engine, 3) && !is_silent_at(&mut engine, 4));
     }

@@ -4,11 +4,11 @@ mod array;
 mod commands;
 mod device;
 mod exact;
-mod glimpses;
 mod lift;
 mod mask;
 mod seek;
 mod shown;
+mod tick_samples;
 mod update;
 mod vibration;
 

@@ -26,7 +26,7 @@ fn a_recording_goes_on_through_edits_and_feels_them() {
     let mut engine = playing();
     engine.send(Command::StartRecording).unwrap();
     engine.advance_ticks(10);
-    let before = engine.snapshot().render;
+    let before = engine.snapshot().rendering.counters;
     let (scene, edited) = dragged(exeter(), 4.0);
     let serial = edited.serial();
     engine.send(Command::UpdateScene(edited)).unwrap();
@@ -38,7 +38,10 @@ fn a_recording_goes_on_through_edits_and_feels_them() {
         (30, 29),
         "the source goes on"
     );
-    assert!(snapshot.render.ticks > before.ticks + 19, "counters go on");
+    assert!(
+        snapshot.rendering.counters.ticks > before.ticks + 19,
+        "counters go on"
+    );
     engine.send(Command::StopRecording).unwrap();
     engine.advance_ticks(1);
     let recording = engine.take_recording().unwrap();
@@ -105,18 +108,14 @@ fn thirty_edits_a_second_from_the_cache_are_all_taken_over() {
         on_news: None,
     };
     let mut engine = Engine::without_thread(config, Instant::now()).unwrap();
+    let n_bytes = cache.n_bytes();
     for n in 0..60 {
         let mut scene = loaded.scene().clone();
         scene.textiles[1].origin_mm.x_mm += f64::from(n) * 0.3;
         let edited = loaded.with_scene(scene).unwrap();
-        assert!(PreparedScene::is_cached(
-            &edited,
-            Method::Auto,
-            &accuracy,
-            &cache
-        ));
         let edited = PreparedScene::prepare_cached(&edited, Method::Auto, &accuracy, &mut cache);
         let edited = edited.unwrap();
+        assert_eq!(cache.n_bytes(), n_bytes, "no table was computed");
         let serial = edited.serial();
         engine.send(Command::UpdateScene(Box::new(edited))).unwrap();
         engine.advance_ticks(1);

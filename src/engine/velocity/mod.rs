@@ -4,23 +4,65 @@
 //! for [`REST`] is at rest: a mouse says nothing while it lies still. Places are taken as they come
 //! and none is extrapolated, so at a tick the display is where the newest sample was.
 
-mod filter;
+mod kalman;
 
-use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use super::{PointerSample, VelocityMethod};
-use filter::Tracked;
+use super::PointerSample;
+use kalman::{Noise, Tracked};
 use selvedge_foundation::geometry::{Displacement, Velocity};
 
 /// A pointer that is silent for longer is at rest, and what it did before is forgotten.
 pub(crate) const REST: Duration = Duration::from_millis(50);
 
-/// Most samples that are remembered: 40 ms of a mouse with 8 kHz and some.
-const CAPACITY: usize = 512;
-
 /// Components are held within this, so that no estimate is infinite: far beyond what is felt, mm/s.
 const FASTEST_MM_PER_S: f64 = 1e12;
+
+/// How velocity is estimated from samples.
+///
+/// The lag is that of the estimate under constant acceleration: the true velocity was the estimate
+/// that long before the newest sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum VelocityMethod {
+    /// Difference of the last two samples. Lag: half their distance in time.
+    FiniteDifference,
+    /// A Kalman filter for a constant velocity that white acceleration disturbs; each step takes
+    /// the time that passed. Lag: carried along from sample to sample and exact under constant
+    /// acceleration; at dense samples T apart it settles at `√2 (σ²T/q)^¼`.
+    Kalman {
+        /// Power density of the acceleration, q: the velocity wanders by √(q t) in t seconds,
+        /// mm²/s³.
+        acceleration_mm2_per_s3: f64,
+        /// Standard deviation of a measured coordinate, σ, mm.
+        noise_mm: f64,
+    },
+}
+
+impl Default for VelocityMethod {
+    /// A Kalman filter that takes a coordinate to be 0.05 mm off and the acceleration of a hand
+    /// to have a density of 10⁴ mm²/s³. Of five kinds of estimators it has the smallest rms error
+    /// (17 mm/s over all strokes and pointers of the study `velocity`) among those that hold the
+    /// level of a steady stroke of 100 mm/s within 1 dB at the 99th percentile. A line through
+    /// 40 ms is steadier still (0.3 dB), but 26 ms late where this is 14, and so 27 mm/s off as
+    /// soon as a hand turns or stops. Samples that come in bursts disturb it no more than others;
+    /// the bare difference breaks on them.
+    fn default() -> Self {
+        Self::Kalman {
+            acceleration_mm2_per_s3: 1e4,
+            noise_mm: 0.05,
+        }
+    }
+}
+
+impl VelocityMethod {
+    /// Its name for people.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::FiniteDifference => "finite difference",
+            Self::Kalman { .. } => "Kalman",
+        }
+    }
+}
 
 /// A velocity and how old it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,13 +82,18 @@ impl Estimate {
     };
 }
 
-/// Estimates velocity from samples whose stamps rise. Allocates when it is made, never after.
+/// Estimates velocity from samples whose stamps rise. Allocates nothing.
 #[derive(Debug)]
 pub struct VelocityEstimator {
     method: VelocityMethod,
-    samples: VecDeque<PointerSample>,
+    /// The newest sample, and the one before it.
+    newest: Option<PointerSample>,
+    previous: Option<PointerSample>,
+    /// What the filter knew after those; nothing of a method that is none.
     tracked: Tracked,
     tracked_before: Tracked,
+    /// Whether the newest two samples are the first two of their series.
+    has_begun: bool,
 }
 
 impl VelocityEstimator {
@@ -54,70 +101,59 @@ impl VelocityEstimator {
     pub fn new(method: VelocityMethod) -> Self {
         Self {
             method,
-            samples: VecDeque::with_capacity(CAPACITY),
+            newest: None,
+            previous: None,
             tracked: Tracked::default(),
             tracked_before: Tracked::default(),
+            has_begun: false,
         }
     }
 
     /// The method in use.
-    pub fn method(&self) -> VelocityMethod {
+    pub(crate) fn method(&self) -> VelocityMethod {
         self.method
-    }
-
-    /// Chooses another method and forgets every sample.
-    pub(crate) fn set_method(&mut self, method: VelocityMethod) {
-        self.method = method;
-        self.reset();
     }
 
     /// Forgets every sample.
     pub fn reset(&mut self) {
-        self.samples.clear();
+        *self = Self::new(self.method);
     }
 
-    /// Takes the next sample. One that comes more than [`REST`] after the last begins a new series.
+    /// Takes the next sample, whose stamp is later than the last.
     pub fn push(&mut self, sample: PointerSample) {
         if self
-            .newest()
+            .newest
             .is_some_and(|last| sample.stamp - last.stamp > REST)
         {
             self.reset();
         }
-        if self.samples.len() == CAPACITY {
-            self.samples.pop_front();
-        }
+        self.has_begun = self.previous.is_none();
+        self.previous = self.newest.replace(sample);
         self.tracked_before = self.tracked;
-        self.samples.push_back(sample);
         self.track();
     }
 
     /// Gives the newest sample another place.
-    pub fn replace(&mut self, sample: PointerSample) {
-        let Some(last) = self.samples.back_mut() else {
+    pub(crate) fn replace(&mut self, sample: PointerSample) {
+        let Some(newest) = &mut self.newest else {
             return self.push(sample);
         };
-        last.position = sample.position;
+        newest.position = sample.position;
         self.tracked = self.tracked_before;
         self.track();
     }
 
     /// The velocity at `now`.
     pub fn estimate(&self, now: Instant) -> Estimate {
-        let Some(newest) = self.newest() else {
+        let (Some(newest), Some(_)) = (self.newest, self.previous) else {
             return Estimate::REST;
         };
-        if self.samples.len() < 2 || now.saturating_duration_since(newest.stamp) > REST {
+        if now.saturating_duration_since(newest.stamp) > REST {
             return Estimate::REST;
         }
         let found = match self.method {
             VelocityMethod::FiniteDifference => self.finite_difference(),
-            VelocityMethod::LineFit { window_s } => self.line_fit(window_s),
-            VelocityMethod::AlphaBeta { alpha, beta } => Estimate {
-                velocity: self.tracked.velocity,
-                lag_s: (alpha / beta - 0.5) * self.last_step().1,
-            },
-            VelocityMethod::Kalman { .. } | VelocityMethod::OneEuro { .. } => Estimate {
+            VelocityMethod::Kalman { .. } => Estimate {
                 velocity: self.tracked.velocity,
                 lag_s: self.tracked.lag_s,
             },
@@ -132,14 +168,9 @@ impl VelocityEstimator {
         }
     }
 
-    fn newest(&self) -> Option<&PointerSample> {
-        self.samples.back()
-    }
-
     /// The last displacement and its duration, s; none and 0 with fewer than two samples.
     fn last_step(&self) -> (Displacement, f64) {
-        let mut newest_first = self.samples.iter().rev();
-        match (newest_first.next(), newest_first.next()) {
+        match (self.newest, self.previous) {
             (Some(last), Some(previous)) => {
                 let duration_s = (last.stamp - previous.stamp).as_secs_f64();
                 (last.position - previous.position, duration_s)
@@ -159,71 +190,30 @@ impl VelocityEstimator {
         }
     }
 
-    /// `v = Σ (τ − τ̄)(x − x̄) / Σ (τ − τ̄)²` over the samples of the window, τ counted from the
-    /// newest. Two samples further apart than the window are a finite difference.
-    fn line_fit(&self, window_s: f64) -> Estimate {
-        let Some(newest) = self.newest() else {
-            return Estimate::REST;
-        };
-        let seen = |sample: &PointerSample| {
-            let tau_s = -(newest.stamp - sample.stamp).as_secs_f64();
-            (tau_s, sample.position - newest.position)
-        };
-        let in_window = || {
-            self.samples
-                .iter()
-                .rev()
-                .map(seen)
-                .take_while(|(tau_s, _)| *tau_s >= -window_s)
-        };
-        let mut n = 0.0;
-        let (mut sum_tau, mut sum_x, mut sum_y) = (0.0, 0.0, 0.0);
-        for (tau_s, by) in in_window() {
-            n += 1.0;
-            sum_tau += tau_s;
-            sum_x += by.x_mm;
-            sum_y += by.y_mm;
-        }
-        if n < 2.0 {
-            return self.finite_difference();
-        }
-        let mean = (sum_tau / n, sum_x / n, sum_y / n);
-        let (mut squares, mut slope_x, mut slope_y) = (0.0, 0.0, 0.0);
-        for (tau_s, by) in in_window() {
-            let off_s = tau_s - mean.0;
-            squares += off_s * off_s;
-            slope_x += off_s * (by.x_mm - mean.1);
-            slope_y += off_s * (by.y_mm - mean.2);
-        }
-        if squares <= 0.0 {
-            return Estimate::REST;
-        }
-        Estimate {
-            velocity: Velocity::new(slope_x / squares, slope_y / squares),
-            lag_s: -mean.0,
-        }
-    }
-
     /// Hands the newest sample to the filter, if the method is one; the first two samples give the
     /// first velocity. A sample of the same time as the last says nothing of velocity.
     fn track(&mut self) {
-        let method = self.method;
-        if matches!(
-            method,
-            VelocityMethod::FiniteDifference | VelocityMethod::LineFit { .. }
-        ) {
+        let VelocityMethod::Kalman {
+            acceleration_mm2_per_s3,
+            noise_mm,
+        } = self.method
+        else {
             return;
-        }
-        let Some(position) = self.newest().map(|newest| newest.position) else {
+        };
+        let Some(position) = self.newest.map(|newest| newest.position) else {
             return;
+        };
+        let noise = Noise {
+            acceleration: acceleration_mm2_per_s3,
+            measurement: noise_mm * noise_mm,
         };
         let (by, duration_s) = self.last_step();
         self.tracked = if duration_s <= 0.0 {
             Tracked::at_rest(position)
-        } else if self.samples.len() == 2 {
-            Tracked::begun(method, position, (by, duration_s))
+        } else if self.has_begun {
+            Tracked::begun(noise, position, (by, duration_s))
         } else {
-            self.tracked.after(method, position, (by, duration_s))
+            self.tracked.after(noise, position, duration_s)
         };
     }
 }

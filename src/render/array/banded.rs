@@ -5,12 +5,11 @@
 //! least the share `floor` of an amplitude through are left out, which takes less than
 //! `floor²·2ΣP` off a squared amplitude. The filter's gains are computed once per speed.
 
-use std::hint::black_box;
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::reference::{amplitudes_of, bin_frequency_hz, evaluate_each};
-use crate::plan::{Axis, Component, Contacts, Counters, Feel, Motion, Rule, Rules, ScenePlan};
+use crate::plan::{Axis, Component, Contacts, Counters, Feel, Motion, ScenePlan};
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
@@ -21,7 +20,6 @@ pub(super) struct BandedEvaluator {
     pool: Vec<SpectraMemo>,
     rows: [GainRow; 2],
     tick: u64,
-    floor: f64,
 }
 
 /// Spectra, and what was already evaluated of them.
@@ -69,23 +67,7 @@ impl BandedEvaluator {
             pool: plan.pool.iter().map(memo).collect(),
             rows: [row(), row()],
             tick: 0,
-            floor,
         }
-    }
-
-    /// Takes other rules. Returns the floor in force.
-    pub(super) fn set_rules(&mut self, rules: Rules) -> f64 {
-        let floor = if rules.has(Rule::BelowFloor) {
-            self.floor
-        } else {
-            0.0
-        };
-        let heard_hz = Band::ALL.map(|band| heard_frequencies_hz(&self.filters, band, floor));
-        for row in &mut self.rows {
-            row.heard_hz = heard_hz;
-            row.speed_mm_per_s = 0.0;
-        }
-        floor
     }
 
     /// Bytes of what it remembers beside the spectra.
@@ -107,25 +89,18 @@ impl BandedEvaluator {
         amplitudes_um: &mut [[f64; 2]],
         counters: &mut Counters,
     ) {
-        if let (Motion::Together(_), true) = (contacts.motion, contacts.rules == Rules::default()) {
+        if let Motion::Together(_) = contacts.motion {
             return self.evaluate_together(plan, contacts, factors, amplitudes_um, counters);
         }
         let sums_of = |axis, feel: Feel, counters: &mut Counters| {
             let row = &mut self.rows[axis as usize];
-            row.move_to(
-                feel.speed_mm_per_s,
-                &self.filters,
-                (contacts.rules, counters),
-            );
-            let rules = contacts.rules;
-            self.pool[feel.spectra].sums(feel.point, (self.tick, row), (rules, counters))
+            row.move_to(feel.speed_mm_per_s, &self.filters, counters);
+            self.pool[feel.spectra].sums(feel.point, (self.tick, row), counters)
         };
         evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
     }
-}
 
-impl BandedEvaluator {
-    /// The same for contactors that move alike, with all savings: what they share is found once,
+    /// The same for contactors that move alike: what they share is found once,
     /// before the loop over them.
     fn evaluate_together(
         &mut self,
@@ -137,7 +112,6 @@ impl BandedEvaluator {
     ) {
         let textile = &plan.textiles[contacts.textile];
         let n_contactors = contacts.n_contactors as u64;
-        let rules = contacts.rules;
         contacts.for_each_owned(amplitudes_um, |_, sums| *sums = [0.0; 2]);
         for axis in Axis::BOTH {
             let component = contacts.component(axis, 0);
@@ -146,11 +120,11 @@ impl BandedEvaluator {
                 is_reverse,
             } = component
             else {
-                contacts.count_left_out(component, n_contactors, counters);
+                counters.left_out(component, n_contactors);
                 continue;
             };
             let row = &mut self.rows[axis as usize];
-            row.move_to(speed_mm_per_s, &self.filters, (rules, counters));
+            row.move_to(speed_mm_per_s, &self.filters, counters);
             counters.speeds_repeated += n_contactors - 1;
             let d = axis.direction(is_reverse).index();
             let (grid, memo) = (textile.points[d], &mut self.pool[textile.spectra[d]]);
@@ -162,7 +136,7 @@ impl BandedEvaluator {
                     Axis::Weft => grid.nearest(w_mm, u_mm),
                 };
                 if !memo.points[point].is_of(tick, row) {
-                    memo.remember(point, (tick, row), (rules, counters));
+                    memo.remember(point, (tick, row), counters);
                     n_anew += 1;
                 }
                 let own = memo.points[point].sums;
@@ -190,24 +164,19 @@ impl SpectraMemo {
         &mut self,
         point: usize,
         (tick, row): (u64, &GainRow),
-        (rules, counters): (Rules, &mut Counters),
+        counters: &mut Counters,
     ) -> [f64; 2] {
-        if self.points[point].is_of(tick, row) && rules.has(Rule::SamePoint) {
+        if self.points[point].is_of(tick, row) {
             counters.directions_repeated += 1;
         } else {
-            self.remember(point, (tick, row), (rules, counters));
+            self.remember(point, (tick, row), counters);
         }
         self.points[point].sums
     }
 
     /// Evaluates a point for the rest of the tick.
-    fn remember(
-        &mut self,
-        point: usize,
-        (tick, row): (u64, &GainRow),
-        (rules, counters): (Rules, &mut Counters),
-    ) {
-        let sums = self.sums_anew(point, row, (rules, counters));
+    fn remember(&mut self, point: usize, (tick, row): (u64, &GainRow), counters: &mut Counters) {
+        let sums = self.sums_anew(point, row, counters);
         self.points[point] = Memo {
             tick,
             speed_mm_per_s: row.speed_mm_per_s,
@@ -217,12 +186,7 @@ impl SpectraMemo {
 
     /// The sums of a point that was not yet evaluated in this tick.
     #[inline(never)]
-    fn sums_anew(
-        &self,
-        point: usize,
-        row: &GainRow,
-        (rules, counters): (Rules, &mut Counters),
-    ) -> [f64; 2] {
+    fn sums_anew(&self, point: usize, row: &GainRow, counters: &mut Counters) -> [f64; 2] {
         let powers_um2 = self.spectra.powers_um2(point);
         // Areal spectra of a coarse map end at its Nyquist wavenumber.
         let n_bins = powers_um2.len();
@@ -234,14 +198,7 @@ impl SpectraMemo {
         counters.directions_evaluated += 1;
         counters.bins_evaluated += n_heard as u64;
         counters.bins_below_floor += (2 * n_audible - n_heard) as u64;
-        let n_above = 2 * (n_bins - n_audible) as u64;
-        if rules.has(Rule::AboveBand) {
-            counters.bins_above_1_khz += n_above;
-        } else {
-            let above = n_audible..n_bins;
-            black_box(row.sums(powers_um2, [above.clone(), above]));
-            counters.bins_evaluated += n_above;
-        }
+        counters.bins_above_1_khz += 2 * (n_bins - n_audible) as u64;
         sums
     }
 }
@@ -249,22 +206,16 @@ impl SpectraMemo {
 impl GainRow {
     /// Computes the gains at a speed, unless they are those at hand.
     #[inline]
-    fn move_to(
-        &mut self,
-        speed_mm_per_s: f64,
-        filters: &Filters,
-        (rules, counters): (Rules, &mut Counters),
-    ) {
-        let is_at_hand = self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits();
-        if is_at_hand && rules.has(Rule::SameSpeed) {
+    fn move_to(&mut self, speed_mm_per_s: f64, filters: &Filters, counters: &mut Counters) {
+        if self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits() {
             counters.speeds_repeated += 1;
         } else {
-            self.compute(speed_mm_per_s, filters, rules);
+            self.compute(speed_mm_per_s, filters);
         }
     }
 
     #[inline(never)]
-    fn compute(&mut self, speed_mm_per_s: f64, filters: &Filters, rules: Rules) {
+    fn compute(&mut self, speed_mm_per_s: f64, filters: &Filters) {
         self.speed_mm_per_s = speed_mm_per_s;
         self.n_audible = n_audible_bins(speed_mm_per_s);
         let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
@@ -274,12 +225,7 @@ impl GainRow {
             let first = n_bins_below(low_hz / spacing_hz).min(self.n_audible);
             let end = n_bins_below(high_hz / spacing_hz + 1.0).clamp(first, self.n_audible);
             self.heard[b] = first..end;
-            let above = if rules.has(Rule::AboveBand) {
-                0..0
-            } else {
-                self.n_audible..N_BINS
-            };
-            for slot in (first..end).chain(above) {
+            for slot in first..end {
                 let frequency_hz = bin_frequency_hz(speed_mm_per_s, slot + 1);
                 self.gains[b][slot] = filters.power_gain(band, frequency_hz);
             }

@@ -1,7 +1,7 @@
 //! What a display's contactors are told to do in one tick.
 
+use crate::ContactorArray;
 use crate::plan::OUTSIDE;
-use crate::{ContactorArray, single};
 use selvedge_foundation::geometry::{Displacement, Point, Rotation};
 
 /// One display's amplitudes after a tick: after gains, before the limits of an output.
@@ -107,4 +107,13 @@ impl DisplayFrame {
             *rounded = exact.map(single);
         }
     }
+}
+
+/// A number as the stream holds it. Beyond the range of f32 it saturates to infinity.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "design in f64, stream in f32"
+)]
+pub fn single(x: f64) -> f32 {
+    x as f32
 }

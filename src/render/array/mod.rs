@@ -20,23 +20,19 @@ mod table;
 mod trace;
 
 pub use drive::DriveSynth;
-pub use frame::DisplayFrame;
-pub use method::UnknownMethod;
-pub use method::{Accuracy, ErrorBound, Method};
+pub use frame::{DisplayFrame, single};
+pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
 pub use reading::{ContactorReading, Reading};
 pub use response::{PointSpread, TextileResponse, VelocityMap};
 pub use table::TableCache;
-pub use trace::BinTrace;
-pub use trace::{ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
-
-use std::hint::black_box;
+pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 
 use banded::BandedEvaluator;
 use reference::ReferenceEvaluator;
 use table::TableEvaluator;
 
 use super::gains::Gains;
-use super::plan::{Contacts, Counters, DisplayPlan, Rules, ScenePlan};
+use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan, finite_pose};
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::scene::Pose;
 use selvedge_textile::tactile::Tuning;
@@ -60,9 +56,6 @@ pub struct ArrayRenderer {
     displays: Vec<DisplayPlan>,
     frames: Vec<DisplayFrame>,
     counters: Counters,
-    rules: Rules,
-    /// What was evaluated for nothing; empty while each contactor is evaluated on its own textile.
-    discarded: Vec<DisplayFrame>,
 }
 
 impl ArrayRenderer {
@@ -127,33 +120,7 @@ impl ArrayRenderer {
             displays: scene.displays.iter().map(DisplayPlan::new).collect(),
             frames: scene.displays.iter().map(frame).collect(),
             counters: Counters::default(),
-            rules: Rules::ALL,
-            discarded: Vec::new(),
         })
-    }
-
-    /// The same renderer with other savings in force; all are unless this is called. What a saving
-    /// that is off would leave out is evaluated, and its result thrown away. For reports: with the
-    /// bins below a filter's floor evaluated `banded` is exact, else amplitudes stay as they are.
-    /// Allocates.
-    #[must_use]
-    pub fn with_rules(mut self, rules: Rules) -> Self {
-        self.rules = rules;
-        self.displays.iter_mut().for_each(|d| d.set_rules(rules));
-        self.discarded = if rules.skip_spare_touches() {
-            Vec::new()
-        } else {
-            self.frames.clone()
-        };
-        if let Evaluator::Banded(banded) = &mut self.evaluator {
-            self.bound = ErrorBound::of_floor(banded.set_rules(rules));
-        }
-        self
-    }
-
-    /// The savings in force.
-    pub fn rules(&self) -> Rules {
-        self.rules
     }
 
     /// Goes on counting where another renderer is.
@@ -209,7 +176,7 @@ impl ArrayRenderer {
         frame.position = pose.position;
         frame.rotation = display.begin(pose.angle_deg, counters);
         for (number, textile) in self.plan.textiles.iter().enumerate().rev() {
-            let Some(placing) = textile.placing(display, pose.position) else {
+            let Some(placing) = display.placing(textile, pose.position) else {
                 counters.textiles_out_of_reach += 1;
                 continue;
             };
@@ -217,14 +184,6 @@ impl ArrayRenderer {
             if let Some(contacts) = display.claim((textile, number), &placing, pose, counters) {
                 self.evaluator
                     .evaluate(&self.plan, &contacts, factors, frame, counters);
-            }
-            if let Some(discarded) = self.discarded.get_mut(index)
-                && let Some(contacts) = display.claim_spare((textile, number), &placing, pose)
-            {
-                discarded.begin();
-                self.evaluator
-                    .evaluate(&self.plan, &contacts, factors, discarded, counters);
-                black_box(discarded);
             }
             if display.is_taken() {
                 counters.touches_beneath += (number * display.n_contactors()) as u64;
@@ -351,14 +310,6 @@ impl Evaluator {
             }
         }
     }
-}
-
-/// The pose, at rest if its motion is not finite, which is counted; `None` if its place is not.
-fn finite_pose(pose: &Pose, counters: &mut Counters) -> Option<Pose> {
-    let is_placed = pose.position.is_finite() && pose.angle_deg.is_finite();
-    let is_moving = pose.velocity.is_finite() && pose.angular_rad_per_s.is_finite();
-    counters.poses_not_finite += u64::from(!(is_placed && is_moving));
-    is_placed.then(|| if is_moving { *pose } else { pose.at_rest() })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! enough to be drawn with every frame.
 
 use super::trace::ContactInspector;
-use crate::plan::{Axis, Component, Contacts, Counters, ScenePlan, nearest_mm};
+use crate::plan::{Axis, Component, Contacts, Counters, ScenePlan, finite_pose, nearest_mm};
 use crate::scene::Pose;
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_textile::surface::Direction;
@@ -72,7 +72,7 @@ impl ContactInspector {
         readings.clear();
         let mut counters = Counters::default();
         let array = self.displays.get_mut(display);
-        let Some((array, pose)) = array.zip(super::finite_pose(pose, &mut counters)) else {
+        let Some((array, pose)) = array.zip(finite_pose(pose, &mut counters)) else {
             return;
         };
         let rotation = array.begin(pose.angle_deg, &mut counters);
@@ -86,7 +86,7 @@ impl ContactInspector {
             }
         }));
         for (number, textile) in self.plan.textiles.iter().enumerate().rev() {
-            let Some(placing) = textile.placing(array, pose.position) else {
+            let Some(placing) = array.placing(textile, pose.position) else {
                 continue;
             };
             if let Some(contacts) = array.claim((textile, number), &placing, &pose, &mut counters) {

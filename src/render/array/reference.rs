@@ -1,9 +1,8 @@
 //! The reference: f64, every bin, no shortcut. Every other method is measured against it.
 
-use std::hint::black_box;
 use std::sync::Arc;
 
-use crate::plan::{Axis, Contacts, Counters, Feel, Rule, ScenePlan};
+use crate::plan::{Axis, Contacts, Counters, Feel, ScenePlan};
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra};
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
@@ -37,13 +36,7 @@ impl ReferenceEvaluator {
             counters.directions_evaluated += 1;
             counters.bins_evaluated += 2 * n_audible as u64;
             let n_above = 2 * (powers_um2.len() - n_audible) as u64;
-            if contacts.rules.has(Rule::AboveBand) {
-                counters.bins_above_1_khz += n_above;
-            } else {
-                let above = (n_audible, &powers_um2[n_audible..]);
-                black_box(sums_from(above, feel.speed_mm_per_s, &self.filters));
-                counters.bins_evaluated += n_above;
-            }
+            counters.bins_above_1_khz += n_above;
             sums
         };
         evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
@@ -63,17 +56,9 @@ pub(super) fn evaluate_each(
     contacts.for_each_owned(amplitudes_um, |contactor, amplitudes| {
         let mut sums = [0.0; 2];
         for axis in Axis::BOTH {
-            let felt = contacts.feel(textile, axis, contactor, counters);
-            let idle = || contacts.idle_feel(textile, axis, contactor);
-            // One place that sums, so that it is compiled into the loop.
-            let Some(feel) = felt.or_else(idle) else {
-                continue;
-            };
-            let own = sums_of(axis, feel, counters);
-            if felt.is_some() {
+            if let Some(feel) = contacts.feel(textile, axis, contactor, counters) {
+                let own = sums_of(axis, feel, counters);
                 (0..2).for_each(|b| sums[b] += own[b]);
-            } else {
-                black_box(own);
             }
         }
         *amplitudes = amplitudes_of(sums, factors);
@@ -109,20 +94,4 @@ fn band_sums(powers_um2: &[f64], speed_mm_per_s: f64, filters: &Filters) -> ([f6
         }
     }
     (sums, n_audible)
-}
-
-/// `Σ_k P_k H_b(f_k)²` over powers that begin after the first `n_before` bins, wherever they sound.
-fn sums_from(
-    (n_before, powers_um2): (usize, &[f64]),
-    speed_mm_per_s: f64,
-    filters: &Filters,
-) -> [f64; 2] {
-    let mut sums = [0.0; 2];
-    for (k, power) in (n_before + 1..).zip(powers_um2) {
-        let frequency_hz = bin_frequency_hz(speed_mm_per_s, k);
-        for band in Band::ALL {
-            sums[band.index()] += power * filters.power_gain(band, frequency_hz);
-        }
-    }
-    sums
 }

@@ -9,7 +9,9 @@ use super::reading::Reading;
 use super::reference::{amplitudes_of, bin_frequency_hz};
 use crate::RenderScene;
 use crate::gains::{GainTerms, Gains};
-use crate::plan::{Axis, Component, Contacts, Counters, DisplayPlan, ScenePlan, TextilePlan};
+use crate::plan::{
+    Axis, Component, Contacts, Counters, DisplayPlan, ScenePlan, TextilePlan, finite_pose,
+};
 use crate::scene::Pose;
 use selvedge_foundation::geometry::Point;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction};
@@ -111,7 +113,7 @@ impl ContactInspector {
         let array = self.displays.get_mut(display)?;
         let offset = array.offset(contactor)?;
         let mut counters = Counters::default();
-        let pose = super::finite_pose(pose, &mut counters)?;
+        let pose = finite_pose(pose, &mut counters)?;
         let rotation = array.begin(pose.angle_deg, &mut counters);
         let how = (&self.gains, &self.filters);
         let touch = at_contact(&self.plan, array, contactor, &pose, |contacts| {
@@ -138,7 +140,7 @@ impl ContactInspector {
         let mut counters = Counters::default();
         let array = self.displays.get_mut(display);
         let array = array.filter(|array| contactor < array.n_contactors());
-        let Some((array, pose)) = array.zip(super::finite_pose(pose, &mut counters)) else {
+        let Some((array, pose)) = array.zip(finite_pose(pose, &mut counters)) else {
             return;
         };
         array.begin(pose.angle_deg, &mut counters);
@@ -171,7 +173,7 @@ fn at_contact<T>(
 ) -> Option<T> {
     let mut counters = Counters::default();
     for (number, textile) in plan.textiles.iter().enumerate().rev() {
-        let Some(placing) = textile.placing(display, pose.position) else {
+        let Some(placing) = display.placing(textile, pose.position) else {
             continue;
         };
         let contacts = display.claim((textile, number), &placing, pose, &mut counters);

@@ -1,9 +1,13 @@
 //! Where the contactors of a display touch which textile, and how they move over it.
 
-use super::{Axis, Component, Counters, DisplayPlan, PointGrid, Rule, Rules};
+use super::counters::Counters;
+use super::motion::{Axis, Component};
+use super::point::PointGrid;
 use crate::PlacedSurface;
 use selvedge_foundation::geometry::{Point, Rotation, Velocity};
 
+/// No textile: the contactor lies outside.
+pub(crate) const OUTSIDE: u16 = u16::MAX;
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
 /// and upper edge no longer, mm.
 const EDGE_MM: f64 = 1e-6;
@@ -18,15 +22,6 @@ pub(crate) struct TextilePlan {
     pub spectra: [usize; 4],
     /// How places become points, for each direction.
     pub points: [PointGrid; 4],
-}
-
-/// Where a display's centre is in a textile's frame, and how it lies there.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Placing {
-    pub(super) centre: Point,
-    pub(super) textile_from_display: Rotation,
-    /// Every contactor lies on the textile.
-    pub(super) is_covered: bool,
 }
 
 /// How the contactors of a display move in a textile's frame.
@@ -51,8 +46,6 @@ pub(crate) struct Contacts<'a> {
     pub motion: Motion<'a>,
     /// How many contactors lie on this textile.
     pub n_contactors: usize,
-    /// What may be left out.
-    pub rules: Rules,
 }
 
 /// What a contactor feels along one axis.
@@ -83,24 +76,10 @@ impl Contacts<'_> {
             is_reverse,
         } = component
         else {
-            self.count_left_out(component, 1, counters);
+            counters.left_out(component, 1);
             return None;
         };
         Some(self.feel_at(textile, (axis, is_reverse), contactor, speed_mm_per_s))
-    }
-
-    /// What a contactor that feels nothing along an axis would feel at the nearest speed that is
-    /// felt: to be evaluated for nothing. `None` where that is left out, as it should be.
-    pub(crate) fn idle_feel(
-        &self,
-        textile: &TextilePlan,
-        axis: Axis,
-        contactor: usize,
-    ) -> Option<Feel> {
-        let component = self.component(axis, contactor);
-        let speed_mm_per_s = component.nearest_felt_mm_per_s();
-        (!self.rules.leave_out(component))
-            .then(|| self.feel_at(textile, (axis, false), contactor, speed_mm_per_s))
     }
 
     #[inline]
@@ -127,15 +106,6 @@ impl Contacts<'_> {
         match axis {
             Axis::Warp => [u_mm, w_mm],
             Axis::Weft => [w_mm, u_mm],
-        }
-    }
-
-    /// Counts `n` directions of a component that is not felt, unless they are evaluated for
-    /// nothing.
-    #[inline]
-    pub(crate) fn count_left_out(&self, component: Component, n: u64, counters: &mut Counters) {
-        if self.rules.leave_out(component) {
-            counters.left_out(component, n);
         }
     }
 
@@ -212,24 +182,26 @@ impl TextilePlan {
         }
     }
 
-    /// How a display lies in the textile's frame; `None` when none of its contactors can lie on it.
-    pub(crate) fn placing(&self, display: &DisplayPlan, at: Point) -> Option<Placing> {
-        let centre = Point::default() + self.textile_from_workspace.turn(at - self.origin);
-        let radius = display.radius_mm;
+    /// A place of the workspace in the textile's frame.
+    pub(super) fn place_of(&self, at: Point) -> Point {
+        Point::default() + self.textile_from_workspace.turn(at - self.origin)
+    }
+
+    /// Whether anything within a radius of a place of its frame may lie on it.
+    pub(super) fn is_reached(&self, place: Point, radius_mm: f64) -> bool {
         let reaches =
-            |place: f64, extent: f64| place + radius >= -EDGE_MM && place - radius < extent;
+            |place: f64, extent: f64| place + radius_mm >= -EDGE_MM && place - radius_mm < extent;
+        let [width, height] = self.size_mm;
+        reaches(place.x_mm, width) && reaches(place.y_mm, height)
+    }
+
+    /// Whether everything within a radius of a place of its frame lies on it.
+    pub(super) fn covers(&self, place: Point, radius_mm: f64) -> bool {
         let covers = |place: f64, extent: f64| {
-            place - radius >= 0.0 && place + radius < extent - 2.0 * EDGE_MM
+            place - radius_mm >= 0.0 && place + radius_mm < extent - 2.0 * EDGE_MM
         };
         let [width, height] = self.size_mm;
-        let is_near = reaches(centre.x_mm, width) && reaches(centre.y_mm, height);
-        (is_near || !display.rules.has(Rule::OutOfReach)).then(|| Placing {
-            centre,
-            textile_from_display: self.textile_from_workspace.after(display.turned.1),
-            is_covered: covers(centre.x_mm, width)
-                && covers(centre.y_mm, height)
-                && display.rules.has(Rule::Covered),
-        })
+        covers(place.x_mm, width) && covers(place.y_mm, height)
     }
 
     pub(super) fn contains(&self, u_mm: f64, w_mm: f64) -> bool {

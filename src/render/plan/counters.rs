@@ -1,6 +1,8 @@
-//! What ticks evaluated and what they left out.
+//! What ticks evaluated, and what each saving left out.
 
 use serde::Serialize;
+
+use super::motion::Component;
 
 /// Sums since the last reset. A "direction" is one contactor's warp or weft in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -49,11 +51,171 @@ pub struct Counters {
 
 impl Counters {
     /// Counts `n` directions of one component that is not felt.
-    pub(crate) fn left_out(&mut self, component: super::Component, n: u64) {
+    pub(crate) fn left_out(&mut self, component: Component, n: u64) {
         match component {
-            super::Component::AtRest => self.directions_at_rest += n,
-            super::Component::TooFast => self.directions_over_speed += n,
-            super::Component::Felt { .. } => {}
+            Component::AtRest => self.directions_at_rest += n,
+            Component::TooFast => self.directions_over_speed += n,
+            Component::Felt { .. } => {}
+        }
+    }
+}
+
+/// A saving.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// Displays at rest where they stood the tick before.
+    Standing,
+    /// Sine and cosine of an angle that did not change.
+    SameAngle,
+    /// Textiles whose rectangle no contactor can reach.
+    OutOfReach,
+    /// Contactors of a display that lies wholly on a textile.
+    Covered,
+    /// Contactors off a textile.
+    Outside,
+    /// Contactors already on a textile above.
+    Beneath,
+    /// Components below 0.01 mm/s.
+    AtRest,
+    /// Components at which every bin sounds at or above 1 kHz.
+    TooFast,
+    /// Bins at or above 1 kHz.
+    AboveBand,
+    /// Bins below a filter's floor.
+    BelowFloor,
+    /// Points evaluated already in this tick.
+    SamePoint,
+    /// Speeds looked up already in this tick.
+    SameSpeed,
+}
+
+impl Rule {
+    /// All, from the coarsest to the finest.
+    pub const ALL: [Self; 12] = [
+        Self::Standing,
+        Self::SameAngle,
+        Self::OutOfReach,
+        Self::Covered,
+        Self::Outside,
+        Self::Beneath,
+        Self::AtRest,
+        Self::TooFast,
+        Self::AboveBand,
+        Self::BelowFloor,
+        Self::SamePoint,
+        Self::SameSpeed,
+    ];
+
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standing => "standing",
+            Self::SameAngle => "same angle",
+            Self::OutOfReach => "out of reach",
+            Self::Covered => "covered",
+            Self::Outside => "outside",
+            Self::Beneath => "beneath",
+            Self::AtRest => "at rest",
+            Self::TooFast => "too fast",
+            Self::AboveBand => "above the band",
+            Self::BelowFloor => "below the floor",
+            Self::SamePoint => "same point",
+            Self::SameSpeed => "same speed",
+        }
+    }
+
+    /// What it leaves out, one sentence.
+    pub fn what(self) -> &'static str {
+        match self {
+            Self::Standing => {
+                "A display that rests where it rested one tick before stays silent as it is."
+            }
+            Self::SameAngle => "Sine and cosine are taken only of an angle that changed.",
+            Self::OutOfReach => {
+                "No contactor is placed on a textile whose rectangle the display cannot reach."
+            }
+            Self::Covered => {
+                "A display that lies wholly on a textile is not asked contactor by contactor."
+            }
+            Self::Outside => "A contactor that is off a textile is not evaluated against it.",
+            Self::Beneath => "A contactor that lies on a textile feels none of those beneath.",
+            Self::AtRest => "A direction that moves at less than 0.01 mm/s is not evaluated.",
+            Self::TooFast => {
+                "A direction so fast that every bin sounds at 1 kHz or above is not evaluated."
+            }
+            Self::AboveBand => "A bin that sounds at 1 kHz or above is not summed.",
+            Self::BelowFloor => {
+                "A bin that the filter lets less than its floor through is not summed (banded)."
+            }
+            Self::SamePoint => {
+                "The same spectra, point and speed are evaluated once in a tick \
+                 (banded), or once for all contactors of a velocity (table)."
+            }
+            Self::SameSpeed => {
+                "A speed's filter gains (banded), or its place in the tables (table), are \
+                 found once for all contactors that share it."
+            }
+        }
+    }
+
+    /// What its counter counts.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Standing => "displays",
+            Self::SameAngle => "angles",
+            Self::OutOfReach => "textiles",
+            Self::Covered | Self::Outside | Self::Beneath => "touches",
+            Self::AtRest | Self::TooFast | Self::SamePoint => "directions",
+            Self::AboveBand | Self::BelowFloor => "bins",
+            Self::SameSpeed => "speeds",
+        }
+    }
+
+    /// How much it left out.
+    pub fn left_out(self, counters: &Counters) -> u64 {
+        match self {
+            Self::Standing => counters.displays_standing,
+            Self::SameAngle => counters.angles_repeated,
+            Self::OutOfReach => counters.textiles_out_of_reach,
+            Self::Covered => counters.touches_covered,
+            Self::Outside => counters.touches_outside,
+            Self::Beneath => counters.touches_beneath,
+            Self::AtRest => counters.directions_at_rest,
+            Self::TooFast => counters.directions_over_speed,
+            Self::AboveBand => counters.bins_above_1_khz,
+            Self::BelowFloor => counters.bins_below_floor,
+            Self::SamePoint => counters.directions_repeated,
+            Self::SameSpeed => counters.speeds_repeated,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_saving_is_told_apart_by_its_name_and_its_counter() {
+        let counters = Counters {
+            displays_standing: 1,
+            angles_repeated: 2,
+            textiles_out_of_reach: 3,
+            touches_covered: 4,
+            touches_outside: 5,
+            touches_beneath: 6,
+            directions_at_rest: 7,
+            directions_over_speed: 8,
+            bins_above_1_khz: 9,
+            bins_below_floor: 10,
+            directions_repeated: 11,
+            speeds_repeated: 12,
+            ..Counters::default()
+        };
+        for (number, rule) in (1..).zip(Rule::ALL) {
+            assert_eq!(rule.left_out(&counters), number, "{}", rule.name());
+            assert!(rule.what().ends_with(['.', ')']), "{}", rule.what());
+            let others = Rule::ALL.into_iter().filter(|other| *other != rule);
+            assert!(others.into_iter().all(|other| other.name() != rule.name()));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A display's contactors in a tick: where they lie on the textile at hand, and who owns each.
 
-use super::contact::{Contacts, Motion, Placing, TextilePlan};
-use super::{Counters, OUTSIDE, Rule, Rules};
+use super::contact::{Contacts, Motion, OUTSIDE, TextilePlan};
+use super::counters::Counters;
 use crate::ContactorArray;
 use crate::scene::Pose;
 use selvedge_foundation::geometry::{Displacement, Point, Rotation, Velocity};
@@ -12,21 +12,26 @@ use selvedge_textile::tactile::MIN_SPEED_MM_PER_S;
 pub(crate) struct DisplayPlan {
     x_mm: Vec<f64>,
     y_mm: Vec<f64>,
-    pub(super) radius_mm: f64,
+    radius_mm: f64,
     rotation_deg: f64,
-    pub(super) turned: (f64, Rotation),
+    turned: (f64, Rotation),
     u_mm: Vec<f64>,
     w_mm: Vec<f64>,
     velocity_u: Vec<f64>,
     velocity_w: Vec<f64>,
     pub(crate) owners: Vec<u16>,
     pub n_owned: usize,
-    /// What may be left out.
-    pub(super) rules: Rules,
     /// Where and how turned it rested in the last tick; `None` if it moved.
     rested: Option<(Point, f64)>,
-    /// Contactors that are evaluated on the textile at hand for nothing.
-    spare: Vec<u16>,
+}
+
+/// Where a display's centre is in a textile's frame, and how it lies there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placing {
+    centre: Point,
+    textile_from_display: Rotation,
+    /// Every contactor lies on the textile.
+    is_covered: bool,
 }
 
 impl DisplayPlan {
@@ -50,22 +55,8 @@ impl DisplayPlan {
             velocity_w: zeros,
             owners: vec![OUTSIDE; array.offsets.len()],
             n_owned: 0,
-            rules: Rules::ALL,
             rested: None,
-            spare: Vec::new(),
         }
-    }
-
-    /// Takes other rules.
-    pub(crate) fn set_rules(&mut self, rules: Rules) {
-        self.rules = rules;
-        self.rested = None;
-        let n_spare = if rules.skip_spare_touches() {
-            0
-        } else {
-            self.owners.len()
-        };
-        self.spare = vec![OUTSIDE; n_spare];
     }
 
     pub(crate) fn n_contactors(&self) -> usize {
@@ -87,22 +78,17 @@ impl DisplayPlan {
             return false;
         };
         let bits = |(at, angle_deg): (Point, f64)| [at.x_mm, at.y_mm, angle_deg].map(f64::to_bits);
-        let stands = self.rules.has(Rule::Standing) && bits(before) == bits(now);
+        let stands = bits(before) == bits(now);
         if stands {
             counters.displays_standing += 1;
-            let n_directions = if self.rules.has(Rule::AtRest) {
-                2 * self.n_owned as u64
-            } else {
-                0
-            };
-            counters.directions_at_rest += n_directions;
+            counters.directions_at_rest += 2 * self.n_owned as u64;
         }
         stands
     }
 
     /// Whether textiles beneath those that were claimed need not be asked.
     pub(crate) fn is_taken(&self) -> bool {
-        self.n_owned == self.owners.len() && self.rules.has(Rule::Beneath)
+        self.n_owned == self.owners.len()
     }
 
     /// Forgets where it rested: its frame is no longer that of the last tick.
@@ -116,13 +102,22 @@ impl DisplayPlan {
         self.n_owned = 0;
         let angle_deg = self.rotation_deg + path_angle_deg;
         // Sine and cosine only when the angle changed; most strokes do not turn.
-        let is_same = angle_deg.to_bits() == self.turned.0.to_bits();
-        if is_same && self.rules.has(Rule::SameAngle) {
+        if angle_deg.to_bits() == self.turned.0.to_bits() {
             counters.angles_repeated += 1;
         } else {
             self.turned = (angle_deg, Rotation::from_degrees(angle_deg));
         }
         self.turned.1
+    }
+
+    /// How the display lies in a textile's frame; `None` when none of its contactors can lie on it.
+    pub(crate) fn placing(&self, textile: &TextilePlan, at: Point) -> Option<Placing> {
+        let centre = textile.place_of(at);
+        textile.is_reached(centre, self.radius_mm).then(|| Placing {
+            centre,
+            textile_from_display: textile.textile_from_workspace.after(self.turned.1),
+            is_covered: textile.covers(centre, self.radius_mm),
+        })
     }
 
     /// Gives a textile the contactors that lie on it and that nobody above it took. `None` when
@@ -145,47 +140,19 @@ impl DisplayPlan {
             self.claim_each(textile, owner);
         }
         let n_contactors = self.n_owned - n_before;
-        self.count_spare(n_before, counters);
+        counters.touches_beneath += n_before as u64;
+        counters.touches_outside += (self.owners.len() - self.n_owned) as u64;
         (n_contactors > 0).then(|| {
             let motion = self.set_in_motion(textile, placing, pose);
-            self.contacts(number, motion, n_contactors, &self.owners)
+            let each = Motion::Turning(&self.velocity_u, &self.velocity_w);
+            Contacts {
+                textile: number,
+                owners: &self.owners,
+                places_mm: [&self.u_mm, &self.w_mm],
+                motion: motion.map_or(each, Motion::Together),
+                n_contactors,
+            }
         })
-    }
-
-    /// The contactors, besides those just claimed, that are evaluated on a textile for nothing,
-    /// because a rule that would leave them out is off. `None` when there are none.
-    pub(crate) fn claim_spare(
-        &mut self,
-        (textile, number): (&TextilePlan, usize),
-        placing: &Placing,
-        pose: &Pose,
-    ) -> Option<Contacts<'_>> {
-        let owner = owner_of(number);
-        let places = self.u_mm.iter().zip(&self.w_mm);
-        let mut n_spare = 0;
-        for (spare, (own, (&u_mm, &w_mm))) in
-            self.spare.iter_mut().zip(self.owners.iter().zip(places))
-        {
-            let is_wanted = *own != owner
-                && (*own == OUTSIDE || !self.rules.has(Rule::Beneath))
-                && (!self.rules.has(Rule::Outside) || textile.contains(u_mm, w_mm));
-            *spare = if is_wanted { owner } else { OUTSIDE };
-            n_spare += usize::from(is_wanted);
-        }
-        (n_spare > 0).then(|| {
-            let motion = self.set_in_motion(textile, placing, pose);
-            self.contacts(number, motion, n_spare, &self.spare)
-        })
-    }
-
-    /// Counts contactors that the textile at hand was not asked about, or that lie beside it.
-    fn count_spare(&self, n_before: usize, counters: &mut Counters) {
-        if self.rules.has(Rule::Beneath) {
-            counters.touches_beneath += n_before as u64;
-        }
-        if self.rules.has(Rule::Outside) {
-            counters.touches_outside += (self.owners.len() - self.n_owned) as u64;
-        }
     }
 
     /// How the contactors move in a textile's frame: together, or, with velocities computed for
@@ -202,24 +169,6 @@ impl DisplayPlan {
             self.move_each(placing, velocity, pose.angular_rad_per_s);
         }
         (!is_turning).then_some(velocity)
-    }
-
-    fn contacts<'a>(
-        &'a self,
-        textile: usize,
-        together: Option<Velocity>,
-        n_contactors: usize,
-        owners: &'a [u16],
-    ) -> Contacts<'a> {
-        let each = Motion::Turning(&self.velocity_u, &self.velocity_w);
-        Contacts {
-            textile,
-            owners,
-            places_mm: [&self.u_mm, &self.w_mm],
-            motion: together.map_or(each, Motion::Together),
-            n_contactors,
-            rules: self.rules,
-        }
     }
 
     fn claim_each(&mut self, textile: &TextilePlan, owner: u16) {
@@ -269,4 +218,12 @@ fn is_at_rest(pose: &Pose) -> bool {
     const LIMIT: f64 = MIN_SPEED_MM_PER_S * (1.0 - 1e-9);
     let [x, y] = [pose.velocity.x_mm_per_s, pose.velocity.y_mm_per_s];
     pose.angular_rad_per_s == 0.0 && x * x + y * y < LIMIT * LIMIT
+}
+
+/// The pose, at rest if its motion is not finite, which is counted; `None` if its place is not.
+pub(crate) fn finite_pose(pose: &Pose, counters: &mut Counters) -> Option<Pose> {
+    let is_placed = pose.position.is_finite() && pose.angle_deg.is_finite();
+    let is_moving = pose.velocity.is_finite() && pose.angular_rad_per_s.is_finite();
+    counters.poses_not_finite += u64::from(!(is_placed && is_moving));
+    is_placed.then(|| if is_moving { *pose } else { pose.at_rest() })
 }

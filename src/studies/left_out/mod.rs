@@ -1,12 +1,12 @@
 //! The study of what is left out: what every saving saves, and that it changes nothing.
 //!
-//! Six scenes are rendered with all savings, with none, and with each alone. With a saving off,
-//! what it would leave out is evaluated and thrown away. Savings of other floors are listed beside
-//! them: whoever has one hands it in.
+//! Six scenes are rendered and what is left out is counted. Each scene is also built without the
+//! textiles that no contactor touches: it must feel the same to the bit, and what it costs less is
+//! what leaving them out still costs. Savings of other floors are listed beside them: whoever has
+//! one hands it in.
 
 mod saving;
 mod scenes;
-mod shares;
 mod sinks;
 
 pub(crate) use saving::SavingRule;
@@ -14,21 +14,13 @@ use saving::{NeverPlaced, OfRendering};
 use scenes::Case;
 use sinks::Unheard;
 
-use super::{Bench, Effort, Findings, ReportError, Row, Study};
+use super::{Bench, Findings, ReportError, Row, Study};
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::{LoadedScene, Pose};
-use selvedge_render::{Counters, RenderScene, Rule, Rules};
-use selvedge_textile::surface::{Direction, Surface};
+use selvedge_render::{Counters, RenderScene, Rule};
 
 /// Methods that savings are tried with: what leaves out bins, and what looks powers up.
 const METHODS: [Method; 2] = [Method::Banded, Method::Table];
-/// What one textile at rest may cost with all savings, as a share of its cost with none.
-const PROMISED_SHARE: f64 = 0.05;
-/// Contactors times textiles from which `banded` without savings takes the better part of a second
-/// a tick: measured few times, and not at all where the report is to be quick.
-const HEAVY: usize = 10_000;
-/// How often it is measured then.
-const FEW: usize = 3;
 
 /// What every saving leaves out, and what that saves.
 #[derive(Debug, Default)]
@@ -51,12 +43,12 @@ impl Study for LeftOutStudy {
     }
 
     fn question(&self) -> &'static str {
-        "What does a tick cost with every saving, with none and with each alone, and is what is \
-         felt the same?"
+        "What does a tick leave out, what does it cost beside a scene of nothing but what is \
+         touched, and is what is felt the same?"
     }
 
     fn reference(&self) -> &'static str {
-        "The same method with every saving in force."
+        "The same method on the scene as it is."
     }
 
     fn error_measure(&self) -> (&'static str, &'static str) {
@@ -75,14 +67,9 @@ impl Study for LeftOutStudy {
             for (nth, method) in METHODS.into_iter().enumerate() {
                 let done = number * METHODS.len() + nth;
                 bench.step(done as f64 / n_steps, case.name)?;
-                let rows = rows(bench, case, method)?;
-                findings
-                    .rows
-                    .extend(share_row(&rows, case, method, number == 0));
-                findings.rows.extend(rows);
+                findings.rows.extend(rows(bench, case, method)?);
             }
         }
-        findings.plots.push(shares::plot(&findings.rows, &cases));
         findings.rows.extend(library_rows(bench)?);
         findings.rows.extend(sinks::rows(bench)?);
         findings
@@ -93,84 +80,76 @@ impl Study for LeftOutStudy {
     }
 }
 
+/// A row for the scene as it is, one for that of nothing but what is touched, and one for what each
+/// saving of the method left out.
+fn rows(bench: &mut Bench<'_>, case: &Case, method: Method) -> Result<Vec<Row>, ReportError> {
+    let mut as_it_is = prepared(&case.scene, method)?;
+    let expected = felt(&mut as_it_is, &case.poses);
+    let counters = *as_it_is.counters();
+    let mut touched = prepared(&touched_only(case, &mut as_it_is), method)?;
+    let found = felt(&mut touched, &case.poses);
+    let mut rows = Vec::new();
+    for (setting, felt, renderer) in [
+        (ALL, &expected, &mut as_it_is),
+        ("only what is touched", &found, &mut touched),
+    ] {
+        let cost = bench.time(case.poses.len(), || {
+            for pose in &case.poses {
+                renderer.tick(std::slice::from_ref(pose));
+            }
+        });
+        rows.push(Row {
+            method: method.name().to_owned(),
+            setting: setting.to_owned(),
+            case: case.name.to_owned(),
+            error: Some(largest_difference(felt, &expected)),
+            promised: Some(0.0),
+            cost: Some(cost),
+            ..Row::default()
+        });
+    }
+    let applied = Rule::ALL.into_iter().filter(|rule| applies(*rule, method));
+    rows.extend(applied.map(|rule| Row {
+        method: method.name().to_owned(),
+        case: case.name.to_owned(),
+        more: more_of(rule, &counters),
+        ..row_of(&OfRendering { rule, counters })
+    }));
+    Ok(rows)
+}
+
+fn prepared(scene: &RenderScene, method: Method) -> Result<ArrayRenderer, ReportError> {
+    let accuracy = Accuracy::default();
+    Ok(ArrayRenderer::prepare(scene, method, &accuracy)?)
+}
+
 /// The savings that a method knows.
 fn applies(rule: Rule, method: Method) -> bool {
     let is_of_bins = matches!(rule, Rule::AboveBand | Rule::BelowFloor);
     !is_of_bins || method == Method::Banded
 }
 
-/// The sets of savings to try, by name.
-fn sets(case: &Case, method: Method, effort: Effort) -> Vec<(Option<Rule>, Rules)> {
-    let n_touches = n_touches(case);
-    let is_banded = method == Method::Banded;
-    let mut sets = vec![(None, Rules::ALL)];
-    if is_banded && n_touches > effort.pick(HEAVY, usize::MAX) {
-        return sets;
-    }
-    sets.push((None, Rules::NONE));
-    if is_banded && n_touches > effort.pick(1000, usize::MAX) {
-        return sets;
-    }
-    let alone = Rule::ALL.into_iter().filter(|rule| applies(*rule, method));
-    sets.extend(alone.map(|rule| (Some(rule), Rules::only(rule))));
-    sets
-}
-
-/// A row for every set of savings.
-fn rows(bench: &mut Bench<'_>, case: &Case, method: Method) -> Result<Vec<Row>, ReportError> {
-    let all = ArrayRenderer::prepare(&case.scene, method, &Accuracy::default())?;
-    let poses = &timed(case, method, bench.effort)[..];
-    let mut with_all = all.clone();
-    let expected = felt(&mut with_all, poses);
-    let floor_um = all.bound().floor * unfiltered_um(&case.scene);
-    let mut rows = Vec::new();
-    for (alone, rules) in sets(case, method, bench.effort) {
-        let mut renderer = all.clone().with_rules(rules);
-        let found = felt(&mut renderer, poses);
-        let more = more_of(alone, [&renderer, &with_all]);
-        let is_below_floor = method == Method::Banded && !rules.has(Rule::BelowFloor);
-        let feel_all = || {
-            for pose in poses {
-                renderer.tick(std::slice::from_ref(pose));
+/// The same scene without the textiles that no contactor touches.
+fn touched_only(case: &Case, renderer: &mut ArrayRenderer) -> RenderScene {
+    let mut is_touched = vec![false; case.scene.textiles.len()];
+    for pose in &case.poses {
+        for frame in renderer.tick(std::slice::from_ref(pose)) {
+            for textile in (0..frame.n_contactors()).filter_map(|i| frame.textile(i)) {
+                is_touched[textile] = true;
             }
-        };
-        let is_heavy = method == Method::Banded && n_touches(case) > HEAVY;
-        let cost = if is_heavy {
-            bench.time_repeated(FEW, poses.len(), feel_all)
-        } else {
-            bench.time(poses.len(), feel_all)
-        };
-        rows.push(Row {
-            method: method.name().to_owned(),
-            setting: match alone {
-                Some(rule) => format!("only {}", rule.name()),
-                None if rules == Rules::ALL => ALL.to_owned(),
-                None => NONE.to_owned(),
-            },
-            case: case.name.to_owned(),
-            error: Some(largest_difference(&found, &expected)),
-            promised: Some(if is_below_floor { floor_um } else { 0.0 }),
-            cost: Some(cost),
-            more,
-            ..Row::default()
-        });
+        }
     }
-    Ok(rows)
+    let mut scene = case.scene.clone();
+    let mut is_touched = is_touched.into_iter();
+    scene.textiles.retain(|_| is_touched.next() == Some(true));
+    scene
 }
 
-/// What a saving left out in a tick, alone and beside all others.
-fn more_of(alone: Option<Rule>, renderers: [&ArrayRenderer; 2]) -> Vec<(&'static str, String)> {
-    let Some(rule) = alone else {
-        return Vec::new();
-    };
-    let [by_itself, of_all] = renderers.map(|renderer| {
-        let counters = *renderer.counters();
-        let left_out = OfRendering { rule, counters }.left_out();
-        (left_out as f64 / counters.ticks.max(1) as f64).to_string()
-    });
+/// What a saving left out in a tick.
+fn more_of(rule: Rule, counters: &Counters) -> Vec<(&'static str, String)> {
+    let a_tick = rule.left_out(counters) as f64 / counters.ticks.max(1) as f64;
     vec![
-        ("left_out_a_tick", by_itself),
-        ("left_out_a_tick_of_all", of_all),
+        ("left_out_a_tick", a_tick.to_string()),
         ("left_out", rule.unit().to_owned()),
     ]
 }
@@ -178,40 +157,6 @@ fn more_of(alone: Option<Rule>, renderers: [&ArrayRenderer; 2]) -> Vec<(&'static
 /// How settings with all savings and with none are called.
 const ALL: &str = "all";
 const NONE: &str = "none";
-
-/// What all savings cost as a share of none.
-fn share_row(rows: &[Row], case: &Case, method: Method, is_promised: bool) -> Option<Row> {
-    let cost_s = |setting: &str| {
-        let found = rows.iter().find(|row| row.setting == setting);
-        found.and_then(|row| row.cost).map(|cost| cost.cpu_s)
-    };
-    let share = cost_s(ALL)? / cost_s(NONE)?;
-    Some(Row {
-        method: method.name().to_owned(),
-        setting: "cost with all as a share of none".to_owned(),
-        case: case.name.to_owned(),
-        error: Some(share),
-        promised: is_promised.then_some(PROMISED_SHARE),
-        ..Row::default()
-    })
-}
-
-/// The poses that a method is measured on: all, or, where a tick without savings takes long, a few
-/// of them.
-fn timed(case: &Case, method: Method, effort: Effort) -> Vec<Pose> {
-    let n_wanted = match method {
-        Method::Table => case.poses.len(),
-        _ => (effort.pick(200, 2000) / n_touches(case).max(1)).max(1),
-    };
-    let n_step = case.poses.len().div_ceil(n_wanted).max(1);
-    case.poses.iter().step_by(n_step).copied().collect()
-}
-
-/// Contactors times textiles.
-fn n_touches(case: &Case) -> usize {
-    let n_contactors: usize = case.scene.displays.iter().map(|d| d.offsets.len()).sum();
-    n_contactors * case.scene.textiles.len()
-}
 
 /// Amplitudes of every tick and contactor, µm.
 fn felt(renderer: &mut ArrayRenderer, poses: &[Pose]) -> Vec<[f64; 2]> {
@@ -236,24 +181,6 @@ fn largest_difference(found: &[[f64; 2]], expected: &[[f64; 2]]) -> f64 {
         }
     });
     differences.fold(0.0, f64::max)
-}
-
-/// The largest amplitude that any point of a scene would have unfiltered, µm.
-fn unfiltered_um(scene: &RenderScene) -> f64 {
-    let most = |surface: &Surface, directions: [Direction; 2]| {
-        let of = |d: Direction| {
-            let spectra = surface.spectra(d);
-            let total = |point| spectra.powers_um2(point).iter().sum::<f64>();
-            (0..spectra.n_points()).map(total).fold(0.0, f64::max)
-        };
-        of(directions[0]).max(of(directions[1]))
-    };
-    let squares = scene.textiles.iter().map(|placed| {
-        let warp = [Direction::WarpForward, Direction::WarpReverse];
-        let weft = [Direction::WeftForward, Direction::WeftReverse];
-        2.0 * (most(&placed.surface, warp) + most(&placed.surface, weft))
-    });
-    squares.fold(0.0, f64::max).sqrt()
 }
 
 /// What it costs to load a scene, and what it would with all that its library knows.
@@ -308,12 +235,7 @@ fn notes(study: &LeftOutStudy) -> Vec<String> {
     };
     let of_rendering = Rule::ALL.map(|rule| {
         let counters = Counters::default();
-        let exact = if rule.is_exact() {
-            "Amplitudes are the same to the bit."
-        } else {
-            "Amplitudes differ by less than the floor's share of the unfiltered amplitude."
-        };
-        format!("{} {exact}", note(&OfRendering { rule, counters }))
+        note(&OfRendering { rule, counters })
     });
     let never_placed = NeverPlaced {
         n_known: 0,

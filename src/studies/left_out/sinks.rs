@@ -146,7 +146,7 @@ fn engine(listeners: Listeners) -> Result<(Engine, Vec<[f64; 2]>), ReportError> 
         on_news: None,
     };
     let mut engine = Engine::without_thread(config, Instant::now())?;
-    engine.send(Command::Glimpses(listeners.window))?;
+    engine.send(Command::SampleTicks(listeners.window))?;
     if listeners.device {
         arm(&mut engine)?;
     }
@@ -193,7 +193,7 @@ fn advance(engine: &mut Engine, n_ticks: u64) {
     let end = engine.snapshot().tick + n_ticks;
     while engine.snapshot().tick < end {
         engine.advance_ticks(1);
-        while engine.next_glimpse().is_some() {}
+        while engine.next_tick_sample().is_some() {}
         while engine.next_notice().is_some() {}
     }
 }

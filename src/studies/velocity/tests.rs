@@ -18,11 +18,11 @@ fn error_of(findings: &Findings, method: &str, case_end: &str) -> f64 {
 #[test]
 fn a_quick_study_has_every_method_and_numbers_that_repeat() {
     let (first, second) = (quick(&VelocityStudy, 7), quick(&VelocityStudy, 7));
-    // Two pointers, five methods and maybe the default apart, four strokes and all of them.
-    assert!(first.rows.len() >= 2 * 5 * 5, "{}", first.rows.len());
+    // Two pointers, two methods, four strokes and all of them.
+    assert!(first.rows.len() >= 2 * 2 * 5, "{}", first.rows.len());
     assert_complete_and_same(&first, &second);
     assert_eq!(first.plots.len(), 3);
-    assert!(first.plots[0].1.series.len() == 5, "a series a method");
+    assert!(first.plots[0].1.series.len() == 2, "a series a method");
     assert!(first.notes.len() > 5, "{:?}", first.notes);
 }
 
@@ -30,10 +30,8 @@ fn a_quick_study_has_every_method_and_numbers_that_repeat() {
 fn smoothing_helps_a_steady_stroke_and_a_mouse_at_rest_is_at_rest() {
     let findings = quick(&VelocityStudy, 7);
     let raw = error_of(&findings, "finite difference", "constant 100 mm/s");
-    for method in ["line fit", "Kalman"] {
-        let smooth = error_of(&findings, method, "constant 100 mm/s");
-        assert!(smooth < 0.75 * raw, "{method}: {smooth} of {raw} mm/s");
-    }
+    let smooth = error_of(&findings, "Kalman", "constant 100 mm/s");
+    assert!(smooth < 0.75 * raw, "{smooth} of {raw} mm/s");
     let at_rest = |row: &&Row| row.case == "mouse, 125 Hz, 0.1 mm; rest";
     assert!(
         findings

@@ -230,7 +230,7 @@ impl Bench {
         form.take_up(kept.sessions_folder.as_deref(), kept.design.as_deref());
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
-        self.send(Command::Glimpses(true));
+        self.send(Command::SampleTicks(true));
         self.show_document();
     }
 

@@ -135,10 +135,10 @@ pub(crate) fn live_view(
         play,
         turn_deg: snapshot.turn_deg,
         status: Status {
-            method: snapshot.method.name(),
+            method: snapshot.rendering.method.name(),
             tick_cost_s: (snapshot.clock.cost_ns > 0)
                 .then_some(snapshot.clock.cost_ns as f64 * 1e-9),
-            bound_db: snapshot.bound.level_db,
+            bound_db: snapshot.rendering.bound.level_db,
             missed: snapshot.clock.missed,
             late: snapshot.clock.late,
             felt_age_s: snapshot.pointer.felt_age.map(|age| age.as_secs_f64()),

@@ -394,7 +394,7 @@ pub(crate) fn place_words(under: &Under) -> String {
 mod tests {
     use super::*;
     use eframe::egui::vec2;
-    use selvedge_engine::Glimpse;
+    use selvedge_engine::TickSample;
 
     fn layout(width: f32, height: f32) -> Option<Layout> {
         Layout::of(
@@ -421,9 +421,9 @@ mod tests {
     fn the_picture_reads_newest_right_and_high_up() {
         let (mut ring, mut history) = (ColumnRing::default(), History::default());
         for tick in [1, 2, 3, 90, 91] {
-            history.take(Glimpse {
+            history.take(TickSample {
                 tick,
-                ..Glimpse::default()
+                ..TickSample::default()
             });
         }
         ring.catch_up(&history, |entry, rows| {

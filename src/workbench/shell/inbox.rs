@@ -111,7 +111,7 @@ impl Bench {
     }
 
     fn take_snapshot(&mut self, ctx: &egui::Context) {
-        while let Some(glimpse) = self.engine.next_glimpse() {
+        while let Some(glimpse) = self.engine.next_tick_sample() {
             self.transient.history.take(glimpse);
         }
         let snapshot = self.engine.snapshot();
@@ -133,7 +133,7 @@ impl Bench {
                 .give(crate::tools::bridge::back::notice(&found));
         }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
-        transient.reference_db = snapshot.compression_reference_db;
+        transient.reference_db = snapshot.rendering.compression_reference_db;
         let mut live = query::live_view(snapshot, interval_s, &transient.audition);
         if let Some(bridge) = &mut live.bridge
             && let Some(log) = self.engine.session_log()

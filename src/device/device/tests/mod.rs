@@ -12,7 +12,7 @@ use crate::message::{
     Ping, Stop, StopHow, frame, kind,
 };
 
-pub const SESSION: u32 = 0x00c0_ffee;
+pub(crate) const SESSION: u32 = 0x00c0_ffee;
 
 /// A device on a bench: what it sends and logs, decoded.
 struct Bench {
@@ -43,7 +43,7 @@ impl DeviceSink for Collected {
 }
 
 /// What a host of 24 contactors asks for.
-pub fn wish() -> Config {
+pub(crate) fn wish() -> Config {
     Config {
         mode: 0,
         flags: 0,
@@ -57,7 +57,7 @@ pub fn wish() -> Config {
 }
 
 /// HELLO, CONFIG and ARM of such a host.
-pub fn opening() -> [Packet; 3] {
+pub(crate) fn opening() -> [Packet; 3] {
     let packets = [
         Hello::new(SESSION).packet(1),
         wish().request(2, 24),

@@ -170,7 +170,7 @@ fn replies_to_older_requests_do_not_arm() {
     };
     host.on_message(start, &ack(7));
     assert_eq!(host.state(), BridgeState::Ready, "nobody asked");
-    let seq = host.sequence.next().wrapping_add(1);
+    let seq = host.outbox.sequence.next().wrapping_add(1);
     host.arm(start);
     host.on_message(start, &ack(seq.wrapping_sub(1)));
     host.on_message(start, &ack(seq.wrapping_add(1)));
@@ -190,7 +190,7 @@ fn replies_to_older_requests_do_not_arm() {
 fn a_refused_arm_says_why() {
     let start = Instant::now();
     let mut host = ready_alone(start);
-    let seq = host.sequence.next().wrapping_add(1);
+    let seq = host.outbox.sequence.next().wrapping_add(1);
     host.arm(start);
     let ack = Ack {
         kind: kind::ARM,
@@ -231,7 +231,7 @@ fn news_are_bounded_when_nobody_takes_them() {
         );
         host.ping(start);
     }
-    assert!(host.events.len() <= MOST_EVENTS && host.packets.len() <= MOST_PACKETS);
+    assert!(host.events.len() <= MAX_EVENTS && host.outbox.packets.len() <= MAX_PACKETS);
 }
 
 proptest! {
@@ -272,7 +272,7 @@ proptest! {
             host.on_time(now);
             prop_assert!(!host.state().takes_frames());
             prop_assert!(host.frame(now, &[[50.0, 50.0]; 24]).is_none());
-            prop_assert!(host.events.len() <= MOST_EVENTS && host.packets.len() <= MOST_PACKETS);
+            prop_assert!(host.events.len() <= MAX_EVENTS && host.outbox.packets.len() <= MAX_PACKETS);
         }
     }
 }

@@ -189,7 +189,7 @@ fn calibration_and_wiring_reach_the_device() {
     };
     profile.set_calibration(0, strong);
     profile.wiring = Some(Wiring {
-        device_uid: crate::DeviceUid(*b"selvedge-emu"),
+        device_uid: DeviceUid(*b"selvedge-emu"),
         channels: (0..24).rev().collect(),
     });
     let mut pair = Pair::new();

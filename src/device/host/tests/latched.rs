@@ -3,8 +3,8 @@
 use super::*;
 use crate::device::{AppliedFrame, DeviceCore, DeviceSink};
 use crate::framing::Decoder;
-use crate::host::{CutSamples, DelaySource, Waveform};
-use crate::session_log::Note;
+use crate::host::{CutSamples, Waveform};
+use crate::session_log::{DelaySource, Note};
 
 /// What the device says, and at which ticks frames took effect.
 #[derive(Default)]

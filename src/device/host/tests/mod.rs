@@ -5,10 +5,14 @@ mod array;
 mod latched;
 mod together;
 
-use super::frames::soft_start_gain;
+use super::clock::TICK;
+use super::drive::soft_start_gain;
 use super::*;
+use crate::codes::Coder;
 use crate::device::DeviceModel;
-use crate::message::{Ack, AckCode, DeviceMessage, DeviceState, Fault, fault_bit, frame};
+use crate::message::{
+    Ack, AckCode, DeviceCounters, DeviceMessage, DeviceState, Fault, fault_bit, frame,
+};
 use crate::wire::{Faults, LaneFaults, Simulation};
 
 const NONCE: u32 = 0x1234_5678;
@@ -28,7 +32,7 @@ fn ready_alone(now: Instant) -> HostSession {
         now,
         &DeviceMessage::Caps(DeviceModel::default().caps(NONCE, 1)),
     );
-    let config = host.wish();
+    let config = host.drive.request(&host.device);
     host.on_message(now, &DeviceMessage::Cfg(config));
     assert_eq!(host.state(), BridgeState::Ready);
     while host.next_packet().is_some() {}

@@ -141,8 +141,8 @@ fn a_fault_disarms_is_shown_and_can_be_cleared() {
 fn missing_ticks_are_estimated_and_a_suspended_host_is_not_lost() {
     let mut pair = Pair::streaming(500);
     let tick = pair.host.status().unwrap().tick;
-    let received = pair.host.status_received().unwrap();
-    let later = received + Duration::from_millis(37);
+    let start = pair.host.device.tick_start.unwrap();
+    let later = start + Duration::from_millis(37);
     let (stamp, _) = pair.host.frame(later, &[[1.0, 1.0]; 24]).unwrap();
     assert_eq!(stamp.apply_tick, tick + 2);
     // An hour passes for the host alone, then it goes on.

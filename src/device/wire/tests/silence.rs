@@ -3,8 +3,7 @@
 use super::*;
 use crate::device::tests::opening;
 use crate::framing::Packet;
-use crate::host::DeviceCounters;
-use crate::message::frame;
+use crate::message::{DeviceCounters, frame};
 
 /// A device that is armed through its link, without a host that would answer.
 fn armed(faults: &Faults) -> (WiredDevice, Vec<u8>, u64) {

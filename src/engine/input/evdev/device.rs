@@ -14,11 +14,12 @@ use input_linux::{AbsoluteAxis, EvdevHandle, InputProperty, Key};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::time::{ClockId, clock_gettime};
 
+use super::super::InputError;
 use super::super::feed::{FeedItem, FeedSender, feed};
-use super::super::{InputError, PointerInput};
+use super::super::pointer::{PointerInput, SourceKind};
 use super::decode::{Contact, Decoder, EVENT_BYTES, Event, MOST_SLOTS, Report, Slot, State, code};
 use super::{Area, AxisRange, InputDevice};
-use crate::{PointerSample, SourceKind};
+use crate::PointerSample;
 
 const FOLDER: &str = "/dev/input";
 /// `CLOCK_MONOTONIC`, which the engine's clock is.
@@ -33,7 +34,7 @@ const NAP: Timespec = Timespec {
 
 type Handle = EvdevHandle<File>;
 
-/// The devices that tell places, in the order of their numbers; in place of one that may not be
+/// The devices that tell places, in the command of their numbers; in place of one that may not be
 /// read stands why.
 ///
 /// # Errors

@@ -8,24 +8,22 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::build::NodeGains;
+use super::build::{NodeGains, tables_of};
+use super::grid::{Density, Grid};
 use super::segments::Segments;
-use super::{Density, MAX_TABLE_BYTES, Table, build, units_um2};
-use crate::RenderScene;
-use crate::array::{Accuracy, Method, auto};
+use super::stored::{Table, units_um2};
+use super::touched::MAX_TABLE_BYTES;
 use crate::plan::ScenePlan;
+#[cfg(test)]
+use crate::{
+    RenderScene,
+    array::{Accuracy, Method, auto},
+};
 use selvedge_textile::surface::LocalSpectra;
 use selvedge_textile::tactile::Filters;
 
 /// Filters and budgets whose nodes are kept.
 const MAX_GRIDS: usize = 8;
-
-/// The nodes of tables for filters and an error budget, and the error that they keep to.
-#[derive(Debug, Clone)]
-pub(in crate::array) struct Grid {
-    pub(in crate::array) density: Density,
-    pub(super) segments: Arc<Segments>,
-}
 
 /// Filters as a key: the bits of their width, or none for those of the receptors.
 type FiltersKey = Option<u64>;
@@ -75,7 +73,7 @@ impl Default for TableCache {
 impl TableCache {
     /// An empty cache. Once it holds more than so many bytes, it forgets what the newest scene does
     /// not use.
-    pub fn with_limit(max_bytes: usize) -> Self {
+    pub(crate) fn with_limit(max_bytes: usize) -> Self {
         Self {
             spectra: BTreeMap::new(),
             grids: Vec::new(),
@@ -91,7 +89,8 @@ impl TableCache {
     }
 
     /// Whether preparing this scene would compute no table: it is a matter of microseconds then.
-    pub fn has_all(&self, scene: &RenderScene, method: Method, accuracy: &Accuracy) -> bool {
+    #[cfg(test)]
+    pub(crate) fn has_all(&self, scene: &RenderScene, method: Method, accuracy: &Accuracy) -> bool {
         if !method.may_tabulate() {
             return true;
         }
@@ -119,7 +118,7 @@ impl TableCache {
     }
 
     /// The nodes of tables for these filters within this budget.
-    pub(in crate::array) fn grid(&mut self, filters: &Filters, budget_db: f64) -> Grid {
+    pub(crate) fn grid(&mut self, filters: &Filters, budget_db: f64) -> Grid {
         if let Some(grid) = self.known_grid(filters, budget_db) {
             return grid.clone();
         }
@@ -179,7 +178,7 @@ impl TableCache {
             .filter(|(spectra, unit_um2)| self.known_table(spectra, key_of(*unit_um2)).is_none())
             .collect();
         let made: Vec<(&LocalSpectra, f64)> = missing.iter().map(|(s, u)| (&***s, *u)).collect();
-        let made = build::tables_of(grid.segments.nodes(), &made, filters);
+        let made = tables_of(grid.segments.nodes(), &made, filters);
         for ((spectra, unit_um2), powers) in missing.into_iter().zip(made) {
             let n_points = spectra.n_points();
             let table = Arc::new(Table { n_points, powers });
@@ -207,6 +206,7 @@ impl TableCache {
         found.map(|(_, grid)| grid)
     }
 
+    #[cfg(test)]
     fn known_largest(&self, spectra: &Arc<LocalSpectra>) -> Option<f64> {
         let known = self.spectra.get(&place_of(spectra));
         known.map(|known| known.largest_um2)

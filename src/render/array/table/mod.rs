@@ -4,30 +4,29 @@
 //! 1 kHz and jumps there; tables are cut at those speeds and keep both values. Inside, linear
 //! interpolation over log speed keeps within an error known from the filter alone.
 
-mod bound;
 mod build;
 mod cache;
+mod grid;
 mod segments;
+mod stored;
 mod touched;
 
-pub(super) use bound::Density;
-pub(super) use cache::Grid;
 pub use cache::TableCache;
+pub(super) use grid::Grid;
+pub(super) use touched::{MAX_TABLE_BYTES, table_bytes};
 
-use std::hint::black_box;
 use std::sync::Arc;
 
 use super::ErrorBound;
 use crate::plan::{
-    Axis, Component, Contacts, Counters, Feel, Motion, PointIndex, Rule, ScenePlan, TextilePlan,
+    Axis, Component, Contacts, Counters, Feel, Motion, PointIndex, ScenePlan, TextilePlan,
 };
 use crate::{RenderError, RenderScene, single};
+use grid::MIN_POWER_GAIN;
 use segments::{Segments, Spot};
-use selvedge_textile::surface::Direction;
-use touched::{Heard, TouchedTables, touched_bytes};
+use stored::Table;
+use touched::{Heard, TouchedTables};
 
-/// Most bytes that the tables of a scene may take.
-pub(super) const MAX_TABLE_BYTES: usize = 256_000_000;
 /// Points of a direction up to this many times the contactors are interpolated all at once.
 const BLEND_ALL: usize = 2;
 
@@ -42,36 +41,6 @@ pub(super) struct TableEvaluator {
     blended: [Vec<[f32; 2]>; 2],
     /// In place of the tables of areal spectra.
     touched: Option<Box<TouchedTables>>,
-}
-
-/// One set of spectra over all nodes.
-#[derive(Debug, Clone)]
-struct Table {
-    n_points: usize,
-    /// Node by node a row of points; a power is `[40 Hz, 320 Hz]` in units of the textile's.
-    powers: Vec<[f32; 2]>,
-}
-
-/// A direction at one speed: the rows before and after, and the share of the way between.
-#[derive(Clone, Copy)]
-struct Rows<'a> {
-    before: &'a [[f32; 2]],
-    after: &'a [[f32; 2]],
-    share: f32,
-}
-
-/// Roughly how many bytes the tables of a scene take: those that are made when preparing, and
-/// those that areal spectra are given to grow in, as much of their own size as there is room for.
-pub(super) fn table_bytes(plan: &ScenePlan, grid: &Grid) -> usize {
-    let n_nodes = grid.segments.nodes().len();
-    let profiles = plan.pool.iter().filter(|spectra| !spectra.is_areal());
-    let n_points: usize = profiles.map(|spectra| spectra.n_points()).sum();
-    let prepared = n_points
-        .saturating_mul(n_nodes)
-        .saturating_mul(size_of::<[f32; 2]>());
-    let room = MAX_TABLE_BYTES.saturating_sub(prepared);
-    let touched = touched_bytes(plan, grid, room).unwrap_or(MAX_TABLE_BYTES);
-    prepared.saturating_add(touched)
 }
 
 impl TableEvaluator {
@@ -106,7 +75,7 @@ impl TableEvaluator {
         };
         let bound = ErrorBound {
             level_db: grid.density.level_db,
-            floor: bound::LEAST_POWER_GAIN.sqrt(),
+            floor: MIN_POWER_GAIN.sqrt(),
         };
         Ok((evaluator, bound))
     }
@@ -160,12 +129,12 @@ impl TableEvaluator {
                 is_reverse,
             } = component
             else {
-                contacts.count_left_out(component, n as u64, counters);
-                self.idle(textile, axis, contacts, counters);
+                counters.left_out(component, n as u64);
                 continue;
             };
             let d = axis.direction(is_reverse).index();
-            let spot = self.find_for(n, speed_mm_per_s, contacts, counters);
+            let spot = self.segments.find(speed_mm_per_s);
+            counters.speeds_repeated += n as u64 - 1;
             heard[axis as usize] = self.heard_areally(textile, d, spot);
             if heard[axis as usize].is_some() {
                 counters.directions_evaluated += n as u64;
@@ -173,7 +142,7 @@ impl TableEvaluator {
             }
             let table = &self.tables[textile.spectra[d]];
             let rows = table.rows(spot);
-            if table.n_points <= BLEND_ALL * n && contacts.rules.has(Rule::SamePoint) {
+            if table.n_points <= BLEND_ALL * n {
                 rows.blend(&mut self.blended[axis as usize]);
                 points[axis as usize] = textile.points[d].along;
                 counters.directions_evaluated += table.n_points.min(n) as u64;
@@ -212,47 +181,6 @@ impl TableEvaluator {
         })
     }
 
-    /// Where a speed that `n` contactors share lies.
-    #[inline]
-    fn find_for(
-        &self,
-        n: usize,
-        speed_mm_per_s: f64,
-        contacts: &Contacts<'_>,
-        counters: &mut Counters,
-    ) -> Spot {
-        if contacts.rules.has(Rule::SameSpeed) {
-            counters.speeds_repeated += n as u64 - 1;
-        } else {
-            for _ in 1..n {
-                black_box(self.segments.find(black_box(speed_mm_per_s)));
-            }
-        }
-        self.segments.find(speed_mm_per_s)
-    }
-
-    /// Looks up for nothing what contactors that share a velocity do not feel along an axis.
-    fn idle(
-        &mut self,
-        textile: &TextilePlan,
-        axis: Axis,
-        contacts: &Contacts<'_>,
-        counters: &mut Counters,
-    ) {
-        let owned = (0..contacts.owners.len()).filter(|&contactor| contacts.owns(contactor));
-        let mut n = 0;
-        for feel in owned.map_while(|contactor| contacts.idle_feel(textile, axis, contactor)) {
-            self.look_up_idle(feel, counters);
-            n += 1;
-        }
-        counters.directions_evaluated += n;
-    }
-
-    fn look_up_idle(&mut self, mut feel: Feel, counters: &mut Counters) {
-        feel.speed_mm_per_s = black_box(feel.speed_mm_per_s);
-        black_box(self.look_up(feel, counters));
-    }
-
     #[inline]
     fn look_up(&mut self, feel: Feel, counters: &mut Counters) -> [f32; 2] {
         let spot = self.segments.find(feel.speed_mm_per_s);
@@ -275,10 +203,6 @@ impl TableEvaluator {
         contacts.for_each_owned(powers, |contactor, power| {
             for axis in Axis::BOTH {
                 let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
-                    if let Some(feel) = contacts.idle_feel(textile, axis, contactor) {
-                        self.look_up_idle(feel, counters);
-                        counters.directions_evaluated += 1;
-                    }
                     continue;
                 };
                 add(power, self.look_up(feel, counters));
@@ -288,54 +212,8 @@ impl TableEvaluator {
     }
 }
 
-impl Table {
-    fn n_bytes(&self) -> usize {
-        size_of_val(&self.powers[..])
-    }
-
-    fn rows(&self, spot: Spot) -> Rows<'_> {
-        let rows = &self.powers[spot.node * self.n_points..][..2 * self.n_points];
-        let (before, after) = rows.split_at(self.n_points);
-        Rows {
-            before,
-            after,
-            share: spot.share,
-        }
-    }
-}
-
-impl Rows<'_> {
-    #[inline]
-    fn at(self, point: usize) -> [f32; 2] {
-        let ([a, b], [c, d]) = (self.before[point], self.after[point]);
-        [a + (c - a) * self.share, b + (d - b) * self.share]
-    }
-
-    fn blend(self, out: &mut [[f32; 2]]) {
-        for (out, (before, after)) in out.iter_mut().zip(self.before.iter().zip(self.after)) {
-            out[0] = before[0] + (after[0] - before[0]) * self.share;
-            out[1] = before[1] + (after[1] - before[1]) * self.share;
-        }
-    }
-}
-
 #[inline]
 fn add(power: &mut [f32; 2], [low, high]: [f32; 2]) {
     power[0] += low;
     power[1] += high;
-}
-
-/// What the powers of each set of spectra are stored as a share of, µm²: the largest power of any
-/// point of the surfaces that use it, so that very low and very high surfaces keep all digits.
-/// 0 for flat ones. `own` is the largest power of each set of spectra by itself.
-fn units_um2(plan: &ScenePlan, own: &[f64]) -> Vec<f64> {
-    let mut units = own.to_vec();
-    // A surface's four directions share a unit, because their powers are added.
-    for textile in &plan.textiles {
-        let unit = textile.spectra.iter().map(|&s| own[s]).fold(0.0, f64::max);
-        for d in Direction::ALL {
-            units[textile.spectra[d.index()]] = unit;
-        }
-    }
-    units
 }

@@ -11,16 +11,18 @@
 
 use std::sync::Arc;
 
-use super::Grid;
 use super::build::{NodeGains, normal};
+use super::grid::Grid;
 use super::segments::Spot;
 use crate::plan::{Contacts, Counters, PointGrid, ScenePlan};
 use selvedge_textile::surface::LocalSpectra;
 
+/// Most bytes that the tables of a scene may take.
+pub(crate) const MAX_TABLE_BYTES: usize = 256_000_000;
 /// No row holds this point's nodes; or a row holds no point's.
 const NONE: u32 = u32::MAX;
 /// Fewest points whose rows there must be room for.
-const LEAST_ROWS: usize = 1024;
+const MIN_ROWS: usize = 1024;
 
 /// Nodes of a row that stand beside each other: a line of the processor's cache.
 const LINE: usize = 8;
@@ -95,6 +97,20 @@ struct Area {
     per_unit: f64,
 }
 
+/// Roughly how many bytes the tables of a scene take: those that are made when preparing, and
+/// those that areal spectra are given to grow in, as much of their own size as there is room for.
+pub(crate) fn table_bytes(plan: &ScenePlan, grid: &Grid) -> usize {
+    let n_nodes = grid.segments.nodes().len();
+    let profiles = plan.pool.iter().filter(|spectra| !spectra.is_areal());
+    let n_points: usize = profiles.map(|spectra| spectra.n_points()).sum();
+    let prepared = n_points
+        .saturating_mul(n_nodes)
+        .saturating_mul(size_of::<[f32; 2]>());
+    let room = MAX_TABLE_BYTES.saturating_sub(prepared);
+    let touched = touched_bytes(plan, grid, room).unwrap_or(MAX_TABLE_BYTES);
+    prepared.saturating_add(touched)
+}
+
 /// How many points of a plan are areal.
 fn n_areal_points(plan: &ScenePlan) -> usize {
     let areal = plan.pool.iter().filter(|spectra| spectra.is_areal());
@@ -106,7 +122,7 @@ pub(super) fn touched_bytes(plan: &ScenePlan, grid: &Grid, room: usize) -> Optio
     let n_points = n_areal_points(plan);
     let row = row_bytes(grid.segments.nodes().len());
     let n_rows = n_points.min(room / row);
-    (n_rows >= n_points.min(LEAST_ROWS)).then(|| n_rows * row)
+    (n_rows >= n_points.min(MIN_ROWS)).then(|| n_rows * row)
 }
 
 /// Lines of a row that has so many nodes.

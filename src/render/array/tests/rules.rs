@@ -1,21 +1,14 @@
-//! Savings: amplitudes are the same to the bit without them, and what is left out is counted.
+//! Savings: what is left out changes no bit of any amplitude, and is counted.
 
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 
 use super::*;
-use crate::{Rule, Rules};
+use crate::Rule;
 use selvedge_foundation::numerics::Random;
 
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
-
-/// Every set of rules that is worth a try.
-fn sets() -> Vec<Rules> {
-    let of_rule = |rule| [Rules::only(rule), Rules::ALL.without(rule)];
-    let one_by_one = Rule::ALL.into_iter().flat_map(of_rule);
-    std::iter::once(Rules::NONE).chain(one_by_one).collect()
-}
 
 /// Up to four turned textiles of three surfaces, one of them areal, that overlap by chance, under
 /// 24 contactors.
@@ -73,28 +66,65 @@ fn felt(renderer: &mut ArrayRenderer, path: &[Pose]) -> Vec<([u64; 2], [u32; 2],
     felt
 }
 
+/// The same scene without the textiles that no contactor touches on a path.
+fn without_untouched(scene: &RenderScene, path: &[Pose]) -> (RenderScene, Vec<usize>) {
+    let mut renderer = renderer(scene, Method::Reference);
+    let mut touched: Vec<usize> = Vec::new();
+    for pose in path {
+        let frame = &renderer.tick(std::slice::from_ref(pose))[0];
+        touched.extend((0..frame.n_contactors()).filter_map(|contactor| frame.textile(contactor)));
+    }
+    touched.sort_unstable();
+    touched.dedup();
+    let mut lean = scene.clone();
+    lean.textiles = touched
+        .iter()
+        .map(|at| scene.textiles[*at].clone())
+        .collect();
+    (lean, touched)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
     #[test]
-    fn savings_keep_every_bit_of_every_amplitude(seed in any::<u64>()) {
+    fn what_no_contactor_touches_changes_no_bit_of_any_amplitude(seed in any::<u64>()) {
+        let mut random = Random::new(seed);
+        let scene = random_scene(&mut random);
+        let path = random_path(&mut random);
+        let (lean, touched) = without_untouched(&scene, &path);
+        for method in METHODS {
+            let expected = felt(&mut renderer(&scene, method), &path);
+            let found = felt(&mut renderer(&lean, method), &path);
+            let named = found.into_iter().map(|(a, b, textile)| (a, b, textile.map(|at| touched[at])));
+            prop_assert!(named.eq(expected), "{:?}", method);
+        }
+    }
+
+    #[test]
+    fn savings_of_banded_beside_its_floor_keep_every_bit_of_the_reference(seed in any::<u64>()) {
         let mut random = Random::new(seed);
         let scene = random_scene(&mut random);
         let path = random_path(&mut random);
         let exact = felt(&mut renderer(&scene, Method::Reference), &path);
+        let no_floor = Accuracy { banded_floor: 0.0, ..Accuracy::default() };
+        let mut banded = ArrayRenderer::prepare(&scene, Method::Banded, &no_floor).unwrap();
+        prop_assert!(felt(&mut banded, &path) == exact);
+        prop_assert_eq!((banded.bound().level_db, banded.bound().floor), (0.0, 0.0));
+    }
+
+    #[test]
+    fn what_ticks_repeat_is_what_each_tick_alone_renders(seed in any::<u64>()) {
+        let mut random = Random::new(seed);
+        let scene = random_scene(&mut random);
+        let path = random_path(&mut random);
         for method in METHODS {
             let prepared = renderer(&scene, method);
-            let expected = felt(&mut prepared.clone(), &path);
-            for rules in sets() {
-                let mut found = prepared.clone().with_rules(rules);
-                prop_assert_eq!(found.rules(), rules);
-                let found = felt(&mut found, &path);
-                // With the bins below its floor, banded sums just what the reference does.
-                let is_banded = method == Method::Banded;
-                let is_full = is_banded && !rules.has(Rule::BelowFloor);
-                let expected = if is_full { &exact } else { &expected };
-                prop_assert!(found == *expected, "{:?} with {:?}", method, rules);
-            }
+            let expected: Vec<_> = path
+                .iter()
+                .flat_map(|pose| felt(&mut prepared.clone(), std::slice::from_ref(pose)))
+                .collect();
+            prop_assert!(felt(&mut prepared.clone(), &path) == expected, "{:?}", method);
         }
     }
 }
@@ -128,39 +158,24 @@ fn busy_path() -> Vec<Pose> {
 }
 
 #[test]
-fn every_saving_counts_what_it_leaves_out_and_nothing_once_it_is_off() {
+fn every_saving_counts_what_it_leaves_out() {
     let (scene, path) = (busy_scene(), busy_path());
-    let left_out = |method: Method, rules: Rules, rule: Rule| {
-        let mut renderer = renderer(&scene, method).with_rules(rules);
+    let counters = METHODS.map(|method| {
+        let mut renderer = renderer(&scene, method);
         felt(&mut renderer, &path);
-        rule.left_out(renderer.counters())
-    };
+        *renderer.counters()
+    });
     for rule in Rule::ALL {
-        let counts = METHODS.map(|method| left_out(method, Rules::ALL, rule));
+        let counts = counters.map(|counters| rule.left_out(&counters));
         assert!(counts.into_iter().any(|n| n > 0), "{rule:?}: {counts:?}");
-        for method in METHODS {
-            let without = left_out(method, Rules::ALL.without(rule), rule);
-            assert_eq!(without, 0, "{rule:?} by {method:?}");
-        }
     }
-}
-
-#[test]
-fn without_savings_every_contactor_is_evaluated_on_every_textile_with_every_bin() {
-    let (scene, path) = (busy_scene(), busy_path());
-    let n_directions = (path.len() * scene.textiles.len() * 24 * 2) as u64;
-    for method in METHODS {
-        let mut renderer = renderer(&scene, method).with_rules(Rules::NONE);
-        felt(&mut renderer, &path);
-        let counters = renderer.counters();
-        assert_eq!(counters.directions_evaluated, n_directions, "{method:?}");
-        let n_bins = if method == Method::Table { 0 } else { 1000 };
-        assert_eq!(counters.bins_evaluated, n_bins * n_directions, "{method:?}");
-        assert_eq!(
-            counters.contactors_inside,
-            path.len() as u64 * 24,
-            "{method:?}"
-        );
+    for counters in counters {
+        // Each contactor's two directions in each tick on its own textile, once.
+        let n_directions = counters.directions_evaluated
+            + counters.directions_repeated
+            + counters.directions_at_rest
+            + counters.directions_over_speed;
+        assert_eq!(n_directions, 2 * counters.contactors_inside);
     }
 }
 
@@ -182,15 +197,4 @@ fn a_display_that_stands_is_where_it_was_and_sounds_once_it_moves() {
     assert!(renderer.tick(&[moving])[0].amplitudes_um()[0][0] > 0.0);
     assert_eq!(renderer.tick(&[rest])[0].amplitudes_um()[0], [0.0; 2]);
     assert_eq!(renderer.counters().displays_standing, 0);
-}
-
-#[test]
-fn without_its_floor_banded_promises_the_reference() {
-    let banded = renderer(&busy_scene(), Method::Banded);
-    let floor = Accuracy::default().banded_floor;
-    assert_eq!(banded.bound().floor, floor);
-    let full = banded.with_rules(Rules::ALL.without(Rule::BelowFloor));
-    assert_eq!((full.bound().level_db, full.bound().floor), (0.0, 0.0));
-    let again = full.with_rules(Rules::ALL);
-    assert_eq!(again.bound().floor, floor);
 }

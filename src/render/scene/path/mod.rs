@@ -129,11 +129,6 @@ impl ExplorationPath {
         &self.rows
     }
 
-    /// Whether the path carries its own velocities.
-    pub(crate) fn has_velocity(&self) -> bool {
-        self.has_velocity
-    }
-
     /// Time from the first row to the last, s.
     pub fn duration_s(&self) -> f64 {
         self.rows[self.rows.len() - 1].t_s - self.rows[0].t_s

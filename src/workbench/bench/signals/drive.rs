@@ -136,16 +136,16 @@ fn whole(bin: f64) -> usize {
 mod tests {
     use super::*;
     use crate::bench::signals::rows::{N_ROWS, row_of};
-    use selvedge_engine::Glimpse;
+    use selvedge_engine::TickSample;
 
     fn driven(ticks: std::ops::Range<u64>, watched_um: [f32; 2]) -> History {
         let mut history = History::default();
         for tick in ticks {
-            history.take(Glimpse {
+            history.take(TickSample {
                 tick,
                 watched: 7,
                 watched_um,
-                ..Glimpse::default()
+                ..TickSample::default()
             });
         }
         history
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(drive_um(&driven(5..6, [f32::NAN, 2.0]), 7, 5), [0.0, 2.0]);
         let mut silent = History::default();
         let held = *history.newest().map(|entry| &entry.glimpse).unwrap();
-        silent.take(Glimpse {
+        silent.take(TickSample {
             is_silent: true,
             ..held
         });

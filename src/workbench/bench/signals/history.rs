@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use selvedge_engine::Glimpse;
+use selvedge_engine::TickSample;
 
 /// How many glimpses are kept: 12 s of exploration.
 pub(crate) const CAPACITY: usize = 480;
@@ -16,7 +16,7 @@ pub(crate) struct Entry {
     /// Its column, counted from the first glimpse ever; a pause before it leaves one out.
     pub column: u64,
     /// What happened.
-    pub glimpse: Glimpse,
+    pub glimpse: TickSample,
 }
 
 /// The last 12 s of exploration.
@@ -30,7 +30,7 @@ pub(crate) struct History {
 impl History {
     /// Takes in a tick. Says whether it was new: a tick that is already here changes nothing, and
     /// one from before it (the engine began anew) clears what was there.
-    pub(crate) fn take(&mut self, glimpse: Glimpse) -> bool {
+    pub(crate) fn take(&mut self, glimpse: TickSample) -> bool {
         let last = self.entries.back().map(|entry| entry.glimpse.tick);
         match last {
             Some(last) if glimpse.tick == last => return false,
@@ -61,7 +61,7 @@ impl History {
     /// The ticks, old to new.
     pub(crate) fn glimpses(
         &self,
-    ) -> impl DoubleEndedIterator<Item = &Glimpse> + ExactSizeIterator + Clone {
+    ) -> impl DoubleEndedIterator<Item = &TickSample> + ExactSizeIterator + Clone {
         self.entries.iter().map(|entry| &entry.glimpse)
     }
 
@@ -93,10 +93,10 @@ impl History {
 mod tests {
     use super::*;
 
-    fn glimpse(tick: u64) -> Glimpse {
-        Glimpse {
+    fn glimpse(tick: u64) -> TickSample {
+        TickSample {
             tick,
-            ..Glimpse::default()
+            ..TickSample::default()
         }
     }
 

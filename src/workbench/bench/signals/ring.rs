@@ -107,13 +107,13 @@ pub(crate) fn slot_of(column: u64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_engine::Glimpse;
+    use selvedge_engine::TickSample;
 
     fn take(history: &mut History, ticks: Range<u64>) {
         for tick in ticks {
-            history.take(Glimpse {
+            history.take(TickSample {
                 tick,
-                ..Glimpse::default()
+                ..TickSample::default()
             });
         }
     }

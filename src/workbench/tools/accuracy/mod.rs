@@ -176,8 +176,8 @@ impl AccuracyWatch {
     /// Takes what the engine says of itself; another method, bound or scene begins anew.
     fn follow(&mut self, snapshot: &Snapshot, n_scenes: u64) {
         self.clock = snapshot.clock;
-        self.bound_db = snapshot.bound.level_db;
-        let run = (snapshot.method, self.bound_db.to_bits(), n_scenes);
+        self.bound_db = snapshot.rendering.bound.level_db;
+        let run = (snapshot.rendering.method, self.bound_db.to_bits(), n_scenes);
         if self.run.1.replace(run) != Some(run) {
             self.reset();
         }
@@ -207,7 +207,7 @@ impl Bench {
         let scene = &self.eye.scene;
         let is_settled = snapshot.counters.commands_obeyed == n_sent
             && snapshot.scene_serial == self.scene_serial
-            && snapshot.tuning == scene.tuning;
+            && snapshot.rendering.tuning == scene.tuning;
         if !is_settled {
             watch.tally.changed += 1;
             return;

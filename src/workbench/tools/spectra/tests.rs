@@ -13,7 +13,7 @@ use crate::tools::spectra::contact::{self, ContactSpectrogram, ContactSpectrumVi
 use crate::tools::spectra::drive::{self, DriveSpectrogram, DriveSpectrumView};
 use crate::tools::spectra::spatial::{self, SpatialSource, SpatialSpectra};
 use crate::tools::spectra::wave::{self, DriveWaveView, WaveScale};
-use selvedge_engine::Glimpse;
+use selvedge_engine::TickSample;
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
@@ -64,12 +64,12 @@ impl Bench {
             )]
             let rounded = |um: f64| um as f32;
             let trace = self.inspector.trace(0, self.contactor, &pose).unwrap();
-            self.history.take(Glimpse {
+            self.history.take(TickSample {
                 tick,
                 pose,
                 watched: u32::try_from(self.contactor).unwrap(),
                 watched_um: trace.amplitudes_um.map(rounded),
-                ..Glimpse::default()
+                ..TickSample::default()
             });
         }
     }
@@ -243,11 +243,11 @@ fn nothing_odd_harms_the_plots() {
             for size in [vec2(0.0, 0.0), vec2(1.0, 900.0), vec2(900.0, 1.0), SIZE] {
                 bench.frame(size, Bench::all);
             }
-            bench.history.take(Glimpse {
+            bench.history.take(TickSample {
                 tick: contactor as u64,
                 pose: odd,
                 watched_um: [f32::NAN, f32::INFINITY],
-                ..Glimpse::default()
+                ..TickSample::default()
             });
             bench.frame(SIZE, Bench::all);
         }

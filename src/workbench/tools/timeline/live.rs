@@ -4,7 +4,7 @@
 
 use crate::bench::recording::strips::{Extent, Felt};
 use crate::bench::signals::history::History;
-use selvedge_engine::Glimpse;
+use selvedge_engine::TickSample;
 
 /// Ticks of felt exploration that are shown: 12 s.
 pub(crate) const N_TICKS: u64 = 480;
@@ -19,13 +19,13 @@ pub(crate) struct Placed {
     /// Whether it goes on from the one before it: no tick is missing between them.
     pub(crate) goes_on: bool,
     /// What was there.
-    pub(crate) glimpse: Glimpse,
+    pub(crate) glimpse: TickSample,
 }
 
 impl Placed {
     /// Speed and amplitudes; nothing was felt in silence.
     pub(crate) fn felt(&self) -> Felt {
-        let Glimpse {
+        let TickSample {
             pose,
             is_silent,
             mean_um,
@@ -90,10 +90,10 @@ mod tests {
     fn history(ticks: impl IntoIterator<Item = u64>) -> History {
         let mut history = History::default();
         for tick in ticks {
-            history.take(Glimpse {
+            history.take(TickSample {
                 tick,
                 mean_um: [1.0, 2.0],
-                ..Glimpse::default()
+                ..TickSample::default()
             });
         }
         history
@@ -131,11 +131,11 @@ mod tests {
     #[test]
     fn silence_is_not_felt() {
         let mut history = History::default();
-        history.take(Glimpse {
+        history.take(TickSample {
             tick: 1,
             is_silent: true,
             mean_um: [1.0, 2.0],
-            ..Glimpse::default()
+            ..TickSample::default()
         });
         assert_eq!(placed(&history)[0].felt().mean_um, Some([0.0, 0.0]));
     }

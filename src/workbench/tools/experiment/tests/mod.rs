@@ -198,7 +198,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     let serial = window.workbench.bench.scene_serial;
     let snapshot = window.workbench.bench.engine.snapshot();
     assert_eq!(snapshot.scene_serial, serial);
-    assert!((snapshot.tuning.gain_db + 7.5).abs() < 1e-9);
+    assert!((snapshot.rendering.tuning.gain_db + 7.5).abs() < 1e-9);
 }
 
 #[test]
@@ -335,7 +335,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     let folder = Folder::new("adjust");
     let mut window = begun(&folder, "gain-matching", "p01");
     to_trial(&mut window);
-    let felt_db = |window: &mut Headless| window.workbench.bench.engine.snapshot().tuning.gain_db;
+    let felt_db = |window: &mut Headless| window.workbench.bench.engine.snapshot().rendering.tuning.gain_db;
     let start = held(&window).tuning().gain_db;
     assert!((felt_db(&mut window) - start).abs() < 1e-9);
     mark(&mut window, Mark::Turn(0, 2));

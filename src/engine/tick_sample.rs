@@ -1,7 +1,7 @@
-//! Glimpses: what histories of the last seconds need of every tick, however seldom they are drawn.
+//! Samples of ticks: what histories of the last seconds need of every tick, however seldom they are drawn.
 //!
 //! A snapshot shows only the latest tick; a spectrogram or a timeline needs all of them. Each tick
-//! that moved or sounded, and the first that did not, leaves one glimpse in a bounded ring, if
+//! that moved or sounded, and the first that did not, leaves one sample in a bounded ring, if
 //! somebody asked for them. When the ring is full the newest is lost and counted.
 
 use rtrb::Producer;
@@ -10,12 +10,12 @@ use super::EngineCore;
 use selvedge_foundation::geometry::Velocity;
 use selvedge_render::scene::Pose;
 
-/// Glimpses on the way: almost 13 s of movement.
-pub(super) const MOST_GLIMPSES: usize = 512;
+/// Samples on the way: almost 13 s of movement.
+pub(super) const MAX_TICK_SAMPLES: usize = 512;
 
 /// One tick, as histories keep it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Glimpse {
+pub struct TickSample {
     /// Ticks since the engine started.
     pub tick: u64,
     /// Where the display was, how it was turned and how it moved.
@@ -31,7 +31,7 @@ pub struct Glimpse {
     pub watched_um: [f32; 2],
 }
 
-impl Glimpse {
+impl TickSample {
     /// The tick that a core did last.
     fn of(core: &EngineCore, watched: usize) -> Self {
         let amplitudes_um = core.felt_um();
@@ -55,10 +55,10 @@ impl Glimpse {
     }
 }
 
-/// The engine's side of the ring: says which ticks leave a glimpse.
+/// The engine's side of the ring: says which ticks leave a sample.
 #[derive(Debug)]
-pub(super) struct Glimpser {
-    ring: Producer<Glimpse>,
+pub(super) struct TickSampler {
+    ring: Producer<TickSample>,
     is_heard: bool,
     watched: usize,
     /// The pose of the last tick that was looked at, and whether that was still and silent.
@@ -67,9 +67,9 @@ pub(super) struct Glimpser {
     n_lost: u64,
 }
 
-impl Glimpser {
+impl TickSampler {
     /// Nobody listens yet.
-    pub(super) fn new(ring: Producer<Glimpse>) -> Self {
+    pub(super) fn new(ring: Producer<TickSample>) -> Self {
         Self {
             ring,
             is_heard: false,
@@ -80,7 +80,7 @@ impl Glimpser {
         }
     }
 
-    /// Whether somebody listens from now on; the first tick leaves a glimpse.
+    /// Whether somebody listens from now on; the first tick leaves a sample.
     pub(super) fn listen(&mut self, is_heard: bool) {
         self.is_heard = is_heard;
         self.last = None;
@@ -92,12 +92,12 @@ impl Glimpser {
         self.watched = contactor;
     }
 
-    /// Glimpses that found the ring full.
+    /// Samples that found the ring full.
     pub(super) fn n_lost(&self) -> u64 {
         self.n_lost
     }
 
-    /// Leaves a glimpse of the tick that was just done, if it moved, turned or sounded, or is the
+    /// Leaves a sample of the tick that was just done, if it moved, turned or sounded, or is the
     /// first that did not. A tick that is held leaves none.
     pub(super) fn look(&mut self, core: &EngineCore) {
         if !self.is_heard {
@@ -120,7 +120,7 @@ impl Glimpser {
         self.last = Some(pose);
         let was_quiet = std::mem::replace(&mut self.was_quiet, is_quiet);
         let is_left = !(is_quiet && was_quiet);
-        if is_left && self.ring.push(Glimpse::of(core, self.watched)).is_err() {
+        if is_left && self.ring.push(TickSample::of(core, self.watched)).is_err() {
             self.n_lost += 1;
         }
     }

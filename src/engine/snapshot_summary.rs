@@ -14,7 +14,7 @@ use selvedge_textile::tactile::Tuning;
 
 /// What of a snapshot is worth drawing a window for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Gist {
+pub(super) struct SnapshotSummary {
     scene_serial: u64,
     revision: u64,
     pose: Pose,
@@ -32,7 +32,7 @@ pub(super) struct Gist {
     device: Option<(BridgeState, u8, DeviceCounters, CodeCounters)>,
 }
 
-impl Gist {
+impl SnapshotSummary {
     pub(super) fn of(snapshot: &Snapshot) -> Self {
         let device = |link: &super::LinkView| {
             (
@@ -54,7 +54,7 @@ impl Gist {
             is_silent: snapshot.is_silent,
             is_stopped: snapshot.is_stopped,
             vibration: snapshot.vibration,
-            tuning: snapshot.tuning,
+            tuning: snapshot.rendering.tuning,
             playback: snapshot.playback,
             n_recorded: snapshot.recording.n_ticks,
             ignored: snapshot.counters.ignored,

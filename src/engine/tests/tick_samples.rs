@@ -1,16 +1,16 @@
-//! Which ticks leave a glimpse, and what it holds.
+//! Which ticks leave a sample, and what it holds.
 
 use super::*;
 
-fn glimpses(engine: &mut Engine) -> Vec<Glimpse> {
-    std::iter::from_fn(|| engine.next_glimpse()).collect()
+fn samples(engine: &mut Engine) -> Vec<TickSample> {
+    std::iter::from_fn(|| engine.next_tick_sample()).collect()
 }
 
 fn replay(method: Method) -> Engine {
     let (mut engine, _) = engine(method);
     let source = InputSource::Replay(path());
     engine.send(Command::SetSource(source)).unwrap();
-    engine.send(Command::Glimpses(true)).unwrap();
+    engine.send(Command::SampleTicks(true)).unwrap();
     engine
 }
 
@@ -18,20 +18,20 @@ fn replay(method: Method) -> Engine {
 fn nobody_who_listens_is_told_nothing() {
     let (mut engine, start) = engine(Method::Auto);
     explore(&mut engine, start, 30);
-    assert_eq!(glimpses(&mut engine), []);
-    assert_eq!(engine.snapshot().counters.glimpses_lost, 0);
+    assert_eq!(samples(&mut engine), []);
+    assert_eq!(engine.snapshot().counters.tick_samples_lost, 0);
 }
 
 #[test]
 fn a_still_finger_leaves_one_and_a_moving_one_leaves_all() {
     let (mut engine, start) = engine(Method::Auto);
-    engine.send(Command::Glimpses(true)).unwrap();
+    engine.send(Command::SampleTicks(true)).unwrap();
     engine.advance_ticks(20);
-    let still = glimpses(&mut engine);
+    let still = samples(&mut engine);
     assert_eq!(still.len(), 1, "the first that did not move: {still:?}");
     explore(&mut engine, start + TICK * 20, 30);
     engine.advance_ticks(40);
-    let moved = glimpses(&mut engine);
+    let moved = samples(&mut engine);
     assert!((30..36).contains(&moved.len()), "{}", moved.len());
     assert!(
         moved
@@ -45,7 +45,7 @@ fn a_still_finger_leaves_one_and_a_moving_one_leaves_all() {
     );
     engine.send(Command::TurnBy(5.0)).unwrap();
     engine.advance_ticks(9);
-    let turned = glimpses(&mut engine);
+    let turned = samples(&mut engine);
     assert_eq!(
         turned.len(),
         2,
@@ -58,16 +58,16 @@ fn a_still_finger_leaves_one_and_a_moving_one_leaves_all() {
 fn a_held_replay_leaves_none_and_a_step_leaves_one() {
     let mut engine = replay(Method::Auto);
     engine.advance_ticks(5);
-    assert_eq!(glimpses(&mut engine), []);
+    assert_eq!(samples(&mut engine), []);
     for n in 0..4 {
         engine.send(Command::Step).unwrap();
         engine.advance_ticks(3);
-        let seen = glimpses(&mut engine);
+        let seen = samples(&mut engine);
         assert_eq!(seen.len(), 1, "step {n}: {seen:?}");
     }
     engine.send(Command::Seek(30)).unwrap();
     engine.advance_ticks(3);
-    assert_eq!(glimpses(&mut engine).len(), 1, "so does going to a tick");
+    assert_eq!(samples(&mut engine).len(), 1, "so does going to a tick");
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn a_glimpse_holds_the_mean_over_textiles_and_the_one_that_is_watched() {
     engine.send(Command::Play).unwrap();
     for _ in 0..60 {
         engine.advance_ticks(1);
-        let seen = glimpses(&mut engine);
+        let seen = samples(&mut engine);
         let snapshot = engine.snapshot();
         let contactors = &snapshot.displays[0].contactors;
         assert_eq!(seen[0].pose, snapshot.pose);
@@ -96,7 +96,7 @@ fn a_glimpse_holds_the_mean_over_textiles_and_the_one_that_is_watched() {
     }
     engine.send(Command::Watch(usize::MAX)).unwrap();
     engine.advance_ticks(1);
-    let beyond = glimpses(&mut engine)[0];
+    let beyond = samples(&mut engine)[0];
     assert_eq!((beyond.watched, beyond.watched_um), (u32::MAX, [0.0; 2]));
     assert!(beyond.mean_um[0] > 0.0);
 }
@@ -109,8 +109,8 @@ fn what_is_stopped_moves_in_silence() {
     engine.send(Command::StopAll).unwrap();
     engine.send(Command::Play).unwrap();
     engine.advance_ticks(3);
-    let seen = glimpses(&mut engine);
-    let silent: Vec<bool> = seen.iter().map(|glimpse| glimpse.is_silent).collect();
+    let seen = samples(&mut engine);
+    let silent: Vec<bool> = seen.iter().map(|sample| sample.is_silent).collect();
     assert_eq!(silent, [false, false, false, true, true, true]);
     assert!(seen[5].mean_um == [0.0; 2] && seen[5].pose.velocity != Velocity::ZERO);
 }
@@ -121,9 +121,9 @@ fn a_full_ring_loses_the_newest_and_counts_them() {
     engine.send(Command::SetLoop(true)).unwrap();
     engine.send(Command::Play).unwrap();
     engine.advance_ticks(600);
-    assert_eq!(engine.snapshot().counters.glimpses_lost, 600 - 512);
-    let seen = glimpses(&mut engine);
+    assert_eq!(engine.snapshot().counters.tick_samples_lost, 600 - 512);
+    let seen = samples(&mut engine);
     assert_eq!((seen.len(), seen[511].tick), (512, 512));
     engine.advance_ticks(1);
-    assert_eq!(glimpses(&mut engine).len(), 1, "there is room again");
+    assert_eq!(samples(&mut engine).len(), 1, "there is room again");
 }

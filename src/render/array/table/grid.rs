@@ -1,10 +1,14 @@
-//! How far linear interpolation over log speed can be off, whatever the spectrum.
+//! How dense the nodes of tables are for an error budget: how far linear interpolation over log
+//! speed can be off, whatever the spectrum.
 //!
 //! A tabulated power is a sum of the filter's power gain `H²` at the bins' frequencies, weighted
 //! with powers that are never negative, so its relative error is at most the largest relative error
 //! of interpolating `H²` itself over log frequency. That depends on the filter and on the distance
 //! of the nodes only, and is known before any spectrum is.
 
+use std::sync::Arc;
+
+use super::segments::Segments;
 use selvedge_textile::surface::BIN_SPACING_PER_MM;
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
@@ -13,20 +17,20 @@ const DENSITIES: [u32; 8] = [24, 32, 48, 64, 96, 128, 192, 384];
 /// Samples of the filter an octave: at least two for each part of the densest choice.
 const SAMPLES_PER_OCTAVE: u32 = 768;
 /// Power gains below this do not survive f32 beside a power of 1, so they are not bounded.
-pub(super) const LEAST_POWER_GAIN: f64 = 1e-33;
+pub(super) const MIN_POWER_GAIN: f64 = 1e-33;
 /// What rounding to f32 may add, dB: a few units of 6e-8, of power.
 const ROUNDING_DB: f64 = 2e-6;
 
 /// Nodes an octave, and the level error that they keep to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::array) struct Density {
-    pub(in crate::array) per_octave: u32,
-    pub(in crate::array) level_db: f64,
+pub(crate) struct Density {
+    pub(crate) per_octave: u32,
+    pub(crate) level_db: f64,
 }
 
 impl Density {
     /// The fewest nodes an octave that keep within a budget, else the most there can be.
-    pub(in crate::array) fn within(filters: &Filters, budget_db: f64) -> Self {
+    pub(crate) fn within(filters: &Filters, budget_db: f64) -> Self {
         let samples = Band::ALL.map(|band| sampled(filters, band));
         let at = |per_octave: u32| {
             let of_band = |gains: &Vec<f64>| error_db(gains, per_octave);
@@ -43,6 +47,13 @@ impl Density {
             .find(|found| found.level_db <= budget_db);
         fitting.unwrap_or_else(|| at(densest))
     }
+}
+
+/// The nodes of tables for filters and an error budget, and the error that they keep to.
+#[derive(Debug, Clone)]
+pub(crate) struct Grid {
+    pub(crate) density: Density,
+    pub(super) segments: Arc<Segments>,
 }
 
 /// The filter's power gains over all frequencies at which a bin can sound, evenly over log₂ f.
@@ -65,21 +76,21 @@ fn sampled(filters: &Filters, band: Band) -> Vec<f64> {
 /// wherever they lie.
 fn error_db(gains: &[f64], per_octave: u32) -> f64 {
     let n_steps = (SAMPLES_PER_OCTAVE / per_octave) as usize;
-    let (mut most, mut least) = (1.0_f64, 1.0_f64);
+    let (mut max, mut min) = (1.0_f64, 1.0_f64);
     for part in gains.windows(n_steps + 1) {
         let (start, end) = (part[0], part[n_steps]);
-        if start.min(end) < LEAST_POWER_GAIN {
+        if start.min(end) < MIN_POWER_GAIN {
             continue;
         }
         for (step, &exact) in part.iter().enumerate().skip(1).take(n_steps - 1) {
             let share = step as f64 / n_steps as f64;
             let ratio = (start + (end - start) * share) / exact;
-            most = most.max(ratio);
-            least = least.min(ratio);
+            max = max.max(ratio);
+            min = min.min(ratio);
         }
     }
     // Between samples the error may be a little larger than at them.
-    1.02 * 10.0 * most.log10().max(-least.log10())
+    1.02 * 10.0 * max.log10().max(-min.log10())
 }
 
 #[cfg(test)]

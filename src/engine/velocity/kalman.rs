@@ -1,12 +1,9 @@
-//! Estimators that carry a state from sample to sample: alpha–beta, Kalman, one-euro.
+//! A Kalman filter for a constant velocity, carried from sample to sample.
 //!
-//! All begin with the difference of the first two samples, so that a constant velocity is found at
-//! once. The Kalman and the one-euro filter carry their lag along: it obeys the same recursion as
-//! their error under an acceleration of 1 mm/s², whatever the distances between samples.
+//! It begins with the difference of the first two samples, so that a constant velocity is found at
+//! once. Its lag is carried along: it obeys the same recursion as the error under an acceleration
+//! of 1 mm/s², whatever the distances between samples.
 
-use std::f64::consts::TAU;
-
-use crate::VelocityMethod;
 use selvedge_foundation::geometry::{Displacement, Point, Velocity};
 
 /// What a filter knows after a sample.
@@ -19,10 +16,8 @@ pub(super) struct Tracked {
     position_lag_s2: f64,
     /// True velocity less the estimate for each mm/s² of a constant acceleration, s.
     pub(super) lag_s: f64,
-    /// What the Kalman filter thinks of its own error, both axes alike.
+    /// What the filter thinks of its own error, both axes alike.
     covariance: Covariance,
-    /// Differences behind the one-euro filter's second low pass: its notion of speed.
-    smoothed: Velocity,
 }
 
 /// Covariance of position and velocity along one axis.
@@ -38,11 +33,11 @@ struct Covariance {
 
 /// The numbers of a constant-velocity Kalman filter.
 #[derive(Debug, Clone, Copy)]
-struct Noise {
+pub(super) struct Noise {
     /// Power density of the acceleration, mm²/s³.
-    acceleration: f64,
+    pub(super) acceleration: f64,
     /// Variance of a measured coordinate, mm².
-    measurement: f64,
+    pub(super) measurement: f64,
 }
 
 impl Tracked {
@@ -56,46 +51,28 @@ impl Tracked {
 
     /// After the first two samples, the newest at `position`.
     pub(super) fn begun(
-        method: VelocityMethod,
+        noise: Noise,
         position: Point,
         (by, duration_s): (Displacement, f64),
     ) -> Self {
-        let velocity = by.per(duration_s);
         Self {
             position,
-            velocity,
+            velocity: by.per(duration_s),
             position_lag_s2: 0.0,
             lag_s: 0.5 * duration_s,
-            covariance: noise_of(method).map_or_else(Covariance::default, |noise| {
-                Covariance::of_difference(noise, duration_s)
-            }),
-            smoothed: velocity,
+            covariance: Covariance::of_difference(noise, duration_s),
         }
     }
 
-    /// After the next sample, at `position`, `by` and `duration_s` > 0 from the one before. A state
-    /// that is no number any more begins anew.
+    /// After the next sample, at `position` and `duration_s` > 0 after the one before. A state that
+    /// is no number any more begins anew.
     #[must_use]
-    pub(super) fn after(
-        self,
-        method: VelocityMethod,
-        position: Point,
-        (by, duration_s): (Displacement, f64),
-    ) -> Self {
-        let next = match method {
-            VelocityMethod::AlphaBeta { alpha, beta } => {
-                self.corrected(position, duration_s, [alpha, beta / duration_s])
-            }
-            VelocityMethod::Kalman { .. } => self.kalman(method, position, duration_s),
-            VelocityMethod::OneEuro {
-                min_cutoff_hz,
-                beta_per_mm,
-                derivative_cutoff_hz,
-            } => {
-                let cutoffs = [min_cutoff_hz, beta_per_mm, derivative_cutoff_hz];
-                self.one_euro(position, (by, duration_s), cutoffs)
-            }
-            VelocityMethod::FiniteDifference | VelocityMethod::LineFit { .. } => self,
+    pub(super) fn after(self, noise: Noise, position: Point, duration_s: f64) -> Self {
+        let predicted = self.covariance.predicted(noise, duration_s);
+        let gains = predicted.gains(noise);
+        let next = Self {
+            covariance: predicted.corrected(gains),
+            ..self.corrected(position, duration_s, gains)
         };
         if next.is_finite() {
             next
@@ -126,45 +103,9 @@ impl Tracked {
         }
     }
 
-    fn kalman(self, method: VelocityMethod, measured: Point, duration_s: f64) -> Self {
-        let Some(noise) = noise_of(method) else {
-            return self;
-        };
-        let predicted = self.covariance.predicted(noise, duration_s);
-        let gains = predicted.gains(noise);
-        Self {
-            covariance: predicted.corrected(gains),
-            ..self.corrected(measured, duration_s, gains)
-        }
-    }
-
-    /// Low passes over the differences `d` of neighbouring samples: `ŝ ← ŝ + a(f_d)(d − ŝ)`, then
-    /// `v ← v + a(f_min + β|ŝ|)(d − v)` with `a(f) = T / (T + 1/2πf)`. Two samples that come almost
-    /// at once weigh as little as their distance in time.
-    fn one_euro(
-        self,
-        measured: Point,
-        (by, duration_s): (Displacement, f64),
-        [min_cutoff_hz, beta_per_mm, derivative_cutoff_hz]: [f64; 3],
-    ) -> Self {
-        let difference = by.per(duration_s);
-        let share = |cutoff_hz: f64| duration_s / (duration_s + 1.0 / (TAU * cutoff_hz));
-        let smoothed = mixed(self.smoothed, difference, share(derivative_cutoff_hz));
-        let speed = smoothed.speed_mm_per_s();
-        let share = share(min_cutoff_hz + beta_per_mm * speed);
-        Self {
-            position: measured,
-            velocity: mixed(self.velocity, difference, share),
-            lag_s: (1.0 - share) * (self.lag_s + duration_s) + share * 0.5 * duration_s,
-            smoothed,
-            ..self
-        }
-    }
-
     fn is_finite(&self) -> bool {
         self.position.is_finite()
             && self.velocity.is_finite()
-            && self.smoothed.is_finite()
             && self.lag_s.is_finite()
             && self.covariance.velocity.is_finite()
     }
@@ -208,26 +149,4 @@ impl Covariance {
             velocity: self.velocity - gains[1] * self.mixed,
         }
     }
-}
-
-fn noise_of(method: VelocityMethod) -> Option<Noise> {
-    let VelocityMethod::Kalman {
-        acceleration_mm2_per_s3,
-        noise_mm,
-    } = method
-    else {
-        return None;
-    };
-    Some(Noise {
-        acceleration: acceleration_mm2_per_s3,
-        measurement: noise_mm * noise_mm,
-    })
-}
-
-/// A share of the way from one velocity to another.
-fn mixed(from: Velocity, to: Velocity, share: f64) -> Velocity {
-    Velocity::new(
-        from.x_mm_per_s + share * (to.x_mm_per_s - from.x_mm_per_s),
-        from.y_mm_per_s + share * (to.y_mm_per_s - from.y_mm_per_s),
-    )
 }

@@ -5,22 +5,22 @@ use triple_buffer::Input;
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
 use super::vibration::Vibration;
-use super::{PreparedScene, Snapshot, Tap, VelocityMethod};
+use super::{PreparedScene, Snapshot, Tap};
 use selvedge_device::{ArrayChange, Bridge, Coder};
 use selvedge_render::PlacedLevel;
 use selvedge_textile::tactile::Tuning;
 
 /// What the engine's thread obeys. Everything in it is already allocated.
-pub(super) enum Order {
+pub(super) enum ReadyCommand {
     /// Something that the core does.
-    Core(CoreOrder),
+    Core(CoreCommand),
     /// A new scene, with a channel for snapshots of its size.
     Scene(NextScene, Input<Snapshot>),
     /// A device that is being opened.
     Connect(Box<Bridge>),
     Disconnect,
     /// Another array profile, made ready for screen and device.
-    Array(Box<ArrayOrder>),
+    Array(Box<NextArray>),
     /// Whether channels are being identified.
     Identify(bool),
     /// Drives one channel alone: amplitude in µm, time in ms.
@@ -35,9 +35,9 @@ pub(super) enum Order {
     Disarm,
     /// Clear the device's faults.
     ClearFaults,
-    /// Whether somebody takes glimpses.
-    Glimpses(bool),
-    /// The contactor that glimpses watch.
+    /// Whether somebody takes samples.
+    SampleTicks(bool),
+    /// The contactor that samples watch.
     Watch(usize),
     /// Tell other programs what is felt, or no longer.
     Tap(Option<Box<Tap>>),
@@ -45,7 +45,7 @@ pub(super) enum Order {
 }
 
 /// An array profile for everybody who follows one; once obeyed, what they followed before.
-pub(super) struct ArrayOrder {
+pub(super) struct NextArray {
     /// For what the screen shows of limits.
     pub(super) coder: Coder,
     /// For the device.
@@ -76,15 +76,15 @@ impl NextScene {
     }
 }
 
-impl Order {
+impl ReadyCommand {
     /// Plays, holds or moves a source.
     pub(super) fn control(control: Control) -> Self {
-        Self::Core(CoreOrder::Control(control))
+        Self::Core(CoreCommand::Control(control))
     }
 }
 
 /// What the core obeys.
-pub(super) enum CoreOrder {
+pub(super) enum CoreCommand {
     Scene(NextScene),
     Tuning(Tuning),
     TextileGain {
@@ -98,7 +98,6 @@ pub(super) enum CoreOrder {
     Vibrate(Vibration),
     /// `None`: live samples.
     Source(Option<Box<dyn PointerInput>>),
-    Velocity(VelocityMethod),
     Angle(f64),
     Turn(f64),
     Control(Control),
@@ -106,7 +105,7 @@ pub(super) enum CoreOrder {
     EndRecording,
 }
 
-/// What an order replaced. Whoever owns the engine drops it.
+/// What a command replaced. Whoever owns the engine drops it.
 #[expect(dead_code, reason = "most are only carried away to be dropped")]
 pub(super) enum Retired {
     Scene(Box<PreparedScene>),
@@ -116,10 +115,10 @@ pub(super) enum Retired {
     Mask(Vec<bool>),
     Vibration(Vibration),
     Bridge(Box<Bridge>),
-    Array(Box<ArrayOrder>),
+    Array(Box<NextArray>),
     Tap(Box<Tap>),
     Recorder(Box<Recorder>),
 }
 
-/// The most that one order, or a stop, retires.
-pub(super) const MOST_RETIRED: usize = 4;
+/// The most that one command, or a stop, retires.
+pub(super) const MAX_RETIRED: usize = 4;
