@@ -335,7 +335,16 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     let folder = Folder::new("adjust");
     let mut window = begun(&folder, "gain-matching", "p01");
     to_trial(&mut window);
-    let felt_db = |window: &mut Headless| window.workbench.bench.engine.snapshot().rendering.tuning.gain_db;
+    let felt_db = |window: &mut Headless| {
+        window
+            .workbench
+            .bench
+            .engine
+            .snapshot()
+            .rendering
+            .tuning
+            .gain_db
+    };
     let start = held(&window).tuning().gain_db;
     assert!((felt_db(&mut window) - start).abs() < 1e-9);
     mark(&mut window, Mark::Turn(0, 2));
