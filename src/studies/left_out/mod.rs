@@ -1,29 +1,24 @@
 //! The study of what is left out: what every saving saves, and that it changes nothing.
 //!
 //! Six scenes are rendered with all savings, with none, and with each alone. With a saving off,
-//! what it would leave out is evaluated and thrown away. Savings of other floors are listed beside
-//! them: whoever has one hands it in.
+//! what it would leave out is evaluated and thrown away. What the engine and the library leave out
+//! stands beside them.
 
 mod saving;
 mod scenes;
-mod shares;
 mod sinks;
 
-pub(crate) use saving::SavingRule;
-use saving::{NeverPlaced, OfRendering};
+use saving::Saving;
 use scenes::Case;
-use sinks::Unheard;
 
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::{LoadedScene, Pose};
-use selvedge_render::{Counters, RenderScene, Rule, Rules};
+use selvedge_render::{RenderScene, Rule, Rules};
 use selvedge_textile::surface::{Direction, Surface};
 
 /// Methods that savings are tried with: what leaves out bins, and what looks powers up.
 const METHODS: [Method; 2] = [Method::Banded, Method::Table];
-/// What one textile at rest may cost with all savings, as a share of its cost with none.
-const PROMISED_SHARE: f64 = 0.05;
 /// Contactors times textiles from which `banded` without savings takes the better part of a second
 /// a tick: measured few times, and not at all where the report is to be quick.
 const HEAVY: usize = 10_000;
@@ -31,19 +26,8 @@ const HEAVY: usize = 10_000;
 const FEW: usize = 3;
 
 /// What every saving leaves out, and what that saves.
-#[derive(Debug, Default)]
-pub(crate) struct LeftOutStudy {
-    others: Vec<Box<dyn SavingRule>>,
-}
-
-impl LeftOutStudy {
-    /// The same study with a saving of another floor listed.
-    #[must_use]
-    pub(crate) fn with(mut self, saving: Box<dyn SavingRule>) -> Self {
-        self.others.push(saving);
-        self
-    }
-}
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LeftOutStudy;
 
 impl Study for LeftOutStudy {
     fn name(&self) -> &'static str {
@@ -75,20 +59,12 @@ impl Study for LeftOutStudy {
             for (nth, method) in METHODS.into_iter().enumerate() {
                 let done = number * METHODS.len() + nth;
                 bench.step(done as f64 / n_steps, case.name)?;
-                let rows = rows(bench, case, method)?;
-                findings
-                    .rows
-                    .extend(share_row(&rows, case, method, number == 0));
-                findings.rows.extend(rows);
+                findings.rows.extend(rows(bench, case, method)?);
             }
         }
-        findings.plots.push(shares::plot(&findings.rows, &cases));
         findings.rows.extend(library_rows(bench)?);
         findings.rows.extend(sinks::rows(bench)?);
-        findings
-            .rows
-            .extend(self.others.iter().map(|saving| row_of(saving.as_ref())));
-        findings.notes = notes(self);
+        findings.notes = notes();
         Ok(findings)
     }
 }
@@ -165,8 +141,7 @@ fn more_of(alone: Option<Rule>, renderers: [&ArrayRenderer; 2]) -> Vec<(&'static
     };
     let [by_itself, of_all] = renderers.map(|renderer| {
         let counters = *renderer.counters();
-        let left_out = OfRendering { rule, counters }.left_out();
-        (left_out as f64 / counters.ticks.max(1) as f64).to_string()
+        (rule.left_out(&counters) as f64 / counters.ticks.max(1) as f64).to_string()
     });
     vec![
         ("left_out_a_tick", by_itself),
@@ -178,23 +153,6 @@ fn more_of(alone: Option<Rule>, renderers: [&ArrayRenderer; 2]) -> Vec<(&'static
 /// How settings with all savings and with none are called.
 const ALL: &str = "all";
 const NONE: &str = "none";
-
-/// What all savings cost as a share of none.
-fn share_row(rows: &[Row], case: &Case, method: Method, is_promised: bool) -> Option<Row> {
-    let cost_s = |setting: &str| {
-        let found = rows.iter().find(|row| row.setting == setting);
-        found.and_then(|row| row.cost).map(|cost| cost.cpu_s)
-    };
-    let share = cost_s(ALL)? / cost_s(NONE)?;
-    Some(Row {
-        method: method.name().to_owned(),
-        setting: "cost with all as a share of none".to_owned(),
-        case: case.name.to_owned(),
-        error: Some(share),
-        promised: is_promised.then_some(PROMISED_SHARE),
-        ..Row::default()
-    })
-}
 
 /// The poses that a method is measured on: all, or, where a tick without savings takes long, a few
 /// of them.
@@ -267,16 +225,14 @@ fn library_rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
             .iter()
             .any(|placed| placed.id == **id)
     };
-    let saving = NeverPlaced {
-        n_known: ids.len(),
-        n_placed: ids.iter().filter(is_placed).count(),
-    };
+    let n_placed = ids.iter().filter(is_placed).count();
+    let saving = Saving::never_placed(ids.len().saturating_sub(n_placed) as u64);
     let rest: Vec<&String> = ids.iter().filter(|id| !is_placed(id)).collect();
     let of = |setting: &str, cost| Row {
         setting: setting.to_owned(),
         case: "loading four alternatives".to_owned(),
         cost: Some(cost),
-        ..row_of(&saving)
+        ..saving.row()
     };
     let as_it_is = bench.time(1, LoadedScene::shipped);
     let with_rest = bench.time(1, || {
@@ -287,49 +243,23 @@ fn library_rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
     Ok(vec![of("only never placed", as_it_is), of(NONE, with_rest)])
 }
 
-/// A saving in a row of its own.
-fn row_of(saving: &dyn SavingRule) -> Row {
-    Row {
-        method: saving.floor().to_owned(),
-        setting: format!("only {}", saving.name()),
-        case: "since the start".to_owned(),
-        more: vec![
-            ("left_out_a_tick_of_all", saving.left_out().to_string()),
-            ("left_out", saving.unit().to_owned()),
-        ],
-        ..Row::default()
-    }
-}
-
 /// What every saving leaves out, a sentence each.
-fn notes(study: &LeftOutStudy) -> Vec<String> {
-    let note = |saving: &dyn SavingRule| {
-        format!("{}, {}: {}", saving.floor(), saving.name(), saving.what())
-    };
+fn notes() -> Vec<String> {
     let of_rendering = Rule::ALL.map(|rule| {
-        let counters = Counters::default();
         let exact = if rule.is_exact() {
             "Amplitudes are the same to the bit."
         } else {
             "Amplitudes differ by less than the floor's share of the unfiltered amplitude."
         };
-        format!("{} {exact}", note(&OfRendering { rule, counters }))
+        format!("{} {exact}", Saving::of_rendering(rule).note())
     });
-    let never_placed = NeverPlaced {
-        n_known: 0,
-        n_placed: 0,
-    };
     let beside = [
-        note(&never_placed),
-        note(&Unheard::glimpses(0)),
-        note(&Unheard::frames(0)),
+        Saving::never_placed(0),
+        Saving::unasked_glimpses(0),
+        Saving::unheard_frames(0),
     ];
-    let others = study.others.iter().map(|saving| note(saving.as_ref()));
-    of_rendering
-        .into_iter()
-        .chain(beside)
-        .chain(others)
-        .collect()
+    let beside = beside.map(|saving| saving.note());
+    of_rendering.into_iter().chain(beside).collect()
 }
 
 #[cfg(test)]

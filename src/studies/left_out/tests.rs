@@ -1,38 +1,11 @@
-//! The study of what is left out: complete, exact, and open to savings of other floors.
+//! The study of what is left out: complete and exact.
 
 use super::*;
 use crate::tests::quick;
 
-/// A saving of some other floor.
-#[derive(Debug)]
-struct Hidden;
-
-impl SavingRule for Hidden {
-    fn floor(&self) -> &'static str {
-        "app"
-    }
-
-    fn name(&self) -> &'static str {
-        "hidden views"
-    }
-
-    fn what(&self) -> &'static str {
-        "A view that is not shown is not painted."
-    }
-
-    fn unit(&self) -> &'static str {
-        "frames"
-    }
-
-    fn left_out(&self) -> u64 {
-        41
-    }
-}
-
 #[test]
 fn every_saving_is_tried_on_six_scenes_and_changes_nothing() {
-    let study = LeftOutStudy::default().with(Box::new(Hidden));
-    let findings = quick(&study, 1);
+    let findings = quick(&LeftOutStudy, 1);
     let cases = scenes::cases(Effort::Quick).unwrap();
     assert_eq!(cases.len(), 6);
     for case in &cases {
@@ -41,16 +14,12 @@ fn every_saving_is_tried_on_six_scenes_and_changes_nothing() {
             .iter()
             .filter(|row| row.case == case.name && row.method == "table")
             .collect();
-        // All, none, ten alone, and the share.
-        assert_eq!(of_table.len(), 13, "{}", case.name);
+        // All, none, and ten alone.
+        assert_eq!(of_table.len(), 12, "{}", case.name);
     }
-    let is_share = |row: &&Row| row.setting.contains("share");
-    for row in findings.rows.iter().filter(|row| !is_share(row)) {
+    for row in &findings.rows {
         assert_ne!(row.is_kept(), Some(false), "{row:?}");
-        assert!(
-            row.cost.is_some() || row.case == "since the start",
-            "{row:?}"
-        );
+        assert!(row.cost.is_some(), "{row:?}");
     }
     // Without the floor, banded really sums more.
     let of_banded = |row: &&Row| row.method == "banded" && row.case == "one textile";
@@ -59,12 +28,7 @@ fn every_saving_is_tried_on_six_scenes_and_changes_nothing() {
         banded.any(|row| row.error > Some(0.0)),
         "some bins are heard"
     );
-    let promised = findings
-        .rows
-        .iter()
-        .filter(|row| is_share(row) && row.promised.is_some());
-    assert_eq!(promised.count(), METHODS.len());
-    assert_eq!(findings.notes.len(), Rule::ALL.len() + 4);
+    assert_eq!(findings.notes.len(), Rule::ALL.len() + 3);
     let engine = findings.rows.iter().filter(|row| row.method == "engine");
     let left_out: Vec<(&str, Option<&str>)> = engine
         .map(|row| (&row.setting[..], row.more.first().map(|(_, n)| &n[..])))
@@ -76,8 +40,6 @@ fn every_saving_is_tried_on_six_scenes_and_changes_nothing() {
         ("only unasked glimpses", Some("100")),
     ];
     assert_eq!(left_out, expected, "as many as there were ticks");
-    let hidden = findings.rows.last().unwrap();
-    assert_eq!(hidden.more[0].1, "41");
 }
 
 #[test]
