@@ -2,8 +2,8 @@
 
 use super::distribution::t_two_sided;
 use super::interval::{fisher_z, fisher_z_with};
-use super::rank::Ranks;
 use super::summary::{at_least, centred, is_rounding, largest, sum_of_squares};
+use super::wilcoxon::Ranks;
 use super::{Computed, Freedom, Named, Outcome, Sides, Undefined};
 
 /// Up to so many pairs Spearman's p is exact: 8! orders.

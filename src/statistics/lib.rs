@@ -15,13 +15,14 @@
 mod binomial;
 mod bootstrap;
 mod correlation;
+#[cfg(test)]
+mod coverage;
 pub mod detection;
 mod distribution;
 mod equivalence;
 mod interval;
 mod outcome;
 mod permutation;
-mod rank;
 mod summary;
 mod t_test;
 pub mod variance;
@@ -34,12 +35,11 @@ pub(crate) use distribution::{chi_squared_upper, normal_density};
 pub use distribution::{f_upper, normal_lower, normal_quantile, t_quantile_upper};
 pub use equivalence::{Equivalence, power_of_t, tost};
 pub use interval::{fisher_z, wilson};
-pub use outcome::{Freedom, Interval, Named, Outcome, Sides};
+pub use outcome::{Computed, Freedom, Interval, Named, Outcome, Sides, Undefined};
 pub use permutation::sign_flip;
-pub use rank::Ranks;
 pub use summary::{Summary, mean};
 pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
-pub use wilcoxon::{wilcoxon_pairs, wilcoxon_signed_rank};
+pub use wilcoxon::{Ranks, wilcoxon_pairs, wilcoxon_signed_rank};
 
 pub mod adaptive;
 pub mod mds;
@@ -47,25 +47,3 @@ pub mod procrustes;
 pub mod properties;
 pub mod psychometric;
 pub mod ranking;
-
-use thiserror::Error;
-
-/// A number, or why there is none.
-pub type Computed<T = f64> = Result<T, Undefined>;
-
-/// Why a number cannot be computed, in words that stand in a report: `one subject alone`.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("not computable: {reason}")]
-pub struct Undefined {
-    /// What is missing or wrong.
-    pub reason: String,
-}
-
-impl Undefined {
-    /// With this reason.
-    pub fn because(reason: impl Into<String>) -> Self {
-        Self {
-            reason: reason.into(),
-        }
-    }
-}

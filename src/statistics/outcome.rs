@@ -1,7 +1,27 @@
 //! What a test found, as a table prints it: n, statistic, degrees of freedom, p, effect size,
 //! estimate with its interval, and what a reader has to know besides.
 
-use super::Computed;
+use thiserror::Error;
+
+/// A number, or why there is none.
+pub type Computed<T = f64> = Result<T, Undefined>;
+
+/// Why a number cannot be computed, in words that stand in a report: `one subject alone`.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("not computable: {reason}")]
+pub struct Undefined {
+    /// What is missing or wrong.
+    pub reason: String,
+}
+
+impl Undefined {
+    /// With this reason.
+    pub fn because(reason: impl Into<String>) -> Self {
+        Self {
+            reason: reason.into(),
+        }
+    }
+}
 
 /// An interval that holds the true value with confidence `level`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! `index.md`: what was asked, what was found, on which machine, and how to repeat it.
 
-use super::columns::further_cell;
 use super::listing::{cell, table};
 use super::readable::{number, time};
 use super::runner::{Options, Outcome, Report};
+use super::write::further_cell;
 use super::{Effort, Findings, Machine, Row, Study, chart, write};
 
 /// Where and how a report was made.

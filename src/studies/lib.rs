@@ -22,11 +22,8 @@ mod bench;
 mod bimorph;
 mod chart;
 mod clips;
-mod columns;
-mod coverage;
 mod drive_updates;
 mod error;
-mod findings;
 mod growth;
 mod index;
 mod left_out;
@@ -39,7 +36,6 @@ mod picture;
 mod readable;
 mod readers;
 mod rendering;
-mod replication;
 mod runner;
 mod shading;
 mod spectral_model;
@@ -55,10 +51,8 @@ pub(crate) use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
 pub(crate) use bimorph::BimorphStudy;
 pub use clips::ClipsStudy;
-pub(crate) use coverage::CoverageStudy;
 pub(crate) use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
-pub use findings::{Findings, Row};
 pub(crate) use growth::GrowthStudy;
 pub(crate) use left_out::LeftOutStudy;
 pub(crate) use machine::Machine;
@@ -73,12 +67,11 @@ pub(crate) use picture::{
 pub(crate) use readers::ReadersStudy;
 pub(crate) use rendering::RenderingStudy;
 pub use rendering::{Running, ThisSceneStudy};
-pub(crate) use replication::ReplicationStudy;
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
 pub(crate) use shading::ShadingStudy;
 pub(crate) use spectral_model::SpectralModelStudy;
 pub(crate) use staircases::StaircasesStudy;
-pub use study::Study;
+pub use study::{Findings, Row, Study};
 pub(crate) use velocity::VelocityStudy;
 
 /// Every study of the floors below, in the order of the report.
@@ -105,9 +98,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(ReadersStudy),
         Box::new(MdsStudy),
         Box::new(StaircasesStudy),
-        Box::new(CoverageStudy),
-        Box::new(ReplicationStudy),
-        Box::new(LeftOutStudy::default()),
+        Box::new(LeftOutStudy),
         Box::new(stability::Stability),
     ]
 }

@@ -2,8 +2,8 @@
 //!
 //! The CSV has every row and every digit; here is what a reader looks for.
 
-use super::columns::{further_cell, further_columns};
 use super::readable::{self, bytes, number, time};
+use super::write::{further_cell, further_columns};
 use super::{Findings, Row, Study, Timing, pareto, write};
 
 /// More rows than this are folded away below a plot.

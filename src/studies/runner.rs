@@ -179,12 +179,12 @@ fn one(study: &dyn Study, options: &Options, progress: &mut Progress<'_>) -> Out
         },
         Ok(Err(ReportError::Cancelled)) => Outcome::Stopped,
         Ok(Err(error)) => Outcome::Failed(error.to_string()),
-        Err(panic) => Outcome::Failed(format!("it panicked: {}", words_of(panic.as_ref()))),
+        Err(panic) => Outcome::Failed(format!("it panicked: {}", message_of(panic.as_ref()))),
     }
 }
 
 /// What a panic said.
-pub(super) fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+pub(super) fn message_of(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "without a word".to_owned())

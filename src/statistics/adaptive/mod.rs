@@ -14,7 +14,6 @@ mod interleaved;
 mod quest_plus;
 mod rule;
 mod staircase;
-mod stationary;
 mod stop;
 #[cfg(test)]
 mod tests;
@@ -27,8 +26,6 @@ pub use quest_plus::{QuestGrid, QuestPlus};
 pub use rule::{Rule, StepScale};
 pub use staircase::Reversal;
 pub use staircase::{Limit, ReversalMean, Stage, Staircase, StaircasePlan};
-pub use stationary::Stationary;
-pub use stationary::stationary;
 pub(crate) use stop::Reached;
 pub use stop::Stop;
 

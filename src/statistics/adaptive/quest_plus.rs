@@ -84,7 +84,7 @@ impl QuestGrid {
 }
 
 /// What the posterior says of one number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reckoned {
     /// Its mean.
     pub mean: f64,
@@ -95,7 +95,7 @@ pub struct Reckoned {
 }
 
 /// The posterior after a trial.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct QuestSummary {
     /// Of the threshold.
     pub threshold: Reckoned,
@@ -103,8 +103,6 @@ pub struct QuestSummary {
     pub width: Reckoned,
     /// Of the lapse rate.
     pub lapse: Reckoned,
-    /// Its entropy, nats.
-    pub(crate) entropy: f64,
 }
 
 /// A QUEST+ procedure as far as it came.
@@ -120,7 +118,7 @@ pub struct QuestPlus {
     masses: Vec<f64>,
     best: usize,
     trials: Vec<Trial>,
-    summaries: Vec<QuestSummary>,
+    summary: QuestSummary,
 }
 
 impl QuestPlus {
@@ -130,18 +128,6 @@ impl QuestPlus {
     /// An empty or enormous grid, functions that are none, stimuli without a place, a rule to stop
     /// that cannot come true.
     pub fn new(grid: QuestGrid, stop: Stop) -> Computed<Self> {
-        Self::with_prior(grid, stop, |_| 0.0)
-    }
-
-    /// With a prior: the logarithm of how likely a function is, but for a constant.
-    ///
-    /// # Errors
-    /// As [`Self::new`], and a prior that leaves nothing possible.
-    pub(crate) fn with_prior(
-        grid: QuestGrid,
-        stop: Stop,
-        ln_prior: impl Fn(&Psychometric) -> f64,
-    ) -> Computed<Self> {
         grid.check()?;
         stop.check(&Reached {
             posterior_sd: Some(f64::MAX),
@@ -164,11 +150,10 @@ impl QuestPlus {
             masses: Vec::new(),
             best: 0,
             trials: Vec::new(),
-            summaries: Vec::new(),
+            summary: QuestSummary::default(),
             grid,
         };
-        let prior = (0..n).map(|i| ln_prior(&quest.grid.curve(i))).collect();
-        quest.believe(prior)?;
+        quest.believe(vec![0.0; n])?;
         Ok(quest)
     }
 
@@ -177,27 +162,9 @@ impl QuestPlus {
         &self.grid
     }
 
-    /// The posterior before the first trial and after every one.
-    pub(crate) fn summaries(&self) -> &[QuestSummary] {
-        &self.summaries
-    }
-
     /// The posterior now.
     pub fn summary(&self) -> QuestSummary {
-        self.summaries[self.summaries.len() - 1]
-    }
-
-    /// The probability of every function, thresholds outermost and lapse rates innermost.
-    pub(crate) fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    /// The entropy that is to be expected after a trial with each stimulus, nats.
-    pub(crate) fn expected_entropies(&self) -> Vec<f64> {
-        let now = self.summary().entropy;
-        (0..self.grid.stimuli.len())
-            .map(|i| now - self.told_by(i))
-            .collect()
+        self.summary
     }
 
     /// How far it is.
@@ -209,8 +176,8 @@ impl QuestPlus {
         }
     }
 
-    /// What the answer to a stimulus is expected to tell, nats.
-    fn told_by(&self, stimulus: usize) -> f64 {
+    /// The information in nats that the answer to a stimulus is expected to give.
+    fn information_of(&self, stimulus: usize) -> f64 {
         let n = self.masses.len();
         let row = stimulus * n..(stimulus + 1) * n;
         let p = product(&self.masses, &self.probabilities[row.clone()]);
@@ -235,12 +202,12 @@ impl QuestPlus {
         self.masses.clear();
         self.masses.extend(ln_posterior.iter().map(|ln| ln.exp()));
         self.ln_posterior = ln_posterior;
-        self.summaries.push(self.summarised());
+        self.summary = self.summarised();
         let mut best = (0, f64::NEG_INFINITY);
         for i in 0..self.grid.stimuli.len() {
-            let told = self.told_by(i);
-            if told > best.1 + TIE {
-                best = (i, told);
+            let gain = self.information_of(i);
+            if gain > best.1 + TIE {
+                best = (i, gain);
             }
         }
         self.best = best.0;
@@ -248,7 +215,6 @@ impl QuestPlus {
     }
 
     fn summarised(&self) -> QuestSummary {
-        let both = || self.masses.iter().zip(&self.ln_posterior);
         let start = (0, f64::NEG_INFINITY);
         let larger = |best: (usize, f64), (i, ln): (usize, &f64)| {
             if *ln > best.1 { (i, *ln) } else { best }
@@ -274,9 +240,6 @@ impl QuestPlus {
             threshold: reckoned(&self.grid.thresholds, &|i| i / n_lapses / n_widths),
             width: reckoned(&self.grid.widths, &|i| i / n_lapses % n_widths),
             lapse: reckoned(&self.grid.lapses, &|i| i % n_lapses),
-            entropy: both()
-                .map(|(m, ln)| if *m > 0.0 { -m * ln } else { 0.0 })
-                .sum(),
         }
     }
 }
@@ -331,4 +294,30 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     sums.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    impl QuestPlus {
+        /// The probability of every function, thresholds outermost and lapse rates innermost.
+        pub(in crate::adaptive) fn masses(&self) -> &[f64] {
+            &self.masses
+        }
+
+        /// The entropy of the posterior now, nats.
+        pub(in crate::adaptive) fn entropy(&self) -> f64 {
+            let both = self.masses.iter().zip(&self.ln_posterior);
+            both.map(|(m, ln)| if *m > 0.0 { -m * ln } else { 0.0 })
+                .sum()
+        }
+
+        /// The entropy that is to be expected after a trial with each stimulus, nats.
+        pub(in crate::adaptive) fn expected_entropies(&self) -> Vec<f64> {
+            (0..self.grid.stimuli.len())
+                .map(|i| self.entropy() - self.information_of(i))
+                .collect()
+        }
+    }
 }

@@ -3,10 +3,6 @@
 use crate::detection::inverted;
 use crate::{Computed, Undefined};
 
-/// Ratios of step down to step up that let one-up-m-down staircases with clear steps settle where
-/// they should, for m = 1…4 (García-Pérez 1998); targets 0.7785, 0.8035, 0.8315, 0.8584.
-pub(crate) const GARCIA_PEREZ_RATIOS: [f64; 4] = [0.2845, 0.5488, 0.7393, 0.8415];
-
 /// What steps are steps of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StepScale {
@@ -113,8 +109,10 @@ mod tests {
 
     #[test]
     fn unequal_steps_settle_at_the_printed_targets() -> Computed<()> {
+        // Ratios of step down to step up of one-up-m-down staircases (García-Pérez 1998).
+        let ratios = [0.2845, 0.5488, 0.7393, 0.8415];
         let targets = [0.7785, 0.8035, 0.8315, 0.8584];
-        for (m, (ratio, target)) in (1..).zip(GARCIA_PEREZ_RATIOS.into_iter().zip(targets)) {
+        for (m, (ratio, target)) in (1..).zip(ratios.into_iter().zip(targets)) {
             let found = Rule::one_up(m).target(1.0, ratio)?;
             assert!((found - target).abs() < 1e-4, "{m}: {found} for {target}");
         }

@@ -136,7 +136,6 @@ pub struct Staircase {
     trials: Vec<Trial>,
     reversals: Vec<Reversal>,
     n_clamped: [u32; 2],
-    n_at_limit_in_a_row: u32,
 }
 
 impl Staircase {
@@ -158,7 +157,6 @@ impl Staircase {
             trials: Vec::new(),
             reversals: Vec::new(),
             n_clamped: [0; 2],
-            n_at_limit_in_a_row: 0,
         })
     }
 
@@ -196,11 +194,6 @@ impl Staircase {
             .into_iter()
             .filter_map(warning)
             .collect()
-    }
-
-    /// Steps in a row that a limit cut short, up to now: an observer who never feels it.
-    pub(crate) fn n_at_limit_in_a_row(&self) -> u32 {
-        self.n_at_limit_in_a_row
     }
 
     /// The threshold from the last reversals, at most `n_last` and an even number of them, those
@@ -252,12 +245,6 @@ impl Staircase {
         for (n, is_cut) in self.n_clamped.iter_mut().zip(is_cut) {
             *n += u32::from(is_cut);
         }
-        let is_any = is_cut[0] || is_cut[1];
-        self.n_at_limit_in_a_row = if is_any {
-            self.n_at_limit_in_a_row + 1
-        } else {
-            0
-        };
     }
 
     fn turn(&mut self) {

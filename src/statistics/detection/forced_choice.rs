@@ -1,6 +1,6 @@
 //! One of m alternatives is right and the strongest is chosen, without bias to any.
 
-use super::{Choice, Correction, Relation, integral, inverted};
+use super::choice::{Choice, Correction, Relation, integral, inverted};
 use crate::distribution::{normal_density, normal_lower};
 use crate::{Computed, Undefined};
 

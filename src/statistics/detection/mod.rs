@@ -4,145 +4,15 @@
 //! common standard deviation. Pooling subjects before the transformation makes d′ too small, so
 //! each subject has a d′ of its own.
 
+mod choice;
 mod forced_choice;
 mod roc;
 mod triangle;
 mod yes_no;
 
+pub(crate) use choice::inverted;
+pub use choice::{Choice, Correction};
 pub use forced_choice::{forced_choice, share_of_d_prime};
-pub use roc::RocPoint;
-pub use roc::{Roc, roc};
+pub use roc::{Roc, RocPoint, roc};
 pub use triangle::{triangle, triangle_d_prime};
-pub use yes_no::YesNo;
-pub use yes_no::{Answers, yes_no};
-
-use super::Computed;
-use super::interval::wilson;
-use super::{Interval, Undefined};
-
-/// What is done about shares of 0 and 1, whose z is infinite.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Correction {
-    /// (count + ½)/(trials + 1) (Hautus 1995).
-    #[default]
-    LogLinear,
-    /// 1/(2N) for 0 and 1 − 1/(2N) for 1 (Macmillan & Kaplan 1985); other shares as they are.
-    Clip,
-}
-
-impl Correction {
-    /// Its name in a table.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::LogLinear => "log-linear",
-            Self::Clip => "1/(2N)",
-        }
-    }
-
-    /// The share as it is corrected.
-    pub(super) fn share(self, count: u64, trials: u64) -> f64 {
-        let (k, n) = (count as f64, trials as f64);
-        match self {
-            Self::LogLinear => (k + 0.5) / (n + 1.0),
-            Self::Clip => (k / n).clamp(0.5 / n, 1.0 - 0.5 / n),
-        }
-    }
-}
-
-/// d′ from the share of correct choices.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
-    /// Correct choices.
-    pub correct: u64,
-    /// Trials.
-    pub trials: u64,
-    /// Share expected of a guess.
-    pub chance: f64,
-    /// The share that d′ follows from.
-    pub share: f64,
-    /// What was done about a share of 0 or 1; `None` if it was neither.
-    pub correction: Option<Correction>,
-    /// Distance of the sensations.
-    pub d_prime: f64,
-    /// Whether the share lies below chance.
-    pub is_below_chance: bool,
-    /// Standard error by the delta method, √(share(1 − share)/N)/(dPc/dd′).
-    pub se: Computed,
-    /// d′ of the ends of Wilson's interval of the share at 95 %.
-    pub interval: Computed<Interval>,
-}
-
-/// The relation of d′ and share of one kind of trial.
-struct Relation<'a> {
-    chance: f64,
-    share_of: &'a dyn Fn(f64) -> f64,
-    d_prime_of: &'a dyn Fn(f64) -> Computed,
-}
-
-impl Relation<'_> {
-    fn choice(&self, correct: u64, trials: u64, correction: Correction) -> Computed<Choice> {
-        let ends = wilson(correct, trials, 0.95)?;
-        let is_extreme = correct == 0 || correct == trials;
-        let share = if is_extreme {
-            correction.share(correct, trials)
-        } else {
-            correct as f64 / trials as f64
-        };
-        let d_prime = (self.d_prime_of)(share)?;
-        let step = 1e-4;
-        let slope =
-            ((self.share_of)(d_prime + step) - (self.share_of)(d_prime - step)) / step / 2.0;
-        let se = (share * (1.0 - share) / trials as f64).sqrt() / slope;
-        let interval = (self.d_prime_of)(ends.low).and_then(|low| {
-            Ok(Interval {
-                low,
-                high: (self.d_prime_of)(ends.high)?,
-                level: ends.level,
-            })
-        });
-        Ok(Choice {
-            correct,
-            trials,
-            chance: self.chance,
-            share,
-            correction: is_extreme.then_some(correction),
-            d_prime,
-            is_below_chance: share < self.chance,
-            se: (slope > 1e-6)
-                .then_some(se)
-                .ok_or_else(|| Undefined::because("the share hardly changes with d′ here")),
-            interval,
-        })
-    }
-}
-
-/// The place where a rising function reaches `target`, by halving to 1e-12.
-pub(super) fn inverted(
-    function: impl Fn(f64) -> f64,
-    target: f64,
-    [mut low, mut high]: [f64; 2],
-) -> f64 {
-    while high - low > 1e-12 * high.abs().max(1.0) {
-        let middle = 0.5 * (low + high);
-        if function(middle) < target {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// The integral of a smooth function that is nothing at both ends, by the trapezoidal rule with
-/// steps of 1/32: of φ times a smooth function the error is below rounding.
-fn integral(function: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few hundred steps"
-    )]
-    let n_steps = (32.0 * (to - from)).ceil() as u32;
-    let step = (to - from) / f64::from(n_steps);
-    let at = |i: u32| function(from + f64::from(i) * step);
-    step * (0..=n_steps).map(at).sum::<f64>()
-}
+pub use yes_no::{Answers, YesNo, yes_no};

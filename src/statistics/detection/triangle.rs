@@ -1,6 +1,6 @@
 //! The triangle test: two alike and one odd, the odd one is to be found.
 
-use super::{Choice, Correction, Relation, inverted};
+use super::choice::{Choice, Correction, Relation, inverted};
 use crate::distribution::{normal_density, normal_lower};
 use crate::{Computed, Undefined};
 
@@ -9,15 +9,6 @@ const CHANCE: f64 = 1.0 / 3.0;
 /// The share of correct triads at a distance d′ (Ura 1960; Ennis 1990):
 /// 2 ∫₀^∞ [Φ(−x√3 + d′√⅔) + Φ(−x√3 − d′√⅔)] φ(x) dx.
 ///
-/// # Errors
-/// A distance that is not finite.
-pub(crate) fn triangle_share(d_prime: f64) -> Computed {
-    if !d_prime.is_finite() {
-        return Err(Undefined::because(format!("d′ = {d_prime} in triads")));
-    }
-    Ok(share(d_prime))
-}
-
 /// By the rule of Gauss and Legendre with five nodes in each eighth from 0 to 9 (Abramowitz &
 /// Stegun table 25.4): exact to rounding.
 fn share(d_prime: f64) -> f64 {
@@ -79,18 +70,10 @@ mod tests {
     use selvedge_foundation::numerics::Random;
 
     #[test]
-    fn without_a_difference_a_third_is_right_and_far_apart_all() -> Computed<()> {
-        assert!(
-            (triangle_share(0.0)? - CHANCE).abs() < 1e-14,
-            "{}",
-            share(0.0)
-        );
-        assert!(triangle_share(20.0)? > 1.0 - 1e-14, "{}", share(20.0));
-        assert!(
-            (triangle_share(-1.3)? - triangle_share(1.3)?).abs() < 1e-15,
-            "even"
-        );
-        Ok(())
+    fn without_a_difference_a_third_is_right_and_far_apart_all() {
+        assert!((share(0.0) - CHANCE).abs() < 1e-14, "{}", share(0.0));
+        assert!(share(20.0) > 1.0 - 1e-14, "{}", share(20.0));
+        assert!((share(-1.3) - share(1.3)).abs() < 1e-15, "even");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Yes/no trials: sensitivity and bias of one subject.
 
-use super::Correction;
+use super::choice::Correction;
 use crate::distribution::{normal_density, normal_quantile};
 use crate::{Computed, Interval, Undefined};
 

@@ -9,11 +9,9 @@ mod descend;
 mod dissimilarities;
 mod elbow;
 mod fit;
-mod line;
 mod map;
 mod monotone;
 mod null;
-mod orient;
 mod search;
 mod start;
 #[cfg(test)]

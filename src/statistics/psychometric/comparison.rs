@@ -20,13 +20,13 @@ pub struct Measured {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// The point of subjective equality: the stimulus called stronger half of the time.
-    pub(crate) pse: Measured,
+    pub pse: Measured,
     /// How far it lies above the reference.
-    pub(crate) constant_error: f64,
+    pub constant_error: f64,
     /// Half the distance of the stimuli called stronger 25 % and 75 % of the time, lapses apart.
     pub jnd: Measured,
     /// JND over reference.
-    pub(crate) weber_fraction: Computed<Measured>,
+    pub weber_fraction: Computed<Measured>,
 }
 
 impl Fit {
@@ -34,7 +34,7 @@ impl Fit {
     ///
     /// # Errors
     /// A quantity that the function does not have.
-    pub(crate) fn measured(
+    fn measured(
         &self,
         quantity: impl Fn(&Psychometric) -> Computed,
         resamples: &Resamples,
@@ -47,7 +47,7 @@ impl Fit {
     ///
     /// # Errors
     /// As [`Self::measured`].
-    pub(crate) fn measured_positive(
+    fn measured_positive(
         &self,
         quantity: impl Fn(&Psychometric) -> Computed,
         resamples: &Resamples,
@@ -74,7 +74,7 @@ impl Fit {
     ///
     /// # Errors
     /// A reference that is not finite.
-    pub(crate) fn comparison(&self, reference: f64, resamples: &Resamples) -> Computed<Comparison> {
+    pub fn comparison(&self, reference: f64, resamples: &Resamples) -> Computed<Comparison> {
         if !reference.is_finite() {
             return Err(Undefined::because("the reference is not finite"));
         }

@@ -72,7 +72,7 @@ impl Fit {
 
     /// The axes along which the mode can move.
     fn free(&self) -> Vec<usize> {
-        let (most, is_fixed) = self.model.lapse.most();
+        let (most, is_fixed) = self.model.lapses();
         let lapse = self.curve.lapse;
         let is_inside = lapse > NEAR_END && lapse < most - NEAR_END;
         if is_fixed || !is_inside {

@@ -1,7 +1,7 @@
 //! The psychometric function that answers make most probable.
 
 use super::answers::{Block, checked};
-use super::prior::{Guess, Lapse, Priors};
+use super::prior::{Guess, MAX_LAPSE, Priors};
 use super::target::{Point, Target, deviance, point};
 use super::{Family, Psychometric};
 use crate::{Computed, Undefined};
@@ -17,8 +17,8 @@ pub struct Model {
     pub family: Family,
     /// Its lower end.
     pub guess: Guess,
-    /// Its upper end.
-    pub(crate) lapse: Lapse,
+    /// The largest lapse rate; any from 0 to it is as likely as another.
+    pub(crate) max_lapse: f64,
 }
 
 impl Model {
@@ -27,7 +27,7 @@ impl Model {
         Self {
             family,
             guess: Guess::Share(1.0 / f64::from(m.max(1))),
-            lapse: Lapse::default(),
+            max_lapse: MAX_LAPSE,
         }
     }
 
@@ -36,7 +36,7 @@ impl Model {
         Self {
             family,
             guess: Guess::EqualToLapse,
-            lapse: Lapse::default(),
+            max_lapse: MAX_LAPSE,
         }
     }
 
@@ -52,19 +52,17 @@ impl Model {
         self.fitted(priors, blocks)
     }
 
-    /// Likewise with these priors.
-    ///
-    /// # Errors
-    /// As [`Self::fit`], and ranges that are none.
-    pub(crate) fn fit_with(self, priors: Priors, blocks: &[Block]) -> Computed<Fit> {
-        self.check()?;
-        priors.check()?;
-        self.fitted(priors, checked(self.family, blocks)?)
+    /// The largest lapse rate, and whether it is the only one.
+    pub(super) fn lapses(self) -> (f64, bool) {
+        (self.max_lapse, self.max_lapse <= 0.0)
     }
 
     fn check(self) -> Computed<()> {
-        self.lapse.check()?;
-        let most = self.lapse.most().0;
+        let most = self.max_lapse;
+        if !(0.0..0.5).contains(&most) {
+            let reason = format!("a largest lapse rate of {most} is not below one half");
+            return Err(Undefined::because(reason));
+        }
         let guess = self.guess.rate(most);
         let is_rate = guess >= 0.0 && guess + most < 1.0;
         is_rate.then_some(()).ok_or_else(|| {
@@ -136,7 +134,7 @@ impl Fit {
 fn start(target: &Target<'_>) -> Point {
     let [from, to] = target.priors.threshold_support();
     let widths = target.priors.width_support().map(f64::ln);
-    let (most, is_fixed) = target.model.lapse.most();
+    let (most, is_fixed) = target.model.lapses();
     let within = |[low, high]: [f64; 2], i: u32, n: u32| {
         low + (high - low) * (f64::from(i) + 0.5) / f64::from(n)
     };
@@ -179,7 +177,7 @@ fn mode(target: &Target<'_>, start: Point) -> Computed<Point> {
 
 /// Uphill from a point with steps of this share of the usual ones.
 fn walked(target: &Target<'_>, [threshold, ln_width, lapse]: Point, size: f64) -> Point {
-    let (most, is_fixed) = target.model.lapse.most();
+    let (most, is_fixed) = target.model.lapses();
     let range = target.priors.threshold[1] - target.priors.threshold[0];
     let steps = [0.1 * range, 0.3, 0.3].map(|step| size * step);
     if is_fixed {

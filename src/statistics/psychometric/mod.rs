@@ -20,7 +20,7 @@ mod delta;
 mod family;
 mod fit;
 mod posterior;
-pub(crate) mod prior;
+mod prior;
 mod resample;
 pub mod stevens;
 mod target;

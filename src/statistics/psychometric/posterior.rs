@@ -1,4 +1,4 @@
-//! The whole posterior on a grid, and what it says of each number.
+//! The whole posterior on a grid, and the intervals that it gives.
 
 use super::target::{Point, Target, point};
 use super::{Fit, Psychometric};
@@ -11,45 +11,11 @@ const COARSE: [usize; 3] = [24, 24, 5];
 /// A row of cells with less than this share of the largest row is left out.
 const LEAST: f64 = 1e-5;
 
-/// The distribution of one number.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Marginal {
-    /// Its values, ascending: threshold in the unit of the stimulus, width on the family's scale.
-    pub values: Vec<f64>,
-    /// The probability of each, 1 together.
-    pub(crate) masses: Vec<f64>,
-}
-
-impl Marginal {
-    /// Its mean.
-    pub(crate) fn mean(&self) -> f64 {
-        self.values
-            .iter()
-            .zip(&self.masses)
-            .map(|(v, m)| v * m)
-            .sum()
-    }
-
-    /// Its standard deviation.
-    pub(crate) fn sd(&self) -> f64 {
-        let mean = self.mean();
-        let both = self.values.iter().zip(&self.masses);
-        both.map(|(v, m)| m * (v - mean).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    }
-}
-
 /// The posterior on a grid that holds all but a ten-thousandth of it.
 #[derive(Debug, Clone)]
 pub struct Posterior {
-    /// Of the threshold.
-    pub(crate) threshold: Marginal,
-    /// Of the width.
-    pub(crate) width: Marginal,
-    /// Of the lapse rate; one value where it is fixed.
-    pub(crate) lapse: Marginal,
-    cells: Vec<(Psychometric, f64)>,
+    /// Functions and their probabilities, 1 together.
+    pub(super) cells: Vec<(Psychometric, f64)>,
 }
 
 /// An even grid: the first ends, and how many cells between.
@@ -79,7 +45,7 @@ impl Grid {
                 for k in 0..self.counts[2] {
                     let lapse = self.along(2, k);
                     let ln_likelihood = target.ln_likelihood_of(shares.iter().copied(), lapse);
-                    masses.push(ln_prior + target.model.lapse.ln_prior(lapse) + ln_likelihood);
+                    masses.push(ln_prior + ln_likelihood);
                 }
             }
         }
@@ -128,7 +94,7 @@ impl Fit {
     /// The posterior on a grid.
     pub fn posterior(&self) -> Posterior {
         let (target, mode) = (self.target(), point(&self.curve));
-        let (most, is_fixed) = self.model.lapse.most();
+        let (most, is_fixed) = self.model.lapses();
         let lapses = if is_fixed { [most, most] } else { [0.0, most] };
         let n_lapses = |n: usize| if is_fixed { 1 } else { n };
         let mut grid = Grid {
@@ -144,12 +110,6 @@ impl Fit {
         }
         grid.counts = [CELLS[0], CELLS[1], n_lapses(CELLS[2])];
         let masses = grid.masses(&target);
-        let marginal = |axis: usize, of: &dyn Fn(f64) -> f64| Marginal {
-            values: (0..grid.counts[axis])
-                .map(|i| of(grid.along(axis, i)))
-                .collect(),
-            masses: grid.marginal(&masses, axis),
-        };
         let [_, n_widths, n_lapses] = grid.counts;
         let curve = |cell: usize| {
             let (i, j, k) = (
@@ -160,9 +120,6 @@ impl Fit {
             target.curve([grid.along(0, i), grid.along(1, j), grid.along(2, k)])
         };
         Posterior {
-            threshold: marginal(0, &|place| self.model.family.stimulus(place)),
-            width: marginal(1, &f64::exp),
-            lapse: marginal(2, &|rate| rate),
             cells: masses
                 .iter()
                 .enumerate()

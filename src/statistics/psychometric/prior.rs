@@ -2,10 +2,9 @@
 
 use super::answers::Block;
 use super::{Family, Psychometric};
-use crate::{Computed, Undefined};
 
-/// No lapse rate above this is believed unless the caller says so.
-pub(crate) const MOST_LAPSE: f64 = 0.06;
+/// No lapse rate above this is believed.
+pub(super) const MAX_LAPSE: f64 = 0.06;
 
 /// How the lower end of the function is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,64 +13,6 @@ pub enum Guess {
     Share(f64),
     /// As large as the lapse rate: two-sided answers, wrong as often at either end.
     EqualToLapse,
-}
-
-/// How the upper end of the function is known.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Lapse {
-    /// Given.
-    Fixed(f64),
-    /// Any rate from 0 to `most` as likely as another.
-    Flat {
-        /// The largest.
-        most: f64,
-    },
-    /// Beta(a, b), cut at `most`.
-    Beta {
-        /// At least 1.
-        a: f64,
-        /// At least 1.
-        b: f64,
-        /// The largest.
-        most: f64,
-    },
-}
-
-impl Default for Lapse {
-    fn default() -> Self {
-        Self::Flat { most: MOST_LAPSE }
-    }
-}
-
-impl Lapse {
-    /// The largest rate, and whether it is the only one.
-    pub(super) fn most(self) -> (f64, bool) {
-        match self {
-            Self::Fixed(rate) => (rate, true),
-            Self::Flat { most } | Self::Beta { most, .. } => (most, most <= 0.0),
-        }
-    }
-
-    pub(super) fn ln_prior(self, rate: f64) -> f64 {
-        match self {
-            Self::Fixed(_) | Self::Flat { .. } => 0.0,
-            Self::Beta { a, b, .. } => times_ln(a - 1.0, rate) + (b - 1.0) * (-rate).ln_1p(),
-        }
-    }
-
-    pub(super) fn check(self) -> Computed<()> {
-        let (most, _) = self.most();
-        let is_shaped = match self {
-            Self::Beta { a, b, .. } => a >= 1.0 && b >= 1.0 && a.is_finite() && b.is_finite(),
-            _ => true,
-        };
-        let is_good = (0.0..0.5).contains(&most) && is_shaped;
-        is_good.then_some(()).ok_or_else(|| {
-            Undefined::because(format!(
-                "{self:?} is no prior of a lapse rate below one half"
-            ))
-        })
-    }
 }
 
 impl Guess {
@@ -112,16 +53,6 @@ impl Priors {
             threshold: [low, high],
             width: [(2.0 * gap).min(0.5 * range), range],
         }
-    }
-
-    pub(super) fn check(&self) -> Computed<()> {
-        let [low, high] = self.threshold;
-        let [narrow, wide] = self.width;
-        let is_good =
-            low < high && narrow > 0.0 && narrow <= wide && (high - low + wide).is_finite();
-        is_good.then_some(()).ok_or_else(|| {
-            Undefined::because(format!("{self:?} are no ranges of threshold and width"))
-        })
     }
 
     /// Where a threshold can be.

@@ -75,7 +75,7 @@ impl Fit {
 
 impl Resamples {
     /// The probability of a deviance at least that of the fit, if the model holds.
-    pub(crate) fn p_deviance(&self) -> f64 {
+    pub fn p_deviance(&self) -> f64 {
         let n_worse = self
             .deviances
             .iter()

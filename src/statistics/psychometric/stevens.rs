@@ -85,26 +85,6 @@ pub fn stevens(estimates: &[Estimate], level: f64) -> Computed<Stevens> {
     })
 }
 
-/// Estimates with every subject's modulus made that of the group: each is multiplied by the
-/// group's geometric mean over the subject's own.
-///
-/// # Errors
-/// As [`stevens`].
-pub(crate) fn with_equal_moduli(estimates: &[Estimate]) -> Computed<Vec<Estimate>> {
-    let (_, subjects) = collected(estimates)?;
-    let mean = |logs: &[f64]| logs.iter().sum::<f64>() / logs.len() as f64;
-    let own: BTreeMap<&str, f64> = subjects
-        .iter()
-        .map(|(name, logs)| (name.as_str(), mean(logs)))
-        .collect();
-    let group = own.values().sum::<f64>() / own.len() as f64;
-    let moved = |estimate: &Estimate| Estimate {
-        value: estimate.value * (group - own[estimate.subject.as_str()]).exp(),
-        ..estimate.clone()
-    };
-    Ok(estimates.iter().map(moved).collect())
-}
-
 /// Stimuli ascending, and mean logarithms of each subject at each of them.
 fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<Subject>)> {
     let mut stimuli: Vec<f64> = estimates.iter().map(|e| e.stimulus).collect();
@@ -232,31 +212,6 @@ mod tests {
             (found.interval?.high - 0.7 - half).abs() < 1e-9,
             "t over subjects"
         );
-        Ok(())
-    }
-
-    #[test]
-    fn moduli_made_equal_leave_the_exponent_and_take_the_spread() -> Computed<()> {
-        let raw = estimates(&[0.6; 6], 0.1, 2);
-        let equal = with_equal_moduli(&raw)?;
-        let (before, after) = (stevens(&raw, 0.95)?, stevens(&equal, 0.95)?);
-        assert!(
-            (before.group.exponent - after.group.exponent).abs() < 1e-12,
-            "same"
-        );
-        assert!(
-            (before.means[2] / after.means[2] - 1.0).abs() < 1e-12,
-            "same means"
-        );
-        let spread = |all: &[Estimate]| {
-            let at: Vec<f64> = all
-                .iter()
-                .filter(|e| e.stimulus == 5.0)
-                .map(|e| e.value.ln())
-                .collect();
-            Summary::of(&at).map(|summary| summary.sd)
-        };
-        assert!(spread(&equal)? < 0.2 * spread(&raw)?, "moduli are gone");
         Ok(())
     }
 

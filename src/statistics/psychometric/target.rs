@@ -31,7 +31,7 @@ impl<'a> Target<'a> {
     /// constant.
     pub(super) fn ln_posterior(&self, [threshold, ln_width, lapse]: Point) -> f64 {
         let width = ln_width.exp();
-        let ln_prior = self.priors.ln_prior(threshold, width) + self.model.lapse.ln_prior(lapse);
+        let ln_prior = self.priors.ln_prior(threshold, width);
         if ln_prior.is_finite() {
             ln_prior + self.ln_likelihood([threshold, ln_width, lapse])
         } else {

@@ -29,10 +29,10 @@ pub struct BradleyTerry {
 /// ends.
 ///
 /// # Errors
-/// Fewer than two items, no comparisons, ties; groups of items without finite abilities, unless
+/// Fewer than two items, no comparisons; groups of items without finite abilities, unless
 /// there is a prior.
 pub fn bradley_terry(preferences: &Preferences, prior: Prior) -> Computed<BradleyTerry> {
-    preferences.check_untied()?;
+    preferences.check()?;
     let n_items = preferences.n_items();
     let pairs = preferences.compared();
     let mut choices = Choices::new(n_items);

@@ -109,10 +109,6 @@ impl Choices {
 }
 
 impl LogLikelihood for Choices {
-    fn n_items(&self) -> usize {
-        self.wins.len()
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let chosen: f64 = self.wins.iter().zip(x).map(|(w, x)| w * x).sum();
         let among = |(set, n): (&Vec<usize>, &f64)| {

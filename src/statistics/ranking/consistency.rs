@@ -29,14 +29,14 @@ pub struct Consistency {
 /// Of one subject who compared every two items once.
 ///
 /// # Errors
-/// Fewer than three items; ties; pairs compared never or more than once (with their list).
+/// Fewer than three items; pairs compared never or more than once (with their list).
 pub fn consistency(answers: &Preferences) -> Computed<Consistency> {
     let k = answers.n_items();
     if k < 3 {
         let reason = format!("{k} items make no triad");
         return Err(Undefined::because(reason));
     }
-    answers.check_untied()?;
+    answers.check()?;
     let odd = answers.pairs_where(|n| n != 1);
     if !odd.is_empty() {
         let reason = format!("not compared exactly once: {}", odd.join(", "));
@@ -85,7 +85,7 @@ impl Majority {
         let (mut n_pairs, mut n_undecided) = (0, 0);
         for (i, j) in (0..k).flat_map(|i| (i + 1..k).map(move |j| (i, j))) {
             let [forth, back] = [answers.wins(i, j), answers.wins(j, i)];
-            let is_compared = forth + back + answers.ties(i, j) > 0;
+            let is_compared = forth + back > 0;
             n_pairs += usize::from(is_compared);
             n_undecided += usize::from(is_compared && forth == back);
             decided[i][j] = u64::from(forth > back);
@@ -166,7 +166,7 @@ mod tests {
         let mut all = Preferences::new(k);
         for (i, j) in (0..k).flat_map(|i| (i + 1..k).map(move |j| (i, j))) {
             let (upper, lower) = if is_first(i, j) { (i, j) } else { (j, i) };
-            all.prefer(upper, lower).unwrap();
+            all.prefer(upper, lower);
         }
         all
     }
@@ -226,10 +226,10 @@ mod tests {
         assert_eq!(found.consistency, Ok(own));
         // One against one leaves a pair to nobody, and seven triads with it.
         let mut split = once.clone();
-        split.prefer(0, 1)?;
-        split.prefer(1, 0)?;
+        split.prefer(0, 1);
+        split.prefer(1, 0);
         let (upper, lower) = if once.wins(0, 1) > 0 { (1, 0) } else { (0, 1) };
-        split.prefer(upper, lower)?;
+        split.prefer(upper, lower);
         let found = Majority::of(&split);
         assert_eq!((found.n_undecided, found.n_triads), (1, 84 - 7));
         assert!(found.consistency.is_err(), "a pair is missing");
@@ -267,14 +267,12 @@ mod tests {
     #[test]
     fn answers_that_are_not_one_a_pair_are_refused_with_their_list() -> Computed<()> {
         let mut some = Preferences::new(3);
-        some.prefer(0, 1)?;
-        some.prefer(0, 1)?;
-        some.prefer(1, 2)?;
+        some.prefer(0, 1);
+        some.prefer(0, 1);
+        some.prefer(1, 2);
         let reason = consistency(&some).map_err(|e| e.reason).unwrap_err();
         assert_eq!(reason, "not compared exactly once: 1 and 2, 1 and 3");
         assert!(consistency(&Preferences::new(2)).is_err(), "no triad");
-        some.tie(0, 2)?;
-        assert!(consistency(&some).is_err(), "a tie");
         Ok(())
     }
 }

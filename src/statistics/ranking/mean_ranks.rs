@@ -48,26 +48,9 @@ impl RankTrial {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeanRanks {
     n_items: usize,
-    n_alternatives: usize,
-    n_trials: usize,
     counts: Vec<usize>,
     rank_sums: Vec<usize>,
     n_first: Vec<usize>,
-}
-
-/// How the correct alternative was ranked.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Correct {
-    /// Trials.
-    pub n_trials: usize,
-    /// Trials in which it was ranked first.
-    pub n_first: usize,
-    /// Its mean rank.
-    pub mean_rank: f64,
-    /// The mean rank of guesses, (k + 1)/2.
-    pub(crate) chance_rank: f64,
-    /// The share of guesses that rank it first, 1/k.
-    pub(crate) chance_share: f64,
 }
 
 /// How far mean ranks differ when target and alternative change places.
@@ -95,8 +78,6 @@ impl MeanRanks {
         let k = first.alternatives.len();
         let mut all = Self {
             n_items,
-            n_alternatives: k,
-            n_trials: trials.len(),
             counts: vec![0; n_items * n_items],
             rank_sums: vec![0; n_items * n_items],
             n_first: vec![0; n_items * n_items],
@@ -194,42 +175,6 @@ impl MeanRanks {
             pairs,
         })
     }
-
-    /// How the correct alternative was ranked over all trials.
-    pub(crate) fn correct(&self) -> Correct {
-        self.correct_of(0..self.n_items, self.n_trials)
-    }
-
-    /// How it was ranked when one item was the target.
-    ///
-    /// # Errors
-    /// The item is unknown or was never the target.
-    pub(crate) fn correct_for(&self, target: usize) -> Computed<Correct> {
-        let n = self.n_items;
-        let n_trials = (target < n).then(|| self.counts[target * n + target]);
-        match n_trials {
-            Some(n_trials) if n_trials > 0 => Ok(self.correct_of(target..target + 1, n_trials)),
-            _ => Err(Undefined::because(format!(
-                "item {} was never the target",
-                target + 1
-            ))),
-        }
-    }
-
-    fn correct_of(&self, targets: std::ops::Range<usize>, n_trials: usize) -> Correct {
-        let over = |sums: &[usize]| -> usize {
-            let diagonal = targets.clone().map(|t| sums[t * self.n_items + t]);
-            diagonal.sum()
-        };
-        let k = self.n_alternatives as f64;
-        Correct {
-            n_trials,
-            n_first: over(&self.n_first),
-            mean_rank: over(&self.rank_sums) as f64 / n_trials as f64,
-            chance_rank: 0.5 * (k + 1.0),
-            chance_share: 1.0 / k,
-        }
-    }
 }
 
 #[cfg(test)]
@@ -268,13 +213,6 @@ mod tests {
         );
         assert_eq!(found.counts()[..5], [2, 2, 2, 2, 0]);
         assert_eq!(found.confusions()[..5], [1, 0, 0, 1, 0]);
-        let correct = found.correct();
-        assert_eq!((correct.n_trials, correct.n_first), (3, 2));
-        assert!((correct.mean_rank - 4.0 / 3.0).abs() < 1e-15);
-        assert_eq!((correct.chance_rank, correct.chance_share), (2.5, 0.25));
-        assert_eq!(found.correct_for(0)?.mean_rank, 1.5);
-        let never = found.correct_for(4).map_err(|e| e.reason);
-        assert_eq!(never, Err("item 5 was never the target".to_owned()));
         assert_eq!(three()[1].best_first(), [3, 0, 1, 2]);
         Ok(())
     }
@@ -315,10 +253,17 @@ mod tests {
         };
         let trials: Vec<RankTrial> = (0..6).cycle().take(6000).map(guess).collect();
         let found = MeanRanks::of(6, &trials)?;
-        let correct = found.correct();
+        let correct = (0..6)
+            .map(|i| found.means()[7 * i])
+            .collect::<Option<Vec<f64>>>();
+        let mean_rank = correct.map(|means| means.iter().sum::<f64>() / 6.0);
+        let n_first: usize = (0..6).map(|i| found.confusions()[7 * i]).sum();
         // Standard errors: √1.25/√6000 = 0.014 and 34 trials.
-        assert!((correct.mean_rank - 2.5).abs() < 0.06, "{correct:?}");
-        assert!(correct.n_first.abs_diff(1500) < 130, "{correct:?}");
+        assert!(
+            mean_rank.is_some_and(|rank| (rank - 2.5).abs() < 0.06),
+            "{mean_rank:?}"
+        );
+        assert!(n_first.abs_diff(1500) < 130, "{n_first}");
         let names = (0..6).map(|i| i.to_string()).collect();
         let mapped = Dissimilarities::new(names, &found.dissimilarities())?;
         assert_eq!((mapped.pairs().len(), found.n_missing()), (15, 0));

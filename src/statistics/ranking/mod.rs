@@ -1,11 +1,10 @@
 //! Scales from rankings and paired comparisons, and tables of what was ranked or taken for what.
 //!
-//! [`plackett_luce()`] for rankings of any length, [`bradley_terry()`] and [`davidson()`] for
-//! pairs, [`thurstone()`] and [`mosteller`] on the normal scale: each by maximum likelihood (but
-//! the last) with errors from the observed information. A scale has no zero of its own: values
-//! sum to zero, and [`Scale::relative_to`] counts them from any item. Where an estimate would be
-//! infinite the groups of items that cause it are named ([`Connection`]); only a [`Prior`] that
-//! the caller asks for makes it finite.
+//! [`plackett_luce()`] for rankings of any length, [`bradley_terry()`] for pairs, [`thurstone()`]
+//! and [`mosteller`] on the normal scale: each by maximum likelihood (but the last) with errors
+//! from the observed information. A scale has no zero of its own: values sum to zero. Where an
+//! estimate would be infinite the groups of items that cause it are named ([`Connection`]); only a
+//! [`Prior`] that the caller asks for makes it finite.
 //!
 //! How well rankings agree between subjects, Kendall's W, is the effect of
 //! [`friedman`](super::variance::friedman); how consistent one subject's pairs are is
@@ -17,7 +16,6 @@ mod bradley_terry;
 mod choices;
 mod connection;
 mod consistency;
-pub(crate) mod davidson;
 mod deviance;
 mod mean_ranks;
 mod newton;
@@ -38,8 +36,7 @@ pub use deviance::Deviance;
 pub use mean_ranks::{Asymmetry, MeanRanks, RankTrial};
 pub use odd_one_out::ItemErrors;
 pub use odd_one_out::{Grade, GradeWeights, OddOneOut, PairTally, TriadAnswer};
-pub use plackett_luce::plackett_luce;
-pub use plackett_luce::{PlackettLuce, plackett_luce_over_subjects};
+pub use plackett_luce::{PlackettLuce, plackett_luce};
 pub use preferences::Preferences;
 pub use scale::{Estimate, Scale};
 pub use thurstone::{Mosteller, Thurstone, mosteller, thurstone};

@@ -14,24 +14,20 @@ const LONGEST: f64 = 1.5;
 /// what is left is rounding.
 const TOLERANCE: f64 = 1e-10;
 
-/// A log-likelihood, concave, that does not change when its first `n_items` arguments are shifted
-/// alike.
+/// A log-likelihood, concave, that does not change when all of its arguments are shifted alike.
 pub(super) trait LogLikelihood {
-    /// Items on the scale; arguments beyond them are not shifted.
-    fn n_items(&self) -> usize;
     /// Its value.
     fn value(&self, x: &[f64]) -> f64;
     /// Its slopes, and its curvatures with the sign changed: the observed information.
     fn slopes(&self, x: &[f64]) -> (DVector<f64>, DMatrix<f64>);
-    /// How much a step changes what probabilities hang on, at most: differences of items that were
-    /// compared, and other arguments.
+    /// How much a step changes the differences of items that were compared, at most.
     fn span(&self, step: &[f64]) -> f64;
 }
 
 /// Where a log-likelihood is largest.
 #[derive(Debug)]
 pub(super) struct Peak {
-    /// The arguments there, those of items summing to zero.
+    /// The arguments there, summing to zero.
     pub(super) at: Vec<f64>,
     /// The inverse of the information, under the same constraint.
     pub(super) covariance: DMatrix<f64>,
@@ -50,7 +46,7 @@ pub(super) fn maximise(model: &impl LogLikelihood, start: Vec<f64>) -> Computed<
     let mut last_errors = f64::INFINITY;
     for n_steps in 1..=MOST_STEPS {
         let (slopes, information) = model.slopes(&x);
-        let step = &inverse(model.n_items(), information)? * &slopes;
+        let step = &inverse(information)? * &slopes;
         let n_errors = slopes.dot(&step).max(0.0).sqrt();
         // Here the rise of the value drowns in rounding, and a whole step is sure to be the best.
         let span = model.span(step.as_slice());
@@ -68,12 +64,12 @@ pub(super) fn maximise(model: &impl LogLikelihood, start: Vec<f64>) -> Computed<
                 return Err(unsettled());
             }
         }
-        centre(&mut x[..model.n_items()]);
+        centre(&mut x);
         let is_rounding = n_errors < 1e-6 && n_errors > 0.5 * last_errors;
         last_errors = n_errors;
         if is_near && (is_rounding || step.amax().min(n_errors) <= TOLERANCE) {
             let information = model.slopes(&x).1;
-            let covariance = inverse(model.n_items(), information)?;
+            let covariance = inverse(information)?;
             return Ok(Peak {
                 at: x,
                 covariance,
@@ -88,17 +84,15 @@ fn unsettled() -> Undefined {
     Undefined::because(format!("the fit did not settle in {MOST_STEPS} steps"))
 }
 
-/// The inverse of an information whose first `n_items` arguments can be shifted alike, on the
-/// values that sum to zero: the shift is filled in, inverted and taken out again.
-fn inverse(n_items: usize, mut information: DMatrix<f64>) -> Computed<DMatrix<f64>> {
-    let n = n_items as f64;
-    let stiffness = (0..n_items).map(|i| information[(i, i)]).sum::<f64>() / n;
-    let mut items = information.view_mut((0, 0), (n_items, n_items));
-    items.add_scalar_mut(stiffness / n);
+/// The inverse of an information whose arguments can be shifted alike, on the values that sum to
+/// zero: the shift is filled in, inverted and taken out again.
+fn inverse(mut information: DMatrix<f64>) -> Computed<DMatrix<f64>> {
+    let n = information.nrows() as f64;
+    let stiffness = information.diagonal().iter().sum::<f64>() / n;
+    information.add_scalar_mut(stiffness / n);
     let flat = || Undefined::because("the likelihood is flat at its peak");
     let mut inverse = information.cholesky().ok_or_else(flat)?.inverse();
-    let mut items = inverse.view_mut((0, 0), (n_items, n_items));
-    items.add_scalar_mut(-1.0 / (stiffness * n));
+    inverse.add_scalar_mut(-1.0 / (stiffness * n));
     let is_finite = inverse.iter().all(|c| c.is_finite());
     is_finite.then_some(inverse).ok_or_else(flat)
 }

@@ -1,16 +1,13 @@
 //! Rankings by Plackett and Luce's model (Luce 1959; Plackett 1975): the best is chosen among all,
 //! the next among the rest, each with a probability that is its share of the worth there.
 
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-
 use super::choices::{Choices, Prior, shares};
 use super::connection::number;
 use super::deviance::likelihood_ratio;
 use super::newton::{LogLikelihood as _, maximise};
 use super::preferences::check_rankings;
 use super::scale::Scale;
-use crate::{Bootstrap, Computed, Named, Outcome, Resampling, Undefined, bootstrap};
+use crate::{Computed, Named, Outcome, Undefined};
 
 /// Worths of items from rankings.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,78 +75,20 @@ pub fn plackett_luce<R: AsRef<[usize]>>(
     prior: Prior,
 ) -> Computed<PlackettLuce> {
     check_rankings(n_items, rankings)?;
-    fit(&counted(n_items, rankings), rankings.len(), prior)
-}
-
-fn counted<R: AsRef<[usize]>>(n_items: usize, rankings: &[R]) -> Choices {
     let mut choices = Choices::new(n_items);
     for ranking in rankings {
         choices.add_ranking(ranking.as_ref());
     }
-    choices
-}
-
-fn fit(choices: &Choices, n_rankings: usize, prior: Prior) -> Computed<PlackettLuce> {
-    let n_items = choices.n_items();
     let mut all = prior.choices(n_items)?;
-    all.merge(choices);
+    all.merge(&choices);
     all.connection().check(number)?;
     let peak = maximise(&all, vec![0.0; n_items])?;
     Ok(PlackettLuce {
         scale: Scale::of(&peak.at, &peak.covariance),
-        n_rankings,
+        n_rankings: rankings.len(),
         log_likelihood: choices.value(&peak.at),
         null_log_likelihood: choices.null_value(),
         n_steps: peak.n_steps,
         prior,
     })
-}
-
-/// The log-worths of [`plackett_luce()`], summing to zero, with intervals by drawing subjects
-/// again: one an item. A list of rankings a subject.
-///
-/// The same draws serve every item. A draw whose rankings fall into groups is counted as undefined
-/// unless there is a prior.
-///
-/// # Errors
-/// As [`plackett_luce()`] of all rankings together and as [`bootstrap()`]; a subject without
-/// rankings.
-pub fn plackett_luce_over_subjects<R: AsRef<[usize]>>(
-    n_items: usize,
-    subjects: &[Vec<R>],
-    prior: Prior,
-    how: Resampling,
-) -> Computed<Vec<Bootstrap>> {
-    let mut each = Vec::with_capacity(subjects.len());
-    for (index, rankings) in subjects.iter().enumerate() {
-        let name = |e: Undefined| {
-            let reason = format!("subject {}: {}", index + 1, e.reason);
-            Undefined::because(reason)
-        };
-        check_rankings(n_items, rankings).map_err(name)?;
-        each.push(counted(n_items, rankings));
-    }
-    let of_drawn = |drawn: &[usize]| -> Computed<Vec<f64>> {
-        let mut choices = Choices::new(n_items);
-        for &subject in drawn {
-            choices.merge(&each[subject]);
-        }
-        Ok(fit(&choices, 0, prior)?.scale.values)
-    };
-    let everyone: Vec<usize> = (0..each.len()).collect();
-    of_drawn(&everyone)?;
-    // The same subjects in any order, and for any item, are one fit.
-    let fits: RefCell<BTreeMap<Vec<usize>, Computed<Vec<f64>>>> = RefCell::default();
-    let value = |drawn: &[usize], item: usize| -> Computed {
-        let mut drawn = drawn.to_vec();
-        drawn.sort_unstable();
-        let mut fits = fits.borrow_mut();
-        let values = fits
-            .entry(drawn)
-            .or_insert_with_key(|drawn| of_drawn(drawn));
-        values.as_ref().map(|v| v[item]).map_err(Clone::clone)
-    };
-    (0..n_items)
-        .map(|item| bootstrap(each.len(), |drawn| value(drawn, item), how))
-        .collect()
 }

@@ -1,4 +1,4 @@
-//! How often each of some items was preferred to each other, or neither.
+//! How often each of some items was preferred to each other.
 
 use super::connection::Connection;
 use crate::{Computed, Undefined};
@@ -8,7 +8,6 @@ use crate::{Computed, Undefined};
 pub struct Preferences {
     n_items: usize,
     wins: Vec<u64>,
-    ties: Vec<u64>,
 }
 
 /// Two items that were compared.
@@ -18,13 +17,11 @@ pub(super) struct Compared {
     pub(super) items: [usize; 2],
     /// How often each was preferred.
     pub(super) wins: [u64; 2],
-    /// How often neither.
-    pub(super) ties: u64,
 }
 
 impl Compared {
     pub(super) fn n(&self) -> u64 {
-        self.wins[0] + self.wins[1] + self.ties
+        self.wins[0] + self.wins[1]
     }
 }
 
@@ -40,7 +37,6 @@ impl Preferences {
         Self {
             n_items,
             wins: vec![0; n_items * n_items],
-            ties: vec![0; n_items * n_items],
         }
     }
 
@@ -50,31 +46,8 @@ impl Preferences {
     /// A table that is not square, an item preferred to itself.
     pub fn of_wins(rows: &[Vec<u64>]) -> Computed<Self> {
         let mut all = Self::new(rows.len());
-        all.wins = square(rows, "preferred to itself")?;
+        all.wins = square(rows)?;
         Ok(all)
-    }
-
-    /// The same with ties from a square table whose two sides agree: how often neither was
-    /// preferred.
-    ///
-    /// # Errors
-    /// A table of another size or with sides that differ, an item tied with itself.
-    pub(crate) fn with_ties(mut self, rows: &[Vec<u64>]) -> Computed<Self> {
-        self.ties = square(rows, "tied with itself")?;
-        let n = self.n_items;
-        if rows.len() != n {
-            let reason = format!("ties of {} items beside wins of {n}", rows.len());
-            return Err(Undefined::because(reason));
-        }
-        for (i, j) in (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))) {
-            let (upper, lower) = (rows[i][j], rows[j][i]);
-            if upper != lower {
-                let (i, j) = (i + 1, j + 1);
-                let reason = format!("items {i} and {j} have {upper} ties one way, {lower} back");
-                return Err(Undefined::because(reason));
-            }
-        }
-        Ok(self)
     }
 
     /// Every ranking, best first, taken apart into its pairs. They are not independent: errors of
@@ -97,27 +70,6 @@ impl Preferences {
         Ok(all)
     }
 
-    /// Counts one comparison in which an item was preferred to another.
-    ///
-    /// # Errors
-    /// An unknown item, or the same twice.
-    pub(crate) fn prefer(&mut self, upper: usize, lower: usize) -> Computed<()> {
-        self.check_pair(upper, lower)?;
-        self.wins[upper * self.n_items + lower] += 1;
-        Ok(())
-    }
-
-    /// Counts one comparison in which neither was preferred.
-    ///
-    /// # Errors
-    /// An unknown item, or the same twice.
-    pub(crate) fn tie(&mut self, one: usize, other: usize) -> Computed<()> {
-        self.check_pair(one, other)?;
-        self.ties[one * self.n_items + other] += 1;
-        self.ties[other * self.n_items + one] += 1;
-        Ok(())
-    }
-
     /// All comparisons of several together, of as many items each.
     ///
     /// # Errors
@@ -133,11 +85,8 @@ impl Preferences {
                 let reason = format!("{} items beside {}", one.n_items, sum.n_items);
                 return Err(Undefined::because(reason));
             }
-            let pairs = [(&mut sum.wins, &one.wins), (&mut sum.ties, &one.ties)];
-            for (counts, more) in pairs {
-                for (count, more) in counts.iter_mut().zip(more) {
-                    *count += more;
-                }
+            for (count, more) in sum.wins.iter_mut().zip(&one.wins) {
+                *count += more;
             }
         }
         Ok(sum)
@@ -150,12 +99,11 @@ impl Preferences {
 
     /// How often an item was preferred to another; 0 for items that are unknown.
     pub fn wins(&self, upper: usize, lower: usize) -> u64 {
-        self.at(&self.wins, upper, lower)
-    }
-
-    /// How often neither of two was preferred; 0 for items that are unknown.
-    pub fn ties(&self, one: usize, other: usize) -> u64 {
-        self.at(&self.ties, one, other)
+        if upper < self.n_items && lower < self.n_items {
+            self.wins[upper * self.n_items + lower]
+        } else {
+            0
+        }
     }
 
     /// Comparisons in all.
@@ -163,29 +111,9 @@ impl Preferences {
         self.compared().iter().map(Compared::n).sum()
     }
 
-    /// Ties in all.
-    pub(crate) fn n_ties(&self) -> u64 {
-        self.compared().iter().map(|pair| pair.ties).sum()
-    }
-
-    /// The same without the ties.
-    #[must_use]
-    pub(crate) fn without_ties(mut self) -> Self {
-        self.ties.fill(0);
-        self
-    }
-
-    /// How they hang together where ties say nothing, as for
-    /// [`bradley_terry`](super::bradley_terry()) and [`thurstone`](super::thurstone()).
+    /// How they hang together.
     pub fn connection(&self) -> Connection {
         Connection::of(self.n_items, |i, j| self.wins(i, j) > 0)
-    }
-
-    /// How they hang together where a tie places two items beside each other, as for
-    /// [`davidson`](super::davidson()).
-    pub(crate) fn connection_with_ties(&self) -> Connection {
-        let is_above = |i, j| self.wins(i, j) + self.ties(i, j) > 0;
-        Connection::of(self.n_items, is_above)
     }
 
     /// The pairs that were compared.
@@ -194,7 +122,6 @@ impl Preferences {
         let of_pair = |(i, j)| Compared {
             items: [i, j],
             wins: [self.wins(i, j), self.wins(j, i)],
-            ties: self.ties(i, j),
         };
         pairs.map(of_pair).filter(|pair| pair.n() > 0).collect()
     }
@@ -208,53 +135,17 @@ impl Preferences {
         Ok(())
     }
 
-    /// Refuses ties too.
-    pub(super) fn check_untied(&self) -> Computed<()> {
-        self.check()?;
-        match self.n_ties() {
-            0 => Ok(()),
-            n => Err(Undefined::because(format!(
-                "{n} of {} comparisons are ties, of which this model has none: leave them out or \
-                 take Davidson's",
-                self.n_comparisons()
-            ))),
-        }
-    }
-
     /// Pairs whose number of comparisons is wrong, in words for a reason.
     pub(super) fn pairs_where(&self, is_wrong: impl Fn(u64) -> bool) -> Vec<String> {
         let n = self.n_items;
         let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-        let count = |&(i, j): &(usize, usize)| {
-            is_wrong(self.wins(i, j) + self.wins(j, i) + self.ties(i, j))
-        };
+        let count = |&(i, j): &(usize, usize)| is_wrong(self.wins(i, j) + self.wins(j, i));
         let name = |(i, j)| format!("{} and {}", i + 1, j + 1);
         pairs.filter(count).map(name).collect()
     }
-
-    fn at(&self, counts: &[u64], i: usize, j: usize) -> u64 {
-        if i < self.n_items && j < self.n_items {
-            counts[i * self.n_items + j]
-        } else {
-            0
-        }
-    }
-
-    fn check_pair(&self, i: usize, j: usize) -> Computed<()> {
-        if i < self.n_items && j < self.n_items && i != j {
-            return Ok(());
-        }
-        let reason = format!(
-            "items {} and {} of {} make no pair",
-            i + 1,
-            j + 1,
-            self.n_items
-        );
-        Err(Undefined::because(reason))
-    }
 }
 
-fn square(rows: &[Vec<u64>], on_diagonal: &str) -> Computed<Vec<u64>> {
+fn square(rows: &[Vec<u64>]) -> Computed<Vec<u64>> {
     for (i, row) in rows.iter().enumerate() {
         if row.len() != rows.len() {
             let (n, found) = (rows.len(), row.len());
@@ -262,7 +153,7 @@ fn square(rows: &[Vec<u64>], on_diagonal: &str) -> Computed<Vec<u64>> {
             return Err(Undefined::because(reason));
         }
         if row[i] != 0 {
-            let reason = format!("item {} is {on_diagonal}", i + 1);
+            let reason = format!("item {} is preferred to itself", i + 1);
             return Err(Undefined::because(reason));
         }
     }
@@ -312,12 +203,19 @@ pub(super) fn check_distinct(n_items: usize, items: &[usize]) -> Result<(), Stri
 mod tests {
     use super::*;
 
+    impl Preferences {
+        /// Counts one comparison.
+        pub(in crate::ranking) fn prefer(&mut self, upper: usize, lower: usize) {
+            self.wins[upper * self.n_items + lower] += 1;
+        }
+    }
+
     #[test]
     fn a_ranking_is_taken_apart_into_all_of_its_pairs() -> Computed<()> {
         let found = Preferences::of_rankings(4, &[[2, 0, 3], [3, 2, 1]])?;
         let mut by_hand = Preferences::new(4);
         for (upper, lower) in [(2, 0), (2, 3), (0, 3), (3, 2), (3, 1), (2, 1)] {
-            by_hand.prefer(upper, lower)?;
+            by_hand.prefer(upper, lower);
         }
         assert_eq!(found, by_hand);
         assert_eq!(found.n_comparisons(), 6);
@@ -328,22 +226,20 @@ mod tests {
     #[test]
     fn tables_and_counting_one_by_one_agree() -> Computed<()> {
         let mut counted = Preferences::new(2);
-        counted.prefer(1, 0)?;
-        counted.tie(0, 1)?;
+        counted.prefer(1, 0);
         let table = Preferences::of_wins(&[vec![0, 0], vec![1, 0]])?;
-        assert_eq!(table.clone(), counted.clone().without_ties());
-        assert_eq!(table.with_ties(&[vec![0, 1], vec![1, 0]])?, counted);
-        assert_eq!((counted.n_comparisons(), counted.n_ties()), (2, 1));
+        assert_eq!(table, counted);
+        assert_eq!(counted.n_comparisons(), 1);
         Ok(())
     }
 
     #[test]
     fn comparisons_of_several_add_up() -> Computed<()> {
         let mut one = Preferences::new(3);
-        one.prefer(0, 1)?;
-        one.tie(1, 2)?;
+        one.prefer(0, 1);
+        one.prefer(2, 1);
         let both = Preferences::together([&one, &one])?;
-        assert_eq!((both.wins(0, 1), both.ties(2, 1)), (2, 2));
+        assert_eq!((both.wins(0, 1), both.wins(2, 1)), (2, 2));
         assert!(Preferences::together([&one, &Preferences::new(2)]).is_err());
         assert!(Preferences::together([]).is_err(), "nothing");
         Ok(())
@@ -356,15 +252,11 @@ mod tests {
         assert_eq!(short, "row 2 has 1 of 2 columns");
         let own = reason(Preferences::of_wins(&[vec![0, 1], vec![1, 3]]));
         assert_eq!(own, "item 2 is preferred to itself");
-        let uneven = Preferences::new(2).with_ties(&[vec![0, 1], vec![2, 0]]);
-        assert_eq!(reason(uneven), "items 1 and 2 have 1 ties one way, 2 back");
         let twice = reason(Preferences::of_rankings(3, &[vec![0, 1], vec![2, 1, 2]]));
         assert_eq!(twice, "ranking 2: item 3 twice");
         let unknown = reason(Preferences::of_rankings(3, &[[0, 3]]));
         assert_eq!(unknown, "ranking 1: item 4 of 3");
         let alone = reason(Preferences::of_rankings(3, &[[0]]));
         assert_eq!(alone, "ranking 1: 1 items, at least 2 are needed");
-        assert!(Preferences::new(2).prefer(1, 1).is_err(), "itself");
-        assert!(Preferences::new(2).tie(0, 2).is_err(), "unknown");
     }
 }

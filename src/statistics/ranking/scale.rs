@@ -58,20 +58,6 @@ impl Scale {
         self.values.iter().enumerate().map(estimate).collect()
     }
 
-    /// The values counted from one item, which has `None`: it is 0 because the scale is laid so.
-    ///
-    /// # Errors
-    /// No such item.
-    pub(crate) fn relative_to(&self, reference: usize) -> Computed<Vec<Option<Estimate>>> {
-        let n = self.values.len();
-        if reference >= n {
-            let reason = format!("item {} of {n} is no reference", reference + 1);
-            return Err(Undefined::because(reason));
-        }
-        let from = |i| self.difference(i, reference).ok();
-        Ok((0..n).map(from).collect())
-    }
-
     /// How far the first item lies above the second, with the standard error of that.
     ///
     /// # Errors
@@ -97,24 +83,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_difference_has_the_error_of_both_and_the_reference_none() -> Computed<()> {
+    fn a_difference_has_the_error_of_both() -> Computed<()> {
         let scale = Scale {
             values: vec![0.5, -0.5],
             covariance: vec![vec![0.25, -0.25], vec![-0.25, 0.25]],
         };
         assert_eq!(scale.centred()[1].se, 0.5);
-        let relative = scale.relative_to(0)?;
-        assert_eq!(relative[0], None);
-        assert_eq!(
-            relative[1],
-            Some(Estimate {
-                value: -1.0,
-                se: 1.0
-            })
-        );
+        let found = scale.difference(1, 0)?;
+        assert_eq!((found.value, found.se), (-1.0, 1.0));
         let interval = scale.difference(0, 1)?.interval(0.95)?;
         assert!((interval.low - (1.0 - 1.959_963_984_540_054)).abs() < 1e-12);
-        assert!(scale.relative_to(2).is_err(), "no such item");
+        assert!(scale.difference(2, 0).is_err(), "no such item");
         assert!(scale.difference(1, 1).is_err(), "itself");
         Ok(())
     }

@@ -34,13 +34,12 @@ pub struct Thurstone {
 /// The most likely values, by Newton's method to 1e-10.
 ///
 /// # Errors
-/// Fewer than two items, no comparisons, ties, groups of items without finite values.
+/// Fewer than two items, no comparisons, groups of items without finite values.
 pub fn thurstone(preferences: &Preferences) -> Computed<Thurstone> {
-    preferences.check_untied()?;
+    preferences.check()?;
     preferences.connection().check(number)?;
     let n_items = preferences.n_items();
     let model = Probit {
-        n_items,
         pairs: preferences.compared(),
     };
     let peak = maximise(&model, vec![0.0; n_items])?;
@@ -62,15 +61,10 @@ pub fn thurstone(preferences: &Preferences) -> Computed<Thurstone> {
 }
 
 struct Probit {
-    n_items: usize,
     pairs: Vec<Compared>,
 }
 
 impl LogLikelihood for Probit {
-    fn n_items(&self) -> usize {
-        self.n_items
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let value = |pair: &Compared| {
             let terms = pair.wins.into_iter().zip(shares(pair, x));
@@ -135,9 +129,9 @@ pub struct Mosteller {
 /// The values by row means of z.
 ///
 /// # Errors
-/// Fewer than two items, no comparisons, ties, pairs that were never compared (with their list).
+/// Fewer than two items, no comparisons, pairs that were never compared (with their list).
 pub fn mosteller(preferences: &Preferences) -> Computed<Mosteller> {
-    preferences.check_untied()?;
+    preferences.check()?;
     let missing = preferences.pairs_where(|n| n == 0);
     if !missing.is_empty() {
         let reason = format!(

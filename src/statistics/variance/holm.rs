@@ -10,7 +10,7 @@ pub struct Comparison {
     /// The paired t test of the first less the second.
     pub outcome: Computed<Outcome>,
     /// Its p adjusted by Holm for all comparisons that could be computed.
-    pub(crate) p_holm: Computed,
+    pub p_holm: Computed,
 }
 
 /// Every condition against every other by paired t tests, one list of values a condition, subjects
@@ -18,7 +18,7 @@ pub struct Comparison {
 ///
 /// # Errors
 /// Fewer than two conditions. A pair that cannot be computed says so itself.
-pub(crate) fn every_pair(conditions: &[Vec<f64>]) -> Computed<Vec<Comparison>> {
+pub fn every_pair(conditions: &[Vec<f64>]) -> Computed<Vec<Comparison>> {
     let k = conditions.len();
     if k < 2 {
         let reason = format!("{k} conditions make no pair");
@@ -47,7 +47,7 @@ pub(crate) fn every_pair(conditions: &[Vec<f64>]) -> Computed<Vec<Comparison>> {
 
 /// p values adjusted for their number by Holm's method (1979), in the order given: the j-th
 /// smallest times m − j + 1, none below the one before it, none above 1.
-pub(crate) fn holm(p: &[f64]) -> Vec<f64> {
+pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));
     let mut adjusted = vec![0.0; p.len()];

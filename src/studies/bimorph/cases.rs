@@ -1,9 +1,20 @@
-//! What is stepped, and how finely.
+//! What is stepped, how finely, and what a held sine gives in closed form.
 
-use super::SAMPLE_S;
+use std::f64::consts::PI;
+
 use crate::Effort;
-use selvedge_device::{ContactorModel, MOST_QUALITY, Skin};
+use selvedge_device::{ContactorModel, MOST_QUALITY, SAMPLES_PER_S, Skin};
+use selvedge_foundation::numerics::Complex;
+use selvedge_foundation::numerics::ode::{Propagator, StepMethod};
 use selvedge_foundation::quantity::time_span;
+
+/// A step of the contactor.
+pub(super) type ContactorStep = Propagator<5, 2>;
+
+/// The frequencies of the device, Hz.
+pub(super) const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
+/// Length of the DAC's sample, s.
+pub(super) const SAMPLE_S: f64 = 1.0 / SAMPLES_PER_S as f64;
 
 /// A contactor with a load.
 pub(super) struct Case {
@@ -80,4 +91,36 @@ impl Step {
     pub(super) fn label(&self) -> String {
         format!("steps of {}", time_span(self.step_s()))
     }
+}
+
+/// A step of `step_s` by a method; `None` where it has no finite solution.
+pub(super) fn propagator(
+    model: &ContactorModel,
+    method: StepMethod,
+    step_s: f64,
+) -> Option<ContactorStep> {
+    model.system().propagator::<7>(method, step_s)
+}
+
+/// Images that are summed on either side: their sum falls with the fourth power and is far below
+/// rounding here.
+const IMAGES: i32 = 4000;
+
+/// Displacement of the pin over the drive, µm/V, at the instants at which the drive is sampled and
+/// then held for `hold_s`: `Σ_m H(f_m) · hold(f_m)` over the line and its images
+/// `f_m = f + m/hold_s`, with `hold(f) = e^{−iπf·hold_s} sin(πf·hold_s)/(πf·hold_s)`.
+pub(super) fn held_response(model: &ContactorModel, frequency_hz: f64, hold_s: f64) -> Complex {
+    let image = |m: i32| {
+        let image_hz = frequency_hz + f64::from(m) / hold_s;
+        let half_turn = PI * image_hz * hold_s;
+        let hold = if half_turn.abs() < 1e-12 {
+            Complex::from(1.0)
+        } else {
+            Complex::from_polar(1.0, -half_turn) * (half_turn.sin() / half_turn)
+        };
+        model.response_um_per_v(image_hz) * hold
+    };
+    // Small ones first, so that rounding stays small too.
+    let pairs = (1..=IMAGES).rev().map(|m| image(m) + image(-m));
+    pairs.sum::<Complex>() + image(0)
 }

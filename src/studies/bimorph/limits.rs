@@ -1,7 +1,8 @@
 //! The longest step that does not grow without end, by method and stiffness.
 
-use super::{Findings, Row, SAMPLE_S, propagator};
+use super::cases::{SAMPLE_S, propagator};
 use crate::Bench;
+use crate::{Findings, Row};
 use selvedge_chart::{Axis, Plot, Series, Style};
 use selvedge_device::{ContactorModel, MOST_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;

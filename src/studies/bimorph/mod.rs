@@ -6,29 +6,19 @@
 //! that no transient of a sharp resonance stands in the way.
 
 mod cases;
+mod emulator;
 mod limits;
-mod plant;
-mod truth;
 
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use cases::{Case, Step};
+use cases::{CARRIERS_HZ, Case, SAMPLE_S, Step, held_response, propagator};
 use selvedge_chart::{Axis, Plot, Series, Style};
-use selvedge_device::{ContactorModel, MOST_QUALITY, SAMPLES_PER_S};
-use selvedge_foundation::numerics::ode::{Propagator, StepMethod};
-use truth::held_response;
+use selvedge_device::{ContactorModel, MOST_QUALITY};
+use selvedge_foundation::numerics::ode::StepMethod;
 
-/// A step of the contactor.
-type ContactorStep = Propagator<5, 2>;
-
-/// The frequencies of the device, Hz.
-const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
 /// What the exact method keeps within.
 const EXACT: f64 = 1e-9;
 /// Steps of a run that is timed.
 const TIMED_STEPS: usize = 1000;
-/// Length of the DAC's sample, s.
-const SAMPLE_S: f64 = 1.0 / SAMPLES_PER_S as f64;
-
 /// Error and cost of four ways to step a contactor, by step, stiffness and quality.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct BimorphStudy;
@@ -69,18 +59,13 @@ impl Study for BimorphStudy {
         bench.step(0.7, "limits of stability")?;
         limits::find(bench, &mut findings);
         bench.step(0.8, "the emulator's contactors")?;
-        plant::find(bench, &mut findings);
+        emulator::find(bench, &mut findings);
         findings
             .plots
-            .push(("bimorph-response".to_owned(), plant::responses()));
+            .push(("bimorph-response".to_owned(), emulator::responses()));
         findings.notes = notes(&findings);
         Ok(findings)
     }
-}
-
-/// A step of `step_s` by a method; `None` where it has no finite solution.
-fn propagator(model: &ContactorModel, method: StepMethod, step_s: f64) -> Option<ContactorStep> {
-    model.system().propagator::<7>(method, step_s)
 }
 
 /// What one step costs: stage by stage for Runge–Kutta, one product of matrices for the others.

@@ -2,17 +2,14 @@
 //!
 //! Six scenes are rendered and what is left out is counted. Each scene is also built without the
 //! textiles that no contactor touches: it must feel the same to the bit, and what it costs less is
-//! what leaving them out still costs. Savings of other floors are listed beside them: whoever has
-//! one hands it in.
+//! what leaving them out still costs. What the engine and the library leave out stands beside them.
 
 mod saving;
 mod scenes;
 mod sinks;
 
-pub(crate) use saving::SavingRule;
-use saving::{NeverPlaced, OfRendering};
+use saving::Saving;
 use scenes::Case;
-use sinks::Unheard;
 
 use super::{Bench, Findings, ReportError, Row, Study};
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
@@ -23,19 +20,8 @@ use selvedge_render::{Counters, RenderScene, Rule};
 const METHODS: [Method; 2] = [Method::Banded, Method::Table];
 
 /// What every saving leaves out, and what that saves.
-#[derive(Debug, Default)]
-pub(crate) struct LeftOutStudy {
-    others: Vec<Box<dyn SavingRule>>,
-}
-
-impl LeftOutStudy {
-    /// The same study with a saving of another floor listed.
-    #[must_use]
-    pub(crate) fn with(mut self, saving: Box<dyn SavingRule>) -> Self {
-        self.others.push(saving);
-        self
-    }
-}
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LeftOutStudy;
 
 impl Study for LeftOutStudy {
     fn name(&self) -> &'static str {
@@ -72,10 +58,7 @@ impl Study for LeftOutStudy {
         }
         findings.rows.extend(library_rows(bench)?);
         findings.rows.extend(sinks::rows(bench)?);
-        findings
-            .rows
-            .extend(self.others.iter().map(|saving| row_of(saving.as_ref())));
-        findings.notes = notes(self);
+        findings.notes = notes();
         Ok(findings)
     }
 }
@@ -113,7 +96,7 @@ fn rows(bench: &mut Bench<'_>, case: &Case, method: Method) -> Result<Vec<Row>, 
         method: method.name().to_owned(),
         case: case.name.to_owned(),
         more: more_of(rule, &counters),
-        ..row_of(&OfRendering { rule, counters })
+        ..Saving::of_rendering(rule).row()
     }));
     Ok(rows)
 }
@@ -194,16 +177,14 @@ fn library_rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
             .iter()
             .any(|placed| placed.id == **id)
     };
-    let saving = NeverPlaced {
-        n_known: ids.len(),
-        n_placed: ids.iter().filter(is_placed).count(),
-    };
+    let n_placed = ids.iter().filter(is_placed).count();
+    let saving = Saving::never_placed(ids.len().saturating_sub(n_placed) as u64);
     let rest: Vec<&String> = ids.iter().filter(|id| !is_placed(id)).collect();
     let of = |setting: &str, cost| Row {
         setting: setting.to_owned(),
         case: "loading four alternatives".to_owned(),
         cost: Some(cost),
-        ..row_of(&saving)
+        ..saving.row()
     };
     let as_it_is = bench.time(1, LoadedScene::shipped);
     let with_rest = bench.time(1, || {
@@ -214,44 +195,16 @@ fn library_rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
     Ok(vec![of("only never placed", as_it_is), of(NONE, with_rest)])
 }
 
-/// A saving in a row of its own.
-fn row_of(saving: &dyn SavingRule) -> Row {
-    Row {
-        method: saving.floor().to_owned(),
-        setting: format!("only {}", saving.name()),
-        case: "since the start".to_owned(),
-        more: vec![
-            ("left_out_a_tick_of_all", saving.left_out().to_string()),
-            ("left_out", saving.unit().to_owned()),
-        ],
-        ..Row::default()
-    }
-}
-
 /// What every saving leaves out, a sentence each.
-fn notes(study: &LeftOutStudy) -> Vec<String> {
-    let note = |saving: &dyn SavingRule| {
-        format!("{}, {}: {}", saving.floor(), saving.name(), saving.what())
-    };
-    let of_rendering = Rule::ALL.map(|rule| {
-        let counters = Counters::default();
-        note(&OfRendering { rule, counters })
-    });
-    let never_placed = NeverPlaced {
-        n_known: 0,
-        n_placed: 0,
-    };
+fn notes() -> Vec<String> {
+    let of_rendering = Rule::ALL.map(|rule| Saving::of_rendering(rule).note());
     let beside = [
-        note(&never_placed),
-        note(&Unheard::glimpses(0)),
-        note(&Unheard::frames(0)),
+        Saving::never_placed(0),
+        Saving::unasked_glimpses(0),
+        Saving::unheard_frames(0),
     ];
-    let others = study.others.iter().map(|saving| note(saving.as_ref()));
-    of_rendering
-        .into_iter()
-        .chain(beside)
-        .chain(others)
-        .collect()
+    let beside = beside.map(|saving| saving.note());
+    of_rendering.into_iter().chain(beside).collect()
 }
 
 #[cfg(test)]

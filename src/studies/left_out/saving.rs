@@ -1,81 +1,87 @@
-//! What a saving of any floor says of itself: the report lists them all alike.
+//! What is left out because nothing needs it, and how much of it was.
 
-use std::fmt::Debug;
+use selvedge_render::Rule;
 
-use selvedge_render::{Counters, Rule};
+use crate::Row;
 
-/// A saving: something that is left out because nothing needs it, and how often it was.
-pub(crate) trait SavingRule: Debug + Send + Sync {
+/// Something that is left out.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Saving {
     /// Who leaves it out: a floor of the program.
-    fn floor(&self) -> &'static str;
-
-    /// Its name.
-    fn name(&self) -> &'static str;
-
+    pub(super) floor: &'static str,
+    pub(super) name: &'static str,
     /// What is left out, one sentence.
-    fn what(&self) -> &'static str;
-
+    what: &'static str,
     /// What its counter counts.
-    fn unit(&self) -> &'static str;
-
-    /// How much was left out so far.
-    fn left_out(&self) -> u64;
+    unit: &'static str,
+    n_left_out: u64,
 }
 
-/// A saving of rendering, with the counters of a run.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct OfRendering {
-    pub(super) rule: Rule,
-    pub(super) counters: Counters,
-}
-
-impl SavingRule for OfRendering {
-    fn floor(&self) -> &'static str {
-        "render"
+impl Saving {
+    /// A rule of the renderer, without a count.
+    pub(super) fn of_rendering(rule: Rule) -> Self {
+        Self {
+            floor: "render",
+            name: rule.name(),
+            what: rule.what(),
+            unit: rule.unit(),
+            n_left_out: 0,
+        }
     }
 
-    fn name(&self) -> &'static str {
-        self.rule.name()
+    /// Textiles of a library that a scene never places.
+    pub(super) const fn never_placed(n_left_out: u64) -> Self {
+        Self {
+            floor: "scene",
+            name: "never placed",
+            what: "A textile that the scene does not place is never read.",
+            unit: "textiles",
+            n_left_out,
+        }
     }
 
-    fn what(&self) -> &'static str {
-        self.rule.what()
+    /// Glimpses that nobody asked for.
+    pub(super) const fn unasked_glimpses(n_left_out: u64) -> Self {
+        Self {
+            floor: "engine",
+            name: "unasked glimpses",
+            what: "A tick leaves no glimpse for plots over time unless somebody asked for them.",
+            unit: "glimpses",
+            n_left_out,
+        }
     }
 
-    fn unit(&self) -> &'static str {
-        self.rule.unit()
+    /// Frames that nobody would play.
+    pub(super) const fn unheard_frames(n_left_out: u64) -> Self {
+        Self {
+            floor: "engine",
+            name: "unheard frames",
+            what: "Drive codes are not made unless an armed device listens.",
+            unit: "frames",
+            n_left_out,
+        }
     }
 
-    fn left_out(&self) -> u64 {
-        self.rule.left_out(&self.counters)
-    }
-}
-
-/// Textiles of a library that a scene never places.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct NeverPlaced {
-    pub(super) n_known: usize,
-    pub(super) n_placed: usize,
-}
-
-impl SavingRule for NeverPlaced {
-    fn floor(&self) -> &'static str {
-        "scene"
+    /// What it leaves out, in a line.
+    pub(super) fn note(&self) -> String {
+        format!("{}, {}: {}", self.floor, self.name, self.what)
     }
 
-    fn name(&self) -> &'static str {
-        "never placed"
+    /// The setting in which nothing else is left out.
+    pub(super) fn alone(&self) -> String {
+        format!("only {}", self.name)
     }
 
-    fn what(&self) -> &'static str {
-        "A textile that the scene does not place is never read."
-    }
-
-    fn unit(&self) -> &'static str {
-        "textiles"
-    }
-
-    fn left_out(&self) -> u64 {
-        self.n_known.saturating_sub(self.n_placed) as u64
+    /// It in a row of its own.
+    pub(super) fn row(&self) -> Row {
+        Row {
+            method: self.floor.to_owned(),
+            setting: self.alone(),
+            more: vec![
+                ("left_out_a_tick_of_all", self.n_left_out.to_string()),
+                ("left_out", self.unit.to_owned()),
+            ],
+            ..Row::default()
+        }
     }
 }

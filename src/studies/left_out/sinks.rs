@@ -4,8 +4,8 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::saving::SavingRule;
-use super::{ALL, NONE, largest_difference, row_of};
+use super::saving::Saving;
+use super::{ALL, NONE, largest_difference};
 use crate::{Bench, ReportError, Row};
 use selvedge_device::{BridgeEvent, Target};
 use selvedge_engine::{Command, Engine, EngineConfig, InputSource, Notice, PreparedScene};
@@ -40,64 +40,11 @@ impl Listeners {
     };
 }
 
-/// A saving of the engine with its count.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Unheard {
-    name: &'static str,
-    what: &'static str,
-    unit: &'static str,
-    n: u64,
-}
-
-impl Unheard {
-    /// Glimpses that nobody asked for.
-    pub(super) const fn glimpses(n: u64) -> Self {
-        Self {
-            name: "unasked glimpses",
-            what: "A tick leaves no glimpse for plots over time unless somebody asked for them.",
-            unit: "glimpses",
-            n,
-        }
-    }
-
-    /// Frames that nobody would play.
-    pub(super) const fn frames(n: u64) -> Self {
-        Self {
-            name: "unheard frames",
-            what: "Drive codes are not made unless an armed device listens.",
-            unit: "frames",
-            n,
-        }
-    }
-}
-
-impl SavingRule for Unheard {
-    fn floor(&self) -> &'static str {
-        "engine"
-    }
-
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn what(&self) -> &'static str {
-        self.what
-    }
-
-    fn unit(&self) -> &'static str {
-        self.unit
-    }
-
-    fn left_out(&self) -> u64 {
-        self.n
-    }
-}
-
 /// What a tick of the engine costs when nobody listens, when everybody does, and in between.
 pub(super) fn rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
     let (mut quiet, expected) = engine(Listeners::NOBODY)?;
-    let unheard = Unheard::frames(quiet.snapshot().counters.frames_unheard);
-    let unasked = Unheard::glimpses(quiet.snapshot().tick);
+    let unheard = Saving::unheard_frames(quiet.snapshot().counters.frames_unheard);
+    let unasked = Saving::unasked_glimpses(quiet.snapshot().tick);
     let window_alone = Listeners {
         window: true,
         device: false,
@@ -109,15 +56,15 @@ pub(super) fn rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
     let settings = [
         (ALL.to_owned(), None, Listeners::NOBODY),
         (NONE.to_owned(), None, Listeners::BOTH),
-        (only(unheard), Some(unheard), window_alone),
-        (only(unasked), Some(unasked), device_alone),
+        (unheard.alone(), Some(unheard), window_alone),
+        (unasked.alone(), Some(unasked), device_alone),
     ];
     let mut rows = Vec::new();
     for (setting, saving, listeners) in settings {
         let (mut engine, felt) = engine(listeners)?;
         let n_ticks = bench.effort.pick(50, 400);
         let cost = bench.time(n_ticks, || advance(&mut engine, n_ticks as u64));
-        let row = saving.map_or_else(Row::default, |saving| row_of(&saving));
+        let row = saving.map_or_else(Row::default, |saving| saving.row());
         rows.push(Row {
             method: "engine".to_owned(),
             setting,
@@ -129,11 +76,6 @@ pub(super) fn rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
         });
     }
     Ok(rows)
-}
-
-/// The setting in which nothing else is left out.
-fn only(saving: Unheard) -> String {
-    format!("only {}", saving.name)
 }
 
 /// An engine that follows a circle over the shipped scene, and its amplitudes after

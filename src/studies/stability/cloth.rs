@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::failed;
+use super::case::failed;
 use selvedge_foundation::geometry::{Frame, Point, Rotation, Velocity};
 use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
 use selvedge_render::scene::{Geometry, Pose};

@@ -1,6 +1,6 @@
 //! Contactors that are sharp, stiffly held, driven to the full, or no contactors at all.
 
-use super::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, failed, refused, verdict};
 use selvedge_device::{Bimorph, ContactorModel, MOST_QUALITY, Plant, SAMPLES_PER_S, Skin};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::StepMethod;

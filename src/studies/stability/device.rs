@@ -2,7 +2,7 @@
 //!
 //! Host and device are the state machines themselves, joined by a wire in told time.
 
-use super::{Case, Verdict, verdict};
+use super::case::{Case, Verdict, verdict};
 use selvedge_device::{
     ArrayProfile, BridgeState, Coder, Decoder, DeviceModel, Faults, LaneFaults, OneOff, OneOffKind,
     Simulation,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, failed, refused, verdict};
 use selvedge_foundation::files::{Rgb8Image, decode_png, encode_png};
 use selvedge_textile::Library;
 use selvedge_textile::surface::{Direction, LocalSpectra, Profile};

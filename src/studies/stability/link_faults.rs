@@ -4,8 +4,8 @@
 //! Each streams for half a minute of virtual time, most with the fault all along; silence is
 //! measured on the device's clock.
 
+use super::case::{Case, Verdict, verdict};
 use super::device::{once, refused_by_host};
-use super::{Case, Verdict, verdict};
 use selvedge_device::{
     BridgeState, DeviceModel, Faults, InjectionKind, LaneFaults, Latency, Lie, OneOffKind,
     Simulation,

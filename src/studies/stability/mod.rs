@@ -1,13 +1,14 @@
 //! Stability: what comes back when something extreme goes in, against what is promised.
 //!
 //! Every case runs for real on the library's own functions, on a thread of its own: one that
-//! panics or never ends is told as such and harms no other. None of them may panic, hang, or give
+//! panics or never ends is reported as such and harms no other. None of them may panic, hang, or give
 //! a number that is not finite to a device.
 #![expect(
     clippy::float_cmp,
     reason = "silence is exactly 0, and what must not change must not change by a bit"
 )]
 
+mod case;
 mod cloth;
 mod contactor;
 #[cfg(test)]
@@ -26,8 +27,9 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-use super::runner::words_of;
+use super::runner::message_of;
 use super::{Bench, Findings, ReportError, Row, Study};
+use case::{Case, Verdict};
 use selvedge_foundation::quantity::time_span;
 
 /// A case that says nothing for longer hangs.
@@ -36,38 +38,6 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// The study.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stability;
-
-/// What came back: as promised, or otherwise.
-type Verdict = Result<String, String>;
-
-/// An extreme case.
-struct Case {
-    /// What it belongs to: `speed`, `files`.
-    area: &'static str,
-    /// What goes in.
-    tried: String,
-    /// What should come back.
-    should: &'static str,
-    /// Tries it.
-    run: Box<dyn FnOnce() -> Verdict + Send>,
-}
-
-impl Case {
-    /// A case of an area: what goes in, what should come back, and the trial.
-    fn new(
-        area: &'static str,
-        tried: impl Into<String>,
-        should: &'static str,
-        run: impl FnOnce() -> Verdict + Send + 'static,
-    ) -> Self {
-        Self {
-            area,
-            tried: tried.into(),
-            should,
-            run: Box::new(run),
-        }
-    }
-}
 
 impl Study for Stability {
     fn name(&self) -> &'static str {
@@ -106,7 +76,7 @@ impl Study for Stability {
     }
 }
 
-/// Tries every case and tells what came back.
+/// Tries every case and reports what came back.
 fn try_all(
     cases: Vec<Case>,
     patience: Duration,
@@ -135,48 +105,22 @@ fn try_all(
     Ok(findings)
 }
 
-/// Runs a case on a thread of its own: what panics or hangs there is told here.
+/// Runs a case on a thread of its own: what panics or hangs there is reported here.
 fn alone(run: Box<dyn FnOnce() -> Verdict + Send>, patience: Duration) -> Verdict {
-    let (tell, told) = sync_channel(1);
+    let (sender, receiver) = sync_channel(1);
     let thread = thread::Builder::new()
         .name("extreme case".to_owned())
-        .spawn(move || drop(tell.send(run())))
+        .spawn(move || drop(sender.send(run())))
         .map_err(|error| format!("no thread for it: {error}"))?;
-    match told.recv_timeout(patience) {
+    match receiver.recv_timeout(patience) {
         Ok(verdict) => verdict,
         Err(RecvTimeoutError::Timeout) => {
             let waited = time_span(patience.as_secs_f64());
             Err(format!("nothing came back within {waited}"))
         }
         Err(RecvTimeoutError::Disconnected) => match thread.join() {
-            Err(panic) => Err(format!("it panicked: {}", words_of(panic.as_ref()))),
+            Err(panic) => Err(format!("it panicked: {}", message_of(panic.as_ref()))),
             Ok(()) => Err("nothing came back".to_owned()),
         },
     }
-}
-
-/// As promised or otherwise, with what came back.
-fn verdict(is_as_promised: bool, came_back: String) -> Verdict {
-    if is_as_promised {
-        Ok(came_back)
-    } else {
-        Err(came_back)
-    }
-}
-
-/// What should be refused: as promised if it was, with all of these words in the reason.
-fn refused<T>(result: Result<T, impl std::fmt::Display>, words: &[&str]) -> Verdict {
-    match result {
-        Ok(_) => Err("it was taken".to_owned()),
-        Err(error) => {
-            let line = error.to_string();
-            let has_all = words.iter().all(|word| line.contains(word)) && !line.contains('\n');
-            verdict(has_all, format!("refused: {line}"))
-        }
-    }
-}
-
-/// An error in words, for trials that need something to work before they can begin.
-fn failed(error: impl std::fmt::Display) -> String {
-    format!("the trial itself failed: {error}")
 }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::case::{Case, Verdict, verdict};
 use super::cloth::{METHODS, extent_um, moving, placed, renderer, scene, surface, told_um};
 use super::cloth::{waves, wavy_scene};
-use super::{Case, Verdict, verdict};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::{DisplayFrame, Method};

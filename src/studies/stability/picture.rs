@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, failed, refused, verdict};
 use selvedge_foundation::files::{FileError, Rgb8Image, encode_png};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::unheard;

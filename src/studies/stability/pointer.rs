@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use super::case::{Case, Verdict, failed, verdict};
 use super::tuning::engine;
-use super::{Case, Verdict, failed, verdict};
 use selvedge_engine::{Engine, PointerSample, PointerSender, SampleCounters, TICK};
 use selvedge_foundation::geometry::Point;
 

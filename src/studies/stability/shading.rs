@@ -1,6 +1,6 @@
 //! Tiles and lights from which no shape follows, or too much.
 
-use super::{Case, Verdict, failed};
+use super::case::{Case, Verdict, failed};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_textile::picture::shading::{

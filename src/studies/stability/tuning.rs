@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::time::Instant;
 
+use super::case::{Case, Verdict, failed, refused, verdict};
 use super::cloth::{METHODS, extent_um, moving, renderer, told_um, wavy_scene};
-use super::{Case, Verdict, failed, refused, verdict};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_engine::{Command, Engine, EngineConfig, Notice, PreparedScene};
 use selvedge_foundation::geometry::Point;

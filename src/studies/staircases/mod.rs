@@ -1,6 +1,5 @@
 //! The study of thresholds: how near each way to find one comes, by trials, lapses and slope.
 
-mod observers;
 #[cfg(test)]
 mod tests;
 mod ways;
@@ -10,8 +9,7 @@ use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::quantity;
 
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use observers::Observer;
-use ways::{Way, large_quest};
+use ways::{Observer, Way, large_quest};
 
 /// Trials after which every way is asked for its threshold.
 const CHECKPOINTS: [u32; 5] = [20, 40, 80, 160, 320];

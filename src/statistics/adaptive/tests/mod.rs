@@ -2,6 +2,7 @@
 
 mod quest_plus;
 mod staircases;
+mod stationary;
 
 use super::*;
 use crate::psychometric::{Family, Psychometric};

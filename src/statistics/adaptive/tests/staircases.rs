@@ -1,8 +1,8 @@
 //! Staircases against their Markov chains; constant stimuli; turns.
 
+use super::stationary::stationary;
 use super::*;
 use crate::psychometric::Model;
-use crate::psychometric::prior::Lapse;
 
 fn endless(rule: Rule, steps: [f64; 2], n: u32) -> StaircasePlan {
     StaircasePlan {
@@ -163,7 +163,6 @@ fn a_limit_holds_and_every_step_that_it_cuts_short_is_counted_and_said() -> Comp
     }
     assert_eq!(staircase.n_clamped(Limit::High), 3);
     assert_eq!(staircase.n_clamped(Limit::Low), 2);
-    assert_eq!(staircase.n_at_limit_in_a_row(), 2);
     let warnings = staircase.warnings();
     assert!(
         warnings[1].contains("3 steps were cut short at the upper limit 3"),
@@ -263,7 +262,7 @@ fn a_fit_of_all_trials_comes_as_near_as_the_reversals() -> Computed<()> {
         answers(&mut staircase, &curve, &mut random)?;
         by_reversals += (staircase.reversal_mean(20)?.threshold - wanted).powi(2) / 60.0;
         let model = Model {
-            lapse: Lapse::Fixed(0.0),
+            max_lapse: 0.0,
             ..Model::alternatives(Family::Logistic, 4)
         };
         let fit = model.fit(&staircase.blocks())?;

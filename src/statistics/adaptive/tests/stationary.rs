@@ -1,22 +1,22 @@
 //! Where a staircase stays in the long run, exactly: the stationary distribution of its Markov
 //! chain over stimulus, answers in a row and direction.
 
-use super::Rule;
+use crate::adaptive::Rule;
 use crate::{Computed, Undefined};
 
 /// The long run of a staircase of whole steps on an even scale.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stationary {
+pub(super) struct Stationary {
     /// The share of trials at each place, weakest first.
-    pub shares: Vec<f64>,
+    pub(super) shares: Vec<f64>,
     /// Mean place of a trial, counted from 0.
-    pub(crate) mean_place: f64,
+    pub(super) mean_place: f64,
     /// Mean place of a reversal, counted from 0.
-    pub(crate) mean_reversal_place: f64,
+    pub(super) mean_reversal_place: f64,
     /// The share of right answers.
-    pub(crate) share_right: f64,
+    pub(super) share_right: f64,
     /// Reversals a trial.
-    pub(crate) reversals_per_trial: f64,
+    pub(super) reversals_per_trial: f64,
 }
 
 /// States more than this are too many to solve for.
@@ -28,7 +28,11 @@ const MOST_STATES: usize = 20_000;
 /// # Errors
 /// No rule, steps of nothing, fewer than two places or too many, probabilities outside 0…1, a
 /// chain that is not one (some places are never left for others).
-pub fn stationary(rule: Rule, [up, down]: [usize; 2], p_right: &[f64]) -> Computed<Stationary> {
+pub(super) fn stationary(
+    rule: Rule,
+    [up, down]: [usize; 2],
+    p_right: &[f64],
+) -> Computed<Stationary> {
     rule.check()?;
     let chain = Chain {
         rule,
@@ -67,7 +71,7 @@ impl Band {
 
     /// The stationary distribution by taking out one state after another, without a subtraction
     /// (Grassmann, Taksar & Heyman 1985).
-    fn stationary(mut self) -> Computed<Vec<f64>> {
+    fn long_run(mut self) -> Computed<Vec<f64>> {
         let mut leaving = vec![0.0; self.n];
         for last in (1..self.n).rev() {
             let first = last.saturating_sub(self.half);
@@ -140,7 +144,7 @@ impl Chain {
                 *band.at(state, self.after(state, is_right).to) += p;
             }
         }
-        band.stationary()
+        band.long_run()
     }
 
     fn place(&self, state: usize) -> usize {

@@ -2,8 +2,8 @@
 //!
 //! They are read at their samples, where a line comes with the images that fold onto it.
 
-use super::{CARRIERS_HZ, Findings, Row, SAMPLE_S, truth::held_response};
-use crate::Bench;
+use super::cases::{CARRIERS_HZ, SAMPLE_S, held_response, propagator};
+use crate::{Bench, Findings, Row};
 use selvedge_chart::{Axis, Ink, Plot, Series, Style};
 use selvedge_device::{ContactorModel, MOST_QUALITY, Plant, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
@@ -103,7 +103,7 @@ pub(super) fn responses() -> Plot {
             style: Style::Line,
             ..Series::default()
         });
-        let exact = super::propagator(&model, StepMethod::ExactHold, SAMPLE_S);
+        let exact = propagator(&model, StepMethod::ExactHold, SAMPLE_S);
         let dot = |hz: f64| {
             let found = exact?.response(std::f64::consts::TAU * hz * SAMPLE_S)?;
             // Both are held alike, so that the dot lies on the line where the method is right.
