@@ -22,6 +22,7 @@ mod catalogue;
 mod cloth;
 mod curve;
 mod drawn;
+mod error;
 mod fourier;
 mod index;
 mod keeping;
@@ -58,6 +59,7 @@ pub use cloth::Side;
 pub use cloth::Yarn;
 pub use drawn::Drawn;
 pub use drawn::lit;
+pub use error::{KesAsk, TextileError};
 pub use fourier::Imported;
 pub use fourier::{
     Fourier, FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
@@ -66,9 +68,9 @@ pub use fourier::{
 pub use index::Index;
 pub use index::IndexEntry;
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesAsk, KesColumn, KesFile, KesImport,
-    KesKnown, KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind,
-    PlaceUnit, ReturnOrder, StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesColumn, KesFile, KesImport, KesKnown,
+    KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind, PlaceUnit,
+    ReturnOrder, StrokeSide,
 };
 pub use kes::{EVALUATED_MM, KesFigures, KesFriction, KesLine, KesOrigin};
 pub use knit::{Knit, Structure};
@@ -93,85 +95,6 @@ pub use weave::Repeat;
 pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
 pub use words::{Words, id_of, nth_id};
 pub use workers::n_threads;
-
-use std::path::PathBuf;
-
-use crate::surface::SurfaceError;
-use selvedge_chart::FigureError;
-use selvedge_foundation::files::FileError;
-use selvedge_foundation::progress::Cancelled;
-
-/// What can be wrong with a textile or a library.
-#[derive(Debug, thiserror::Error)]
-pub enum TextileError {
-    /// A file cannot be read or written, or its content is wrong.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// Heights that are no surface.
-    #[error("{}: {source}", path.display())]
-    Surface {
-        /// The file they come from.
-        path: PathBuf,
-        /// What is wrong.
-        source: SurfaceError,
-    },
-    /// No such textile.
-    #[error("no textile \"{id}\" in {library}; it has {known}")]
-    Unknown {
-        /// What was asked for.
-        id: String,
-        /// The library.
-        library: String,
-        /// What it has.
-        known: String,
-    },
-    /// A textile that is no model has nothing to be built from.
-    #[error(
-        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\", \"knit\", \
-         \"fourier\", \"brownian\" or \"restoration\"",
-        path.display()
-    )]
-    NoRecipe {
-        /// The manifest.
-        path: PathBuf,
-        /// The kind it has.
-        kind: &'static str,
-    },
-    /// Measurements that no model can be made from: what, and how to mend it.
-    #[error("{0}")]
-    Model(String),
-    /// Files of the surface tester that do not say enough.
-    #[error("{}:{line}: {what}; {ask}", path.display())]
-    Kes {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// What is wrong.
-        what: String,
-        /// What must be said.
-        ask: KesAsk,
-    },
-    /// A picture that shows no shape.
-    #[error(transparent)]
-    Shading(#[from] picture::ShadingError),
-    /// A picture that cannot be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// Nothing was measured on the textiles of a library.
-    #[error(
-        "{}: no levels were measured; build it with \"selvedge textile build\", which writes a \
-         library.toml",
-        library.display()
-    )]
-    NoIndex {
-        /// The library.
-        library: PathBuf,
-    },
-    /// The work was stopped.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
 
 #[cfg(test)]
 mod tests;

@@ -49,7 +49,7 @@ pub use section::KesSection;
 
 use std::path::{Path, PathBuf};
 
-use super::TextileError;
+use crate::error::{KesAsk, TextileError};
 
 /// What is known of files beyond what they say. The default knows nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -114,44 +114,6 @@ pub enum ReturnOrder {
     Travel,
     /// Mirrored: by their places on the cloth, like the way out.
     Mirrored,
-}
-
-/// What must be said because the files do not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum KesAsk {
-    /// The sensitivity.
-    #[error("say --um-per-volt UM, the height in µm that 1 V stands for")]
-    UmPerVolt,
-    /// The distance of samples.
-    #[error("say --step-mm MM, or --speed-mm-per-s V and --rate-hz HZ")]
-    Step,
-    /// The speed.
-    #[error("say --speed-mm-per-s V, the speed of the stroke")]
-    Speed,
-    /// Which stroke it is.
-    #[error(
-        "say --direction once a file: warp or weft, or warp-forward, warp-return, \
-         weft-forward, weft-return"
-    )]
-    Direction,
-    /// How a return stroke is stored.
-    #[error("say --return-order travel (as measured) or mirrored (by place)")]
-    ReturnOrder,
-    /// The decimal sign.
-    #[error("say --decimal point or --decimal comma")]
-    Decimal,
-    /// The unit of places.
-    #[error("say --x-unit mm, cm or um")]
-    XUnit,
-    /// The unit of heights.
-    #[error("say --height-unit um or mm, or --um-per-volt UM for volts")]
-    HeightUnit,
-    /// What the columns are.
-    #[error("say --columns, such as x,forward,return (skip for one that does not matter)")]
-    Columns,
-    /// The evaluated section.
-    #[error("say --section FROM,TO in mm on the cloth (or warp=FROM,TO and weft=FROM,TO)")]
-    Section,
 }
 
 /// An error that asks: what is wrong, where, and what must be said.
