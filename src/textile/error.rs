@@ -1,7 +1,7 @@
 //! What can go wrong with textiles, their files and their libraries: one line each, with what,
 //! where, and how to mend it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::picture::ShadingError;
 use crate::surface::SurfaceError;
@@ -35,15 +35,16 @@ pub enum TextileError {
     },
     /// A textile that is no model has nothing to be built from.
     #[error(
-        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\", \"knit\", \
-         \"fourier\", \"brownian\" or \"restoration\"",
+        "{}: a source of kind \"{kind}\" is not a recipe; give kind = {recipes}",
         path.display()
     )]
     NoRecipe {
         /// The manifest.
         path: PathBuf,
         /// The kind it has.
-        kind: &'static str,
+        kind: String,
+        /// The kinds that are recipes.
+        recipes: String,
     },
     /// Measurements that no model can be made from: what, and how to mend it.
     #[error("{0}")]
@@ -117,4 +118,25 @@ pub enum KesAsk {
     /// The evaluated section.
     #[error("say --section FROM,TO in mm on the cloth (or warp=FROM,TO and weft=FROM,TO)")]
     Section,
+}
+
+/// Textiles that are named when one is not found; more would hide what is wrong.
+const MAX_NAMED: usize = 20;
+
+impl TextileError {
+    /// There is no textile of that id.
+    pub(crate) fn unknown(id: &str, library: &Path, ids: &[String]) -> Self {
+        let known = match ids.split_at_checked(MAX_NAMED) {
+            _ if ids.is_empty() => "no textiles".to_owned(),
+            Some((named, rest)) if !rest.is_empty() => {
+                format!("{} and {} more", named.join(", "), rest.len())
+            }
+            _ => ids.join(", "),
+        };
+        Self::Unknown {
+            id: id.to_owned(),
+            library: library.display().to_string(),
+            known,
+        }
+    }
 }

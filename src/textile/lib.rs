@@ -14,87 +14,62 @@
     expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
 )]
 
-mod brought;
-mod brownian;
 mod build;
-mod cache;
 mod catalogue;
-mod cloth;
 mod curve;
-mod drawn;
+mod draft;
 mod error;
-mod fourier;
-mod index;
-mod keeping;
+mod import;
 mod kes;
-mod knit;
 mod library;
-mod loaded;
 mod manifest;
-mod measured;
 pub mod metrology;
-mod model;
-mod parameter;
 pub mod picture;
 mod profile_file;
-mod recipes;
-mod restoration;
-mod selection;
+mod recipe;
 mod shipped;
+mod sources;
 pub mod surface;
 pub mod tactile;
-mod trial;
-mod weave;
-mod words;
-mod workers;
+mod yarns;
 
-pub use brought::{Measurement, read_measurement};
-pub use brownian::Tip;
-pub use brownian::{Brownian, Generator, Hurst};
-pub use build::{BuiltFile, build, build_library, make, write};
-pub use cache::BuildCache;
+pub use build::{BuiltFile, Trial, build, make, write};
 pub use catalogue::{sheet, write_catalogue, write_figure};
-pub use cloth::Cloth;
-pub use cloth::Side;
-pub use cloth::Yarn;
-pub use drawn::Drawn;
-pub use drawn::lit;
+pub use draft::{Draft, Fault, example, restored};
 pub use error::{KesAsk, TextileError};
-pub use fourier::Imported;
-pub use fourier::{
-    Fourier, FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
-    templates_from_toml, templates_to_toml,
+pub use import::{
+    Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures, KesImport,
+    Measurement, PictureTextile, read_measurement, relief_um_of, scaled, shaded, smd_um,
+    textile_of,
 };
-pub use index::Index;
-pub use index::IndexEntry;
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesColumn, KesFile, KesImport, KesKnown,
-    KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind, PlaceUnit,
-    ReturnOrder, StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, EVALUATED_MM, HeightUnit, KesColumn, KesFile, KesFriction,
+    KesKnown, KesLine, KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark,
+    MarkKind, PlaceUnit, ReturnOrder, StrokeSide,
 };
-pub use kes::{EVALUATED_MM, KesFigures, KesFriction, KesLine, KesOrigin};
-pub use knit::{Knit, Structure};
-pub use library::{Library, is_of_the_program};
-pub use loaded::{Appearance, Textile};
-pub use manifest::AppearanceKeys;
-pub use manifest::Checker;
-pub use manifest::Profiles;
-pub use manifest::{Construction, Manifest, Parent, Provenance, Source};
-pub use measured::KnownFigure;
-pub use measured::{
-    Figure as MeasuredFigure, all_known as known_figures, figures as measured_figures,
+pub use library::{
+    Appearance, BuildCache, Index, IndexEntry, Library, Textile, build_library, id_of,
+    is_of_the_program, kind_of, most_typical, n_threads, nth_id,
 };
-pub use parameter::{
-    Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
+pub use manifest::{
+    AppearanceKeys, Construction, Figure as MeasuredFigure, KnownFigure, Manifest, Parent,
+    Provenance, all_known as known_figures, figures as measured_figures,
 };
 pub use profile_file::read as read_profile;
-pub use restoration::{Reduced, Restoration, Rule};
-pub use selection::{kind_of, most_typical};
-pub use trial::Trial;
-pub use weave::Repeat;
-pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
-pub use words::{Words, id_of, nth_id};
-pub use workers::n_threads;
+pub use recipe::{Group, Parameter, ParameterKind, Place, Side, lit};
+pub use sources::brownian::{Brownian, Generator, Hurst, Tip};
+pub use sources::fourier::{
+    Fourier, FourierSeries, FourierTemplate, Imported, Reading, Readings, example_templates,
+    import, templates_from_toml, templates_to_toml,
+};
+pub use sources::heightmap::Heightmap;
+pub use sources::knit::{Knit, Structure};
+pub use sources::picture::PictureSource;
+pub use sources::profiles::{KesOrigin, Profiles};
+pub use sources::restoration::{Reduced, Restoration, Rule};
+pub use sources::weave::{Interlacing, NAMES as INTERLACINGS, Repeat, Weave};
+pub use sources::{RECIPES, Source, groups};
+pub use yarns::{Yarn, YarnGeometry};
 
 #[cfg(test)]
 mod tests;

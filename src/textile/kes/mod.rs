@@ -10,20 +10,17 @@
 //! for, never assumed: see [`KesAsk`].
 //!
 //! # Invariants
-//! - pure: bytes in, bytes out; a window shows the [`KesImport`] before anything is written
+//! - pure: bytes in, bytes out; a window shows the [`crate::KesImport`] before anything is written
 //! - one straight line is taken off every stroke of heights, over its whole length, laid through
 //!   what is not marked; nothing else
 //! - nothing is resampled: uneven steps are refused
 
-mod chart;
 mod columns;
 mod dialect;
-mod import;
 mod look;
 mod marks;
 #[cfg(test)]
 mod mutations;
-mod origin;
 mod places;
 mod reading;
 mod returns;
@@ -36,16 +33,15 @@ mod units;
 
 pub use columns::{ClothAxis, ColumnRole, StrokeSide};
 pub use dialect::DecimalSign;
-pub use import::KesFigures;
-pub use import::KesImport;
 pub use look::KesLine;
 pub use look::{KesColumn, KesKnown, KesLook};
+pub(crate) use marks::n_samples;
 pub use marks::{Mark, MarkKind};
-pub use origin::KesOrigin;
 pub use reading::KesFriction;
 pub use reading::{KesFile, KesReading, KesStroke};
 pub use section::EVALUATED_MM;
 pub use section::KesSection;
+pub(crate) use section::{covered_mm, suggested};
 
 use std::path::{Path, PathBuf};
 
@@ -117,7 +113,7 @@ pub enum ReturnOrder {
 }
 
 /// An error that asks: what is wrong, where, and what must be said.
-fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> TextileError {
+pub(crate) fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> TextileError {
     TextileError::Kes {
         path: PathBuf::from(path),
         line,
@@ -128,7 +124,7 @@ fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> Texti
 
 /// Whether a text may be an export of the tester: columns that are strokes by their names or by
 /// their number, none of which marks valid points, under no header of a matrix.
-pub(super) fn is_export(bytes: &[u8]) -> bool {
+pub(crate) fn is_export(bytes: &[u8]) -> bool {
     let path = Path::new("-");
     let Ok(text) = text::text_of(bytes, path) else {
         return false;

@@ -5,7 +5,8 @@
 
 use std::path::Path;
 
-use super::{KesFile, KesImport, KesOptions, KesReading, ReturnOrder};
+use super::{KesFile, KesOptions, KesReading, ReturnOrder};
+use crate::KesImport;
 use selvedge_foundation::numerics::Random;
 
 /// How many are tried if nothing is said.

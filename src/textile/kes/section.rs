@@ -68,7 +68,7 @@ impl KesStroke {
 }
 
 /// What all strokes of an axis cover, mm: from the lowest place to one step after the highest.
-pub(super) fn covered_mm(strokes: &[&KesStroke]) -> Option<[f64; 2]> {
+pub(crate) fn covered_mm(strokes: &[&KesStroke]) -> Option<[f64; 2]> {
     let ranges = strokes.iter().map(|stroke| {
         let [low, high] = stroke.range_mm();
         [low, high + stroke.step_mm]
@@ -77,7 +77,7 @@ pub(super) fn covered_mm(strokes: &[&KesStroke]) -> Option<[f64; 2]> {
 }
 
 /// The section suggested for the strokes of an axis.
-pub(super) fn suggested(strokes: &[&KesStroke]) -> Option<KesSection> {
+pub(crate) fn suggested(strokes: &[&KesStroke]) -> Option<KesSection> {
     let [low, high] = covered_mm(strokes)?;
     let length_mm = EVALUATED_MM.min(high - low);
     let step_mm = strokes

@@ -12,11 +12,8 @@ mod frt;
 mod gsf;
 mod gwy;
 mod image16;
-mod import;
-pub mod made;
 mod npy;
 mod reading;
-mod source;
 mod sur;
 mod text;
 mod text_layout;
@@ -31,15 +28,13 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
-pub use import::{HeightImport, HeightPlace, ImportOptions};
 pub use reading::{About, Asked, Measured};
-pub use source::Heightmap;
 pub use unit::LengthUnit;
 pub use x3p::{Coding, write as write_x3p};
 
 use std::path::Path;
 
-use super::TextileError;
+use crate::error::TextileError;
 use reading::{Reading, n_points};
 use selvedge_foundation::files::{FileError, NPY_MAGIC};
 
@@ -82,7 +77,7 @@ impl Format {
 }
 
 /// Whether the beginning holds no bytes that texts do not hold.
-pub(super) fn is_text(bytes: &[u8]) -> bool {
+pub(crate) fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 32 && !b"\t\n\r\x0c".contains(byte);
     !head.is_empty() && !head.iter().any(is_control)

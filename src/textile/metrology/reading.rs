@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::unit::LengthUnit;
-use crate::TextileError;
+use crate::error::TextileError;
 use crate::surface::{HeightMap, MOST_POINTS, SurfaceError};
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::numerics::Grid;

@@ -1,4 +1,6 @@
-//! The four directions in which a textile is stroked.
+//! The four directions in which a textile is stroked, and whether that is all that is felt.
+
+use serde::{Deserialize, Serialize};
 
 /// A principal direction of a stroke over a textile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -50,5 +52,26 @@ impl Direction {
             Self::WeftForward => "weft_forward",
             Self::WeftReverse => "weft_reverse",
         }
+    }
+}
+
+/// How the spectra of a surface that is known over an area are laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Representation {
+    /// One profile a direction, repeated across: what the tester measures.
+    #[default]
+    Economical,
+    /// Spectra at every point of a grid.
+    Areal,
+}
+
+impl Representation {
+    /// The words of files, in order.
+    pub(crate) const WORDS: &'static [&'static str] = &["economical", "areal"];
+
+    /// Whether files need not say it.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
     }
 }

@@ -19,22 +19,19 @@ mod profile;
 mod spectra;
 mod tracks;
 
-pub use areal::{AREAL_WIRE_MM, Representation};
+pub use areal::AREAL_WIRE_MM;
 pub(crate) use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
-pub use direction::Direction;
+pub use direction::{Direction, Representation};
 pub use error::SurfaceError;
 pub use friction::FrictionTrace;
 pub(crate) use friction::mean_deviation;
 pub use height_map::{HeightMap, MOST_POINTS};
 pub use probe::Probe;
-pub use profile::Profile;
+pub use profile::{Profile, ProfileSet};
 pub(crate) use spectra::SpectralPlan;
 pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, WINDOW_LENGTH_MM};
 
 use std::sync::Arc;
-
-/// The profiles of a surface that were measured, by [`Direction::index`].
-pub type ProfileSet = [Option<Profile>; 4];
 
 /// A surface: its profiles, and local spectra in every direction, along one profile each or at
 /// every point of an area.

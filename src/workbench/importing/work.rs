@@ -11,7 +11,7 @@ use crate::follower::Answer;
 use crate::widgets::Relief;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::with_unit;
-use selvedge_textile::metrology::{HeightImport, HeightPlace};
+use selvedge_textile::{HeightImport, HeightPlace};
 use selvedge_textile::{
     KesFile, KesImport, KesLook, KesOptions, KesReading, Measurement, TextileError,
 };

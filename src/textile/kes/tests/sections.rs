@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use super::*;
-use crate::{Construction, Library, Words};
+use crate::{Construction, Description, KesImport, Library};
 use selvedge_scratch::ScratchFolder;
 
 #[test]
@@ -133,10 +133,10 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
     let friction = Some(file("mu.txt", friction));
     let reading = KesReading::of(&[file("a.txt", text)], friction, &KesOptions::default()).unwrap();
     let import = KesImport::new(reading, [None, None], false).unwrap();
-    let words = Words {
+    let words = Description {
         construction: Construction::Woven,
         fibre: "cotton".to_owned(),
-        ..Words::of("Twill")
+        ..Description::of("Twill")
     };
     let folder = ScratchFolder::new("kes");
     crate::write(&import.files(&words).unwrap(), &folder.join("twill")).unwrap();

@@ -20,25 +20,16 @@ mod light;
 mod linear;
 mod reflectance;
 mod reliability;
-mod scale;
 mod shape;
-mod source;
 #[cfg(test)]
 mod tests;
-mod textile;
 mod tsai_shah;
 mod variational;
 
 pub use error::ShadingError;
 pub use light::{Light, LightEstimate, estimate_light};
 pub use reflectance::picture_of;
-pub use scale::HeightScale;
-pub use scale::Scaled;
-pub use scale::{mean_smd_um, scaled};
 pub use shape::{Edges, Method, ShadingOptions, Shape};
-pub use source::PictureSource;
-pub(crate) use textile::to_textile;
-pub use textile::{PictureTextile, relief_um_of};
 
 use error::MOST_POINTS;
 use selvedge_foundation::numerics::Grid;
