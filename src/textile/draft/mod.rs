@@ -92,14 +92,6 @@ impl Draft {
         set_value(&mut self.keys, place.table, place.key, value);
     }
 
-    /// The value that a parameter has where a file does not state it; `None` if it must be stated.
-    pub(crate) fn default_of(&self, place: Place) -> Option<KeyValue> {
-        let mut without = self.clone();
-        without.set(place, None);
-        let manifest = without.read().ok()?;
-        Self::of(&manifest).ok()?.value(place).cloned()
-    }
-
     /// Whether a table of the recipe is there: the weft profile may be left out.
     pub fn has_table(&self, table: &str) -> bool {
         let (outer, inner) = table.rsplit_once('.').unwrap_or(("", table));

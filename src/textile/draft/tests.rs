@@ -80,14 +80,17 @@ fn every_word_of_a_choice_is_one_that_the_reader_knows() {
 #[test]
 fn defaults_are_the_readers() {
     let weave = draft("weave");
-    let at = |key| Place {
-        table: "source",
-        key,
+    let default_of = |key| {
+        let place = Place {
+            table: "source",
+            key,
+        };
+        let mut without = weave.clone();
+        without.set(place, None);
+        let manifest = without.read().ok()?;
+        Draft::of(&manifest).ok()?.value(place).cloned()
     };
-    assert_eq!(weave.default_of(at("compaction")), Some(0.9.into()));
-    assert_eq!(weave.default_of(at("warp_per_cm")), None, "it is required");
-    assert_eq!(
-        weave.default_of(at("representation")),
-        Some("economical".into())
-    );
+    assert_eq!(default_of("compaction"), Some(0.9.into()));
+    assert_eq!(default_of("warp_per_cm"), None, "it is required");
+    assert_eq!(default_of("representation"), Some("economical".into()));
 }

@@ -209,11 +209,6 @@ impl KesImport {
 }
 
 impl KesFigures {
-    /// The mean of the strokes' roughness, µm; NaN of none.
-    pub fn mean_smd_um(&self) -> f64 {
-        mean_of(&self.smd_um, None).unwrap_or(f64::NAN)
-    }
-
     /// The figures by the keys of a manifest's `[measured]`.
     pub fn measured(&self) -> BTreeMap<String, f64> {
         use ClothAxis::{Warp, Weft};

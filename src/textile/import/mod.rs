@@ -11,13 +11,13 @@ mod picture;
 mod profile_files;
 
 pub use description::Description;
-pub use height_scale::{HeightScale, scaled};
+pub use height_scale::{HeightScale, Scaled, scaled};
 pub use heights::{HeightImport, HeightPlace, ImportOptions};
 pub use kes::{KesFigures, KesImport};
 #[cfg(test)]
 pub(crate) use picture::to_textile;
 pub use picture::{PictureTextile, relief_um_of, textile_of};
-pub use profile_files::{shaded, smd_um};
+pub use profile_files::smd_um;
 
 use std::fs;
 use std::path::Path;

@@ -43,7 +43,7 @@ const MISSING_GREY: u8 = 40;
 const MAX_PIXELS: f64 = 2000.0;
 
 /// The map lit from the upper left, from the top row on; what is mostly missing is plain and dark.
-pub fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
+pub(super) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
     let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm)?;
     let holes = map.heights_um().values().iter();
     let holes = holes.map(|height| f64::from(u8::from(height.is_nan())));

@@ -39,7 +39,6 @@ pub(crate) use marks::n_samples;
 pub use marks::{Mark, MarkKind};
 pub use reading::KesFriction;
 pub use reading::{KesFile, KesReading, KesStroke};
-pub use section::EVALUATED_MM;
 pub use section::KesSection;
 pub(crate) use section::{covered_mm, suggested};
 

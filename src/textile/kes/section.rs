@@ -11,7 +11,7 @@ use super::{ClothAxis, KesStroke};
 use crate::surface::mean_deviation;
 
 /// The length of the evaluated section, mm.
-pub const EVALUATED_MM: f64 = 20.0;
+pub(crate) const EVALUATED_MM: f64 = 20.0;
 /// Pieces that a section is compared by.
 const N_PIECES: usize = 10;
 /// How far apart the sections lie that are tried, mm.

@@ -35,7 +35,7 @@ impl BuildCache {
     }
 
     /// The same with another bound, bytes.
-    pub fn bounded(folder: &Path, limit_bytes: u64) -> Self {
+    pub(crate) fn bounded(folder: &Path, limit_bytes: u64) -> Self {
         Self {
             folder: folder.to_owned(),
             limit_bytes,

@@ -52,7 +52,7 @@ impl IndexEntry {
 
 impl Index {
     /// Reads an index. `path` only names it in errors.
-    pub fn from_toml(text: &str, path: &Path) -> Result<Self, TextileError> {
+    pub(crate) fn from_toml(text: &str, path: &Path) -> Result<Self, TextileError> {
         let index: Self = keys_from_str(text, path)?;
         let checker = Checker { text, path, nth: 0 };
         let reference = index.compression_reference_db;

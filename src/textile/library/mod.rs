@@ -18,7 +18,6 @@ pub use build::build_library;
 pub(crate) use build::index_of;
 pub use cache::BuildCache;
 pub use id::{id_of, nth_id};
-pub use index::{Index, IndexEntry};
 #[cfg(test)]
 pub(crate) use recipe_file::SEVENTY_FOUR;
 pub use recipe_file::is_of_the_program;
@@ -36,6 +35,7 @@ use crate::manifest::{MANIFEST, Manifest};
 use crate::shipped;
 use crate::tactile::Tuning;
 use index::INDEX;
+pub use index::{Index, IndexEntry};
 use parallel::for_each;
 use recipe_file::Recipes;
 use selvedge_foundation::files::{FileError, read_text};
@@ -137,7 +137,7 @@ impl Library {
     }
 
     /// The textiles with these ids of a folder, whatever index it has.
-    pub fn of_folder(folder: &Path, ids: &[String]) -> Self {
+    pub(crate) fn of_folder(folder: &Path, ids: &[String]) -> Self {
         Self {
             place: Place::Files(Store::Folder(folder.to_owned())),
             ids: ids.to_vec(),

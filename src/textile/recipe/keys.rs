@@ -49,7 +49,7 @@ pub(crate) trait SourceKeys {
 macro_rules! keys {
     ($(#[$meta:meta])* source $keys:ident { $($fields:tt)* }) => {
         crate::recipe::keys! {
-            $(#[$meta])* table $keys {
+            $(#[$meta])* table pub $keys {
                 /// The kind of source.
                 pub(crate) kind: String,
                 /// Hash of the recipe that the profiles came from.
@@ -100,7 +100,7 @@ macro_rules! keys {
             }
         }
     };
-    ($(#[$meta:meta])* table $keys:ident {
+    ($(#[$meta:meta])* table $struct_vis:vis $keys:ident {
         $(
             $(#[$field_meta:meta])* $vis:vis $field:ident: $type:ty
             $(=> $name:literal $min:literal ..= $max:literal $unit:literal $what:literal)?,
@@ -109,7 +109,7 @@ macro_rules! keys {
         $(#[$meta])*
         #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(deny_unknown_fields)]
-        pub struct $keys {
+        $struct_vis struct $keys {
             $( $(#[$field_meta])* $(#[doc = $what])? $vis $field: $type, )*
         }
 

@@ -25,7 +25,7 @@ use crate::surface::{HeightMap, ProfileSet, Representation};
 choice! {
     /// The side of a textile that is touched.
     #[derive(Default)]
-    pub enum Side {
+    pub(crate) enum Side {
         /// The side that the recipe describes.
         #[default]
         Face = "face",

@@ -18,43 +18,43 @@ keys! {
     source Heightmap {
         /// Whether it is felt along four strokes or at every point of its relief.
         #[serde(default, skip_serializing_if = "Representation::is_default")]
-        pub representation: Representation,
+        pub(crate) representation: Representation,
         /// The file; beside the manifest unless the four profile files are named and felt.
-        pub file: String,
+        pub(crate) file: String,
         /// SHA-256 of the file; another file is refused.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub sha256: Option<String>,
+        pub(crate) sha256: Option<String>,
         /// The unit of heights, where the file does not state it.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub height_unit: Option<LengthUnit>,
+        pub(crate) height_unit: Option<LengthUnit>,
         /// The unit of places, where the file does not state it.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub length_unit: Option<LengthUnit>,
+        pub(crate) length_unit: Option<LengthUnit>,
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub step_mm: Option<f64>
+        pub(crate) step_mm: Option<f64>
             => "Step" 0.0005 ..= 0.5 "mm" "The distance of points, where the file does not state it",
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub range_um: Option<f64>
+        pub(crate) range_um: Option<f64>
             => "Range" 1e-6 ..= 1e6 "µm"
             "The height of white above black in a picture without a scale",
         /// The column of a table that holds the heights.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub column: Option<String>,
+        pub(crate) column: Option<String>,
         /// Which of several fields of the file, from 1.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub layer: Option<usize>,
+        pub(crate) layer: Option<usize>,
         /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub place_mm: Option<[f64; 2]>,
+        pub(crate) place_mm: Option<[f64; 2]>,
         /// Whether the map is one repeat of the cloth.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        pub periodic: bool,
+        pub(crate) periodic: bool,
         #[serde(default = "default_noise")]
-        pub noise_um: f64
+        pub(crate) noise_um: f64
             => "Noise of the probe" 0.0 ..= 10.0 "µm" "Noise of the virtual tester, rms",
         /// Chooses that noise.
         #[serde(default = "default_seed")]
-        pub seed: u32,
+        pub(crate) seed: u32,
     }
 }
 
@@ -68,7 +68,7 @@ fn default_seed() -> u32 {
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
-    pub fn new(file: String, asked: &Asked) -> Self {
+    pub(crate) fn new(file: String, asked: &Asked) -> Self {
         Self {
             kind: "heightmap".to_owned(),
             recipe_hash: None,

@@ -13,50 +13,50 @@ keys! {
     source PictureSource {
         /// Whether it is felt along four strokes or at every point of its relief.
         #[serde(default, skip_serializing_if = "Representation::is_default")]
-        pub representation: Representation,
+        pub(crate) representation: Representation,
         /// The map of one repeat: a file of heights that states its scale, a 16-bit PNG as this
         /// program writes it. It lies beside the manifest unless the profile files are named and felt.
-        pub file: String,
+        pub(crate) file: String,
         /// SHA-256 of the map; another file is refused.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub sha256: Option<String>,
+        pub(crate) sha256: Option<String>,
         /// The picture that the heights were found on; it need not be there.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub picture: Option<String>,
+        pub(crate) picture: Option<String>,
         /// SHA-256 of that picture.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub picture_sha256: Option<String>,
-        pub px_per_mm: f64
+        pub(crate) picture_sha256: Option<String>,
+        pub(crate) px_per_mm: f64
             => "Scale" 2.0 ..= 2000.0 "px/mm" "The picture's scale",
         /// The two vectors by which the pattern repeats, px, x to the right and y up.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub lattice_px: Option<[[f64; 2]; 2]>,
+        pub(crate) lattice_px: Option<[[f64; 2]; 2]>,
         /// How the heights were found.
-        pub method: Method,
-        pub iterations: u32
+        pub(crate) method: Method,
+        pub(crate) iterations: u32
             => "Iterations" 1.0 ..= 10_000.0 "" "Iterations of that method",
-        pub slant_deg: f64
+        pub(crate) slant_deg: f64
             => "Slant" 0.0 ..= 85.0 "°" "Where the light came from: its angle to the vertical",
-        pub tilt_deg: f64
+        pub(crate) tilt_deg: f64
             => "Tilt" -360.0 ..= 360.0 "°" "Where the light came from: its angle in the plane",
         /// Whether the light was estimated from the picture.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        pub light_is_estimated: bool,
+        pub(crate) light_is_estimated: bool,
         pub relief_um: f64
             => "Relief" 1e-6 ..= 1e5 "µm" "From the lowest to the highest height",
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub smd_um: Option<f64>
+        pub(crate) smd_um: Option<f64>
             => "Roughness SMD" 1e-6 ..= 1e4 "µm"
             "What the heights were scaled to; the relief was given if not stated",
         /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub place_mm: Option<[f64; 2]>,
+        pub(crate) place_mm: Option<[f64; 2]>,
         #[serde(default = "default_noise")]
-        pub noise_um: f64
+        pub(crate) noise_um: f64
             => "Noise of the probe" 0.0 ..= 10.0 "µm" "Noise of the virtual tester, rms",
         /// Chooses that noise.
         #[serde(default = "default_seed")]
-        pub seed: u32,
+        pub(crate) seed: u32,
     }
 }
 

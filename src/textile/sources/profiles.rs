@@ -13,25 +13,25 @@ use crate::surface::Direction;
 #[serde(deny_unknown_fields)]
 pub struct Profiles {
     /// Always `profiles`.
-    pub kind: String,
+    pub(crate) kind: String,
     /// Along the warp: a CSV of `x_mm,height_um` beside the manifest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub warp_forward: Option<String>,
+    pub(crate) warp_forward: Option<String>,
     /// Along the warp and back, in travel order.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub warp_reverse: Option<String>,
+    pub(crate) warp_reverse: Option<String>,
     /// Along the weft.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub weft_forward: Option<String>,
+    pub(crate) weft_forward: Option<String>,
     /// Along the weft and back, in travel order.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub weft_reverse: Option<String>,
+    pub(crate) weft_reverse: Option<String>,
     /// The coefficient of friction along the warp: a CSV of `x_mm,mu`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction: Option<String>,
+    pub(crate) friction: Option<String>,
     /// Where they were imported from.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub imported: Option<Box<KesOrigin>>,
+    pub(crate) imported: Option<Box<KesOrigin>>,
 }
 
 impl Default for Profiles {
@@ -102,16 +102,16 @@ pub(crate) const IMPORTER: &str = "kes-f";
 /// `[source.imported]`: which files, which section, what was taken off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct KesOrigin {
+pub(crate) struct KesOrigin {
     /// Always `kes-f`.
-    pub importer: String,
+    pub(crate) importer: String,
     /// The names of the files.
-    pub files: Vec<String>,
+    pub(crate) files: Vec<String>,
     /// Their SHA-256, in the same order.
-    pub sha256: Vec<String>,
+    pub(crate) sha256: Vec<String>,
     /// What one volt stood for, µm, where heights were in volts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub um_per_volt: Option<f64>,
+    pub(crate) um_per_volt: Option<f64>,
     /// The evaluated section along the warp, mm on the stroke: from, to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) warp_section_mm: Option<[f64; 2]>,
@@ -123,7 +123,7 @@ pub struct KesOrigin {
     pub(crate) is_section_suggested: bool,
     /// The slope of the line taken off each stroke, µm for every mm of travel, by direction.
     #[serde(default)]
-    pub tilt_um_per_mm: BTreeMap<String, f64>,
+    pub(crate) tilt_um_per_mm: BTreeMap<String, f64>,
 }
 
 impl KesOrigin {

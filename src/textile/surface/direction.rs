@@ -71,7 +71,7 @@ impl Representation {
     pub(crate) const WORDS: &'static [&'static str] = &["economical", "areal"];
 
     /// Whether files need not say it.
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }

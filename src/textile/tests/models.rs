@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::library::Index;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, Surface};
 use crate::tactile::{Filters, Levels};
 use crate::*;

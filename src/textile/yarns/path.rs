@@ -35,7 +35,7 @@ pub(crate) struct YarnPath {
 
 /// A patch of textile that repeats after its size in both directions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct YarnGeometry {
+pub(crate) struct YarnGeometry {
     /// Along the warp and along the weft, mm.
     pub size_mm: [f64; 2],
     /// All yarns; where they overlap the highest is seen.

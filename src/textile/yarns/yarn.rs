@@ -8,10 +8,10 @@ use selvedge_foundation::numerics::Random;
 
 keys! {
     /// A yarn: section, twist, irregularity, loose fibres, colour.
-    table Yarn {
-        pub width_um: f64
+    table pub(crate) Yarn {
+        pub(crate) width_um: f64
             => "Width" 10.0 ..= 5000.0 "µm" "Width of the section as it lies in the cloth",
-        pub thickness_um: f64
+        pub(crate) thickness_um: f64
             => "Thickness" 10.0 ..= 5000.0 "µm" "Thickness of the section as it lies in the cloth",
         #[serde(default)]
         pub(crate) flatness: f64
@@ -70,7 +70,7 @@ keys! {
             => "Clumped hairs" 0.0 ..= 2.0 ""
             "How unevenly the loose fibres are raised: standard deviation of the logarithm",
         /// Colour of the fibre, `#rrggbb`.
-        pub colour: String,
+        pub(crate) colour: String,
         #[serde(default)]
         pub(crate) colour_cv: f64
             => "Uneven colour" 0.0 ..= 0.6 ""

@@ -41,7 +41,7 @@ choice! {
 choice! {
     /// What is drawn over the surface.
     #[derive(Default)]
-    pub enum Tip {
+    pub(crate) enum Tip {
         /// A point: reads the heights as they are.
         #[default]
         Point = "point",
@@ -82,7 +82,7 @@ keys! {
             => "Step" 0.005 ..= 0.2 "mm" "Distance of its points: 1000 along a side are the most",
         /// What is drawn over it.
         #[serde(default)]
-        pub tip: Tip,
+        pub(crate) tip: Tip,
         #[serde(default)]
         pub noise_um: f64
             => "Noise of the tip" 0.0 ..= 10.0 "µm" "Noise of the tip, rms",

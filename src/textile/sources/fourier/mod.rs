@@ -63,30 +63,30 @@ keys! {
     /// The recipe of a surface drawn from a Fourier template (`kind = "fourier"`).
     source Fourier {
         /// Chooses what is drawn.
-        pub seed: u32,
+        pub(crate) seed: u32,
         /// How two profiles become a surface.
         #[serde(default)]
         pub(crate) composition: Composition,
         /// How the paper's sum is read.
         #[serde(default)]
-        pub reading: Reading,
+        pub(crate) reading: Reading,
         #[serde(default = "default_lowest_per_m")]
-        pub lowest_per_m: f64
+        pub(crate) lowest_per_m: f64
             => "From" 0.0 ..= 1e5 "/m" "Harmonics below this are left out, cycles per metre",
         #[serde(default = "default_highest_per_m")]
-        pub highest_per_m: f64
+        pub(crate) highest_per_m: f64
             => "To" 0.0 ..= 1e5 "/m" "Harmonics above this are left out, cycles per metre",
         #[serde(default = "default_length_mm")]
-        pub length_mm: f64
+        pub(crate) length_mm: f64
             => "Mirrored beyond" 5.0 ..= 100.0 "mm" "Beyond this the surface is mirrored",
         #[serde(default = "default_step_mm")]
-        pub step_mm: f64
+        pub(crate) step_mm: f64
             => "Step" 0.004 ..= 0.5 "mm" "Distance of the samples",
         /// The material along the warp.
-        pub template: FourierTemplate,
+        pub(crate) template: FourierTemplate,
         /// The material along the weft; the warp's if it is left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        pub weft_template: Option<FourierTemplate>,
+        pub(crate) weft_template: Option<FourierTemplate>,
     }
 }
 
@@ -105,7 +105,7 @@ fn default_step_mm() -> f64 {
 
 impl Fourier {
     /// The recipe of a template, everything else as usual.
-    pub fn new(template: FourierTemplate, seed: u32) -> Self {
+    pub(crate) fn new(template: FourierTemplate, seed: u32) -> Self {
         Self {
             kind: "fourier".to_owned(),
             recipe_hash: None,

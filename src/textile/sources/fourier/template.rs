@@ -20,7 +20,7 @@ pub(super) const MOST_HARMONICS: usize = 2000;
 
 keys! {
     /// Mean and standard deviation of the coefficients of harmonics 1, 2, 3 …
-    table FourierTemplate {
+    table pub FourierTemplate {
         /// What it is called.
         pub name: String,
         /// Where it comes from, one line.
@@ -172,7 +172,7 @@ impl FourierTemplate {
 
     /// Mean square of the two coefficients of a harmonic, µm²: what it adds to the variance of the
     /// heights.
-    pub(crate) fn variance_um2(&self, n: usize) -> f64 {
+    pub(super) fn variance_um2(&self, n: usize) -> f64 {
         let [a, b, c, d] = [
             self.mean_cos_um[n - 1],
             self.sd_cos_um[n - 1],
@@ -180,13 +180,6 @@ impl FourierTemplate {
             self.sd_sin_um[n - 1],
         ];
         0.5 * (a * a + b * b + c * c + d * d)
-    }
-
-    /// Standard deviation of the heights of what is drawn from it within a band, µm.
-    pub(crate) fn sd_um(&self, band_per_m: [f64; 2]) -> f64 {
-        let harmonics = self.harmonics(band_per_m);
-        let sum: f64 = harmonics.iter().map(|&n| self.variance_um2(n)).sum();
-        sum.sqrt()
     }
 }
 

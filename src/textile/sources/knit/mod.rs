@@ -11,7 +11,7 @@
 mod course;
 mod structure;
 
-pub use structure::Structure;
+pub(crate) use structure::Structure;
 
 use crate::error::TextileError;
 use crate::recipe::{
@@ -37,14 +37,14 @@ keys! {
     source Knit {
         /// Whether it is felt along four strokes or at every point of its relief.
         #[serde(default, skip_serializing_if = "Representation::is_default")]
-        pub representation: Representation,
+        pub(crate) representation: Representation,
         /// Which side of the textile is touched.
         #[serde(default, skip_serializing_if = "Side::is_face")]
-        pub side: Side,
+        pub(crate) side: Side,
         /// Chooses the irregularities.
-        pub seed: u32,
+        pub(crate) seed: u32,
         /// Which stitch stands where.
-        pub structure: Structure,
+        pub(crate) structure: Structure,
         pub(crate) wales_per_cm: f64
             => "Wales" 1.0 ..= 40.0 "/cm" "Columns of loops per centimetre",
         pub(crate) courses_per_cm: f64
@@ -69,7 +69,7 @@ keys! {
         /// Height of the raised above the sunken stitches of a rib (face above back) or a piqué
         /// (tucks above plain ones), µm; below 0 where the others stand out.
         #[serde(default)]
-        pub relief_um: f64
+        pub(crate) relief_um: f64
             => "Relief" -1000.0 ..= 3000.0 "µm"
             "Height of the raised above the sunken stitches of a rib or a piqué",
         #[serde(default)]
@@ -103,7 +103,7 @@ keys! {
         pub(crate) pucker_mm: f64
             => "Size of puckers" 0.5 ..= 10.0 "mm" "Size of the puckers",
         #[serde(default = "usual::noise_um")]
-        pub noise_um: f64
+        pub(crate) noise_um: f64
             => "Noise of the probe" 0.0 ..= 10.0 "µm" "Noise of the probe, rms",
         /// The yarn.
         pub(crate) yarn: Yarn,
@@ -122,7 +122,7 @@ fn default_leg_spread() -> f64 {
 
 impl Knit {
     /// The textile.
-    pub fn yarn_geometry(&self) -> YarnGeometry {
+    pub(crate) fn yarn_geometry(&self) -> YarnGeometry {
         let random = Random::new(u64::from(self.seed));
         let bed = course::Bed::new(self, &random);
         let mut paths = bed.courses(0.0, 1.0, &random.branch("front"));

@@ -4,7 +4,7 @@ use crate::recipe::choice;
 
 choice! {
     /// A knitted structure, seen on the side that is touched.
-    pub enum Structure {
+    pub(crate) enum Structure {
         /// Single jersey, face: the legs of the loops make columns of Vs.
         Jersey = "jersey",
         /// Single jersey, back: heads and feet make rows of arcs.
@@ -59,7 +59,7 @@ const BACK: Stitch = Stitch { face: -1.0, ..FACE };
 
 impl Structure {
     /// Wales and courses in a repeat.
-    pub fn repeat(self) -> [usize; 2] {
+    pub(crate) fn repeat(self) -> [usize; 2] {
         match self {
             Self::Jersey | Self::ReverseJersey | Self::Terry | Self::Fleece | Self::Plush => [1, 1],
             Self::Rib11 | Self::Interlock => [2, 1],

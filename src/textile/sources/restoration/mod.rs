@@ -32,7 +32,7 @@ const PICTURE_STEP_MM: f64 = 0.1;
 choice! {
     /// How a warp and a weft profile become a surface.
     #[derive(Default)]
-    pub enum Rule {
+    pub(crate) enum Rule {
         /// `z_warp(x) + z_weft(y)`: the only rule by which a stroke reads the profile it came from.
         #[default]
         Additive = "additive",
@@ -45,33 +45,28 @@ choice! {
     }
 }
 
-impl Rule {
-    /// All four.
-    pub const ALL: [Self; 4] = [Self::Additive, Self::Product, Self::Max, Self::Gated];
-}
-
 keys! {
     /// The recipe of a restored surface (`kind = "restoration"`).
     source Restoration {
         /// Chooses the noise.
-        pub seed: u32,
+        pub(crate) seed: u32,
         /// How two profiles become a surface.
         #[serde(default)]
-        pub composition: Rule,
+        pub(crate) composition: Rule,
         /// Whether noise with the residual's spectrum is added.
         #[serde(default = "yes")]
-        pub residual: bool,
+        pub(crate) residual: bool,
         #[serde(default = "default_length_mm")]
-        pub length_mm: f64
+        pub(crate) length_mm: f64
             => "Side" 5.0 ..= 100.0 "mm" "Side of the patch",
         #[serde(default = "default_step_mm")]
-        pub step_mm: f64
+        pub(crate) step_mm: f64
             => "Step" 0.002 ..= 0.1 "mm" "Distance of the samples",
         /// What was kept of the warp profile.
-        pub warp: Reduced,
+        pub(crate) warp: Reduced,
         /// What was kept of the weft profile; the warp's if it is left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        pub weft: Option<Reduced>,
+        pub(crate) weft: Option<Reduced>,
     }
 }
 
@@ -87,7 +82,7 @@ fn default_step_mm() -> f64 {
 
 impl Restoration {
     /// The recipe of reduced profiles, everything else as usual.
-    pub fn new(warp: Reduced, weft: Option<Reduced>, composition: Rule, seed: u32) -> Self {
+    pub(crate) fn new(warp: Reduced, weft: Option<Reduced>, composition: Rule, seed: u32) -> Self {
         Self {
             kind: "restoration".to_owned(),
             recipe_hash: None,

@@ -19,7 +19,7 @@ const LEAST_SAMPLES: usize = 64;
 
 keys! {
     /// What is kept of a profile: a few dozen numbers for thousands of samples.
-    table Reduced {
+    table pub Reduced {
         /// Mean absolute deviation of the profile, µm: what the restored one is brought to.
         pub smd_um: f64
             => "Roughness SMD" 0.0 ..= 1e5 "µm" "What the restored profile is brought to",

@@ -85,7 +85,7 @@ fn the_restored_profile_is_as_rough_as_the_measured() {
 fn the_additive_rule_alone_keeps_both_marginals() {
     let (a, b) = (measured(0.617, 10.0, 1), measured(1.1, 10.0, 2));
     let [warp, weft] = [&a, &b].map(|profile| Reduced::of(profile, 10).unwrap());
-    for rule in Rule::ALL {
+    for rule in [Rule::Additive, Rule::Product, Rule::Max, Rule::Gated] {
         let recipe = Restoration::new(warp.clone(), Some(weft.clone()), rule, 1);
         let [along, across] = recipe.profiles_um();
         let drawn = recipe.sample().unwrap();

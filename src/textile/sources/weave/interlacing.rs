@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// An interlacing: a name, or a matrix of rows of `X` (warp on top) and `.` (weft on top).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
-pub enum Interlacing {
+pub(crate) enum Interlacing {
     /// One of [`NAMES`].
     Named(String),
     /// Rows are picks, from the first pick on.
@@ -63,13 +63,13 @@ pub const NAMES: [(&str, &[&str]); 15] = [
 
 /// A repeat of crossings: whether the warp lies on top, by pick and end.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Repeat {
+pub(crate) struct Repeat {
     rows: Vec<Vec<bool>>,
 }
 
 impl Interlacing {
     /// The repeat, or why there is none.
-    pub fn repeat(&self) -> Result<Repeat, String> {
+    pub(crate) fn repeat(&self) -> Result<Repeat, String> {
         match self {
             Self::Named(name) => {
                 let known = NAMES.iter().find(|(known, _)| known == name);
@@ -118,7 +118,7 @@ impl Repeat {
     }
 
     /// Ends in a repeat.
-    pub fn n_ends(&self) -> usize {
+    pub(crate) fn n_ends(&self) -> usize {
         self.rows[0].len()
     }
 

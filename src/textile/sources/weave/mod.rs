@@ -11,8 +11,8 @@
 mod crossing;
 mod interlacing;
 
-pub use interlacing::Repeat;
-pub use interlacing::{Interlacing, NAMES};
+pub(crate) use interlacing::Interlacing;
+pub use interlacing::NAMES;
 
 use crate::error::TextileError;
 use crate::recipe::{
@@ -28,56 +28,56 @@ keys! {
     source Weave {
         /// Whether it is felt along four strokes or at every point of its relief.
         #[serde(default, skip_serializing_if = "Representation::is_default")]
-        pub representation: Representation,
+        pub(crate) representation: Representation,
         /// Which side of the textile is touched.
         #[serde(default, skip_serializing_if = "Side::is_face")]
-        pub side: Side,
+        pub(crate) side: Side,
         /// Chooses the irregularities.
         pub seed: u32,
         /// Which yarn lies on top where.
-        pub interlacing: Interlacing,
-        pub warp_per_cm: f64
+        pub(crate) interlacing: Interlacing,
+        pub(crate) warp_per_cm: f64
             => "Ends" 2.0 ..= 100.0 "/cm" "Ends per centimetre",
         pub weft_per_cm: f64
             => "Picks" 2.0 ..= 100.0 "/cm" "Picks per centimetre",
         #[serde(default = "half")]
-        pub crimp_share: f64
+        pub(crate) crimp_share: f64
             => "Crimp of the warp" 0.0 ..= 1.0 "" "Share of the crimp that the warp takes",
         #[serde(default = "default_compaction")]
-        pub compaction: f64
+        pub(crate) compaction: f64
             => "Compaction" 0.1 ..= 1.2 ""
             "How far apart crossing yarns stand, as a share of half the sum of their thicknesses",
         #[serde(default)]
-        pub float_lift_um: f64
+        pub(crate) float_lift_um: f64
             => "Lift of floats" 0.0 ..= 500.0 "µm"
             "How far a float bulges for every crossing that it passes",
         #[serde(default = "usual::tension_drift")]
-        pub tension_drift: f64
+        pub(crate) tension_drift: f64
             => "Tension drift" 0.0 ..= 0.5 ""
             "Standard deviation of the crimp share from place to place",
         #[serde(default = "usual::drift_mm")]
-        pub drift_mm: f64
+        pub(crate) drift_mm: f64
             => "Drift length" 1.0 ..= 10.0 "mm" "Over what length tension and bow change",
         #[serde(default = "usual::pitch_cv")]
-        pub pitch_cv: f64
+        pub(crate) pitch_cv: f64
             => "Uneven pitch" 0.0 ..= 0.3 ""
             "Standard deviation of the places of yarns, share of their pitch",
         #[serde(default)]
-        pub bow_um: f64
+        pub(crate) bow_um: f64
             => "Bow" 0.0 ..= 2000.0 "µm" "Standard deviation of the bow of a yarn",
         #[serde(default)]
-        pub pucker_um: f64
+        pub(crate) pucker_um: f64
             => "Pucker" 0.0 ..= 500.0 "µm" "Out-of-plane puckering by lively twist, rms",
         #[serde(default = "usual::pucker_mm")]
-        pub pucker_mm: f64
+        pub(crate) pucker_mm: f64
             => "Size of puckers" 0.5 ..= 10.0 "mm" "Size of the puckers",
         #[serde(default = "usual::noise_um")]
-        pub noise_um: f64
+        pub(crate) noise_um: f64
             => "Noise of the probe" 0.0 ..= 10.0 "µm" "Noise of the probe, rms",
         /// The warp yarn.
-        pub warp: Yarn,
+        pub(crate) warp: Yarn,
         /// The weft yarn.
-        pub weft: Yarn,
+        pub(crate) weft: Yarn,
     }
 }
 
@@ -90,7 +90,7 @@ fn default_compaction() -> f64 {
 
 impl Weave {
     /// The textile. Empty if the interlacing is none: [`Weave::check`] refuses that.
-    pub fn yarn_geometry(&self) -> YarnGeometry {
+    pub(crate) fn yarn_geometry(&self) -> YarnGeometry {
         let random = Random::new(u64::from(self.seed));
         let thickness = self.warp.thickness_um + self.weft.thickness_um;
         let floor_um = -thickness;

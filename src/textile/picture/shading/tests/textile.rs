@@ -5,10 +5,10 @@ use std::path::Path;
 use super::*;
 use crate::import::to_textile;
 use crate::recipe::{HeightsFile, ProfileFiles, SourceKeys};
+use crate::sources::picture::PictureSource;
 use crate::surface::{Direction, Representation};
 use crate::{
-    BuiltFile, HeightScale, Library, Manifest, PictureSource, PictureTextile, Source, TextileError,
-    write,
+    BuiltFile, HeightScale, Library, Manifest, PictureTextile, Source, TextileError, write,
 };
 use selvedge_foundation::files::FileError;
 use selvedge_scratch::ScratchFolder;
