@@ -10,13 +10,12 @@ use super::{CliError, terminal};
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{fixed, with_unit};
-use selvedge_textile::picture::felt::textile_of;
-use selvedge_textile::picture::shading::{
-    HeightScale, Light, Method, PictureTextile, ShadingError, ShadingOptions, relief_um_of,
-};
+use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
 use selvedge_textile::picture::{Relief, Tile};
 use selvedge_textile::surface::Representation;
-use selvedge_textile::{BuiltFile, Words};
+use selvedge_textile::{
+    BuiltFile, Description, HeightScale, PictureTextile, relief_um_of, textile_of,
+};
 
 /// How heights are found on the cell, and what becomes of them.
 #[derive(Debug, Args)]
@@ -152,7 +151,7 @@ impl ReliefArgs {
             self.name.clone()
         };
         PictureTextile {
-            name: Words::of(&called).name,
+            name: Description::of(&called).name,
             construction: self.construction.construction(),
             px_per_mm: px_per_mm.unwrap_or(0.0),
             scale,

@@ -7,11 +7,9 @@ use clap::Args;
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use selvedge_textile::metrology::{
-    self, Asked, HeightImport, HeightPlace, ImportOptions, LengthUnit,
-};
+use selvedge_textile::metrology::{self, Asked, LengthUnit};
 use selvedge_textile::surface::Representation;
-use selvedge_textile::{TextileError, Words};
+use selvedge_textile::{Description, HeightImport, HeightPlace, ImportOptions, TextileError};
 
 /// What a file may leave open.
 #[derive(Debug, Args)]
@@ -141,7 +139,7 @@ pub(crate) fn import(args: &ImportArgs) -> Result<(), CliError> {
     for (nth, place) in places.iter().enumerate() {
         let mut words = words.nth(nth, n);
         if words.name.trim().is_empty() {
-            words.name = Words::of(&import.own_name()).nth(nth, n).name;
+            words.name = Description::of(&import.own_name()).nth(nth, n).name;
         }
         let files = import.files(place, &words, &bytes)?;
         let folder = nth_folder(&args.out, nth, n);

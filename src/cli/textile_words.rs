@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use clap::{Args, ValueEnum};
 
 use super::CliError;
-use selvedge_textile::{Construction, Words};
+use selvedge_textile::{Construction, Description};
 
 /// How a textile is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -54,7 +54,7 @@ fn figure(text: &str) -> Result<(String, f64), String> {
 
 impl WordsArgs {
     /// The words with a name and how it is made.
-    pub(super) fn words(&self, name: &str, made: Made) -> Result<Words, CliError> {
+    pub(super) fn words(&self, name: &str, made: Made) -> Result<Description, CliError> {
         let mut figures = BTreeMap::new();
         for (key, value) in &self.figure {
             if figures.insert(key.clone(), *value).is_some() {
@@ -62,7 +62,7 @@ impl WordsArgs {
                 return Err(CliError::Input(format!("{what}; say it once")));
             }
         }
-        Ok(Words {
+        Ok(Description {
             name: name.to_owned(),
             construction: made.construction(),
             fibre: self.fibre.clone(),

@@ -14,164 +14,67 @@
     expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
 )]
 
-mod brought;
-mod brownian;
 mod build;
-mod cache;
 mod catalogue;
-mod cloth;
 mod curve;
-mod drawn;
-mod fourier;
-mod index;
-mod keeping;
+mod draft;
+mod error;
+mod import;
 mod kes;
-mod knit;
 mod library;
-mod loaded;
 mod manifest;
-mod measured;
 pub mod metrology;
-mod model;
-mod parameter;
 pub mod picture;
 mod profile_file;
-mod recipes;
-mod restoration;
-mod selection;
+mod recipe;
 mod shipped;
+mod sources;
 pub mod surface;
 pub mod tactile;
-mod trial;
-mod weave;
-mod words;
-mod workers;
+mod yarns;
 
-pub use brought::{Measurement, read_measurement};
-pub use brownian::Tip;
-pub use brownian::{Brownian, Generator, Hurst};
-pub use build::{BuiltFile, build, build_library, make, write};
-pub use cache::BuildCache;
-pub use catalogue::{sheet, write_catalogue, write_figure};
-pub use cloth::Cloth;
-pub use cloth::Side;
-pub use cloth::Yarn;
-pub use drawn::Drawn;
-pub use drawn::lit;
-pub use fourier::Imported;
-pub use fourier::{
-    Fourier, FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
-    templates_from_toml, templates_to_toml,
+pub use build::{BuiltFile, Trial, build, make, write};
+pub use catalogue::{write_catalogue, write_figure};
+pub use draft::{Draft, Fault, example, restored};
+pub use error::{KesAsk, TextileError};
+pub use import::{
+    Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesImport, Measurement,
+    PictureTextile, read_measurement, relief_um_of, scaled, smd_um, textile_of,
 };
-pub use index::Index;
-pub use index::IndexEntry;
+pub use import::{KesFigures, Scaled};
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesAsk, KesColumn, KesFile, KesImport,
-    KesKnown, KesLook, KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind,
-    PlaceUnit, ReturnOrder, StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesColumn, KesFile, KesKnown, KesLook,
+    KesOptions, KesPlace, KesReading, KesSection, KesStroke, MarkKind, PlaceUnit, ReturnOrder,
+    StrokeSide,
 };
-pub use kes::{EVALUATED_MM, KesFigures, KesFriction, KesLine, KesOrigin};
-pub use knit::{Knit, Structure};
-pub use library::{Library, is_of_the_program};
-pub use loaded::{Appearance, Textile};
-pub use manifest::AppearanceKeys;
-pub use manifest::Checker;
-pub use manifest::Profiles;
-pub use manifest::{Construction, Manifest, Parent, Provenance, Source};
-pub use measured::KnownFigure;
-pub use measured::{
-    Figure as MeasuredFigure, all_known as known_figures, figures as measured_figures,
+pub use kes::{KesFriction, KesLine, Mark};
+pub use library::{
+    Appearance, BuildCache, Library, Textile, build_library, id_of, is_of_the_program, kind_of,
+    most_typical, n_threads, nth_id,
 };
-pub use parameter::{
-    Draft, Fault, Group, Parameter, ParameterKind, Place, RECIPES, example, groups, restored,
+pub use library::{Index, IndexEntry};
+pub use manifest::{AppearanceKeys, KnownFigure};
+pub use manifest::{
+    Construction, Figure as MeasuredFigure, Manifest, Parent, Provenance,
+    all_known as known_figures, figures as measured_figures,
 };
 pub use profile_file::read as read_profile;
-pub use restoration::{Reduced, Restoration, Rule};
-pub use selection::{kind_of, most_typical};
-pub use trial::Trial;
-pub use weave::Repeat;
-pub use weave::{Interlacing, NAMES as INTERLACINGS, Weave};
-pub use words::{Words, id_of, nth_id};
-pub use workers::n_threads;
+pub use recipe::{Group, Parameter, ParameterKind, Place, lit};
+pub use sources::brownian::{Brownian, Generator, Hurst};
+pub use sources::fourier::{Fourier, Imported};
+pub use sources::fourier::{
+    FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
+    templates_from_toml, templates_to_toml,
+};
+pub use sources::heightmap::Heightmap;
+pub use sources::knit::Knit;
+pub use sources::picture::PictureSource;
+pub use sources::profiles::Profiles;
+pub use sources::restoration::Restoration;
 
-use std::path::PathBuf;
-
-use crate::surface::SurfaceError;
-use selvedge_chart::FigureError;
-use selvedge_foundation::files::FileError;
-use selvedge_foundation::progress::Cancelled;
-
-/// What can be wrong with a textile or a library.
-#[derive(Debug, thiserror::Error)]
-pub enum TextileError {
-    /// A file cannot be read or written, or its content is wrong.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// Heights that are no surface.
-    #[error("{}: {source}", path.display())]
-    Surface {
-        /// The file they come from.
-        path: PathBuf,
-        /// What is wrong.
-        source: SurfaceError,
-    },
-    /// No such textile.
-    #[error("no textile \"{id}\" in {library}; it has {known}")]
-    Unknown {
-        /// What was asked for.
-        id: String,
-        /// The library.
-        library: String,
-        /// What it has.
-        known: String,
-    },
-    /// A textile that is no model has nothing to be built from.
-    #[error(
-        "{}: a source of kind \"{kind}\" is not a recipe; give kind = \"weave\", \"knit\", \
-         \"fourier\", \"brownian\" or \"restoration\"",
-        path.display()
-    )]
-    NoRecipe {
-        /// The manifest.
-        path: PathBuf,
-        /// The kind it has.
-        kind: &'static str,
-    },
-    /// Measurements that no model can be made from: what, and how to mend it.
-    #[error("{0}")]
-    Model(String),
-    /// Files of the surface tester that do not say enough.
-    #[error("{}:{line}: {what}; {ask}", path.display())]
-    Kes {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// What is wrong.
-        what: String,
-        /// What must be said.
-        ask: KesAsk,
-    },
-    /// A picture that shows no shape.
-    #[error(transparent)]
-    Shading(#[from] picture::ShadingError),
-    /// A picture that cannot be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// Nothing was measured on the textiles of a library.
-    #[error(
-        "{}: no levels were measured; build it with \"selvedge textile build\", which writes a \
-         library.toml",
-        library.display()
-    )]
-    NoIndex {
-        /// The library.
-        library: PathBuf,
-    },
-    /// The work was stopped.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
+pub use sources::restoration::Reduced;
+pub use sources::weave::{NAMES as INTERLACINGS, Weave};
+pub use sources::{RECIPES, Source, groups};
 
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::TextileError;
+use crate::error::TextileError;
 use crate::surface::{FrictionTrace, Profile};
 use selvedge_foundation::files::{FileError, Table, TableWriter};
 

@@ -2,6 +2,12 @@
 //!
 //! The bytes are embedded as they lie in `textiles/`; nothing is decoded before it is asked for.
 
+use std::path::Path;
+
+use crate::error::TextileError;
+use crate::profile_file;
+use crate::surface::{Direction, Profile};
+
 /// `library.toml`.
 pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
 
@@ -10,6 +16,13 @@ pub(crate) const RECIPES: &str = include_str!("../../textiles/seventy-four.toml"
 
 /// What was measured on the seventy-four, as a `library.toml`.
 pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
+
+/// A profile of a shipped textile.
+pub(crate) fn profile(id: &str, direction: Direction) -> Result<Profile, TextileError> {
+    let name = format!("{}.csv", direction.key());
+    let bytes = file(id, &name).unwrap_or_default();
+    profile_file::read(&String::from_utf8_lossy(bytes), &Path::new(id).join(&name))
+}
 
 /// One embedded file of a textile.
 macro_rules! embedded {
@@ -22,7 +35,7 @@ macro_rules! embedded {
 macro_rules! textiles {
     ($($id:literal),+ $(,)?) => {
         /// A file of a shipped textile.
-        pub fn file(id: &str, name: &str) -> Option<&'static [u8]> {
+        pub(crate) fn file(id: &str, name: &str) -> Option<&'static [u8]> {
             match (id, name) {
                 $(
                     ($id, "textile.toml") => embedded!($id, "textile.toml"),

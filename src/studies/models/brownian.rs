@@ -76,10 +76,10 @@ fn row(
     n: usize,
     bench: &mut Bench<'_>,
 ) -> Result<Row, ReportError> {
-    let of = |seed: u32| Brownian {
-        length_mm: n as f64 * STEP_MM,
-        step_mm: STEP_MM,
-        ..Brownian::new(hurst, 1.0, generator, seed)
+    let of = |seed: u32| {
+        let mut surface = Brownian::new(hurst, 1.0, generator, seed);
+        (surface.length_mm, surface.step_mm) = (n as f64 * STEP_MM, STEP_MM);
+        surface
     };
     let n_seeds = bench.effort.pick(8, 20);
     let first = u32::try_from(bench.seed % 1_000_000).unwrap_or(0) * 100;

@@ -68,12 +68,9 @@ impl Relief {
             Self::Brownian => {
                 let step_mm = 0.02;
                 let seed = u32::try_from(seed % 1_000_000).unwrap_or(1);
-                let surface = Brownian {
-                    length_mm: fine as f64 * step_mm,
-                    step_mm,
-                    shortest_mm: Some(4.0 * FINE as f64 * step_mm),
-                    ..Brownian::new(HURST, 1.0, Generator::Periodic, seed)
-                };
+                let mut surface = Brownian::new(HURST, 1.0, Generator::Periodic, seed);
+                (surface.length_mm, surface.step_mm) = (fine as f64 * step_mm, step_mm);
+                surface.shortest_mm = Some(4.0 * FINE as f64 * step_mm);
                 let map = surface.surface(RISE_UM)?;
                 Truth::of(in_px(&map), [n, n])
             }

@@ -6,7 +6,7 @@
 mod index;
 mod sheet;
 
-pub use sheet::sheet;
+use sheet::sheet;
 
 use std::fs;
 use std::path::Path;

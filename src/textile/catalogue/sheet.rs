@@ -28,7 +28,7 @@ const N_BINS_SHOWN: usize = 50;
 ///
 /// # Errors
 /// Its picture or its friction cannot be read.
-pub fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
+pub(super) fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
     let manifest = textile.manifest();
     let mut rows = vec![Row {
         panels: vec![picture(textile)?, amplitudes(textile)],

@@ -5,7 +5,7 @@ use super::columns::{columns_of, headings};
 use super::dialect::{NoTable, RawTable, Separator, table_of};
 use super::text::text_of;
 use super::{ColumnRole, DecimalSign, KesFile, KesOptions};
-use crate::TextileError;
+use crate::error::TextileError;
 use selvedge_foundation::files::FileError;
 
 /// Lines above the numbers that are shown: the last ones.

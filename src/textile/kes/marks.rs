@@ -81,7 +81,7 @@ pub(super) fn marks_of(heights: &[f64], step_mm: f64, direction: Direction) -> V
 }
 
 /// Samples in so many millimetres, at least one.
-pub(super) fn n_samples(length_mm: f64, step_mm: f64) -> usize {
+pub(crate) fn n_samples(length_mm: f64, step_mm: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -10,20 +10,17 @@
 //! for, never assumed: see [`KesAsk`].
 //!
 //! # Invariants
-//! - pure: bytes in, bytes out; a window shows the [`KesImport`] before anything is written
+//! - pure: bytes in, bytes out; a window shows the [`crate::KesImport`] before anything is written
 //! - one straight line is taken off every stroke of heights, over its whole length, laid through
 //!   what is not marked; nothing else
 //! - nothing is resampled: uneven steps are refused
 
-mod chart;
 mod columns;
 mod dialect;
-mod import;
 mod look;
 mod marks;
 #[cfg(test)]
 mod mutations;
-mod origin;
 mod places;
 mod reading;
 mod returns;
@@ -36,20 +33,18 @@ mod units;
 
 pub use columns::{ClothAxis, ColumnRole, StrokeSide};
 pub use dialect::DecimalSign;
-pub use import::KesFigures;
-pub use import::KesImport;
 pub use look::KesLine;
 pub use look::{KesColumn, KesKnown, KesLook};
+pub(crate) use marks::n_samples;
 pub use marks::{Mark, MarkKind};
-pub use origin::KesOrigin;
 pub use reading::KesFriction;
 pub use reading::{KesFile, KesReading, KesStroke};
-pub use section::EVALUATED_MM;
 pub use section::KesSection;
+pub(crate) use section::{covered_mm, suggested};
 
 use std::path::{Path, PathBuf};
 
-use super::TextileError;
+use crate::error::{KesAsk, TextileError};
 
 /// What is known of files beyond what they say. The default knows nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -116,46 +111,8 @@ pub enum ReturnOrder {
     Mirrored,
 }
 
-/// What must be said because the files do not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum KesAsk {
-    /// The sensitivity.
-    #[error("say --um-per-volt UM, the height in µm that 1 V stands for")]
-    UmPerVolt,
-    /// The distance of samples.
-    #[error("say --step-mm MM, or --speed-mm-per-s V and --rate-hz HZ")]
-    Step,
-    /// The speed.
-    #[error("say --speed-mm-per-s V, the speed of the stroke")]
-    Speed,
-    /// Which stroke it is.
-    #[error(
-        "say --direction once a file: warp or weft, or warp-forward, warp-return, \
-         weft-forward, weft-return"
-    )]
-    Direction,
-    /// How a return stroke is stored.
-    #[error("say --return-order travel (as measured) or mirrored (by place)")]
-    ReturnOrder,
-    /// The decimal sign.
-    #[error("say --decimal point or --decimal comma")]
-    Decimal,
-    /// The unit of places.
-    #[error("say --x-unit mm, cm or um")]
-    XUnit,
-    /// The unit of heights.
-    #[error("say --height-unit um or mm, or --um-per-volt UM for volts")]
-    HeightUnit,
-    /// What the columns are.
-    #[error("say --columns, such as x,forward,return (skip for one that does not matter)")]
-    Columns,
-    /// The evaluated section.
-    #[error("say --section FROM,TO in mm on the cloth (or warp=FROM,TO and weft=FROM,TO)")]
-    Section,
-}
-
 /// An error that asks: what is wrong, where, and what must be said.
-fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> TextileError {
+pub(crate) fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> TextileError {
     TextileError::Kes {
         path: PathBuf::from(path),
         line,
@@ -166,7 +123,7 @@ fn asks(path: &Path, line: usize, what: impl Into<String>, ask: KesAsk) -> Texti
 
 /// Whether a text may be an export of the tester: columns that are strokes by their names or by
 /// their number, none of which marks valid points, under no header of a matrix.
-pub(super) fn is_export(bytes: &[u8]) -> bool {
+pub(crate) fn is_export(bytes: &[u8]) -> bool {
     let path = Path::new("-");
     let Ok(text) = text::text_of(bytes, path) else {
         return false;

@@ -6,7 +6,7 @@ use super::marks::{Mark, marks_of};
 use super::section::covered_mm;
 use super::strokes::{RawStroke, Reader, name_of};
 use super::{ClothAxis, KesAsk, KesOptions, ReturnOrder, StrokeSide, asks, returns};
-use crate::TextileError;
+use crate::error::TextileError;
 use crate::surface::{Direction, SurfaceError, WINDOW_LENGTH_MM};
 use selvedge_foundation::files::{FileError, sha256_hex};
 

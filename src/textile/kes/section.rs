@@ -11,7 +11,7 @@ use super::{ClothAxis, KesStroke};
 use crate::surface::mean_deviation;
 
 /// The length of the evaluated section, mm.
-pub const EVALUATED_MM: f64 = 20.0;
+pub(crate) const EVALUATED_MM: f64 = 20.0;
 /// Pieces that a section is compared by.
 const N_PIECES: usize = 10;
 /// How far apart the sections lie that are tried, mm.
@@ -68,7 +68,7 @@ impl KesStroke {
 }
 
 /// What all strokes of an axis cover, mm: from the lowest place to one step after the highest.
-pub(super) fn covered_mm(strokes: &[&KesStroke]) -> Option<[f64; 2]> {
+pub(crate) fn covered_mm(strokes: &[&KesStroke]) -> Option<[f64; 2]> {
     let ranges = strokes.iter().map(|stroke| {
         let [low, high] = stroke.range_mm();
         [low, high + stroke.step_mm]
@@ -77,7 +77,7 @@ pub(super) fn covered_mm(strokes: &[&KesStroke]) -> Option<[f64; 2]> {
 }
 
 /// The section suggested for the strokes of an axis.
-pub(super) fn suggested(strokes: &[&KesStroke]) -> Option<KesSection> {
+pub(crate) fn suggested(strokes: &[&KesStroke]) -> Option<KesSection> {
     let [low, high] = covered_mm(strokes)?;
     let length_mm = EVALUATED_MM.min(high - low);
     let step_mm = strokes

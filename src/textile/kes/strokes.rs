@@ -7,7 +7,7 @@ use super::dialect::{NoTable, RawTable, table_of};
 use super::places::{Run, Uneven, run_of, step_of};
 use super::text::text_of;
 use super::{ClothAxis, ColumnRole, KesAsk, KesOptions, KesPlace, StrokeSide, asks};
-use crate::TextileError;
+use crate::error::TextileError;
 use selvedge_foundation::files::FileError;
 
 /// Longer strokes than this are in another unit than they say, mm.

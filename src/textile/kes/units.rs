@@ -3,7 +3,7 @@
 use super::columns::{Column, Unit, tokens};
 use super::strokes::Reader;
 use super::{ColumnRole, HeightUnit, KesAsk, PlaceUnit, asks};
-use crate::TextileError;
+use crate::error::TextileError;
 use selvedge_foundation::files::FileError;
 
 impl Reader<'_> {

@@ -3,35 +3,26 @@
 //! A source has exactly one kind; a kind is a struct of its own that owns its keys. Every value is
 //! checked when the file is read, and errors name the line.
 
-mod checker;
-mod profiles;
+mod measured;
 mod provenance;
 
-pub use checker::Checker;
-pub(crate) use profiles::ProfileFiles;
-pub use profiles::Profiles;
-pub(crate) use profiles::profile_file_keys;
+pub use measured::{Figure, KnownFigure, all_known, figures};
 pub use provenance::{Parent, Provenance};
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::TextileError;
-use super::brownian::Brownian;
-use super::fourier::Fourier;
-use super::knit::Knit;
-use super::measured;
-use super::metrology::Heightmap;
-use super::picture::PictureSource;
-use super::restoration::Restoration;
-use super::weave::Weave;
-use crate::surface::{Direction, Representation};
+use crate::error::TextileError;
+use crate::recipe::Checker;
+use crate::sources::{self, KINDS, ReadKind, Source};
 use crate::tactile::check_gain;
-use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, sha256_hex};
+use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string};
+
+/// The name of a manifest in its textile's folder.
+pub(crate) const MANIFEST: &str = "textile.toml";
 
 /// A textile's manifest. `S` is the source: [`Source`], or one kind of it while reading.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -104,168 +95,24 @@ pub struct AppearanceKeys {
     pub px_per_mm: f64,
 }
 
-/// Where a surface comes from: exactly one kind.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Source {
-    /// Measured profiles.
-    Profiles(Profiles),
-    /// A model of a woven cloth.
-    Weave(Box<Weave>),
-    /// A model of a knitted cloth.
-    Knit(Box<Knit>),
-    /// A surface drawn from a template of harmonics.
-    Fourier(Box<Fourier>),
-    /// A Brownian surface.
-    Brownian(Box<Brownian>),
-    /// A surface restored from what repeats in two profiles.
-    Restoration(Box<Restoration>),
-    /// A file of measured heights.
-    Heightmap(Box<Heightmap>),
-    /// Heights found on a picture.
-    Picture(Box<PictureSource>),
-}
-
-/// The kinds of source, as files spell them.
-const KINDS: [&str; 9] = [
-    "profiles",
-    "weave",
-    "knit",
-    "fourier",
-    "brownian",
-    "restoration",
-    "heightmap",
-    "x3p",
-    "picture",
-];
-
-impl Source {
-    /// The kind, as files spell it.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Profiles(_) => KINDS[0],
-            Self::Weave(_) => KINDS[1],
-            Self::Knit(_) => KINDS[2],
-            Self::Fourier(_) => KINDS[3],
-            Self::Brownian(_) => KINDS[4],
-            Self::Restoration(_) => KINDS[5],
-            Self::Heightmap(keys) => KINDS[if keys.kind == "x3p" { 7 } else { 6 }],
-            Self::Picture(_) => KINDS[8],
-        }
-    }
-
-    /// The profile files that the manifest names; models may name none.
-    pub(crate) fn files(&self) -> ProfileFiles {
-        match self {
-            Self::Profiles(keys) => ProfileFiles([
-                keys.warp_forward.clone(),
-                keys.warp_reverse.clone(),
-                keys.weft_forward.clone(),
-                keys.weft_reverse.clone(),
-            ]),
-            Self::Weave(keys) => keys.files(),
-            Self::Knit(keys) => keys.files(),
-            Self::Fourier(keys) => keys.files(),
-            Self::Brownian(keys) => keys.files(),
-            Self::Restoration(keys) => keys.files(),
-            Self::Heightmap(keys) => keys.files(),
-            Self::Picture(keys) => keys.files(),
-        }
-    }
-
-    /// How its surface is laid out.
-    pub fn representation(&self) -> Representation {
-        match self {
-            Self::Profiles(_) | Self::Fourier(_) | Self::Brownian(_) | Self::Restoration(_) => {
-                Representation::Economical
-            }
-            Self::Weave(keys) => keys.representation,
-            Self::Knit(keys) => keys.representation,
-            Self::Heightmap(keys) => keys.representation,
-            Self::Picture(keys) => keys.representation,
-        }
-    }
-
-    /// The file of heights that it is kept as, if it is, and how that is read.
-    pub(crate) fn kept_map(&self) -> Option<Cow<'_, Heightmap>> {
-        match self {
-            Self::Heightmap(keys) => Some(Cow::Borrowed(keys)),
-            Self::Picture(keys) => Some(Cow::Owned(keys.map())),
-            _ => None,
-        }
-    }
-
-    /// The file of the friction trace, if one was measured.
-    pub fn friction(&self) -> Option<&str> {
-        match self {
-            Self::Profiles(keys) => keys.friction.as_deref(),
-            _ => None,
-        }
-    }
-
-    /// The recipe alone: a model without the files that were made from it.
-    #[must_use]
-    pub fn recipe(&self) -> Self {
-        let mut recipe = self.clone();
-        recipe.set_files(ProfileFiles::default(), None);
-        recipe
-    }
-
-    /// Names a model's profile files and the recipe that they came from.
-    pub(crate) fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>) {
-        match self {
-            Self::Profiles(_) => {}
-            Self::Weave(keys) => keys.set_files(files, recipe_hash),
-            Self::Knit(keys) => keys.set_files(files, recipe_hash),
-            Self::Fourier(keys) => keys.set_files(files, recipe_hash),
-            Self::Brownian(keys) => keys.set_files(files, recipe_hash),
-            Self::Restoration(keys) => keys.set_files(files, recipe_hash),
-            Self::Heightmap(keys) => keys.set_files(files, recipe_hash),
-            Self::Picture(keys) => keys.set_files(files, recipe_hash),
-        }
-    }
-
-    /// SHA-256 of the recipe as this program writes it.
-    pub fn recipe_hash(&self, path: &Path) -> Result<String, TextileError> {
-        let text = keys_to_string(&self.recipe(), path)?;
-        Ok(sha256_hex([text.as_bytes()]))
-    }
-
-    fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        match self {
-            Self::Profiles(keys) => {
-                if keys.warp_forward.is_none() && keys.warp_reverse.is_none() {
-                    let mend = "add warp_forward = \"FILE.csv\"";
-                    return Err(checker.wrong("source", "kind", "no warp profile", mend));
-                }
-                check_name(checker, "source", "friction", keys.friction.as_deref())?;
-                keys.imported
-                    .as_ref()
-                    .map_or(Ok(()), |origin| origin.check(checker))?;
-            }
-            Self::Weave(keys) => keys.check(checker)?,
-            Self::Knit(keys) => keys.check(checker)?,
-            Self::Fourier(keys) => keys.check(checker)?,
-            Self::Brownian(keys) => keys.check(checker)?,
-            Self::Restoration(keys) => keys.check(checker)?,
-            Self::Heightmap(keys) => {
-                keys.check(checker)?;
-                check_name(checker, "source", "file", Some(&keys.file))?;
-            }
-            Self::Picture(keys) => {
-                keys.check(checker)?;
-                check_name(checker, "source", "file", Some(&keys.file))?;
-            }
-        }
-        let files = self.files();
-        for direction in Direction::ALL {
-            check_name(checker, "source", direction.key(), files.of(direction))?;
-        }
-        Ok(())
-    }
-}
-
 impl Manifest {
+    /// A manifest with a name and a source, and nothing else said.
+    pub(crate) fn new(name: &str, source: Source) -> Self {
+        Self {
+            name: name.to_owned(),
+            construction: Construction::Other,
+            fibre: String::new(),
+            gain_db: 0.0,
+            noise_floor_um2_mm: None,
+            licence: String::new(),
+            notes: String::new(),
+            source,
+            appearance: None,
+            measured: BTreeMap::new(),
+            provenance: None,
+        }
+    }
+
     /// Reads a manifest. `path` only names it in errors.
     ///
     /// # Errors
@@ -273,21 +120,12 @@ impl Manifest {
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, TextileError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let checker = Checker { text, path, nth: 0 };
-        let manifest = match kind_of(&checker)?.as_str() {
-            "profiles" => read::<Profiles>(text, path)?.map(Source::Profiles),
-            "weave" => read::<Box<Weave>>(text, path)?.map(Source::Weave),
-            "knit" => read::<Box<Knit>>(text, path)?.map(Source::Knit),
-            "fourier" => read::<Box<Fourier>>(text, path)?.map(Source::Fourier),
-            "brownian" => read::<Box<Brownian>>(text, path)?.map(Source::Brownian),
-            "restoration" => read::<Box<Restoration>>(text, path)?.map(Source::Restoration),
-            "heightmap" | "x3p" => read::<Box<Heightmap>>(text, path)?.map(Source::Heightmap),
-            "picture" => read::<Box<PictureSource>>(text, path)?.map(Source::Picture),
-            other => {
-                let mend = format!("the kinds are {}", KINDS.join(", "));
-                let what = format!("unknown kind of source \"{other}\"");
-                return Err(checker.wrong("source", "kind", what, mend));
-            }
-        };
+        let kind = kind_of(&checker)?;
+        let manifest = sources::read_kind(&kind, Reader { text, path }).ok_or_else(|| {
+            let mend = format!("the kinds are {}", KINDS.join(", "));
+            let what = format!("unknown kind of source \"{kind}\"");
+            checker.wrong("source", "kind", what, mend)
+        })??;
         manifest.check(&checker)?;
         Ok(manifest)
     }
@@ -310,7 +148,7 @@ impl Manifest {
         }
         if let Some(appearance) = &self.appearance {
             checker.within("appearance", "px_per_mm", appearance.px_per_mm, 0.1..=200.0)?;
-            check_name(checker, "appearance", "image", Some(&appearance.image))?;
+            checker.file_name("appearance", "image", Some(&appearance.image))?;
         }
         for (key, value) in &self.measured {
             measured::check(checker, key, *value)?;
@@ -340,8 +178,19 @@ impl<S> Manifest<S> {
     }
 }
 
-fn read<S: DeserializeOwned>(text: &str, path: &Path) -> Result<Manifest<S>, FileError> {
-    keys_from_str(text, path)
+/// Reads a manifest whose kind of source is known.
+struct Reader<'a> {
+    text: &'a str,
+    path: &'a Path,
+}
+
+impl ReadKind for Reader<'_> {
+    type Read = Result<Manifest, FileError>;
+
+    fn read<K: DeserializeOwned>(self, source: impl FnOnce(K) -> Source) -> Self::Read {
+        let manifest: Manifest<K> = keys_from_str(self.text, self.path)?;
+        Ok(manifest.map(source))
+    }
 }
 
 /// The kind of the source: read first, so that the keys of that kind can be read with their lines.
@@ -359,24 +208,6 @@ fn kind_of(checker: &Checker<'_>) -> Result<String, TextileError> {
         let mend = format!("add [source] with kind = one of {}", KINDS.join(", "));
         checker.wrong("source", "kind", "no kind of source", mend)
     })
-}
-
-/// Refuses file names that lead out of the textile's folder.
-fn check_name(
-    checker: &Checker<'_>,
-    table: &str,
-    key: &str,
-    name: Option<&str>,
-) -> Result<(), TextileError> {
-    use std::path::Component::Normal;
-
-    let Some(name) = name else { return Ok(()) };
-    let mut parts = Path::new(name).components();
-    if matches!((parts.next(), parts.next()), (Some(Normal(_)), None)) {
-        return Ok(());
-    }
-    let mend = "name a file in the textile's own folder";
-    Err(checker.wrong(table, key, format!("{key} is \"{name}\""), mend))
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Checker;
-use crate::TextileError;
+use crate::error::TextileError;
+use crate::recipe::Checker;
 
 /// Most parents of a textile.
 const MOST_PARENTS: usize = 16;

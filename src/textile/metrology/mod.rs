@@ -12,11 +12,8 @@ mod frt;
 mod gsf;
 mod gwy;
 mod image16;
-mod import;
-pub mod made;
 mod npy;
 mod reading;
-mod source;
 mod sur;
 mod text;
 mod text_layout;
@@ -31,35 +28,15 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
-pub use import::{HeightImport, HeightPlace, ImportOptions};
-pub use reading::{About, Measured};
-pub use source::Heightmap;
+pub use reading::{About, Asked, Measured};
 pub use unit::LengthUnit;
 pub use x3p::{Coding, write as write_x3p};
 
 use std::path::Path;
 
-use super::TextileError;
-use crate::surface::MOST_POINTS;
-use reading::Reading;
+use crate::error::TextileError;
+use reading::{Reading, n_points};
 use selvedge_foundation::files::{FileError, NPY_MAGIC};
-
-/// What a file may leave open, and what is known better than the file does.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Asked {
-    /// The unit of the heights.
-    pub height_unit: Option<LengthUnit>,
-    /// The unit of places along and across.
-    pub length_unit: Option<LengthUnit>,
-    /// The distance of points, mm.
-    pub step_mm: Option<f64>,
-    /// The height of white above black in a picture, µm.
-    pub range_um: Option<f64>,
-    /// The column of heights in a table: its name, or its number from 1.
-    pub column: Option<String>,
-    /// Which of several fields of heights, from 1.
-    pub layer: Option<usize>,
-}
 
 /// The formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,7 +77,7 @@ impl Format {
 }
 
 /// Whether the beginning holds no bytes that texts do not hold.
-pub(super) fn is_text(bytes: &[u8]) -> bool {
+pub(crate) fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 32 && !b"\t\n\r\x0c".contains(byte);
     !head.is_empty() && !head.iter().any(is_control)
@@ -149,14 +126,5 @@ pub fn write(measured: &Measured, path: &Path) -> Result<Vec<u8>, TextileError> 
             let mend = "name a file that ends in .x3p, .gsf, .npy, .png or .tif";
             return Err(FileError::whole(path, what, mend).into());
         }
-    })
-}
-
-/// The number of points of a grid, checked against [`MOST_POINTS`].
-fn n_points(n_columns: usize, n_rows: usize, path: &Path) -> Result<usize, FileError> {
-    let n = n_columns.checked_mul(n_rows);
-    n.filter(|n| (1..=MOST_POINTS).contains(n)).ok_or_else(|| {
-        let what = format!("{n_columns} × {n_rows} points where 1 to {MOST_POINTS} are read");
-        FileError::whole(path, what, "the header lies, or cut out what you need")
     })
 }

@@ -2,11 +2,28 @@
 
 use std::path::Path;
 
-use super::{Asked, LengthUnit};
-use crate::TextileError;
-use crate::surface::{HeightMap, SurfaceError};
+use super::unit::LengthUnit;
+use crate::error::TextileError;
+use crate::surface::{HeightMap, MOST_POINTS, SurfaceError};
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::numerics::Grid;
+
+/// What a file may leave open, and what is known better than the file does.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Asked {
+    /// The unit of the heights.
+    pub height_unit: Option<LengthUnit>,
+    /// The unit of places along and across.
+    pub length_unit: Option<LengthUnit>,
+    /// The distance of points, mm.
+    pub step_mm: Option<f64>,
+    /// The height of white above black in a picture, µm.
+    pub range_um: Option<f64>,
+    /// The column of heights in a table: its name, or its number from 1.
+    pub column: Option<String>,
+    /// Which of several fields of heights, from 1.
+    pub layer: Option<usize>,
+}
 
 /// What a file says about itself.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -303,3 +320,12 @@ pub(super) fn even_step(places: &[f64], slack: f64) -> Result<f64, String> {
 
 /// What to do about places that are not even.
 pub(super) const UNEVEN_MEND: &str = "resample to even steps (within 1 %)";
+
+/// The number of points of a grid, checked against [`MOST_POINTS`].
+pub(super) fn n_points(n_columns: usize, n_rows: usize, path: &Path) -> Result<usize, FileError> {
+    let n = n_columns.checked_mul(n_rows);
+    n.filter(|n| (1..=MOST_POINTS).contains(n)).ok_or_else(|| {
+        let what = format!("{n_columns} × {n_rows} points where 1 to {MOST_POINTS} are read");
+        FileError::whole(path, what, "the header lies, or cut out what you need")
+    })
+}

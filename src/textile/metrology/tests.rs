@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::TextileError;
+use crate::error::TextileError;
 use crate::metrology::samples::{all, map, sur};
 use selvedge_foundation::files::Number;
 

@@ -77,7 +77,7 @@ impl Measurements {
     ///
     /// # Errors
     /// The work was cancelled.
-    pub fn of(
+    pub(crate) fn of(
         luminance: &Grid<f64>,
         options: DirectionOptions,
         n_threads: usize,

@@ -22,7 +22,7 @@ pub struct PeriodicColour {
 
 impl PeriodicColour {
     /// Measures it; 0 of a grey picture.
-    pub fn of(
+    pub(crate) fn of(
         luminance: &Tile,
         colour: Option<&Grid<[f32; 2]>>,
         basis: Basis,

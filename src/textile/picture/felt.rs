@@ -10,12 +10,10 @@
 
 use super::basis::{Basis, dot, length, whole};
 use super::shading::{
-    Light, LightEstimate, PictureTextile, ShadingError, ShadingOptions, Shape, estimate_light,
-    rows_turned_over, shape_from_shading, to_textile,
+    Light, LightEstimate, ShadingError, ShadingOptions, Shape, estimate_light, rows_turned_over,
+    shape_from_shading,
 };
 use super::tile::Tile;
-use crate::TextileError;
-use crate::build::BuiltFile;
 use crate::surface::WINDOW_LENGTH_MM;
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
@@ -164,25 +162,6 @@ pub fn shape_of(
     on_picture.check()?;
     let light = brightness.light(on_picture);
     shape_from_shading(&brightness.values, light, options, progress)
-}
-
-/// The files of a textile of that shape; size and lattice are taken from what it was cut from.
-///
-/// # Errors
-/// See [`to_textile`].
-pub fn textile_of(
-    shape: &Shape,
-    brightness: &Brightness,
-    tile: &Tile,
-    about: &PictureTextile,
-) -> Result<Vec<BuiltFile>, TextileError> {
-    let y_up = |[x, y]: [f64; 2]| [x, -y];
-    let about = PictureTextile {
-        size_px: Some(brightness.size_px),
-        lattice_px: Some([y_up(tile.p1_px), y_up(tile.p2_px)]),
-        ..about.clone()
-    };
-    to_textile(shape, &about)
 }
 
 #[cfg(test)]

@@ -43,11 +43,9 @@ pub use maxima::Maxima;
 pub use output::{About, FILE_NAMES, files};
 pub use overlay::{overlay, range};
 pub use refine::refine;
-pub use relief::{Relief, Span};
-pub(crate) use shading::PictureSource;
-pub use shading::{PictureTextile, ShadingError};
-pub use significant::Significant;
-pub use significant::SignificantMaxima;
+pub use relief::Relief;
+pub use shading::ShadingError;
+pub use significant::{Significant, SignificantMaxima};
 pub use source::{Picture, load};
 pub use tile::{Rectangle, Tile};
 

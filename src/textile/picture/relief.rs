@@ -73,7 +73,7 @@ pub(crate) struct ReliefReport {
 
 /// How high a relief is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Span {
+pub(crate) struct Span {
     /// From the lowest to the highest height.
     pub relief: f64,
     /// Root of the mean square about the mean.

@@ -47,7 +47,7 @@ const MOST_SHEAR: f64 = 0.035;
 
 impl Tile {
     /// The mean of all cells of a picture.
-    pub fn fold(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> Self {
+    pub(crate) fn fold(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> Self {
         let size = samples(&basis, luminance);
         let mut folded = folded(luminance, &basis, size, n_threads);
         fill(&mut folded);

@@ -9,13 +9,11 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use super::spectra::starts_of_points;
 use super::tracks::Tracks;
 use super::{
     BIN_SPACING_PER_MM, Direction, HeightMap, LocalSpectra, N_BINS, Probe, Profile, ProfileSet,
-    SpectralPlan, Surface, SurfaceError, WINDOW_LENGTH_MM,
+    Representation, SpectralPlan, Surface, SurfaceError, WINDOW_LENGTH_MM,
 };
 use selvedge_foundation::numerics::Random;
 
@@ -25,24 +23,6 @@ pub const AREAL_WIRE_MM: f64 = 1.0;
 const MOST_POINTS_OF_REPEATS: u32 = 64;
 /// How far the last point of a periodic map may miss the first, mm, without looking further.
 const SEAM_MM: f64 = 0.05;
-
-/// How the spectra of a surface that is known over an area are laid out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Representation {
-    /// One profile a direction, repeated across: what the tester measures.
-    #[default]
-    Economical,
-    /// Spectra at every point of a grid.
-    Areal,
-}
-
-impl Representation {
-    /// Whether files need not say it.
-    pub fn is_default(&self) -> bool {
-        *self == Self::default()
-    }
-}
 
 impl Surface {
     /// The surface of a height map with spectra at every point of a grid, 1 mm apart along u and

@@ -19,7 +19,7 @@ impl FrictionTrace {
     /// # Errors
     /// A step outside 0.0005–0.5 mm; fewer than two samples; a coefficient that is not finite or
     /// beyond ±10.
-    pub fn new(step_mm: f64, mu: Vec<f64>) -> Result<Self, SurfaceError> {
+    pub(crate) fn new(step_mm: f64, mu: Vec<f64>) -> Result<Self, SurfaceError> {
         if !(0.0005..=0.5).contains(&step_mm) {
             return Err(SurfaceError::Step { step_mm });
         }

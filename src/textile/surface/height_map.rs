@@ -8,7 +8,7 @@ use super::{Direction, Probe, Profile, ProfileSet, SurfaceError};
 use selvedge_foundation::numerics::{Grid, Random};
 
 /// Most points of a map: 64 million, half a gigabyte of heights.
-pub const MOST_POINTS: usize = 64_000_000;
+pub(crate) const MOST_POINTS: usize = 64_000_000;
 
 /// Heights in µm over a grid with even steps; a missing height is NaN.
 #[derive(Debug, Clone, PartialEq)]

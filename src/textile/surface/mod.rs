@@ -10,6 +10,8 @@
 
 mod areal;
 mod band;
+mod direction;
+mod error;
 mod friction;
 mod height_map;
 mod probe;
@@ -17,145 +19,20 @@ mod profile;
 mod spectra;
 mod tracks;
 
-pub use areal::{AREAL_WIRE_MM, Representation};
+pub use areal::AREAL_WIRE_MM;
 pub(crate) use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
+pub use direction::{Direction, Representation};
+pub use error::SurfaceError;
 pub use friction::FrictionTrace;
 pub(crate) use friction::mean_deviation;
-pub use height_map::{HeightMap, MOST_POINTS};
+pub use height_map::HeightMap;
+pub(crate) use height_map::MOST_POINTS;
 pub use probe::Probe;
-pub use profile::Profile;
+pub use profile::{Profile, ProfileSet};
 pub(crate) use spectra::SpectralPlan;
 pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, WINDOW_LENGTH_MM};
 
 use std::sync::Arc;
-
-/// A principal direction of a stroke over a textile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Direction {
-    /// Along the warp, u rising.
-    WarpForward,
-    /// Along the warp, u falling.
-    WarpReverse,
-    /// Along the weft, w rising.
-    WeftForward,
-    /// Along the weft, w falling.
-    WeftReverse,
-}
-
-impl Direction {
-    /// All four, in the order of their indices.
-    pub const ALL: [Self; 4] = [
-        Self::WarpForward,
-        Self::WarpReverse,
-        Self::WeftForward,
-        Self::WeftReverse,
-    ];
-
-    /// 0 … 3.
-    pub fn index(self) -> usize {
-        self as usize
-    }
-
-    /// Whether the stroke runs against its axis.
-    pub fn is_reverse(self) -> bool {
-        matches!(self, Self::WarpReverse | Self::WeftReverse)
-    }
-
-    /// The name of the direction for people.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::WarpForward => "warp forward",
-            Self::WarpReverse => "warp reverse",
-            Self::WeftForward => "weft forward",
-            Self::WeftReverse => "weft reverse",
-        }
-    }
-
-    /// The name of the direction as files spell it.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::WarpForward => "warp_forward",
-            Self::WarpReverse => "warp_reverse",
-            Self::WeftForward => "weft_forward",
-            Self::WeftReverse => "weft_reverse",
-        }
-    }
-}
-
-/// What can be wrong with a surface.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SurfaceError {
-    /// The samples lie too close or too far apart.
-    #[error("the step is {step_mm} mm; sample at 0.0005 to 0.5 mm")]
-    Step {
-        /// The step found, mm.
-        step_mm: f64,
-    },
-    /// The samples are not evenly spaced.
-    #[error(
-        "row {row} of {n_rows}: x rises by {step_mm} mm where the mean step is {mean_mm} mm; \
-         resample to even steps (within 1 %)"
-    )]
-    Uneven {
-        /// The row, from 1.
-        row: usize,
-        /// How many rows there are.
-        n_rows: usize,
-        /// The step to it, mm.
-        step_mm: f64,
-        /// The mean step, mm.
-        mean_mm: f64,
-    },
-    /// A height is NaN or infinite.
-    #[error("row {row} of {n_rows}: the height is {height_um}; fill or cut missing points")]
-    NotFinite {
-        /// The row, from 1.
-        row: usize,
-        /// How many rows there are.
-        n_rows: usize,
-        /// The height found, µm.
-        height_um: f64,
-    },
-    /// The profile is shorter than one window.
-    #[error(
-        "{n_samples} samples where one window takes {n_window}; \
-         measure at least 4.35 mm (20 mm give 16 points)"
-    )]
-    TooShort {
-        /// How many samples there are.
-        n_samples: usize,
-        /// How many one window takes.
-        n_window: usize,
-    },
-    /// A friction trace of less than two samples.
-    #[error("{n_rows} samples of friction; at least two are needed")]
-    TooFew {
-        /// How many there are.
-        n_rows: usize,
-    },
-    /// A coefficient of friction that none can be.
-    #[error(
-        "row {row} of {n_rows}: the friction is {mu}; give the coefficient, force over load, \
-         from -10 to 10"
-    )]
-    NoFriction {
-        /// The row, from 1.
-        row: usize,
-        /// How many rows there are.
-        n_rows: usize,
-        /// What was found.
-        mu: f64,
-    },
-    /// A height map without a single height.
-    #[error("every height is missing; there is no surface to feel")]
-    AllMissing,
-    /// Neither warp profile is there.
-    #[error("no warp profile; give warp_forward or warp_reverse")]
-    NoWarp,
-}
-
-/// The profiles of a surface that were measured, by [`Direction::index`].
-pub type ProfileSet = [Option<Profile>; 4];
 
 /// A surface: its profiles, and local spectra in every direction, along one profile each or at
 /// every point of an area.

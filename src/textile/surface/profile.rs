@@ -16,6 +16,9 @@ pub struct Profile {
     heights_um: Vec<f64>,
 }
 
+/// The profiles of a surface that were measured, by [`super::Direction::index`].
+pub type ProfileSet = [Option<Profile>; 4];
+
 impl Profile {
     /// A profile of heights in µm, `step_mm` apart. A step within 0.1 % of 1/230 mm is taken as
     /// exactly that.

@@ -54,7 +54,7 @@ fn an_areal_textile_is_loaded_felt_and_indexed_like_any_other() {
     assert_eq!(areal.fall_backs(), Vec::<String>::new());
     let [n_along, n_across] = areal.surface().spectra(Direction::WarpForward).shape();
     assert!(n_along >= 10 && n_across >= 10, "{n_along} × {n_across}");
-    let index = build::index_of(&library, Tuning::default(), 1).unwrap();
+    let index = library::index_of(&library, Tuning::default(), 1).unwrap();
     let [a, b] = [0, 1].map(|nth: usize| index.textiles[nth].level_db().unwrap());
     assert!((a - b).abs() < 12.0, "the same cloth: {a} and {b} dB");
 }

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::build::{build, build_library, index_of};
-use crate::{Hurst, Library, Source};
+use crate::build::build;
+use crate::library::index_of;
+use crate::{Hurst, Library, Source, build_library};
 
 fn library() -> Library {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../textiles/brownian");

@@ -50,7 +50,7 @@ fn a_library_of_the_program_is_copied_and_gains_a_textile_while_its_reference_st
 fn the_index_that_keeping_writes_is_the_one_that_building_would_write() {
     let to = ScratchFolder::new("index");
     let (own, _) = keep(&Library::shipped().unwrap(), "x", &to);
-    let whole = build::index_of(&own, own.default_tuning(), 2).unwrap();
+    let whole = library::index_of(&own, own.default_tuning(), 2).unwrap();
     let kept = own.index().unwrap();
     assert_eq!(kept.content_hash, whole.content_hash);
     assert_eq!(kept.textiles, whole.textiles);

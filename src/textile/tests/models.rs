@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::library::Index;
 use crate::surface::{BIN_SPACING_PER_MM, Direction, Surface};
 use crate::tactile::{Filters, Levels};
 use crate::*;
@@ -38,8 +39,8 @@ const IRREGULAR: &str = "pitch_cv = 0.06\ntension_drift = 0.2\nbow_um = 100.0";
 
 fn surface_of(recipe: &str) -> Surface {
     let manifest = Manifest::from_toml(recipe, Path::new("recipe.toml")).unwrap();
-    let model = model::Model::of(&manifest.source).unwrap().unwrap();
-    let profiles = model::profiles_of_files(&model.profile_files().unwrap()).unwrap();
+    let model = manifest.source.keys().model().unwrap().unwrap();
+    let profiles = recipe::profiles_of_files(&model.profile_files().unwrap()).unwrap();
     Surface::from_profiles(profiles, 0.0).unwrap()
 }
 

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::build::index_of;
-use crate::recipes::SEVENTY_FOUR;
+use crate::library::{IndexEntry, SEVENTY_FOUR, index_of};
+use crate::recipe::Side;
 use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_foundation::files::sha256_hex;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::build::index_of;
+use crate::library::index_of;
 use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_foundation::numerics::median;

@@ -50,11 +50,9 @@ pub(super) fn cloths(effort: Effort) -> Result<Vec<Cloth>, ReportError> {
     if let Source::Weave(weave) = library.manifest(FINE)?.source {
         cloths.push(of(FINE, &Source::Weave(weave.clone()), effort)?);
         for number in 1..=effort.pick(1, 4) {
-            let double = Weave {
-                weft_per_cm: 1.03 * weave.weft_per_cm,
-                seed: weave.seed + 1000 * number,
-                ..weave.as_ref().clone()
-            };
+            let mut double: Weave = weave.as_ref().clone();
+            double.weft_per_cm *= 1.03;
+            double.seed += 1000 * number;
             let name = format!("its double {number}, picks 3 % closer");
             let double = of(&name, &Source::Weave(Box::new(double)), effort)?;
             cloths.push(Cloth {

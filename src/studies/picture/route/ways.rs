@@ -7,11 +7,9 @@ use crate::picture::analysed;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_foundation::progress::unheard;
 use selvedge_textile::picture::Rectangle;
-use selvedge_textile::picture::shading::{
-    HeightScale, Light, Method, ShadingOptions, mean_smd_um, scaled, shape_from_shading,
-};
+use selvedge_textile::picture::shading::{Light, Method, ShadingOptions, shape_from_shading};
 use selvedge_textile::surface::{AREAL_WIRE_MM, Direction, HeightMap, Probe, Profile, ProfileSet};
-use selvedge_textile::{Reduced, TextileError};
+use selvedge_textile::{HeightScale, Reduced, TextileError, scaled, smd_um};
 
 /// Harmonics that a restored profile keeps.
 const N_HARMONICS: usize = 8;
@@ -171,9 +169,9 @@ impl Subject {
         };
         let shape = unheard(|progress| shape_from_shading(brightness, light, &options, progress))
             .map_err(|error| error.to_string())?;
-        let smd_um = HeightScale::SmdUm(mean_smd_um(&self.strokes));
+        let scale = HeightScale::SmdUm(smd_um(&self.strokes));
         let tester = |map: &HeightMap| strokes(map, &Probe::default(), 0.5, &Random::new(1));
-        let scaled = scaled(&shape, step_mm, smd_um, &tester).map_err(|e| e.to_string())?;
+        let scaled = scaled(&shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;
         Ok(scaled.map)
     }
 }

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use super::*;
-use crate::{Construction, Library, Words};
+use crate::kes::section::EVALUATED_MM;
+use crate::{Construction, Description, KesImport, Library};
 use selvedge_scratch::ScratchFolder;
 
 #[test]
@@ -133,10 +134,10 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
     let friction = Some(file("mu.txt", friction));
     let reading = KesReading::of(&[file("a.txt", text)], friction, &KesOptions::default()).unwrap();
     let import = KesImport::new(reading, [None, None], false).unwrap();
-    let words = Words {
+    let words = Description {
         construction: Construction::Woven,
         fibre: "cotton".to_owned(),
-        ..Words::of("Twill")
+        ..Description::of("Twill")
     };
     let folder = ScratchFolder::new("kes");
     crate::write(&import.files(&words).unwrap(), &folder.join("twill")).unwrap();
@@ -148,10 +149,9 @@ fn an_import_becomes_a_textile_with_its_friction_and_origin() {
         "friction is read when it is asked for, and the file is gone"
     );
     let smd_um = textile.surface().smd_um();
-    assert!(
-        (smd_um - import.figures().mean_smd_um()).abs() < 1e-3,
-        "{smd_um}"
-    );
+    let each = import.figures().smd_um.iter().map(|(_, um)| um);
+    let mean_um = each.sum::<f64>() / import.figures().smd_um.len() as f64;
+    assert!((smd_um - mean_um).abs() < 1e-3, "{smd_um}");
     let measured = &textile.manifest().measured;
     assert!((measured["miu"] - 0.2).abs() < 2e-3, "{measured:?}");
     assert!((measured["mmd"] - 0.1 / PI).abs() < 2e-3, "{measured:?}");

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ShadingError, mean};
+use super::error::ShadingError;
+use super::shape::mean;
 use selvedge_foundation::numerics::Grid;
 
 use super::reflectance::{across, along};

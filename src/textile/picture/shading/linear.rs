@@ -6,23 +6,13 @@
 
 use std::f64::consts::TAU;
 
+use super::Light;
 use super::reflectance::{Lambert, residual};
-use super::{Found, Light, ShadingOptions, mean};
+use super::shape::{Blind, Found, Method, ShadingOptions, mean};
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 
 /// The regulariser unless stated.
 const REGULARISER: f64 = 0.1;
-
-/// What a light cannot show: wave vectors so nearly across it that less than half of their height
-/// comes back.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Blind {
-    /// Their share of all wave vectors.
-    pub(crate) share_of_vectors: f64,
-    /// Their share of the picture's energy (its variance): what the linear inversion leaves out.
-    /// A matt surface without noise has next to none there.
-    pub(crate) share_of_energy: f64,
-}
 
 /// H of every wave vector of a half transform, and ε.
 struct Weights {
@@ -43,7 +33,7 @@ impl Weights {
         }
         // The variational method's regulariser is of another kind.
         let stated = options.regulariser;
-        let is_linear = options.method == super::Method::Linear;
+        let is_linear = options.method == Method::Linear;
         let share = stated.filter(|_| is_linear).unwrap_or(REGULARISER);
         let once = lean[0].hypot(lean[1]) * TAU / width.max(height) as f64;
         let epsilon = (share * once) * (share * once);

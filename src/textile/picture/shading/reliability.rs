@@ -1,6 +1,7 @@
 //! How far a method can be trusted under a light, in words.
 
-use super::{Blind, Light, Method, tsai_shah};
+use super::shape::{Blind, Method};
+use super::{Light, tsai_shah};
 
 /// A sentence or two for people.
 pub(super) fn words(method: Method, light: Light, blind: Blind) -> String {

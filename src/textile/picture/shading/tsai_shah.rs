@@ -6,10 +6,10 @@
 //! neighbours held (Jacobi), damped by a scalar Kalman gain: `1/S` grows by `f'²/W` a step, so the
 //! steps become a running average and end long before Newton would.
 
-use serde::{Deserialize, Serialize};
-
+use super::Light;
+use super::error::ShadingError;
 use super::reflectance::before;
-use super::{Found, Light, ShadingError, ShadingOptions};
+use super::shape::{Edges, Found, ShadingOptions};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
 
@@ -18,17 +18,6 @@ const W: f64 = 1e-8;
 const S0: f64 = 0.01;
 /// Lights nearer to Ps + Qs = 0 than the (0.01, 0.01) that ports take for frontal light.
 const LEAST_LEAN: f64 = 0.02;
-
-/// What the differences do at the first row and column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Edges {
-    /// Go on at the other side: the tile repeats.
-    #[default]
-    Repeat,
-    /// As published: no slope in the first row and the first column.
-    Published,
-}
 
 /// Whether the derivative is 0 on a flat surface, so that nothing ever moves.
 pub(super) fn is_singular(light: Light) -> bool {

@@ -10,8 +10,10 @@
 use std::f64::consts::TAU;
 
 use super::coarse::{resampled, sizes};
+use super::error::ShadingError;
 use super::reflectance::{Lambert, across, along, laplacian, residual};
-use super::{Found, Light, ShadingError, ShadingOptions, linear};
+use super::shape::{Found, ShadingOptions};
+use super::{Light, linear};
 use selvedge_foundation::numerics::{Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 

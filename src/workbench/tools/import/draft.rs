@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use crate::tools::import::failure::{Failure, Step};
-use selvedge_textile::metrology::{Asked, ImportOptions, LengthUnit};
+use selvedge_textile::metrology::{Asked, LengthUnit};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
-    ColumnRole, Construction, DecimalSign, HeightUnit, KesOptions, KesPlace, Measurement,
-    PlaceUnit, ReturnOrder, Words, id_of, known_figures, read_measurement,
+    ColumnRole, Construction, DecimalSign, Description, HeightUnit, ImportOptions, KesOptions,
+    KesPlace, Measurement, PlaceUnit, ReturnOrder, id_of, known_figures, read_measurement,
 };
 
 /// A file that was chosen, read once.
@@ -255,7 +255,7 @@ impl WordsDraft {
     }
 
     /// The words; why not, in one line.
-    pub(crate) fn words(&self, suggested: &str, kind: Measurement) -> Result<Words, Failure> {
+    pub(crate) fn words(&self, suggested: &str, kind: Measurement) -> Result<Description, Failure> {
         let mut figures = BTreeMap::new();
         for (key, text) in &self.figures {
             let figure = known_figures().find(|figure| figure.key == *key);
@@ -269,7 +269,7 @@ impl WordsDraft {
             Measurement::Strokes => Construction::Woven,
             Measurement::Heights => Construction::Other,
         };
-        Ok(Words {
+        Ok(Description {
             name: self.name(suggested).to_owned(),
             construction: self.construction.unwrap_or(usual),
             fibre: self.fibre.trim().to_owned(),

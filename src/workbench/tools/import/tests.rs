@@ -8,10 +8,10 @@ use super::*;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress, unheard};
 use selvedge_scratch::ScratchFolder;
-use selvedge_textile::metrology::{HeightImport, ImportOptions};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
-    ColumnRole, KesAsk, KesFile, KesImport, KesOptions, KesReading, Measurement, Words,
+    ColumnRole, Description, HeightImport, ImportOptions, KesAsk, KesFile, KesImport, KesOptions,
+    KesReading, Measurement,
 };
 
 /// Both ways over 30 mm, by place, with a decimal comma.
@@ -99,10 +99,10 @@ fn strokes_become_the_textile_that_the_command_line_makes() {
         suggested.smd_um,
         "the section tells"
     );
-    let words = Words {
+    let words = Description {
         construction: selvedge_textile::Construction::Woven,
         figures: [("weight_mg_per_cm2".to_owned(), 21.5)].into(),
-        ..Words::of("Wool twill")
+        ..Description::of("Wool twill")
     };
     let made = kept(&importing);
     assert_eq!((made.len(), made[0].id.as_str()), (1, "wool-twill"));
@@ -179,7 +179,7 @@ fn a_map_becomes_a_textile_for_every_place() {
     );
     for (nth, (one, place_mm)) in made.iter().zip([[5.0, 4.0], [9.0, 6.0]]).enumerate() {
         let place = import.place(Some(place_mm)).unwrap();
-        let words = Words::of("Ripple").nth(nth, 2);
+        let words = Description::of("Ripple").nth(nth, 2);
         assert_eq!(one.files, import.files(&place, &words, &bytes).unwrap());
     }
     importing.draft.looked.places[1] = [9.0, 60.0];

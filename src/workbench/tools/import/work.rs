@@ -12,7 +12,7 @@ use crate::tools::import::envelope::Envelope;
 use crate::tools::import::failure::{Failure, Step};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::with_unit;
-use selvedge_textile::metrology::{HeightImport, HeightPlace};
+use selvedge_textile::{HeightImport, HeightPlace};
 use selvedge_textile::{
     KesFile, KesImport, KesLook, KesOptions, KesReading, Measurement, TextileError,
 };

@@ -24,25 +24,25 @@ impl FamilyFields {
     /// Varies a parameter over a reasonable range about its value.
     pub(crate) fn vary(&mut self, parameter: &Parameter, value: Option<f64>) {
         self.place = Some(parameter.place);
-        let (ParameterKind::Number { least, most, .. }
-        | ParameterKind::Optional { least, most, .. }) = parameter.kind
+        let (ParameterKind::Number { min, max, .. } | ParameterKind::Optional { min, max, .. }) =
+            parameter.kind
         else {
             return;
         };
-        let middle = value.unwrap_or(0.5 * (least + most));
-        let ends = if most - least <= 1.0 {
-            [least + 0.1 * (most - least), most - 0.1 * (most - least)]
+        let middle = value.unwrap_or(0.5 * (min + max));
+        let ends = if max - min <= 1.0 {
+            [min + 0.1 * (max - min), max - 0.1 * (max - min)]
         } else {
             [0.5 * middle, 1.5 * middle]
         };
         // Round numbers: a family is told by its values.
-        let step = if most - least <= 1.0 {
-            round_step((most - least) / 25.0)
+        let step = if max - min <= 1.0 {
+            round_step((max - min) / 25.0)
         } else {
             round_step(middle.abs().max(1e-6) / 50.0)
         };
         let short = |value: f64| {
-            let rounded = ((value / step).round() * step).clamp(least, most);
+            let rounded = ((value / step).round() * step).clamp(min, max);
             format!("{}", (rounded * 1e6).round() / 1e6)
         };
         self.ends = ends.map(short);

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use crate::tools::import::draft::SourceFile;
+use selvedge_textile::HeightScale;
 use selvedge_textile::id_of;
-use selvedge_textile::picture::shading::{HeightScale, Light, Method};
+use selvedge_textile::picture::shading::{Light, Method};
 use selvedge_textile::surface::Representation;
 
 /// Millimetres to an inch.

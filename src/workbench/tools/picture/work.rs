@@ -12,14 +12,15 @@ use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shape
 use crate::tools::picture::images;
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_textile::picture::felt::{Brightness, brightness_of, shape_of, textile_of};
+use selvedge_textile::picture::felt::{Brightness, brightness_of, shape_of};
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
-    PictureTextile, SignificantMaxima, even_light, load,
+    SignificantMaxima, even_light, load,
 };
 use selvedge_textile::surface::{Direction, HeightMap};
 use selvedge_textile::{Construction, Manifest, Source, TextileError, n_threads, read_profile};
+use selvedge_textile::{PictureTextile, textile_of};
 
 /// Why a run ended early.
 enum End {

@@ -1,7 +1,7 @@
 //! What has no shape, or too much: an outcome for each.
 
 use super::*;
-use selvedge_foundation::progress::CancelFlag;
+use selvedge_foundation::progress::{CancelFlag, Cancelled};
 
 fn is_finite(found: &Shape) -> bool {
     let numbers = found.height_px.values().iter().chain(&found.residuals);

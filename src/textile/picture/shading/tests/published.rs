@@ -1,5 +1,6 @@
 //! Tsai & Shah against a plain transcript of the published scheme, and against sums by hand.
 
+use super::super::shape::Edges;
 use super::super::tsai_shah::State;
 use super::*;
 use selvedge_foundation::numerics::Random;

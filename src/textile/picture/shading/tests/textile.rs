@@ -3,8 +3,13 @@
 use std::path::Path;
 
 use super::*;
+use crate::import::to_textile;
+use crate::recipe::{HeightsFile, ProfileFiles, SourceKeys};
+use crate::sources::picture::PictureSource;
 use crate::surface::{Direction, Representation};
-use crate::{BuiltFile, Library, Manifest, Source, TextileError, write};
+use crate::{
+    BuiltFile, HeightScale, Library, Manifest, PictureTextile, Source, TextileError, write,
+};
 use selvedge_foundation::files::FileError;
 use selvedge_scratch::ScratchFolder;
 
@@ -113,7 +118,7 @@ fn a_textile_of_a_picture_says_how_it_was_found_and_is_felt() {
 fn the_map_alone_gives_the_same_strokes_and_an_areal_surface() {
     let files = made(HeightScale::ReliefUm(250.0)).unwrap();
     let alone = with_source(&files, |keys| {
-        keys.set_files(crate::manifest::ProfileFiles::default(), None);
+        keys.set_files(ProfileFiles::default(), None);
     });
     let (_whole_folder, whole) = library("whole", &files);
     let (_map_folder, map) = library("alone", &alone);
@@ -160,7 +165,7 @@ fn another_map_than_the_one_hashed_is_refused() {
     let files = made(HeightScale::ReliefUm(250.0)).unwrap();
     let other = to_textile(&found(), &about(HeightScale::ReliefUm(80.0))).unwrap();
     let mut mixed = with_source(&files, |keys| {
-        keys.set_files(crate::manifest::ProfileFiles::default(), None);
+        keys.set_files(ProfileFiles::default(), None);
     });
     mixed[0] = other[0].clone();
     let (_folder, library) = library("mixed", &mixed);

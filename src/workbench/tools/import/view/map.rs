@@ -290,7 +290,7 @@ fn show_place(
     place_mm: &mut [f64; 2],
     (size_mm, found): (
         [f64; 2],
-        Option<&Result<std::sync::Arc<selvedge_textile::metrology::HeightPlace>, String>>,
+        Option<&Result<std::sync::Arc<selvedge_textile::HeightPlace>, String>>,
     ),
 ) -> bool {
     let dim = Palette::in_ui(ui).dim;

@@ -56,7 +56,7 @@ fn show_beginnings(ui: &mut Ui, items: &[ShelfItem], wishes: &mut Wishes) {
     };
     let menu = ui.menu_button("Begin with", |ui| {
         ui.set_min_width(200.0);
-        for (kind, name) in RECIPES {
+        for &(kind, name) in RECIPES {
             if ui.button(format!("Example: {name}")).clicked() {
                 begin(ui, Beginning::Example(kind));
             }

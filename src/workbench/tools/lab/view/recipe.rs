@@ -69,26 +69,26 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, wishes: &mu
     }
     let changed = match parameter.kind {
         ParameterKind::Number {
-            least,
-            most,
+            min,
+            max,
             unit,
             is_whole,
         } => {
             let range = rows::Range {
-                ends: [least, most],
+                ends: [min, max],
                 unit,
                 is_whole,
             };
             rows::number(ui, steps, parameter, range).map(Some)
         }
         ParameterKind::Optional {
-            least,
-            most,
+            min,
+            max,
             unit,
             instead_of,
         } => {
             let range = rows::Range {
-                ends: [least, most],
+                ends: [min, max],
                 unit,
                 is_whole: false,
             };

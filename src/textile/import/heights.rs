@@ -1,0 +1,214 @@
+//! Making textiles of measured heights: read once, looked at, and kept place by place.
+//!
+//! A [`HeightImport`] is what a window shows before anything is written: the heights, level unless
+//! they repeat, and at any place of them the four strokes of the virtual tester. Every place that
+//! is kept is a textile: strokes as profile files, a shaded picture, and a manifest that says what
+//! they came from.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::description::{Description, manifest_file};
+use super::profile_files::{profile_files, shaded, smd_um};
+use crate::build::{BuiltFile, PICTURE};
+use crate::error::TextileError;
+use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
+use crate::metrology::{Asked, Measured};
+use crate::recipe::{ProfileFiles, SourceKeys};
+use crate::sources::Source;
+use crate::sources::heightmap::{Heightmap, Laid};
+use crate::surface::{Direction, HeightMap, ProfileSet, Representation};
+use crate::yarns::PX_PER_MM;
+use selvedge_foundation::files::{encode_png_small, sha256_hex};
+
+/// How measured heights are read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ImportOptions {
+    /// What the file leaves open.
+    pub asked: Asked,
+    /// Whether the map is one repeat of the cloth.
+    pub is_periodic: bool,
+    /// Whether textiles are felt along four strokes, or at every point of the map.
+    pub representation: Representation,
+}
+
+/// Measured heights on the way to textiles.
+#[derive(Debug, Clone)]
+pub struct HeightImport {
+    path: PathBuf,
+    keys: Heightmap,
+    measured: Measured,
+    laid: Laid,
+}
+
+/// One place of an import: the strokes that cross there.
+#[derive(Debug, Clone)]
+pub struct HeightPlace {
+    /// The place as it was said, mm from the lower left corner; `None`: the middle.
+    pub place_mm: Option<[f64; 2]>,
+    /// What the tester records, by [`Direction::index`].
+    pub profiles: ProfileSet,
+}
+
+impl HeightImport {
+    /// Reads a file's bytes. `path` names it in errors and, by its last part, in the textile.
+    ///
+    /// # Errors
+    /// As [`crate::metrology::open`]; a map or profile shorter than one window; a profile that is to be felt
+    /// at every point.
+    pub fn of(bytes: &[u8], path: &Path, options: &ImportOptions) -> Result<Self, TextileError> {
+        let file = path.file_name().unwrap_or_default();
+        let mut keys = Heightmap::new(file.to_string_lossy().into_owned(), &options.asked);
+        keys.sha256 = Some(sha256_hex([bytes]));
+        keys.periodic = options.is_periodic;
+        keys.representation = options.representation;
+        let measured = keys.open(bytes, path)?;
+        if measured.about.format == "X3P" {
+            "x3p".clone_into(&mut keys.kind);
+        }
+        let laid = keys.laid(&measured, path)?;
+        Ok(Self {
+            path: path.to_owned(),
+            keys,
+            measured,
+            laid,
+        })
+    }
+
+    /// What the file holds, with what is missing.
+    pub fn measured(&self) -> &Measured {
+        &self.measured
+    }
+
+    /// The heights as the tester goes over them: tilt taken off once unless they repeat, missing
+    /// points still missing.
+    pub fn map(&self) -> &HeightMap {
+        &self.laid.map
+    }
+
+    /// SHA-256 of the file.
+    pub fn sha256(&self) -> &str {
+        self.keys.sha256.as_deref().unwrap_or_default()
+    }
+
+    /// What is odd about the file and what was done, one line each.
+    pub fn notes(&self) -> &[String] {
+        &self.laid.notes
+    }
+
+    /// The textile's name where none is said: the title of the data, else the file's name.
+    pub fn own_name(&self) -> String {
+        let title = self.measured.about.title.trim();
+        if title.is_empty() {
+            let stem = Path::new(&self.keys.file).file_stem().unwrap_or_default();
+            return stem.to_string_lossy().into_owned();
+        }
+        title.to_owned()
+    }
+
+    /// The strokes that cross at a place, mm from the lower left corner; in the middle if none is
+    /// said.
+    ///
+    /// # Errors
+    /// A place that is not on the map.
+    pub fn place(&self, place_mm: Option<[f64; 2]>) -> Result<HeightPlace, TextileError> {
+        let profiles = self.keys.strokes_at(&self.laid, place_mm, &self.path)?;
+        Ok(HeightPlace { place_mm, profiles })
+    }
+
+    /// The files of the textile of a place, the manifest last. `bytes` are those of the file: they
+    /// become a part of a textile that is felt at every point.
+    ///
+    /// # Errors
+    /// A description that no manifest takes.
+    pub fn files(
+        &self,
+        place: &HeightPlace,
+        description: &Description,
+        bytes: &[u8],
+    ) -> Result<Vec<BuiltFile>, TextileError> {
+        let mut keys = self.keys.clone();
+        keys.place_mm = place.place_mm;
+        let mut files = Vec::new();
+        if keys.representation == Representation::Areal {
+            let (name, bytes) = (keys.file.clone(), bytes.to_vec());
+            files.push(BuiltFile { name, bytes });
+        } else {
+            files = profile_files(&place.profiles)?;
+            let named = Direction::ALL.map(|direction| {
+                let is_there = place.profiles[direction.index()].is_some();
+                is_there.then(|| ProfileFiles::name(direction))
+            });
+            let source = Source::Heightmap(Box::new(keys.clone()));
+            let hash = source.recipe_hash(&self.path)?;
+            keys.set_files(ProfileFiles(named), Some(hash));
+        }
+        if !self.measured.is_profile() {
+            let picture = shaded(&self.measured);
+            let picture = picture.map_err(|source| TextileError::Surface {
+                path: self.path.clone(),
+                source,
+            })?;
+            files.push(BuiltFile {
+                name: PICTURE.to_owned(),
+                bytes: encode_png_small(&picture, Path::new(PICTURE))?,
+            });
+        }
+        let manifest = self.manifest(keys, place, description);
+        files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
+        Ok(files)
+    }
+
+    fn manifest(
+        &self,
+        keys: Heightmap,
+        place: &HeightPlace,
+        description: &Description,
+    ) -> Manifest {
+        let name = description.name.trim();
+        let name = if name.is_empty() {
+            self.own_name()
+        } else {
+            name.to_owned()
+        };
+        let about = &self.measured.about;
+        let parts = [
+            description.notes.clone(),
+            format!("measured heights from {} ({})", keys.file, about.format),
+            about.instrument.clone(),
+            about.date.clone(),
+            about.comment.clone(),
+        ];
+        let parts = parts.into_iter().chain(self.notes().iter().cloned());
+        let parts = parts.map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+        let parts: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
+        let round = |um: f64| (um * 1e3).round() / 1e3;
+        let figures = [
+            ("smd_um", round(place.smd_um())),
+            ("sq_um", round(self.measured.sq_um())),
+            ("n_missing", self.measured.n_missing() as f64),
+        ];
+        let figures: BTreeMap<String, f64> = figures
+            .map(|(key, um)| (key.to_owned(), um))
+            .into_iter()
+            .collect();
+        let picture = AppearanceKeys {
+            image: PICTURE.to_owned(),
+            px_per_mm: PX_PER_MM,
+        };
+        let source = Source::Heightmap(Box::new(keys));
+        Manifest {
+            name,
+            notes: parts.join("; "),
+            appearance: (!self.measured.is_profile()).then_some(picture),
+            ..description.manifest(source, figures)
+        }
+    }
+}
+
+impl HeightPlace {
+    /// SMD of the strokes, mean, µm.
+    pub fn smd_um(&self) -> f64 {
+        smd_um(&self.profiles)
+    }
+}

@@ -1,0 +1,257 @@
+//! A textile of a shape that was found on a picture: the map of one repeat, four strokes of the
+//! virtual tester over it, a picture, and a manifest that says how it was found.
+
+use std::path::Path;
+
+use super::description::manifest_file;
+use super::height_scale::{HeightScale, Scaled, no_surface, scaled};
+use super::profile_files::{profile_files, shaded, smd_um};
+use crate::build::{BuiltFile, PICTURE};
+use crate::error::TextileError;
+use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance};
+use crate::metrology::{self, Asked, Measured};
+use crate::picture::Tile;
+use crate::picture::felt::Brightness;
+use crate::picture::shading::{ShadingError, Shape};
+use crate::recipe::{ProfileFiles, SourceKeys};
+use crate::sources::Source;
+use crate::sources::picture::PictureSource;
+use crate::surface::{HeightMap, Probe, Representation};
+use crate::yarns::PX_PER_MM;
+use selvedge_foundation::files::{Rgb8Image, encode_png_small, sha256_hex};
+
+/// The name of the map in the textile's folder.
+const MAP: &str = "heights.png";
+
+/// What a textile of a picture is called and was made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PictureTextile {
+    /// What people call it.
+    pub name: String,
+    /// How the cloth is made.
+    pub construction: Construction,
+    /// What it is made of.
+    pub fibre: String,
+    /// One line of description.
+    pub notes: String,
+    /// The picture's scale, 2 to 2000.
+    pub px_per_mm: f64,
+    /// Extent of the tile, px of the picture, where a sample of the shape is not quite a pixel.
+    pub size_px: Option<[f64; 2]>,
+    /// What is known of its height.
+    pub scale: HeightScale,
+    /// File name and SHA-256 of the picture.
+    pub picture: Option<[String; 2]>,
+    /// The vectors by which its pattern repeats, px, x to the right and y up.
+    pub lattice_px: Option<[[f64; 2]; 2]>,
+    /// Whether the light was estimated.
+    pub light_is_estimated: bool,
+    /// Whether it is felt along four strokes or at every point.
+    pub representation: Representation,
+    /// One repeat in colour, rows from the top, as many pixels a mm as the shape; the relief in
+    /// grey if there is none.
+    pub appearance: Option<Rgb8Image>,
+    /// Noise of the virtual tester, µm rms.
+    pub noise_um: f64,
+    /// Chooses that noise.
+    pub seed: u32,
+}
+
+impl Default for PictureTextile {
+    /// No name, no scale: both must be set.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            construction: Construction::Other,
+            fibre: String::new(),
+            notes: String::new(),
+            px_per_mm: 0.0,
+            size_px: None,
+            scale: HeightScale::Unscaled,
+            picture: None,
+            lattice_px: None,
+            light_is_estimated: false,
+            representation: Representation::Economical,
+            appearance: None,
+            noise_um: Probe::default().noise_um,
+            seed: 1,
+        }
+    }
+}
+
+impl PictureTextile {
+    /// The distance of a shape's samples, mm.
+    fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
+        let n = n.map(|n| n as f64);
+        let size_px = self.size_px.unwrap_or(n);
+        [0, 1].map(|axis| size_px[axis] / n[axis] / self.px_per_mm)
+    }
+}
+
+/// The files of a textile, its manifest last: `heights.png`, four profiles, the picture. x of the
+/// shape becomes u (the warp), y becomes w (the weft).
+///
+/// # Errors
+/// Heights without a scale; a flat shape; less than 2 × 2 px; a scale out of range; an SMD that
+/// the tester never reads on it.
+pub(crate) fn to_textile(
+    shape: &Shape,
+    about: &PictureTextile,
+) -> Result<Vec<BuiltFile>, TextileError> {
+    let path = Path::new(MAP);
+    let mut keys = keys(shape, about);
+    let step_mm = about.step_mm([shape.height_px.width(), shape.height_px.height()]);
+    let scaled = heights(shape, about, &keys)?;
+    (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
+    let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
+    keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
+    // Strokes are drawn over the map as the file has it.
+    let kept = metrology::open(&bytes, path, &Asked::default())?;
+    let profiles = keys.map().strokes(&kept, path)?;
+    let mut files = vec![file(MAP, bytes)];
+    files.extend(profile_files(&profiles)?);
+    let (image, px_per_mm) = match &about.appearance {
+        Some(image) => (image.clone(), 1.0 / step_mm[0]),
+        None => (shaded(&kept).map_err(no_surface)?, PX_PER_MM),
+    };
+    files.push(file(PICTURE, encode_png_small(&image, Path::new(PICTURE))?));
+    let appearance = AppearanceKeys {
+        image: PICTURE.to_owned(),
+        px_per_mm,
+    };
+    let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
+    keys.set_files(ProfileFiles::all(), Some(hash));
+    let figures = [("smd_um", smd_um(&profiles)), ("sq_um", kept.sq_um())];
+    let manifest = manifest(about, keys, appearance, figures);
+    files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
+    Ok(files)
+}
+
+/// The files of a textile of that shape; size and lattice are taken from what it was cut from.
+///
+/// # Errors
+/// See [`to_textile`].
+pub fn textile_of(
+    shape: &Shape,
+    brightness: &Brightness,
+    tile: &Tile,
+    about: &PictureTextile,
+) -> Result<Vec<BuiltFile>, TextileError> {
+    let y_up = |[x, y]: [f64; 2]| [x, -y];
+    let about = PictureTextile {
+        size_px: Some(brightness.size_px),
+        lattice_px: Some([y_up(tile.p1_px), y_up(tile.p2_px)]),
+        ..about.clone()
+    };
+    to_textile(shape, &about)
+}
+
+/// From the lowest to the highest height of the textile that would be made, µm.
+///
+/// # Errors
+/// See [`to_textile`].
+pub fn relief_um_of(shape: &Shape, about: &PictureTextile) -> Result<f64, TextileError> {
+    Ok(heights(shape, about, &keys(shape, about))?.relief_um)
+}
+
+/// The shape in µm.
+fn heights(
+    shape: &Shape,
+    about: &PictureTextile,
+    keys: &PictureSource,
+) -> Result<Scaled, TextileError> {
+    let (width, height) = (shape.height_px.width(), shape.height_px.height());
+    if width < 2 || height < 2 {
+        return Err(ShadingError::TooSmall { width, height }.into());
+    }
+    if !(2.0..=2000.0).contains(&about.px_per_mm) {
+        return Err(ShadingError::Option {
+            key: "the picture's scale",
+            value: about.px_per_mm,
+            range: "2 to 2000 px/mm (51 to 50800 dpi)",
+        }
+        .into());
+    }
+    let drawn = |map: &HeightMap| {
+        let measured = measured(map, &about.name);
+        keys.map().strokes(&measured, Path::new(MAP))
+    };
+    let step_mm = about.step_mm([width, height]);
+    scaled(shape, step_mm, about.scale, &drawn)
+}
+
+fn file(name: &str, bytes: Vec<u8>) -> BuiltFile {
+    let name = name.to_owned();
+    BuiltFile { name, bytes }
+}
+
+fn rounded(um: f64) -> f64 {
+    (um * 1e3).round() / 1e3
+}
+
+fn measured(map: &HeightMap, title: &str) -> Measured {
+    let mut measured = Measured {
+        heights_um: map.heights_um().clone(),
+        step_mm: map.step_mm(),
+        about: metrology::About::default(),
+        warnings: Vec::new(),
+        layers: Vec::new(),
+    };
+    title.clone_into(&mut measured.about.title);
+    measured
+}
+
+fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
+    let [picture, picture_sha256] = match &about.picture {
+        Some([name, sha256]) => [Some(name.clone()), Some(sha256.clone())],
+        None => [None, None],
+    };
+    PictureSource {
+        kind: "picture".to_owned(),
+        recipe_hash: None,
+        warp_forward: None,
+        warp_reverse: None,
+        weft_forward: None,
+        weft_reverse: None,
+        representation: about.representation,
+        file: MAP.to_owned(),
+        sha256: None,
+        picture,
+        picture_sha256,
+        px_per_mm: about.px_per_mm,
+        lattice_px: about.lattice_px,
+        method: shape.method,
+        iterations: u32::try_from(shape.n_iterations()).unwrap_or(u32::MAX),
+        slant_deg: shape.light.slant_deg,
+        tilt_deg: shape.light.tilt_deg,
+        light_is_estimated: about.light_is_estimated,
+        relief_um: 0.0,
+        smd_um: None,
+        place_mm: None,
+        noise_um: about.noise_um,
+        seed: about.seed,
+    }
+}
+
+fn manifest(
+    about: &PictureTextile,
+    keys: PictureSource,
+    appearance: AppearanceKeys,
+    figures: [(&str, f64); 2],
+) -> Manifest {
+    let notes = format!(
+        "heights from a picture ({}); {}",
+        keys.method.label(),
+        about.notes
+    );
+    let figures = figures.map(|(key, um)| (key.to_owned(), rounded(um)));
+    Manifest {
+        construction: about.construction,
+        fibre: about.fibre.clone(),
+        notes: notes.trim_end_matches([';', ' ']).to_owned(),
+        appearance: Some(appearance),
+        measured: figures.into_iter().collect(),
+        provenance: Some(Provenance::of(Vec::new())),
+        ..Manifest::new(&about.name, Source::Picture(Box::new(keys)))
+    }
+}

@@ -1,0 +1,256 @@
+//! Libraries of textiles: a folder, a file of recipes, or one that is part of the program.
+//!
+//! A library knows its ids; everything else is read when it is asked for.
+
+mod add;
+mod build;
+mod cache;
+mod id;
+mod index;
+mod parallel;
+mod recipe_file;
+mod representatives;
+mod store;
+mod textile;
+
+pub use build::build_library;
+#[cfg(test)]
+pub(crate) use build::index_of;
+pub use cache::BuildCache;
+pub use id::{id_of, nth_id};
+#[cfg(test)]
+pub(crate) use recipe_file::SEVENTY_FOUR;
+pub use recipe_file::is_of_the_program;
+pub use representatives::{kind_of, most_typical};
+pub use selvedge_foundation::numerics::n_threads;
+pub use textile::{Appearance, Textile};
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use crate::build::BuiltFile;
+use crate::error::TextileError;
+use crate::manifest::{MANIFEST, Manifest};
+use crate::shipped;
+use crate::tactile::Tuning;
+use index::INDEX;
+pub use index::{Index, IndexEntry};
+use parallel::for_each;
+use recipe_file::Recipes;
+use selvedge_foundation::files::{FileError, read_text};
+use selvedge_foundation::progress::Progress;
+pub(crate) use store::Store;
+use textile::{read_appearance, read_manifest};
+
+/// Where a library comes from.
+#[derive(Debug, Clone)]
+enum Place {
+    /// Files.
+    Files(Store),
+    /// Recipes; what follows from them is built when it is asked for.
+    Recipes(Arc<Recipes>),
+}
+
+/// A library of textiles.
+#[derive(Debug, Clone)]
+pub struct Library {
+    place: Place,
+    ids: Vec<String>,
+    index: Option<Index>,
+}
+
+impl Library {
+    /// The library that is part of the program.
+    pub fn shipped() -> Result<Self, TextileError> {
+        let path = Store::Shipped.root().join(INDEX);
+        let index = Index::from_toml(shipped::INDEX, &path)?;
+        Ok(Self::with_index(Store::Shipped, index))
+    }
+
+    /// The library that a scene or a person names: `seventy-four`, a file of recipes, or a folder
+    /// of textiles. What is built from recipes is kept in `cache`; without one it is built anew
+    /// every time. A folder or file that is called like a library of the program is named
+    /// `./seventy-four`.
+    pub fn named(name: &Path, cache: Option<&BuildCache>) -> Result<Self, TextileError> {
+        if is_of_the_program(name) {
+            return Ok(Self::of_recipes(Recipes::seventy_four(cache.cloned())?));
+        }
+        if name.is_file() {
+            return Ok(Self::of_recipes(Recipes::read(name, cache.cloned())?));
+        }
+        Self::open(name)
+    }
+
+    fn of_recipes(recipes: Recipes) -> Self {
+        Self {
+            ids: recipes.ids(),
+            index: recipes.index().cloned(),
+            place: Place::Recipes(Arc::new(recipes)),
+        }
+    }
+
+    /// A folder with textiles. Without a `library.toml` its textiles are the sub-folders that hold
+    /// a manifest, in the order of their names.
+    pub fn open(folder: &Path) -> Result<Self, TextileError> {
+        let failed = |source| FileError::Read {
+            path: folder.to_owned(),
+            source,
+        };
+        let entries = fs::read_dir(folder).map_err(failed)?;
+        let store = Store::Folder(folder.to_owned());
+        let path = folder.join(INDEX);
+        if path.exists() {
+            return Ok(Self::with_index(
+                store,
+                Index::from_toml(&read_text(&path)?, &path)?,
+            ));
+        }
+        let mut ids = Vec::new();
+        for entry in entries {
+            let entry = entry.map_err(failed)?;
+            if let (Ok(id), true) = (
+                entry.file_name().into_string(),
+                entry.path().join(MANIFEST).is_file(),
+            ) {
+                ids.push(id);
+            }
+        }
+        ids.sort();
+        Ok(Self {
+            place: Place::Files(store),
+            ids,
+            index: None,
+        })
+    }
+
+    /// One textile whose files are at hand and lie in no folder yet.
+    pub(crate) fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
+        Self {
+            place: Place::Files(Store::Built(
+                Arc::new(files),
+                PathBuf::from("the new textile"),
+            )),
+            ids: vec![id.to_owned()],
+            index: None,
+        }
+    }
+
+    /// The textiles with these ids of a folder, whatever index it has.
+    pub(crate) fn of_folder(folder: &Path, ids: &[String]) -> Self {
+        Self {
+            place: Place::Files(Store::Folder(folder.to_owned())),
+            ids: ids.to_vec(),
+            index: None,
+        }
+    }
+
+    fn with_index(store: Store, index: Index) -> Self {
+        let ids = index
+            .textiles
+            .iter()
+            .map(|entry| entry.id.clone())
+            .collect();
+        Self {
+            place: Place::Files(store),
+            ids,
+            index: Some(index),
+        }
+    }
+
+    /// The ids of the textiles, in order.
+    pub fn ids(&self) -> &[String] {
+        &self.ids
+    }
+
+    /// What `library.toml` says, if there is one.
+    pub fn index(&self) -> Option<&Index> {
+        self.index.as_ref()
+    }
+
+    /// The tuning of a new scene; no gain and no compression without a `library.toml`.
+    pub fn default_tuning(&self) -> Tuning {
+        self.index
+            .as_ref()
+            .map_or_else(Tuning::default, Index::default_tuning)
+    }
+
+    /// The folder, or what stands for it in messages.
+    pub fn root(&self) -> PathBuf {
+        match &self.place {
+            Place::Files(store) => store.root(),
+            Place::Recipes(recipes) => recipes.path().to_owned(),
+        }
+    }
+
+    /// Whether this is the library that is part of the program.
+    pub fn is_shipped(&self) -> bool {
+        matches!(self.place, Place::Files(Store::Shipped))
+    }
+
+    /// The manifest of a textile: no profile is read, and nothing is built.
+    pub fn manifest(&self, id: &str) -> Result<Manifest, TextileError> {
+        self.check_id(id)?;
+        match &self.place {
+            Place::Recipes(recipes) => (recipes.manifest(id).cloned())
+                .ok_or_else(|| TextileError::unknown(id, recipes.path(), &self.ids)),
+            Place::Files(store) => read_manifest(store, id),
+        }
+    }
+
+    /// What a textile looks like, without its surface; `None` if it has no picture.
+    pub fn appearance(&self, id: &str) -> Result<Option<Appearance>, TextileError> {
+        let store = self.files_of(id)?;
+        let manifest = read_manifest(&store, id)?;
+        read_appearance(&store, id, &manifest)
+    }
+
+    /// A textile with its surface. Only its own files are read; a recipe is built.
+    ///
+    /// # Errors
+    /// An unknown id, a file that is missing, wrong or has vanished since the library was opened.
+    pub fn load(&self, id: &str) -> Result<Arc<Textile>, TextileError> {
+        Textile::load(&self.files_of(id)?, id).map(Arc::new)
+    }
+
+    /// Several textiles, in the order of their ids: on as many threads as the machine has, which
+    /// changes nothing but the time that it takes.
+    pub fn load_all(
+        &self,
+        ids: &[String],
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Arc<Textile>>, TextileError> {
+        for_each(ids, n_threads(), progress, |id| self.load(id))
+    }
+
+    /// Where the files of a textile are: built, if they were not there.
+    pub(crate) fn files_of(&self, id: &str) -> Result<Store, TextileError> {
+        self.check_id(id)?;
+        match &self.place {
+            Place::Recipes(recipes) => {
+                let files = recipes.built(id)?;
+                Ok(Store::Built(Arc::new(files), recipes.path().to_owned()))
+            }
+            Place::Files(store) => Ok(store.clone()),
+        }
+    }
+
+    /// Ids come from the index; a folder without one may have gained textiles meanwhile.
+    fn check_id(&self, id: &str) -> Result<(), TextileError> {
+        let mut parts = Path::new(id).components();
+        let is_name = matches!(
+            (parts.next(), parts.next()),
+            (Some(Component::Normal(_)), None)
+        );
+        let is_there = match &self.place {
+            Place::Files(Store::Folder(folder)) => {
+                is_name && folder.join(id).join(MANIFEST).is_file()
+            }
+            Place::Files(Store::Shipped | Store::Built(..)) | Place::Recipes(_) => false,
+        };
+        if is_there || self.ids.iter().any(|known| known == id) {
+            return Ok(());
+        }
+        Err(TextileError::unknown(id, &self.root(), &self.ids))
+    }
+}

@@ -1,0 +1,385 @@
+//! The figures that a manifest's `[measured]` may hold: those of the Kawabata testers by the names
+//! and in the units that the testers print, and what else carries a unit in its name.
+//!
+//! Figures that have a direction may be given for one: `smd_warp_um`, `b_weft_gf_cm2_per_cm`.
+
+use std::collections::BTreeMap;
+
+use crate::error::TextileError;
+use crate::recipe::Checker;
+
+/// A known figure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Known {
+    /// The letters of the key.
+    symbol: &'static str,
+    /// The unit in the key, with its underscore; may be empty.
+    suffix: &'static str,
+    /// The symbol for people.
+    name: &'static str,
+    /// What it is.
+    what: &'static str,
+    /// The unit for people.
+    unit: &'static str,
+    range: [f64; 2],
+    has_directions: bool,
+}
+
+const fn known(
+    [symbol, suffix]: [&'static str; 2],
+    [name, what, unit]: [&'static str; 3],
+    range: [f64; 2],
+    has_directions: bool,
+) -> Known {
+    Known {
+        symbol,
+        suffix,
+        name,
+        what,
+        unit,
+        range,
+        has_directions,
+    }
+}
+
+/// In the order in which a sheet shows them.
+const KNOWN: [Known; 25] = [
+    known(["smd", "_um"], ["SMD", "roughness", "µm"], [0.0, 1e4], true),
+    known(
+        ["smd_official", "_um"],
+        ["SMD ≤ 1 mm", "roughness, official band", "µm"],
+        [0.0, 1e4],
+        true,
+    ),
+    known(
+        ["hurst", ""],
+        ["H", "Hurst exponent found", ""],
+        [0.0, 2.0],
+        false,
+    ),
+    known(
+        ["hurst_error", ""],
+        ["± H", "standard error of H", ""],
+        [0.0, 10.0],
+        false,
+    ),
+    known(
+        ["n_missing", ""],
+        [
+            "missing",
+            "points without a height, filled for the strokes",
+            "",
+        ],
+        [0.0, 64e6],
+        false,
+    ),
+    known(["miu", ""], ["MIU", "mean friction", ""], [0.0, 10.0], true),
+    known(
+        ["mmd", ""],
+        ["MMD", "mean deviation of friction", ""],
+        [0.0, 10.0],
+        true,
+    ),
+    known(
+        ["mmd_official", ""],
+        ["MMD ≤ 1 mm", "the same, official band", ""],
+        [0.0, 10.0],
+        true,
+    ),
+    known(
+        ["lc", ""],
+        ["LC", "linearity of compression", ""],
+        [0.0, 2.0],
+        false,
+    ),
+    known(
+        ["wc", "_gf_cm_per_cm2"],
+        ["WC", "energy of compression", "gf·cm/cm²"],
+        [0.0, 100.0],
+        false,
+    ),
+    known(
+        ["rc", "_percent"],
+        ["RC", "resilience of compression", "%"],
+        [0.0, 100.0],
+        false,
+    ),
+    known(
+        ["t0", "_mm"],
+        ["T0", "thickness at 0.5 gf/cm²", "mm"],
+        [0.0, 100.0],
+        false,
+    ),
+    known(
+        ["tm", "_mm"],
+        ["TM", "thickness at 50 gf/cm²", "mm"],
+        [0.0, 100.0],
+        false,
+    ),
+    known(
+        ["thickness", "_mm"],
+        ["T", "thickness", "mm"],
+        [0.0, 100.0],
+        false,
+    ),
+    known(
+        ["weight", "_mg_per_cm2"],
+        ["W", "weight", "mg/cm²"],
+        [0.0, 1e3],
+        false,
+    ),
+    known(
+        ["b", "_gf_cm2_per_cm"],
+        ["B", "bending rigidity", "gf·cm²/cm"],
+        [0.0, 1e3],
+        true,
+    ),
+    known(
+        ["2hb", "_gf_cm_per_cm"],
+        ["2HB", "hysteresis of bending", "gf·cm/cm"],
+        [0.0, 1e3],
+        true,
+    ),
+    known(
+        ["g", "_gf_per_cm_deg"],
+        ["G", "shear stiffness", "gf/(cm·°)"],
+        [0.0, 1e3],
+        true,
+    ),
+    known(
+        ["2hg", "_gf_per_cm"],
+        ["2HG", "hysteresis of shear at 0.5°", "gf/cm"],
+        [0.0, 1e3],
+        true,
+    ),
+    known(
+        ["2hg5", "_gf_per_cm"],
+        ["2HG5", "hysteresis of shear at 5°", "gf/cm"],
+        [0.0, 1e3],
+        true,
+    ),
+    known(
+        ["lt", ""],
+        ["LT", "linearity of extension", ""],
+        [0.0, 2.0],
+        true,
+    ),
+    known(
+        ["wt", "_gf_cm_per_cm2"],
+        ["WT", "energy of extension", "gf·cm/cm²"],
+        [0.0, 1e4],
+        true,
+    ),
+    known(
+        ["rt", "_percent"],
+        ["RT", "resilience of extension", "%"],
+        [0.0, 100.0],
+        true,
+    ),
+    known(
+        ["emt", "_percent"],
+        ["EMT", "extension at 500 gf/cm", "%"],
+        [0.0, 1e3],
+        true,
+    ),
+    known(
+        ["em", "_percent"],
+        ["EM", "extension", "%"],
+        [0.0, 1e3],
+        true,
+    ),
+];
+
+/// Units that other figures may end with.
+const UNITS: [&str; 22] = [
+    "_um", "_mm", "_cm", "_m", "_nm", "_um2", "_mm2", "_percent", "_deg", "_db", "_hz", "_s", "_n",
+    "_mn", "_pa", "_kpa", "_per_mm", "_per_cm", "_per_cm2", "_per_m", "_per_m2", "_tex",
+];
+
+/// A figure for people.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Its symbol, such as `SMD warp`.
+    pub name: String,
+    /// What it is; empty if this program does not know.
+    pub what: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit; may be empty.
+    pub unit: &'static str,
+}
+
+/// A figure that may be entered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct KnownFigure {
+    /// Its key in a manifest, such as `smd_warp_um`.
+    pub key: String,
+    /// Its symbol, such as `SMD warp`.
+    pub name: String,
+    /// What it is.
+    pub what: &'static str,
+    /// Its unit for people; may be empty.
+    pub unit: &'static str,
+}
+
+/// Every known figure in the testers' order, with those of one direction after it.
+pub fn all_known() -> impl Iterator<Item = KnownFigure> {
+    KNOWN.iter().flat_map(|known| {
+        let sides: &[&str] = if known.has_directions {
+            &["", "warp", "weft"]
+        } else {
+            &[""]
+        };
+        sides.iter().map(|side| {
+            let between = if side.is_empty() { "" } else { "_" };
+            KnownFigure {
+                key: [known.symbol, between, side, known.suffix].concat(),
+                name: [known.name, side].join(" ").trim_end().to_owned(),
+                what: known.what,
+                unit: known.unit,
+            }
+        })
+    })
+}
+
+/// The figures of a manifest for people: the known ones in the testers' order, then the others by
+/// their keys.
+pub fn figures(measured: &BTreeMap<String, f64>) -> Vec<Figure> {
+    let mut known: Vec<(usize, &str, Figure)> = Vec::new();
+    let mut others = Vec::new();
+    for (key, value) in measured {
+        match find(key) {
+            Some((place, direction)) => {
+                let of = KNOWN[place];
+                let name = [of.name, direction].join(" ").trim_end().to_owned();
+                let figure = Figure {
+                    name,
+                    what: of.what,
+                    value: *value,
+                    unit: of.unit,
+                };
+                known.push((place, direction, figure));
+            }
+            None => others.push(Figure {
+                name: key.clone(),
+                what: "",
+                value: *value,
+                unit: "",
+            }),
+        }
+    }
+    known.sort_by_key(|(place, direction, _)| (*place, *direction));
+    let known = known.into_iter().map(|(_, _, figure)| figure);
+    known.chain(others).collect()
+}
+
+/// The figure that a key means: its place among the known ones, and its direction or nothing.
+fn find(key: &str) -> Option<(usize, &'static str)> {
+    KNOWN.iter().enumerate().find_map(|(place, known)| {
+        let between = key.strip_prefix(known.symbol)?.strip_suffix(known.suffix)?;
+        match between {
+            "" => Some((place, "")),
+            "_warp" if known.has_directions => Some((place, "warp")),
+            "_weft" if known.has_directions => Some((place, "weft")),
+            _ => None,
+        }
+    })
+}
+
+/// Refuses a figure out of its range, and a key that says no unit.
+pub(super) fn check(checker: &Checker<'_>, key: &str, value: f64) -> Result<(), TextileError> {
+    if let Some((place, _)) = find(key) {
+        let [low, high] = KNOWN[place].range;
+        return checker.within("measured", key, value, low..=high);
+    }
+    checker.within("measured", key, value, -1e12..=1e12)?;
+    let has_unit = |unit: &str| key.len() > unit.len() && key.ends_with(unit);
+    if UNITS.iter().any(|unit| has_unit(unit)) {
+        return Ok(());
+    }
+    let what = format!("unknown figure \"{key}\"");
+    let mend = "name one of the guide (smd_um, miu, rc_percent …), or end it with its unit";
+    Err(checker.wrong("measured", key, what, mend))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn checked(key: &str, value: f64) -> Result<(), String> {
+        let text = format!("[measured]\n{key} = {value}\n").to_lowercase();
+        let checker = Checker {
+            text: &text,
+            path: Path::new("t.toml"),
+            nth: 0,
+        };
+        check(&checker, key, value).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn every_known_figure_takes_its_range_and_nothing_beyond() {
+        for (place, known) in KNOWN.iter().enumerate() {
+            let key = [known.symbol, known.suffix].concat();
+            assert_eq!(find(&key), Some((place, "")), "{key}");
+            checked(&key, known.range[1]).unwrap();
+            for value in [f64::NAN, -0.1, known.range[1] * 1.01] {
+                let error = checked(&key, value).unwrap_err();
+                assert!(
+                    error.starts_with(&format!("t.toml:2: {key} is ")),
+                    "{error}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_figure_that_may_be_entered_is_known_by_its_key() {
+        let known: Vec<KnownFigure> = all_known().collect();
+        assert!(known.len() > KNOWN.len());
+        for figure in known {
+            assert!(find(&figure.key).is_some(), "{}", figure.key);
+        }
+    }
+
+    #[test]
+    fn directions_are_for_figures_that_have_one() {
+        assert_eq!(find("smd_warp_um").map(|found| found.1), Some("warp"));
+        assert_eq!(find("mmd_official_weft").map(|found| found.1), Some("weft"));
+        assert_eq!(find("rc_warp_percent"), None);
+    }
+
+    #[test]
+    fn other_figures_say_their_unit() {
+        checked("sq_um", -3.0).unwrap();
+        for key in ["smd", "drape", "_um"] {
+            let error = checked(key, 1.0).unwrap_err();
+            assert!(
+                error.contains("unknown figure") && error.contains("; "),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn figures_stand_in_the_testers_order() {
+        let keys = [
+            "emt_percent",
+            "miu",
+            "smd_weft_um",
+            "smd_um",
+            "sq_um",
+            "smd_warp_um",
+        ];
+        let measured = keys.map(|key| (key.to_owned(), 1.0)).into_iter().collect();
+        let names: Vec<String> = figures(&measured)
+            .into_iter()
+            .map(|figure| figure.name)
+            .collect();
+        assert_eq!(
+            names,
+            ["SMD", "SMD warp", "SMD weft", "MIU", "EMT", "sq_um"]
+        );
+    }
+}

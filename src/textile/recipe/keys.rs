@@ -1,0 +1,134 @@
+//! The keys of a source in a manifest, declared once: a struct that serde reads and writes, and a
+//! table of its numbers with their bounds, from which the reader checks and a window offers them.
+
+use crate::surface::Direction;
+
+/// Profile files by [`Direction::index`], beside the manifest.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct ProfileFiles(pub [Option<String>; 4]);
+
+impl ProfileFiles {
+    /// The four files of a textile that is built.
+    pub(crate) fn all() -> Self {
+        Self(Direction::ALL.map(|direction| Some(Self::name(direction))))
+    }
+
+    /// What the file of a direction is called.
+    pub(crate) fn name(direction: Direction) -> String {
+        format!("{}.csv", direction.key())
+    }
+
+    /// Whether no file is named.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.iter().all(Option::is_none)
+    }
+
+    /// The file of a direction.
+    pub(crate) fn of(&self, direction: Direction) -> Option<&str> {
+        self.0[direction.index()].as_deref()
+    }
+}
+
+/// The keys that every source has alike.
+pub(crate) trait SourceKeys {
+    /// The kind of source, as the file spells it.
+    fn kind(&self) -> &str;
+
+    /// The profile files that are named; a recipe may name none.
+    fn files(&self) -> ProfileFiles;
+
+    /// Names the profile files, and the recipe that they were made from.
+    fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>);
+}
+
+/// Declares the keys of a `source`, with those that all sources have alike before its own, or of a
+/// `table` within one.
+///
+/// A key is a field; a number also states `=> "name" min..=max "unit" "what it does"`, which
+/// becomes a line of the table `NUMBERS`.
+macro_rules! keys {
+    ($(#[$meta:meta])* source $keys:ident { $($fields:tt)* }) => {
+        crate::recipe::keys! {
+            $(#[$meta])* table pub $keys {
+                /// The kind of source.
+                pub(crate) kind: String,
+                /// Hash of the recipe that the profiles came from.
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub(crate) recipe_hash: Option<String>,
+                /// See [`crate::recipe::ProfileFiles`].
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub(crate) warp_forward: Option<String>,
+                /// See [`crate::recipe::ProfileFiles`].
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub(crate) warp_reverse: Option<String>,
+                /// See [`crate::recipe::ProfileFiles`].
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub(crate) weft_forward: Option<String>,
+                /// See [`crate::recipe::ProfileFiles`].
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub(crate) weft_reverse: Option<String>,
+                $($fields)*
+            }
+        }
+
+        impl crate::recipe::SourceKeys for $keys {
+            fn kind(&self) -> &str {
+                &self.kind
+            }
+
+            fn files(&self) -> crate::recipe::ProfileFiles {
+                crate::recipe::ProfileFiles([
+                    self.warp_forward.clone(),
+                    self.warp_reverse.clone(),
+                    self.weft_forward.clone(),
+                    self.weft_reverse.clone(),
+                ])
+            }
+
+            fn set_files(
+                &mut self,
+                files: crate::recipe::ProfileFiles,
+                recipe_hash: Option<String>,
+            ) {
+                [
+                    self.warp_forward,
+                    self.warp_reverse,
+                    self.weft_forward,
+                    self.weft_reverse,
+                ] = files.0;
+                self.recipe_hash = recipe_hash;
+            }
+        }
+    };
+    ($(#[$meta:meta])* table $struct_vis:vis $keys:ident {
+        $(
+            $(#[$field_meta:meta])* $vis:vis $field:ident: $type:ty
+            $(=> $name:literal $min:literal ..= $max:literal $unit:literal $what:literal)?,
+        )*
+    }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        $struct_vis struct $keys {
+            $( $(#[$field_meta])* $(#[doc = $what])? $vis $field: $type, )*
+        }
+
+        impl $keys {
+            /// Its numbers, in their order.
+            pub(crate) const NUMBERS: &'static [crate::recipe::Number<Self>] = &[
+                $($(
+                    crate::recipe::Number {
+                        key: stringify!($field),
+                        name: $name,
+                        unit: $unit,
+                        min: $min,
+                        max: $max,
+                        what: $what,
+                        get: |keys| crate::recipe::Figure::figure(&keys.$field),
+                    },
+                )?)*
+            ];
+        }
+    };
+}
+pub(crate) use keys;

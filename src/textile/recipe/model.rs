@@ -1,0 +1,41 @@
+//! What a recipe becomes: a model that a stylus was drawn over.
+
+use std::path::Path;
+
+use crate::error::TextileError;
+use crate::profile_file;
+use crate::surface::{Direction, HeightMap, ProfileSet, SurfaceError};
+use selvedge_foundation::files::Rgb8Image;
+
+/// A model of a textile, ready to be felt.
+pub(crate) trait Model {
+    /// The four strokes as profile files, by [`Direction::index`].
+    fn profile_files(&self) -> Result<[String; 4], TextileError>;
+
+    /// The relief of the whole textile, which repeats: heights of the model itself, without a
+    /// probe; `None` where the model knows its strokes alone.
+    fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+        None
+    }
+
+    /// Heights over an area to look at, with points about so far apart where there is a choice.
+    fn relief(&self, step_mm: f64) -> Result<HeightMap, SurfaceError>;
+
+    /// The picture, and pixels a mm.
+    fn picture(&self) -> (Rgb8Image, f64);
+
+    /// Figures that the model found on its own surface, beside the roughness.
+    fn measured(&self) -> &[(&'static str, f64)] {
+        &[]
+    }
+}
+
+/// The profiles of four profile files, by [`Direction::index`].
+pub(crate) fn profiles_of_files(texts: &[String; 4]) -> Result<ProfileSet, TextileError> {
+    let mut profiles = ProfileSet::default();
+    for (direction, text) in Direction::ALL.into_iter().zip(texts) {
+        let profile = profile_file::read(text, Path::new(direction.key()))?;
+        profiles[direction.index()] = Some(profile);
+    }
+    Ok(profiles)
+}

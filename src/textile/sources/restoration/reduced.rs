@@ -1,0 +1,322 @@
+//! Data reduction and restoration of one profile.
+
+use std::f64::consts::TAU;
+
+use super::period::{line, period};
+use crate::error::TextileError;
+use crate::recipe::{Group, Number, Parameter, ParameterKind, Place, keys, numbers_of, optional};
+use crate::surface::Profile;
+use selvedge_foundation::numerics::{Complex, Random, RealTransform, without_line};
+
+/// Bands an octave of the residual.
+const BANDS_PER_OCTAVE: f64 = 3.0;
+/// A harmonic is kept if its power exceeds that between the harmonics this many times.
+const OVER_NOISE: f64 = 4.0;
+/// Most harmonics that are looked at.
+const MOST_HARMONICS: u32 = 100;
+/// Fewest samples of a profile.
+const LEAST_SAMPLES: usize = 64;
+
+keys! {
+    /// What is kept of a profile: a few dozen numbers for thousands of samples.
+    table pub Reduced {
+        /// Mean absolute deviation of the profile, µm: what the restored one is brought to.
+        pub smd_um: f64
+            => "Roughness SMD" 0.0 ..= 1e5 "µm" "What the restored profile is brought to",
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub period_mm: Option<f64>
+            => "Period" 1e-3 ..= 1e3 "mm" "The period of its harmonics",
+        /// Which harmonics of the period are kept, strongest first.
+        #[serde(default)]
+        pub harmonics: Vec<u32>,
+        /// Their amplitudes, µm.
+        #[serde(default)]
+        pub amplitude_um: Vec<f64>,
+        /// Their phases: `A cos(2πkx/p + φ)`, degrees.
+        #[serde(default)]
+        pub(crate) phase_deg: Vec<f64>,
+        pub(crate) residual_from_per_mm: f64
+            => "Residual from" 1e-4 ..= 1e3 "/mm"
+            "Where the first band of the residual begins, cycles per mm",
+        /// The residual's rms in bands of a third of an octave, µm.
+        #[serde(default)]
+        pub(crate) residual_um: Vec<f64>,
+    }
+}
+
+impl Reduced {
+    /// Reduces a profile to at most `n_harmonics` harmonics and the spectrum of the rest.
+    ///
+    /// # Errors
+    /// Fewer than 64 samples.
+    pub fn of(profile: &Profile, n_harmonics: usize) -> Result<Self, TextileError> {
+        let n = profile.heights_um().len();
+        if n < LEAST_SAMPLES {
+            return Err(TextileError::Model(format!(
+                "{n} samples are no profile to restore; give {LEAST_SAMPLES} or more"
+            )));
+        }
+        let step_mm = profile.step_mm();
+        let heights = without_line(profile.heights_um());
+        let mut reduced = Self {
+            smd_um: smd_um(&heights),
+            period_mm: None,
+            harmonics: Vec::new(),
+            amplitude_um: Vec::new(),
+            phase_deg: Vec::new(),
+            residual_from_per_mm: 0.5 / (n as f64 * step_mm),
+            residual_um: Vec::new(),
+        };
+        if let Some(period) = period(&heights) {
+            reduced.period_mm = Some(period * step_mm);
+            reduced.keep_harmonics(&heights, period, n_harmonics);
+        }
+        let waves = reduced.waves_um(n, step_mm);
+        let rest: Vec<f64> = heights
+            .iter()
+            .zip(&waves)
+            .map(|(z, wave)| z - wave)
+            .collect();
+        reduced.residual_um = band_rms_um(&rest, step_mm, reduced.residual_from_per_mm);
+        Ok(reduced)
+    }
+
+    /// Its parameters as those of a table.
+    pub(super) fn group(table: &'static str, title: &'static str) -> Group {
+        let mut parameters = numbers_of(table, Self::NUMBERS, &[]);
+        for parameter in &mut parameters {
+            if parameter.place.key == "period_mm" {
+                parameter.kind = optional(parameter.kind, "");
+            }
+        }
+        let lists = [
+            (
+                "harmonics",
+                "Harmonics",
+                "Which harmonics of the period are kept",
+                ParameterKind::Counts,
+            ),
+            (
+                "amplitude_um",
+                "Amplitudes",
+                "Amplitudes of the harmonics",
+                ParameterKind::Numbers("µm"),
+            ),
+            (
+                "phase_deg",
+                "Phases",
+                "Phases of the harmonics",
+                ParameterKind::Numbers("°"),
+            ),
+            (
+                "residual_um",
+                "Residual",
+                "The residual in bands of a third of an octave, rms",
+                ParameterKind::Numbers("µm"),
+            ),
+        ];
+        parameters.extend(lists.map(|(key, name, what, kind)| Parameter {
+            place: Place { table, key },
+            name,
+            what,
+            kind,
+        }));
+        Group { title, parameters }
+    }
+
+    fn keep_harmonics(&mut self, heights: &[f64], period: f64, n_harmonics: usize) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number of periods within the profile"
+        )]
+        let n_whole = ((heights.len() as f64 / period).floor() * period).round() as usize;
+        let whole = &heights[..n_whole.min(heights.len())];
+        let at = |k: f64| line(whole, k / period);
+        let harmonics = 1..=MOST_HARMONICS;
+        let all: Vec<u32> = harmonics
+            .take_while(|&k| 2.0 * f64::from(k) < period)
+            .collect();
+        // Between harmonics there is noise alone.
+        let between = |k: &u32| at(f64::from(*k) - 0.5).norm_sqr();
+        let past = all.len() as f64 + 0.5;
+        let mut gaps: Vec<f64> = all.iter().map(between).collect();
+        gaps.push(at(past).norm_sqr());
+        let kept = |(gap, &k): (&[f64], &u32)| {
+            let (here, noise) = (at(f64::from(k)), 0.5 * (gap[0] + gap[1]));
+            let power = here.norm_sqr();
+            (power > OVER_NOISE * noise).then(|| (k, (power - noise).sqrt(), here.arg()))
+        };
+        let pairs = gaps.windows(2).zip(&all);
+        let mut found: Vec<(u32, f64, f64)> = pairs.filter_map(kept).collect();
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let strongest = found.first().map_or(0.0, |wave| wave.1);
+        found.retain(|wave| wave.1 > 1e-6 * strongest);
+        for (k, amplitude_um, phase) in found.into_iter().take(n_harmonics) {
+            self.harmonics.push(k);
+            self.amplitude_um.push(amplitude_um);
+            self.phase_deg.push(phase.to_degrees());
+        }
+    }
+
+    /// What is wrong with it, if anything: the key, what, and how to mend it.
+    pub fn fault(&self) -> Option<(&'static str, String, String)> {
+        let n = self.harmonics.len();
+        for (key, found) in [
+            ("amplitude_um", self.amplitude_um.len()),
+            ("phase_deg", self.phase_deg.len()),
+        ] {
+            if found != n {
+                let what = format!("{key} has {found} values, harmonics {n}");
+                return Some((key, what, "give one a harmonic".to_owned()));
+            }
+        }
+        let range = |min: f64, max: f64| format!("give numbers from {min} to {max}");
+        let outside = |values: &[f64], min: f64, max: f64| {
+            let is_wrong = |value: &&f64| !(min..=max).contains(*value);
+            values.iter().find(is_wrong).copied()
+        };
+        for &Number {
+            key, min, max, get, ..
+        } in Self::NUMBERS
+        {
+            if let Some(value) = get(self).and_then(|value| outside(&[value], min, max)) {
+                return Some((key, format!("{key} holds {value}"), range(min, max)));
+            }
+        }
+        for (key, values, min, max) in [
+            ("amplitude_um", &self.amplitude_um[..], 0.0, 1e5),
+            ("phase_deg", &self.phase_deg[..], -1e6, 1e6),
+            ("residual_um", &self.residual_um[..], 0.0, 1e5),
+        ] {
+            if let Some(value) = outside(values, min, max) {
+                return Some((key, format!("{key} holds {value}"), range(min, max)));
+            }
+        }
+        let is_wrong = |&&k: &&u32| k == 0 || k > 100_000;
+        if let Some(k) = self.harmonics.iter().find(is_wrong) {
+            return Some(("harmonics", format!("harmonics holds {k}"), range(1.0, 1e5)));
+        }
+        if self.period_mm.is_none() && n > 0 {
+            let what = "harmonics of no period".to_owned();
+            return Some(("harmonics", what, "add period_mm".to_owned()));
+        }
+        (self.residual_um.len() > 60).then(|| {
+            let what = format!("residual_um has {} bands", self.residual_um.len());
+            ("residual_um", what, "give at most 60".to_owned())
+        })
+    }
+
+    /// The kept harmonics alone, µm.
+    pub fn waves_um(&self, n: usize, step_mm: f64) -> Vec<f64> {
+        let period_mm = self.period_mm.unwrap_or(f64::INFINITY);
+        let waves: Vec<(f64, f64, f64)> = self
+            .harmonics
+            .iter()
+            .zip(self.amplitude_um.iter().zip(&self.phase_deg))
+            .map(|(&k, (&a, phase))| (f64::from(k) / period_mm, a, phase.to_radians()))
+            .filter(|wave| wave.0 * step_mm < 0.5)
+            .collect();
+        let height = |i: usize| {
+            let x_mm = i as f64 * step_mm;
+            let part =
+                |&(per_mm, a, phase): &(f64, f64, f64)| a * (TAU * per_mm * x_mm + phase).cos();
+            waves.iter().map(part).sum()
+        };
+        (0..n).map(height).collect()
+    }
+
+    /// The restored profile, µm: the harmonics, and noise with the residual's spectrum, as strong
+    /// as brings the whole to the measured SMD. Harmonics that are rougher alone are scaled.
+    pub fn restored_um(&self, n: usize, step_mm: f64, random: &mut Random) -> Vec<f64> {
+        let waves = self.waves_um(n, step_mm);
+        let noise = self.residual(n, step_mm, random);
+        let with = |share: f64| -> Vec<f64> {
+            waves
+                .iter()
+                .zip(&noise)
+                .map(|(a, b)| a + share * b)
+                .collect()
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        while smd_um(&with(high)) < self.smd_um && high < 1e3 {
+            high *= 2.0;
+        }
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if smd_um(&with(middle)) < self.smd_um {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let mut restored = with(0.5 * (low + high));
+        let found = smd_um(&restored);
+        if found > self.smd_um * 1.001 {
+            let factor = self.smd_um / found;
+            for height in &mut restored {
+                *height *= factor;
+            }
+        }
+        restored
+    }
+
+    /// Noise with the residual's spectrum, µm.
+    fn residual(&self, n: usize, step_mm: f64, random: &mut Random) -> Vec<f64> {
+        let mut n_bins = vec![0.0; self.residual_um.len()];
+        let band = |bin: usize| {
+            let per_mm = bin as f64 / (n as f64 * step_mm);
+            band_of(per_mm, self.residual_from_per_mm).filter(|&band| band < self.residual_um.len())
+        };
+        let bins = 1..n.div_ceil(2);
+        for bin in bins.clone() {
+            if let Some(band) = band(bin) {
+                n_bins[band] += 1.0;
+            }
+        }
+        let mut spectrum = vec![Complex::default(); n / 2 + 1];
+        for bin in bins {
+            let draw = Complex::new(random.normal(), random.normal());
+            if let Some(band) = band(bin) {
+                let power = self.residual_um[band].powi(2) / n_bins[band];
+                spectrum[bin] = draw * (0.5 * n as f64 * power.sqrt());
+            }
+        }
+        RealTransform::new(n).inverse(&spectrum)
+    }
+}
+
+/// The band of a wavenumber.
+fn band_of(per_mm: f64, from_per_mm: f64) -> Option<usize> {
+    let band = (BANDS_PER_OCTAVE * (per_mm / from_per_mm).log2()).floor();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…59 just checked"
+    )]
+    let index = (0.0..60.0).contains(&band).then_some(band as usize);
+    index
+}
+
+/// Rms of a series in bands, µm.
+fn band_rms_um(heights_um: &[f64], step_mm: f64, from_per_mm: f64) -> Vec<f64> {
+    let n = heights_um.len();
+    let mut powers: Vec<f64> = Vec::new();
+    let spectrum = RealTransform::new(n).forward(heights_um);
+    for (bin, x) in spectrum.iter().enumerate().skip(1) {
+        let per_mm = bin as f64 / (n as f64 * step_mm);
+        if let Some(band) = band_of(per_mm, from_per_mm) {
+            powers.resize(powers.len().max(band + 1), 0.0);
+            let times = if 2 * bin == n { 1.0 } else { 2.0 };
+            powers[band] += times * x.norm_sqr() / (n as f64 * n as f64);
+        }
+    }
+    powers.into_iter().map(f64::sqrt).collect()
+}
+
+/// Mean absolute deviation from the mean, µm.
+pub(super) fn smd_um(heights_um: &[f64]) -> f64 {
+    let n = heights_um.len().max(1) as f64;
+    let mean = heights_um.iter().sum::<f64>() / n;
+    heights_um.iter().map(|z| (z - mean).abs()).sum::<f64>() / n
+}

@@ -1,0 +1,77 @@
+//! The four directions in which a textile is stroked, and whether that is all that is felt.
+
+use serde::{Deserialize, Serialize};
+
+/// A principal direction of a stroke over a textile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Direction {
+    /// Along the warp, u rising.
+    WarpForward,
+    /// Along the warp, u falling.
+    WarpReverse,
+    /// Along the weft, w rising.
+    WeftForward,
+    /// Along the weft, w falling.
+    WeftReverse,
+}
+
+impl Direction {
+    /// All four, in the order of their indices.
+    pub const ALL: [Self; 4] = [
+        Self::WarpForward,
+        Self::WarpReverse,
+        Self::WeftForward,
+        Self::WeftReverse,
+    ];
+
+    /// 0 … 3.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Whether the stroke runs against its axis.
+    pub fn is_reverse(self) -> bool {
+        matches!(self, Self::WarpReverse | Self::WeftReverse)
+    }
+
+    /// The name of the direction for people.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::WarpForward => "warp forward",
+            Self::WarpReverse => "warp reverse",
+            Self::WeftForward => "weft forward",
+            Self::WeftReverse => "weft reverse",
+        }
+    }
+
+    /// The name of the direction as files spell it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::WarpForward => "warp_forward",
+            Self::WarpReverse => "warp_reverse",
+            Self::WeftForward => "weft_forward",
+            Self::WeftReverse => "weft_reverse",
+        }
+    }
+}
+
+/// How the spectra of a surface that is known over an area are laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Representation {
+    /// One profile a direction, repeated across: what the tester measures.
+    #[default]
+    Economical,
+    /// Spectra at every point of a grid.
+    Areal,
+}
+
+impl Representation {
+    /// The words of files, in order.
+    pub(crate) const WORDS: &'static [&'static str] = &["economical", "areal"];
+
+    /// Whether files need not say it.
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
