@@ -2,7 +2,7 @@
 
 use super::SAMPLE_S;
 use crate::Effort;
-use selvedge_device::{ContactorModel, MOST_QUALITY, Skin};
+use selvedge_device::{ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::quantity::time_span;
 
 /// A contactor with a load.
@@ -24,7 +24,7 @@ impl Case {
         let skip = effort.pick(3, 0);
         let is_chosen = |nth: usize| nth == 0 || nth > skip;
         let mut cases = Vec::new();
-        for quality in [40.0, MOST_QUALITY] {
+        for quality in [40.0, MAX_QUALITY] {
             let chosen = loads.iter().enumerate().filter(|(nth, _)| is_chosen(*nth));
             cases.extend(chosen.map(|(_, skin)| Self {
                 name: format!("skin {skin}, Q {quality}"),

@@ -13,7 +13,7 @@ mod truth;
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use cases::{Case, Step};
 use selvedge_chart::{Axis, Plot, Series, Style};
-use selvedge_device::{ContactorModel, MOST_QUALITY, SAMPLES_PER_S};
+use selvedge_device::{ContactorModel, MAX_QUALITY, SAMPLES_PER_S};
 use selvedge_foundation::numerics::ode::{Propagator, StepMethod};
 use truth::held_response;
 
@@ -212,7 +212,7 @@ fn notes(findings: &Findings) -> Vec<String> {
     let mut notes: Vec<String> = StepMethod::ALL.map(worst).into();
     notes.push(format!(
         "The exact hold needs one product of matrices a sample at any stiffness and any quality up \
-         to {MOST_QUALITY}; the emulator steps every contactor with it."
+         to {MAX_QUALITY}; the emulator steps every contactor with it."
     ));
     notes.push(
         "Where neither skin lifts off nor the amplifier reaches a limit the contactor is linear, \

@@ -133,7 +133,10 @@ fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
         bench.dispatch(&ctx, AccuracyCommand::Budget(budget_db).into());
         bench.engine.advance_ticks(1).unwrap();
         let snapshot = bench.engine.snapshot();
-        assert!(snapshot.rendering.bound.level_db <= budget_db, "{budget_db} dB");
+        assert!(
+            snapshot.rendering.bound.level_db <= budget_db,
+            "{budget_db} dB"
+        );
         assert_eq!(bench.settings.kept.rendering.budget_db, budget_db);
         let snapshot = bench.engine.snapshot();
         (snapshot.rendering.method, snapshot.rendering.bound.level_db)

@@ -13,7 +13,7 @@ use crate::sensation::Sensation;
 use crate::theme::{self, ColourMap, Palette};
 use crate::view::{Dot, Live, SceneView};
 use crate::widgets::{
-    LIMIT_MARK, amplitude_bar, bites_band, limit_words, paint_limit_mark, toggle,
+    LIMIT_MARK, amplitude_bar, limit_words, limits_band, paint_limit_mark, toggle,
 };
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -234,7 +234,7 @@ fn paint_cell(
     } else {
         painter.rect_filled(rect, 2, style.map.colour(share));
     }
-    if bites_band(dot.bite, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
+    if limits_band(dot.limiter, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
         paint_limit_mark(painter, rect.right_top() + vec2(-6.0, 6.0));
     }
     if style.has_numbers && rect.width() >= NUMBER_WIDTH {
@@ -322,7 +322,7 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> S
         None => "off every textile".to_owned(),
     };
     let bands = sensation.band_lines(dot.amplitude_um);
-    let limited = limit_words(dot.bite).map_or_else(String::new, |words| format!("\n{words}"));
+    let limited = limit_words(dot.limiter).map_or_else(String::new, |words| format!("\n{words}"));
     let muted = if dot.is_muted { "\nmuted" } else { "" };
     format!(
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \

@@ -15,7 +15,7 @@ use super::command::Part;
 use super::sensation::Sensation;
 use super::view::Source;
 use super::window::Workbench;
-use selvedge_device::{ArrayProfile, Bite, Calibration, Coder, Limit};
+use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState};
 use selvedge_render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
@@ -58,7 +58,7 @@ pub(crate) struct Output {
     /// The channel that drives it.
     pub channel: usize,
     /// What the limits did.
-    pub bite: Bite,
+    pub limiter: LimiterState,
     /// Codes of both bands, 0…65535.
     pub codes: [u16; 2],
 }
@@ -88,7 +88,7 @@ impl Output {
             limits: coder.limits(0),
             calibration: profile.calibration_of(contactor),
             channel: profile.channel_of(contactor),
-            bite: coder.limited().first().copied().unwrap_or_default(),
+            limiter: coder.limited().first().copied().unwrap_or_default(),
             codes: codes.first().copied().unwrap_or_default(),
         }
     }

@@ -23,7 +23,7 @@ pub(crate) use card::card;
 pub(crate) use card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN};
 pub(crate) use fold::fold;
 pub(crate) use fold::told_fold;
-pub(crate) use limit_mark::{LIMIT_MARK, bites_band, limit_words, paint_limit_mark};
+pub(crate) use limit_mark::{LIMIT_MARK, limit_words, limits_band, paint_limit_mark};
 pub(crate) use list::list;
 pub(crate) use polyline::corners;
 pub(crate) use relief::Relief;

@@ -15,7 +15,7 @@ use crate::theme;
 use crate::view::{BridgePhase, BridgeView, Dot, Live};
 use selvedge_device::wiring::Answer;
 use selvedge_device::{
-    ArrayProfile, Bite, BridgeEvent, Calibration, DeviceUid, FaultWords, Wiring,
+    ArrayProfile, BridgeEvent, Calibration, DeviceUid, FaultWords, LimiterState, Wiring,
 };
 
 const UID: DeviceUid = DeviceUid(*b"selvedge-emu");
@@ -49,9 +49,9 @@ impl Stage {
             ..BridgeView::default()
         };
         let held = Dot {
-            bite: Bite {
+            limiter: LimiterState {
                 limited: [true, false],
-                ..Bite::default()
+                ..LimiterState::default()
             },
             ..Dot::default()
         };
