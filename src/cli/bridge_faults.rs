@@ -88,7 +88,7 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use selvedge_device::{LaneFaults, Latency, Lie, OneOffKind};
+    use selvedge_device::{Latency, Lie, LinkFaults, OneOffKind};
 
     #[derive(Parser)]
     struct Line {
@@ -129,9 +129,9 @@ mod tests {
         assert_eq!((host.hiccup_us, host.chatter), (20_000, true));
         assert_eq!(host.garbage_every_us, Some(2_000_000));
         assert_eq!(host.latency, Latency::Timer(16_000));
-        let only_chatter = LaneFaults {
+        let only_chatter = LinkFaults {
             chatter: true,
-            ..LaneFaults::default()
+            ..LinkFaults::default()
         };
         assert_eq!(faults.to_device, only_chatter);
         assert_eq!((faults.clock_ppm, faults.tick_jitter_us), (-100, 3000));

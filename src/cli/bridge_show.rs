@@ -12,7 +12,7 @@ use clap::Args;
 
 use super::{CliError, terminal};
 use selvedge_device::{
-    Bimorph, ContactorModel, ContactorReading, DeviceState, PlantReading, PlantWatch, Skin,
+    ActuatorReading, ActuatorWatch, Bimorph, ContactorModel, ContactorReading, DeviceState, Skin,
 };
 use selvedge_foundation::quantity;
 
@@ -90,7 +90,7 @@ pub(super) struct PlantView {
 
 impl PlantView {
     /// Shows an array of `n_columns` columns on stderr.
-    pub(super) fn start(mut watch: PlantWatch, n_columns: usize) -> Result<Self, CliError> {
+    pub(super) fn start(mut watch: ActuatorWatch, n_columns: usize) -> Result<Self, CliError> {
         let is_over = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&is_over);
         watch.look(true);
@@ -138,7 +138,7 @@ fn draw(lines: &[String], n_last: usize) {
 }
 
 /// The lines of a tick's picture; as many every time.
-fn picture(reading: &PlantReading, model: &ContactorModel, n_columns: usize) -> Vec<String> {
+fn picture(reading: &ActuatorReading, model: &ContactorModel, n_columns: usize) -> Vec<String> {
     let Bimorph {
         length_mm,
         width_mm,
@@ -177,7 +177,7 @@ fn picture(reading: &PlantReading, model: &ContactorModel, n_columns: usize) -> 
     lines
 }
 
-fn state_words(reading: &PlantReading) -> String {
+fn state_words(reading: &ActuatorReading) -> String {
     let armed = match reading.state {
         DeviceState::Armed | DeviceState::Run | DeviceState::Hold | DeviceState::Ramp => {
             "armed, high voltage on"
@@ -190,7 +190,7 @@ fn state_words(reading: &PlantReading) -> String {
 /// Rows of numbers, the fingertip's end first, with a heading; all lines equally wide.
 fn grid(
     heading: &str,
-    reading: &PlantReading,
+    reading: &ActuatorReading,
     n_columns: usize,
     of: fn(&ContactorReading) -> String,
 ) -> Vec<String> {
@@ -208,7 +208,7 @@ fn grid(
 }
 
 /// How many contactors have a share above 0, and the largest.
-fn share_words(what: &str, reading: &PlantReading, of: fn(&ContactorReading) -> f64) -> String {
+fn share_words(what: &str, reading: &ActuatorReading, of: fn(&ContactorReading) -> f64) -> String {
     let shares = || reading.contactors.iter().map(of);
     let n = shares().filter(|share| *share > 0.0).count();
     if n == 0 {
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn the_picture_names_state_units_and_load_and_keeps_its_height() {
-        let mut reading = PlantReading::new(24);
+        let mut reading = ActuatorReading::new(24);
         let model = ContactorModel::default();
         let still = picture(&reading, &model, 4);
         reading.state = DeviceState::Run;

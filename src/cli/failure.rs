@@ -10,6 +10,7 @@ use selvedge_engine::{AudioError, EngineError};
 use selvedge_experiment::ExperimentError;
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::progress::Cancelled;
+use selvedge_foundation::signals::SignalError;
 use selvedge_render::RenderError;
 use selvedge_render::scene::SceneError;
 use selvedge_studies::ReportError;
@@ -59,6 +60,9 @@ pub(crate) enum CliError {
     /// A design, a session or a log.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
+    /// Signals cannot be listened to.
+    #[error(transparent)]
+    Signals(#[from] SignalError),
     /// The window.
     #[error(transparent)]
     App(#[from] AppError),
@@ -69,7 +73,7 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            Self::Failed(_) => 1,
+            Self::Failed(_) | Self::Signals(_) => 1,
             Self::Input(_) | Self::Render(_) => 2,
             Self::File(error) => code_of_file(error),
             Self::Textile(error) => code_of_textile(error),

@@ -39,7 +39,6 @@ mod render;
 mod render_out;
 mod report;
 mod screenshot;
-mod signals;
 mod terminal;
 mod textile;
 mod textile_catalogue;
@@ -58,6 +57,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use selvedge_foundation::signals;
 
 /// Virtual textiles, felt through a fingertip array of vibrating contactors.
 ///

@@ -26,7 +26,7 @@ pub struct CodeCounters {
 
 /// What happened to one contactor in the last call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Bite {
+pub struct LimiterState {
     /// An amplitude was NaN, negative or infinite.
     pub non_finite: bool,
     /// The band's limit held, `[40 Hz, 320 Hz]`.
@@ -39,7 +39,7 @@ pub struct Bite {
     pub off: bool,
 }
 
-impl Bite {
+impl LimiterState {
     /// Whether anything differs from what was asked for.
     pub fn any(self) -> bool {
         self.non_finite || self.guarded || self.off || self.limited.contains(&true)
@@ -81,7 +81,7 @@ pub struct Coder {
     link: Option<[u16; 2]>,
     leads: Vec<Lead>,
     counters: CodeCounters,
-    bites: Vec<Bite>,
+    limiters: Vec<LimiterState>,
 }
 
 impl Coder {
@@ -108,7 +108,7 @@ impl Coder {
             link: None,
             leads,
             counters: CodeCounters::default(),
-            bites: vec![Bite::default(); n_contactors],
+            limiters: vec![LimiterState::default(); n_contactors],
         }
     }
 
@@ -192,7 +192,7 @@ impl Coder {
         } else {
             gain.clamp(0.0, 1.0)
         };
-        self.bites.fill(Bite::default());
+        self.limiters.fill(LimiterState::default());
         codes.fill([0, 0]);
         let asked = amplitudes_um.iter().take(codes.len()).enumerate();
         for (contactor, &amplitude_um) in asked {
@@ -201,13 +201,13 @@ impl Coder {
                 calibration: Calibration::default(),
             };
             let lead = self.leads.get(contactor).copied().unwrap_or(straight);
-            let (code, bite) = drive_code(amplitude_um, gain, &self.scale, lead.calibration);
+            let (code, limiter) = drive_code(amplitude_um, gain, &self.scale, lead.calibration);
             if let Some(slot) = codes.get_mut(lead.channel) {
                 *slot = code;
             }
-            self.counters.count(amplitude_um, bite);
-            if let Some(shown) = self.bites.get_mut(contactor) {
-                *shown = bite;
+            self.counters.count(amplitude_um, limiter);
+            if let Some(shown) = self.limiters.get_mut(contactor) {
+                *shown = limiter;
             }
         }
     }
@@ -225,25 +225,25 @@ impl Coder {
     }
 
     /// Per contactor, what the last call changed.
-    pub fn limited(&self) -> &[Bite] {
-        &self.bites
+    pub fn limited(&self) -> &[LimiterState] {
+        &self.limiters
     }
 }
 
 impl CodeCounters {
-    fn count(&mut self, amplitude_um: [f32; 2], bite: Bite) {
-        if bite.non_finite {
+    fn count(&mut self, amplitude_um: [f32; 2], limiter: LimiterState) {
+        if limiter.non_finite {
             self.non_finite += amplitude_um
                 .iter()
                 .filter(|a| !usable(**a))
                 .map(|_| 1)
                 .sum::<u64>();
         }
-        for (total, limited) in self.limited.iter_mut().zip(bite.limited) {
+        for (total, limited) in self.limited.iter_mut().zip(limiter.limited) {
             *total += u64::from(limited);
         }
-        self.guarded += u64::from(bite.guarded);
-        self.off += u64::from(bite.off);
+        self.guarded += u64::from(limiter.guarded);
+        self.off += u64::from(limiter.off);
     }
 }
 
@@ -258,35 +258,35 @@ fn drive_code(
     gain: f64,
     scale: &Scale,
     calibration: Calibration,
-) -> ([u16; 2], Bite) {
-    let mut bite = Bite::default();
+) -> ([u16; 2], LimiterState) {
+    let mut limiter = LimiterState::default();
     let mut driven_um = [0.0; 2];
     for band in 0..2 {
         if !usable(amplitude_um[band]) {
-            bite.non_finite = true;
+            limiter.non_finite = true;
             continue;
         }
         let wanted_um = f64::from(amplitude_um[band]) * gain;
         if calibration.is_off {
-            bite.off |= wanted_um > 0.0;
+            limiter.off |= wanted_um > 0.0;
             continue;
         }
         let needed_um = wanted_um.min(scale.limit_um[band]) * calibration.drive_gain[band];
-        bite.limited[band] =
+        limiter.limited[band] =
             wanted_um > scale.limit_um[band] || needed_um > scale.drive_limit_um[band];
-        bite.by_device[band] =
-            bite.limited[band] && scale.device_is_lower(band, calibration.drive_gain[band]);
+        limiter.by_device[band] =
+            limiter.limited[band] && scale.device_is_lower(band, calibration.drive_gain[band]);
         driven_um[band] = needed_um.min(scale.drive_limit_um[band]);
     }
     let share = driven_um[0] / scale.full_scale_um[0] + driven_um[1] / scale.full_scale_um[1];
     if share > 1.0 {
-        bite.guarded = true;
+        limiter.guarded = true;
         driven_um = driven_um.map(|a_um| a_um / share);
     }
     let [code_40, code_320] =
         [0, 1].map(|band| round_half_up(65535.0 * driven_um[band] / scale.full_scale_um[band]));
     // Rounding both halves up can exceed full drive by one.
-    ([code_40, code_320.min(FULL_CODE - code_40)], bite)
+    ([code_40, code_320.min(FULL_CODE - code_40)], limiter)
 }
 
 impl Scale {

@@ -14,8 +14,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::Path;
 
+use super::SinkError;
 use super::codes::{ArrayProfile, Coder};
-use super::sink::SinkError;
 use selvedge_foundation::files::{Staged, TableWriter};
 
 /// Ticks a second.

@@ -10,7 +10,7 @@
 //! amplitudes ─ codes ─ host ─ message ─ framing ─ port     (µm → u16, then the session)
 //!                                                  ║       (serial, pty or in process)
 //! output ─ device ─ message ─ framing ─────────── port     (hold, ramp, STOP)
-//!      └── plant                                            (what contactors would do)
+//!      └── actuators                                            (what contactors would do)
 //! ```
 //!
 //! `HostSession` and `DeviceCore` are pure state machines that tests run against each other in
@@ -29,6 +29,7 @@
     expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
 )]
 
+mod actuator_model;
 mod array;
 mod codes;
 mod device;
@@ -42,17 +43,20 @@ mod hjif;
 mod host;
 mod link;
 pub mod message;
-mod plant;
 mod port;
 mod self_test;
 mod session_log;
-mod sink;
 mod wav;
 mod wav_parts;
 mod wire;
 
+pub use actuator_model::Amplifier;
+pub use actuator_model::{
+    ActuatorModel, ActuatorReading, ActuatorWatch, Bimorph, ContactorModel, ContactorReading,
+    MAX_QUALITY, SAMPLES_PER_S, Skin,
+};
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
-pub use codes::{Bite, CodeCounters, Coder, FULL_CODE, Limit};
+pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState};
 pub use device::AppliedFrame;
 pub use device::DeviceSink;
 pub use device::Load;
@@ -61,7 +65,7 @@ pub use device::SampledTick;
 pub use device::{CoreCounters, DeviceCore, DeviceModel, Lie, Moment, SampleCount, Sense};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
-pub use error::BridgeError;
+pub use error::{BridgeError, SinkError};
 pub use frames::FrameTable;
 pub use framing::{Decoder, Packet, Received};
 pub use handle::{Bridge, SampleStream, Target};
@@ -77,11 +81,6 @@ pub use message::{
     LARGEST_CHANNELS, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, fault_bit, frame, kind,
     samples,
 };
-pub use plant::Amplifier;
-pub use plant::{
-    Bimorph, ContactorModel, ContactorReading, MOST_QUALITY, Plant, PlantReading, PlantWatch,
-    SAMPLES_PER_S, Skin,
-};
 pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
 };
@@ -90,7 +89,6 @@ pub use self_test::SelfTestStep;
 pub use self_test::{SelfTestReport, self_test};
 pub use session_log::LogFeed;
 pub use session_log::{LogBound, SessionLog};
-pub use sink::SinkError;
 pub use wav::{SampleFormat, WavSpec};
 pub use wav_parts::WavParts;
 pub use wire::Injection;
@@ -98,6 +96,6 @@ pub use wire::Simulation;
 pub use wire::SimulationLog;
 pub use wire::WiredDevice;
 pub use wire::{
-    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, InjectionKind, LaneFaults,
-    Latency, OneOff, OneOffKind,
+    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, InjectionKind, Latency,
+    LinkFaults, OneOff, OneOffKind,
 };

@@ -144,7 +144,7 @@ pub(crate) struct WavWriter<W: Write + Seek> {
     out: W,
     spec: WavSpec,
     data_bytes: u64,
-    most_data_bytes: u64,
+    max_data_bytes: u64,
     buffer: Vec<u8>,
 }
 
@@ -165,28 +165,28 @@ impl<W: Write + Seek> WavWriter<W> {
         }
         out.write_all(&spec.header()).map_err(BridgeError::Wav)?;
         let around = HEADER_LEN - 8 + spec.info().len() as u64;
-        let most_data_bytes = u64::from(u32::MAX) - around;
+        let max_data_bytes = u64::from(u32::MAX) - around;
         Ok(Self {
             out,
             spec,
             data_bytes: 0,
-            most_data_bytes,
+            max_data_bytes,
             buffer: Vec::new(),
         })
     }
 
     /// The same for a file of at most so many bytes.
-    pub(crate) fn with_limit(out: W, spec: WavSpec, most_bytes: u32) -> Result<Self, BridgeError> {
+    pub(crate) fn with_limit(out: W, spec: WavSpec, max_bytes: u32) -> Result<Self, BridgeError> {
         let mut writer = Self::new(out, spec)?;
         let around = HEADER_LEN + spec.info().len() as u64;
-        let most = u64::from(most_bytes).saturating_sub(around);
-        writer.most_data_bytes = writer.most_data_bytes.min(most);
+        let most = u64::from(max_bytes).saturating_sub(around);
+        writer.max_data_bytes = writer.max_data_bytes.min(most);
         Ok(writer)
     }
 
     /// Frames that still fit.
     pub(crate) fn n_free_frames(&self) -> u64 {
-        (self.most_data_bytes - self.data_bytes) / u64::from(self.spec.frame_bytes())
+        (self.max_data_bytes - self.data_bytes) / u64::from(self.spec.frame_bytes())
     }
 
     /// Frames written.
@@ -207,7 +207,7 @@ impl<W: Write + Seek> WavWriter<W> {
             });
         }
         let bytes = interleaved.len() as u64 * u64::from(self.spec.format.bytes());
-        if self.data_bytes + bytes > self.most_data_bytes {
+        if self.data_bytes + bytes > self.max_data_bytes {
             return Err(BridgeError::WavFull);
         }
         self.buffer.clear();
@@ -351,7 +351,7 @@ mod tests {
     #[test]
     fn four_gib_are_refused_before_they_are_written() {
         let mut writer = WavWriter::new(Cursor::new(Vec::new()), SPEC).unwrap();
-        writer.data_bytes = writer.most_data_bytes - 96;
+        writer.data_bytes = writer.max_data_bytes - 96;
         writer.write(&[0.0; 24]).unwrap();
         let message = writer.write(&[0.0; 24]).unwrap_err().to_string();
         assert!(message.contains("4 GiB"), "{message}");

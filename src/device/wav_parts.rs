@@ -18,7 +18,7 @@ use selvedge_foundation::files::Staged;
 pub struct WavParts {
     path: PathBuf,
     spec: WavSpec,
-    most_bytes: u32,
+    max_bytes: u32,
     done: Vec<(Staged, BufWriter<File>)>,
     current: (Staged, WavWriter<BufWriter<File>>),
     n_frames: u64,
@@ -31,12 +31,12 @@ impl WavParts {
     }
 
     /// The same in parts of at most so many bytes, one frame at least.
-    pub fn with_limit(path: &Path, spec: WavSpec, most_bytes: u32) -> Result<Self, SinkError> {
-        let current = begin(path, WavSpec { part: None, ..spec }, most_bytes)?;
+    pub fn with_limit(path: &Path, spec: WavSpec, max_bytes: u32) -> Result<Self, SinkError> {
+        let current = begin(path, WavSpec { part: None, ..spec }, max_bytes)?;
         Ok(Self {
             path: path.to_owned(),
             spec,
-            most_bytes,
+            max_bytes,
             done: Vec::new(),
             current,
             n_frames: 0,
@@ -77,7 +77,7 @@ impl WavParts {
             part: Some((number, self.n_frames)),
             ..self.spec
         };
-        let next = begin(&numbered(&self.path, number), spec, self.most_bytes)?;
+        let next = begin(&numbered(&self.path, number), spec, self.max_bytes)?;
         let (staged, writer) = std::mem::replace(&mut self.current, next);
         self.done.push((staged, writer.finish()?));
         Ok(())
@@ -116,11 +116,11 @@ fn numbered(path: &Path, number: u32) -> PathBuf {
 fn begin(
     path: &Path,
     spec: WavSpec,
-    most_bytes: u32,
+    max_bytes: u32,
 ) -> Result<(Staged, WavWriter<BufWriter<File>>), SinkError> {
     let staged = Staged::new(path);
     let out = staged.create().map_err(SinkError::place(path))?;
-    Ok((staged, WavWriter::with_limit(out, spec, most_bytes)?))
+    Ok((staged, WavWriter::with_limit(out, spec, max_bytes)?))
 }
 
 #[cfg(test)]

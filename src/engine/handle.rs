@@ -26,7 +26,7 @@ use super::{
 };
 use array::DrivenArray;
 use device::DeviceHandle;
-use selvedge_device::{ArrayProfile, PlantWatch, SessionLog};
+use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog};
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -196,7 +196,7 @@ impl Engine {
             Command::Connect(target) => self.device.open(target, &self.driven, &self.switch),
             Command::Disconnect => {
                 self.switch.set_device(None);
-                self.device.plant = None;
+                self.device.actuators = None;
                 ReadyCommand::Disconnect
             }
             Command::Arm => ReadyCommand::Arm {
@@ -294,8 +294,8 @@ impl Engine {
     }
 
     /// A look at the contactors of the emulator that was connected last; `None` of other devices.
-    pub fn plant(&mut self) -> Option<&mut PlantWatch> {
-        self.device.plant.as_mut()
+    pub fn actuators(&mut self) -> Option<&mut ActuatorWatch> {
+        self.device.actuators.as_mut()
     }
 
     /// Writes what happens on every link that is opened from now on to a log.

@@ -244,7 +244,7 @@ impl PreparedScene {
     pub(super) fn fill(&self, views: &mut [DisplayView]) {
         let frames = self.renderer.frames().iter().zip(&self.outputs);
         for (view, (frame, output)) in views.iter_mut().zip(frames) {
-            let bites = output.coder.limited();
+            let limiters = output.coder.limited();
             for (index, contactor) in view.contactors.iter_mut().enumerate() {
                 contactor.position = frame.contactor_position(index);
                 contactor.textile = frame.textile(index).and_then(|n| u16::try_from(n).ok());
@@ -253,7 +253,7 @@ impl PreparedScene {
                     .get(index)
                     .copied()
                     .unwrap_or_default();
-                contactor.bite = bites.get(index).copied().unwrap_or_default();
+                contactor.limiter = limiters.get(index).copied().unwrap_or_default();
             }
         }
     }

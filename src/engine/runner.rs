@@ -63,7 +63,7 @@ impl NoticeRing {
         Self { notices, n_lost: 0 }
     }
 
-    fn tell(&mut self, notice: Notice) {
+    fn push(&mut self, notice: Notice) {
         self.n_lost += u64::from(self.notices.push(notice).is_err());
     }
 }
@@ -155,12 +155,12 @@ impl Runner {
     fn tick(&mut self, due: Instant) {
         let started = self.clock.now();
         let notices = &mut self.channels.notices;
-        self.core.tick(started, &mut |notice| notices.tell(notice));
+        self.core.tick(started, &mut |notice| notices.push(notice));
         // A stop that came while this tick was made must not be followed by its frame.
         self.heed_stop();
         let sent = self.send();
         let notices = &mut self.channels.notices;
-        let ended = self.core.record(sent, &mut |notice| notices.tell(notice));
+        let ended = self.core.record(sent, &mut |notice| notices.push(notice));
         self.retire(ended);
         self.channels.sampler.look(&self.core);
         if let Some(tap) = &mut self.channels.tap {
@@ -184,7 +184,7 @@ impl Runner {
     fn hear(&mut self) -> Option<(u32, [Instant; 2])> {
         let mut tick = None;
         let notices = &mut self.channels.notices;
-        while let Some(news) = self.link.hear(&mut |notice| notices.tell(notice)) {
+        while let Some(news) = self.link.hear(&mut |notice| notices.push(notice)) {
             match news {
                 News::Tick(number, times) => tick = Some((number, times)),
                 News::Limits(comp_limit) => self.core.set_link_limit(Some(comp_limit)),
@@ -248,7 +248,7 @@ impl Runner {
 
     fn obey_core(&mut self, command: CoreCommand) {
         let notices = &mut self.channels.notices;
-        let mut say = |notice| notices.tell(notice);
+        let mut say = |notice| notices.push(notice);
         for retired in self.core.obey(command, &mut say) {
             self.retire(retired);
         }
@@ -331,7 +331,7 @@ impl Runner {
     }
 
     fn say(&mut self, notice: Notice) {
-        self.channels.notices.tell(notice);
+        self.channels.notices.push(notice);
         self.waker.wake();
     }
 

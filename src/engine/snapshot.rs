@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::{DurationHistogram, InputRate, Playback, SampleCounters, SourceKind, VelocityMethod};
 use selvedge_device::{
-    Bite, BridgeCounters, BridgeState, Caps, ClockFit, SentFrame, Spread, Status, Timings,
+    BridgeCounters, BridgeState, Caps, ClockFit, LimiterState, SentFrame, Spread, Status, Timings,
 };
 use selvedge_foundation::geometry::Point;
 use selvedge_render::Counters;
@@ -110,7 +110,7 @@ pub struct ContactorView {
     /// Peak amplitudes [A40, A320] after gains, before output limits, µm.
     pub amplitude_um: [f32; 2],
     /// The output limits that this amplitude meets at full soft-start gain.
-    pub bite: Bite,
+    pub limiter: LimiterState,
 }
 
 /// The pointer in a snapshot.

@@ -18,6 +18,7 @@ pub mod geometry;
 pub mod numerics;
 pub mod progress;
 pub mod quantity;
+pub mod signals;
 
 /// The program and its version, as the files that it writes name it.
 pub const PROGRAM: &str = concat!("selvedge ", env!("CARGO_PKG_VERSION"));

@@ -2,7 +2,7 @@
 //!
 //! Differences are `20 log₁₀(b/a)` dB where both sound. Silence has no level: where only one of
 //! them sounds that is said, and no number is made up for it. Memory does not grow with the path
-//! beyond [`MOST_ENTRIES`] entries. Renders nothing.
+//! beyond [`MAX_ENTRIES`] entries. Renders nothing.
 
 use super::array::DisplayFrame;
 use selvedge_foundation::quantity::level_db;
@@ -12,7 +12,7 @@ use selvedge_textile::tactile::{Perception, vibrating_mean_um};
 /// of detection.
 pub(crate) const SILENT_UM: f64 = 1e-3;
 /// Entries of the difference over time. A path with more ticks (27 minutes) has several in each.
-const MOST_ENTRIES: u64 = 1 << 16;
+const MAX_ENTRIES: u64 = 1 << 16;
 
 /// Two amplitudes beside each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -181,7 +181,7 @@ impl DifferenceMeter {
         Self {
             found: LevelDifference {
                 n_ticks: 0,
-                ticks_per_entry: n_ticks.div_ceil(MOST_ENTRIES).max(1),
+                ticks_per_entry: n_ticks.div_ceil(MAX_ENTRIES).max(1),
                 by_contactor: Vec::new(),
                 over_time: Vec::new(),
                 in_all: [Tally::default(); 2],
@@ -347,7 +347,7 @@ mod tests {
 
     #[test]
     fn long_paths_stay_small_and_keep_their_extremes() {
-        let n_ticks = 3 * MOST_ENTRIES;
+        let n_ticks = 3 * MAX_ENTRIES;
         let mut meter = DifferenceMeter::new(n_ticks);
         for tick in 0..n_ticks {
             let b_um = if tick == 100_000 { 100.0 } else { 1.0 };
@@ -355,7 +355,7 @@ mod tests {
         }
         let found = meter.finish();
         assert_eq!((found.n_ticks, found.ticks_per_entry), (n_ticks, 3));
-        assert_eq!(found.over_time.len() as u64, MOST_ENTRIES);
+        assert_eq!(found.over_time.len() as u64, MAX_ENTRIES);
         let largest = found.in_all[0].largest.unwrap();
         assert_eq!((largest.tick, largest.contactor), (100_000, 0));
         assert!((largest.difference_db - 40.0).abs() < 1e-9);

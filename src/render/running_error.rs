@@ -35,7 +35,7 @@ struct BandRun {
 #[derive(Debug, Clone, Default)]
 struct Octave {
     levels_db: Histogram,
-    most_um: f64,
+    max_um: f64,
 }
 
 impl RunningError {
@@ -119,8 +119,8 @@ impl BandRun {
         // The octave that the limit lies in stays; all below it go.
         let kept = self.octaves.split_off(&octave_of(self.limit_um()));
         let gone = std::mem::replace(&mut self.octaves, kept);
-        let most_um = gone.values().map(|octave| octave.most_um);
-        self.below_um = most_um.fold(self.below_um, f64::max);
+        let max_um = gone.values().map(|octave| octave.max_um);
+        self.below_um = max_um.fold(self.below_um, f64::max);
     }
 
     fn add(&mut self, a: f64, a_ref: f64) {
@@ -129,7 +129,7 @@ impl BandRun {
         if self.counts(a_ref) {
             let octave = self.octaves.entry(octave_of(a_ref)).or_default();
             octave.levels_db.add(level_error_db(a, a_ref));
-            octave.most_um = octave.most_um.max(error_um);
+            octave.max_um = octave.max_um.max(error_um);
         } else {
             self.below_um = self.below_um.max(error_um);
         }

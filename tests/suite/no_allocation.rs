@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 
-use selvedge_device::{ContactorModel, Plant, Skin};
+use selvedge_device::{ActuatorModel, ContactorModel, Skin};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
@@ -152,7 +152,7 @@ fn contactors_that_lift_off_and_slew_allocate_nothing() {
         ..ContactorModel::default()
     };
     model.amplifier.slew_v_per_us = 0.05;
-    let mut plant = Plant::new(&model, 24).unwrap();
+    let mut plant = ActuatorModel::new(&model, 24).unwrap();
     let codes = [[40_000, 25_000]; 24];
     assert_no_alloc(|| {
         for _ in 0..4 {

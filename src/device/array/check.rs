@@ -83,22 +83,22 @@ fn scale_flaw(profile: &ArrayProfile) -> Option<Flaw> {
 }
 
 fn silencing_flaw(profile: &ArrayProfile) -> Option<Flaw> {
-    let most_ms = ArrayProfile::LONGEST_SILENCING_MS;
+    let max_ms = ArrayProfile::LONGEST_SILENCING_MS;
     let (hold_ms, ramp_ms) = (profile.hold_ms, profile.ramp_ms);
-    if hold_ms > most_ms {
+    if hold_ms > max_ms {
         let what = format!("hold_ms is {hold_ms}");
         return Some(Flaw::new(
             ("", 0, "hold_ms"),
             what,
-            format!("give 0 to {most_ms} ms"),
+            format!("give 0 to {max_ms} ms"),
         ));
     }
-    if ramp_ms > most_ms - hold_ms {
+    if ramp_ms > max_ms - hold_ms {
         let what = format!(
             "hold and ramp take {} ms",
             u32::from(hold_ms) + u32::from(ramp_ms)
         );
-        let mend = format!("the array must be silent within {most_ms} ms: shorten one");
+        let mend = format!("the array must be silent within {max_ms} ms: shorten one");
         return Some(Flaw::new(("", 0, "ramp_ms"), what, mend));
     }
     if profile.hv_dv > ArrayProfile::LARGEST_HV_DV {

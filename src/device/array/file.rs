@@ -11,7 +11,7 @@ use crate::BridgeError;
 use selvedge_foundation::files::{self, FileError, Flaw, Place};
 
 /// A file larger than this is no profile, bytes.
-const MOST_BYTES: usize = 1 << 20;
+const MAX_BYTES: usize = 1 << 20;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -64,7 +64,7 @@ impl ArrayProfile {
     /// # Errors
     /// A key or value is wrong.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, BridgeError> {
-        if text.len() > MOST_BYTES {
+        if text.len() > MAX_BYTES {
             let what = format!("{} bytes are too many for an array profile", text.len());
             return Err(FileError::whole(path, what, "name the file of a profile").into());
         }

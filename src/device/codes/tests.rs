@@ -147,8 +147,16 @@ fn wiring_sends_each_contactors_codes_to_its_channel() {
         coder.encode(&amplitudes_um, 1.0),
         [[13107, 26214], [65535, 0], [65535, 0]]
     );
-    let bites: Vec<bool> = coder.limited().iter().map(|bite| bite.any()).collect();
-    assert_eq!(bites, [false, false, true], "bites stay in contactor order");
+    let limiters: Vec<bool> = coder
+        .limited()
+        .iter()
+        .map(|limiter| limiter.any())
+        .collect();
+    assert_eq!(
+        limiters,
+        [false, false, true],
+        "bites stay in contactor order"
+    );
     for broken in [&[0, 1][..], &[0, 1, 1], &[0, 1, 3]] {
         let straight = Coder::new(&wired(broken, &[]), 3).encode(&amplitudes_um, 1.0);
         assert_eq!(
@@ -169,10 +177,10 @@ fn calibration_drives_weak_contactors_more_and_limits_hold_what_they_do() {
     // 10 µm at a gain of 1.25 need the drive of 12.5 µm; 40 µm are held at 30, driven as 15.
     let codes = coder.encode(&[[10.0, 40.0], [10.0, 10.0], [20.0, 0.0]], 1.0);
     assert_eq!(codes, [[16384, 19661], [0, 0], [65535, 0]]);
-    let bites = coder.limited();
-    assert_eq!(bites[0].limited, [false, true]);
-    assert!(bites[1].off && bites[1].any());
-    assert!(bites[2].guarded, "80 µm of drive share 50");
+    let limiters = coder.limited();
+    assert_eq!(limiters[0].limited, [false, true]);
+    assert!(limiters[1].off && limiters[1].any());
+    assert!(limiters[2].guarded, "80 µm of drive share 50");
     assert_eq!((coder.counters().off, coder.counters().guarded), (1, 1));
     assert_eq!(
         coder.comp_limit(),
@@ -196,7 +204,11 @@ fn the_devices_limit_holds_the_drive_and_the_profiles_the_contactor() {
     coder.set_link_limit([13107, 65535]);
     let codes = coder.encode(&[[10.0, 0.0], [10.0, 0.0], [10.0, 0.0]], 1.0);
     assert_eq!(codes, [[13107, 0], [13107, 0], [6554, 0]]);
-    let limited: Vec<bool> = coder.limited().iter().map(|bite| bite.limited[0]).collect();
+    let limited: Vec<bool> = coder
+        .limited()
+        .iter()
+        .map(|limiter| limiter.limited[0])
+        .collect();
     assert_eq!(limited, [true, false, false]);
     let mut next = Coder::new(&ArrayProfile::default(), 3);
     next.go_on_from(&coder);

@@ -91,7 +91,7 @@ impl DeviceCore {
             }
         }
         self.check_current(sink);
-        self.tell_samples(sink);
+        self.report_samples(sink);
         self.report_change(sink);
         if self
             .session

@@ -30,7 +30,7 @@ pub enum Lie {
 }
 
 impl Lie {
-    fn tell(self, caps: &mut Caps) {
+    fn apply_to(self, caps: &mut Caps) {
         match self {
             Self::Version(version) => caps.version = version,
             Self::Rows(rows) => caps.rows = rows,
@@ -49,7 +49,7 @@ impl Lie {
 /// CAPS as a device with these lies sends them.
 pub(super) fn caps_packet(mut caps: Caps, lies: &[Lie], seq: u16) -> Option<Packet> {
     for lie in lies {
-        lie.tell(&mut caps);
+        lie.apply_to(&mut caps);
     }
     let whole = caps.packet(seq)?;
     let cuts = lies.iter().filter_map(|lie| match lie {

@@ -50,7 +50,7 @@ impl DeviceCore {
     }
 
     /// At the start of a tick: tells what the one before brought.
-    pub(super) fn tell_samples(&mut self, sink: &mut impl DeviceSink) {
+    pub(super) fn report_samples(&mut self, sink: &mut impl DeviceSink) {
         let count = std::mem::take(&mut self.samples.count);
         if count != SampleCount::default() {
             let moment = self.moment();

@@ -28,11 +28,11 @@ impl DeviceCore {
     /// Trips where the amplifiers take more than the model's supply gives. Output is off at once,
     /// so that the cause is gone.
     pub(super) fn check_current(&mut self, sink: &mut impl DeviceSink) {
-        let Some(most_ma) = self.model.over_current_ma else {
+        let Some(max_ma) = self.model.over_current_ma else {
             return;
         };
         let ma = self.measured_ma();
-        if self.state.is_live() && ma > most_ma {
+        if self.state.is_live() && ma > max_ma {
             self.raise_fault(fault_bit::OVER_CURRENT, u16::MAX, i32::from(ma), sink);
             self.end_fault_cause(fault_bit::OVER_CURRENT);
         }

@@ -1,7 +1,7 @@
 //! Emulated devices in real time: the device's state machine with a clock and a link around it.
 //!
 //! They answer the same bytes as a real device, in process or behind a pseudo-terminal. What
-//! contactors would do is modelled in `plant`, while somebody looks.
+//! contactors would do is modelled in `actuators`, while somebody looks.
 
 mod log;
 #[cfg(unix)]
@@ -13,8 +13,8 @@ use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 use super::BridgeError;
+use super::actuator_model::ActuatorFeed;
 use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment, SampledTick};
-use super::plant::PlantFeed;
 use super::port::{PairPort, Port, pair};
 use super::wire::{Faults, Injection, WireSink, WiredDevice};
 pub(crate) use log::DeviceLog;
@@ -35,17 +35,17 @@ impl EmulatorThread {
     pub(crate) fn start(
         model: DeviceModel,
         faults: &Faults,
-        plant: Option<PlantFeed>,
+        actuators: Option<ActuatorFeed>,
     ) -> Result<PairPort, BridgeError> {
         let (host, mut device) = pair("emulator");
         let mut wired = WiredDevice::new(model, faults);
-        if let Some(feed) = &plant {
+        if let Some(feed) = &actuators {
             wired.set_load(feed.load());
         }
         Builder::new()
             .name(String::from("bridge-emulator"))
             .spawn(move || {
-                let mut emulation = Emulation::new(wired, None, plant);
+                let mut emulation = Emulation::new(wired, None, actuators);
                 // The end of the link is this thread's way to end.
                 drop(emulation.run(&mut device, &AtomicBool::new(false), || {}));
             })
@@ -65,16 +65,16 @@ enum Ended {
 struct Emulation {
     device: WiredDevice,
     log: Option<DeviceLog>,
-    plant: Option<PlantFeed>,
+    actuators: Option<ActuatorFeed>,
     start: Instant,
 }
 
 impl Emulation {
-    fn new(device: WiredDevice, log: Option<DeviceLog>, plant: Option<PlantFeed>) -> Self {
+    fn new(device: WiredDevice, log: Option<DeviceLog>, actuators: Option<ActuatorFeed>) -> Self {
         Self {
             device,
             log,
-            plant,
+            actuators,
             start: Instant::now(),
         }
     }
@@ -103,7 +103,7 @@ impl Emulation {
             let mut sink = LiveSink {
                 port: Some(&mut *port),
                 log: self.log.as_mut(),
-                plant: self.plant.as_mut(),
+                actuators: self.actuators.as_mut(),
                 gone: None,
             };
             self.device.advance(now_us, &mut sink);
@@ -130,7 +130,7 @@ impl Emulation {
             let mut sink = LiveSink {
                 port: None,
                 log: self.log.as_mut(),
-                plant: self.plant.as_mut(),
+                actuators: self.actuators.as_mut(),
                 gone: None,
             };
             self.device.advance(now_us, &mut sink);
@@ -156,7 +156,7 @@ struct LiveSink<'a> {
     /// None while the cable is out.
     port: Option<&'a mut dyn Port>,
     log: Option<&'a mut DeviceLog>,
-    plant: Option<&'a mut PlantFeed>,
+    actuators: Option<&'a mut ActuatorFeed>,
     gone: Option<io::Error>,
 }
 
@@ -189,8 +189,8 @@ impl DeviceSink for LiveSink<'_> {
     }
 
     fn stepped(&mut self, device: &DeviceCore) {
-        if let Some(plant) = &mut self.plant {
-            plant.stepped(device);
+        if let Some(actuators) = &mut self.actuators {
+            actuators.stepped(device);
         }
     }
 }

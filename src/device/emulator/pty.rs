@@ -15,8 +15,8 @@ use serialport::{SerialPort as _, TTYPort};
 
 use super::{DeviceLog, Emulation, Ended};
 use crate::BridgeError;
+use crate::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
 use crate::device::DeviceModel;
-use crate::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
 use crate::port::SerialLink;
 use crate::wire::{Faults, WiredDevice};
 
@@ -29,7 +29,7 @@ pub struct PtyEmulator {
     terminal: Terminal,
     name: PathBuf,
     log: Option<DeviceLog>,
-    plant: Option<PlantFeed>,
+    actuators: Option<ActuatorFeed>,
 }
 
 impl PtyEmulator {
@@ -56,15 +56,15 @@ impl PtyEmulator {
             terminal,
             name: link.to_path_buf(),
             log,
-            plant: None,
+            actuators: None,
         })
     }
 
     /// Gives the device contactors of this kind, and a way to look at them while it runs.
-    pub fn watch(&mut self, model: ContactorModel) -> PlantWatch {
-        let (feed, watch) = plant_watch(model, self.device.output().len());
+    pub fn watch(&mut self, model: ContactorModel) -> ActuatorWatch {
+        let (feed, watch) = actuator_watch(model, self.device.output().len());
         self.device.set_load(feed.load());
-        self.plant = Some(feed);
+        self.actuators = Some(feed);
         watch
     }
 
@@ -86,7 +86,7 @@ impl PtyEmulator {
         stop: &AtomicBool,
         mut moved: impl FnMut(&Path, &str),
     ) -> Result<(), BridgeError> {
-        let mut emulation = Emulation::new(self.device, self.log, self.plant);
+        let mut emulation = Emulation::new(self.device, self.log, self.actuators);
         let mut terminal = self.terminal;
         let mut n_names = 1;
         let ended = loop {

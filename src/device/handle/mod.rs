@@ -14,7 +14,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::BridgeError;
-use super::codes::{ArrayProfile, Bite};
+use super::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
+use super::codes::{ArrayProfile, LimiterState};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
 use super::host::{
@@ -22,7 +23,6 @@ use super::host::{
 };
 use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
-use super::plant::{ContactorModel, PlantFeed, PlantWatch, plant_watch};
 use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
@@ -60,10 +60,14 @@ impl Target {
     }
 
     /// Opens both ends. May block.
-    fn open(&self, profile: &ArrayProfile, plant: Option<PlantFeed>) -> Result<Ends, BridgeError> {
+    fn open(
+        &self,
+        profile: &ArrayProfile,
+        actuators: Option<ActuatorFeed>,
+    ) -> Result<Ends, BridgeError> {
         let emulate = |faults: &Faults| -> Result<Ends, BridgeError> {
             let model = DeviceModel::for_array(profile);
-            let port = EmulatorThread::start(model, faults, plant)?;
+            let port = EmulatorThread::start(model, faults, actuators)?;
             Ok((Box::new(port.clone()), Box::new(port)))
         };
         match self {
@@ -84,7 +88,7 @@ pub struct Bridge {
     is_emulator: bool,
     session: HostSession,
     link: Option<Link>,
-    plant: Option<PlantWatch>,
+    actuators: Option<ActuatorWatch>,
     sampling: Option<Sampling>,
     notes: Notes,
 }
@@ -104,9 +108,9 @@ impl Bridge {
         let name = target.name();
         let shape = profile.clone();
         let is_emulator = target.is_emulator();
-        let plant =
-            is_emulator.then(|| plant_watch(ContactorModel::default(), shape.n_contactors()));
-        let (feed, plant) = plant.unzip();
+        let actuators =
+            is_emulator.then(|| actuator_watch(ContactorModel::default(), shape.n_contactors()));
+        let (feed, actuators) = actuators.unzip();
         let opener = Box::new(move || target.open(&shape, feed));
         let waker: Waker = Arc::new(waker);
         let mut session = HostSession::new(nonce(), profile, n_contactors, sequence.clone());
@@ -122,7 +126,7 @@ impl Bridge {
             is_emulator,
             session,
             link,
-            plant,
+            actuators,
             sampling: None,
             notes: Notes::default(),
         }
@@ -269,7 +273,7 @@ impl Bridge {
     }
 
     /// What the last frame's amplitudes ran into, per contactor.
-    pub fn limited(&self) -> &[Bite] {
+    pub fn limited(&self) -> &[LimiterState] {
         self.session.limited()
     }
 
@@ -291,8 +295,8 @@ impl Bridge {
     }
 
     /// A look at the contactors of the emulator in this process; there is one.
-    pub fn take_plant(&mut self) -> Option<PlantWatch> {
-        self.plant.take()
+    pub fn take_actuators(&mut self) -> Option<ActuatorWatch> {
+        self.actuators.take()
     }
 
     /// How long frames took to reach the port.

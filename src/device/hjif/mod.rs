@@ -18,7 +18,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::sink::SinkError;
+use super::SinkError;
 use selvedge_foundation::files::{Staged, push_number};
 use selvedge_foundation::progress::Progress;
 use spool::Spool;
@@ -37,7 +37,7 @@ const BANDS: [Band; 2] = [
 /// From keyframe to keyframe, in ticks of the format's scale of 1 ms.
 const KEYFRAME_MS: u64 = 25;
 /// Channels that level 1 of the profile allows.
-const MOST_AT_LEVEL_1: usize = 128;
+const MAX_AT_LEVEL_1: usize = 128;
 /// Text that is gathered before it is written, bytes.
 const CHUNK: usize = 1 << 16;
 
@@ -167,7 +167,7 @@ impl Text<'_> {
     }
 
     fn open(&mut self, spec: &HjifSpec) {
-        let level = if spec.n_channels > MOST_AT_LEVEL_1 {
+        let level = if spec.n_channels > MAX_AT_LEVEL_1 {
             2
         } else {
             1

@@ -22,7 +22,7 @@ pub(super) struct Evidence {
     /// first.
     unconfirmed: [Option<(u32, Instant)>; UNCONFIRMED],
     /// Whether the device was seen to count the samples in its ring.
-    tells_ring: bool,
+    knows_ring: bool,
     source: Option<DelaySource>,
 }
 
@@ -57,9 +57,9 @@ impl Evidence {
         if queued == 0 {
             let due = self.confirmed(tick)?;
             let until_start = start.saturating_duration_since(due);
-            return self.tells_ring.then_some(until_start + MORE);
+            return self.knows_ring.then_some(until_start + MORE);
         }
-        self.tells_ring = true;
+        self.knows_ring = true;
         let newest = tick.wrapping_add(u32::from(queued) - 1);
         let due = self.confirmed(newest)?;
         let accepted = start.checked_sub(age_of(status)?).unwrap_or(start);
@@ -67,8 +67,8 @@ impl Evidence {
     }
 
     /// Whether the device was seen to count the samples in its ring.
-    pub(super) fn tells_ring(&self) -> bool {
-        self.tells_ring
+    pub(super) fn knows_ring(&self) -> bool {
+        self.knows_ring
     }
 
     /// A delay was learned from this source; whether from another one than before.

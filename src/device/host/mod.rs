@@ -27,7 +27,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
-use super::codes::{ArrayProfile, Bite};
+use super::codes::{ArrayProfile, LimiterState};
 use super::framing::Packet;
 use super::message::{Arm, Caps, Clear, Config, Message as _, Ping, Status, Stop, StopHow, kind};
 use super::session_log::{Entry, Note};
@@ -267,7 +267,7 @@ impl HostSession {
     }
 
     /// What the last frame's amplitudes ran into, per contactor.
-    pub fn limited(&self) -> &[Bite] {
+    pub fn limited(&self) -> &[LimiterState] {
         self.drive.coder.limited()
     }
 

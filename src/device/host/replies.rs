@@ -234,7 +234,7 @@ impl HostSession {
 
     /// A PING was answered; a ring that tells says more.
     fn learn_from_answer(&mut self, now: Instant, round_trip: Duration) {
-        if self.plays_samples() && self.state.takes_frames() && !self.evidence.tells_ring() {
+        if self.plays_samples() && self.state.takes_frames() && !self.evidence.knows_ring() {
             self.learn(now, round_trip, DelaySource::RoundTrips);
         }
     }

@@ -41,7 +41,7 @@ impl Reader {
     pub(super) fn run(mut self, opener: Opener, writer: Writer) {
         let (port, writing) = match opener() {
             Ok(ends) => ends,
-            Err(error) => return self.tell(Incoming::Gone(error.without_port())),
+            Err(error) => return self.send(Incoming::Gone(error.without_port())),
         };
         let running = Running::new(&self.shared);
         let spawned = Builder::new()
@@ -54,10 +54,10 @@ impl Reader {
             Ok(handle) => {
                 // Set once: this is the only place.
                 self.shared.writer.get_or_init(|| handle.thread().clone());
-                self.tell(Incoming::Opened);
+                self.send(Incoming::Opened);
                 self.read(port);
             }
-            Err(error) => self.tell(Incoming::Gone(format!("cannot start a thread: {error}"))),
+            Err(error) => self.send(Incoming::Gone(format!("cannot start a thread: {error}"))),
         }
     }
 
@@ -69,7 +69,7 @@ impl Reader {
                 Ok(count) => self.take(buffer.get(..count).unwrap_or(&[]), Instant::now()),
                 Err(error) => {
                     let reason = format!("the device is gone ({error}): check the cable");
-                    return self.tell(Incoming::Gone(reason));
+                    return self.send(Incoming::Gone(reason));
                 }
             }
         }
@@ -102,7 +102,7 @@ impl Reader {
         }
     }
 
-    fn tell(&mut self, incoming: Incoming) {
+    fn send(&mut self, incoming: Incoming) {
         if self.to_owner.push(incoming).is_err() {
             self.shared.events_dropped.fetch_add(1, Ordering::Relaxed);
         }

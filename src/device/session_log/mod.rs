@@ -24,7 +24,7 @@ use line::Epoch;
 pub(super) use note::{DelaySource, Entry, HostCounters, Note};
 
 /// Room for entries on their way: seconds of a link on which everything goes wrong.
-const MOST_ENTRIES: usize = 256;
+const MAX_ENTRIES: usize = 256;
 /// Between two looks at what is to be written.
 const NAP: Duration = Duration::from_millis(100);
 
@@ -86,7 +86,7 @@ impl SessionLog {
 
     /// An end for one link; `target` is what it is opened to. Allocates.
     pub fn feed(&self, target: &str) -> LogFeed {
-        let (entries, end) = RingBuffer::new(MOST_ENTRIES);
+        let (entries, end) = RingBuffer::new(MAX_ENTRIES);
         self.shared.feeds().push(end);
         if let Some(writer) = &self.writer {
             writer.thread().unpark();

@@ -88,7 +88,7 @@ fn two_links_write_to_one_log_and_a_full_ring_says_how_much_is_missing() {
     let before = log.shared.feeds();
     (0..400).for_each(|_| first.push(entry(Note::Arm)));
     drop(before);
-    while first.entries.slots() < MOST_ENTRIES {
+    while first.entries.slots() < MAX_ENTRIES {
         thread::sleep(Duration::from_millis(5));
     }
     first.push(entry(Note::Armed));

@@ -14,9 +14,9 @@ pub struct Faults {
     /// Where all random numbers begin.
     pub seed: u64,
     /// What happens to bytes on their way to the device.
-    pub to_device: LaneFaults,
+    pub to_device: LinkFaults,
     /// What happens to bytes on their way to the host.
-    pub to_host: LaneFaults,
+    pub to_host: LinkFaults,
     /// How much faster the device's clock runs than true time, parts per million.
     pub clock_ppm: i32,
     /// How far each tick may lie from its place, µs, either way; at most 10 000.
@@ -74,7 +74,7 @@ impl Faults {
 
 /// What one direction of a link does to bytes. The default: nothing, at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LaneFaults {
+pub struct LinkFaults {
     /// How long a write takes to arrive.
     pub latency: Latency,
     /// Share of writes that take [`hiccup_us`](Self::hiccup_us) longer, 0…1.

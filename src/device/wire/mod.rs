@@ -1,8 +1,8 @@
 //! An emulated device with a link that fails: seeded faults between its state machine and a port.
 //!
 //! ```text
-//! host ── bytes ──▶ lane (late, dropped, flipped, …) ──▶ DeviceCore, its own clock
-//!      ◀── bytes ── lane ◀───────────────────────────────┘  reboot, unplug, fault at told times
+//! host ── bytes ──▶ link (late, dropped, flipped, …) ──▶ DeviceCore, its own clock
+//!      ◀── bytes ── link ◀───────────────────────────────┘  reboot, unplug, fault at told times
 //! ```
 //!
 //! [`WiredDevice`] is as pure as the device inside: true time and bytes in, bytes out at times. The
@@ -12,14 +12,14 @@
 
 mod clock;
 mod faults;
-mod lane;
+mod faulty_channel;
 mod options;
 mod parse;
 mod simulation;
 mod wired;
 
 pub use faults::{
-    Direction, Faults, Injection, InjectionKind, LaneFaults, Latency, OneOff, OneOffKind,
+    Direction, Faults, Injection, InjectionKind, Latency, LinkFaults, OneOff, OneOffKind,
 };
 pub use options::{FaultGroup, FaultKind, FaultOption, FaultWords};
 pub use simulation::{Simulation, SimulationLog};

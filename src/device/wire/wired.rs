@@ -2,13 +2,13 @@
 
 use super::clock::DeviceClock;
 use super::faults::{Direction, Faults, Injection, InjectionKind, OneOff, OneOffKind};
-use super::lane::{BOOT_BANNER, Lane};
+use super::faulty_channel::{BOOT_BANNER, FaultyChannel};
+use crate::actuator_model::ContactorModel;
 use crate::device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, SampledTick,
     Sense,
 };
 use crate::message::{DeviceState, fault_bit};
-use crate::plant::ContactorModel;
 
 const HOT_CDEG: i16 = 8500;
 const OVER_CURRENT_MA: u16 = 900;
@@ -18,7 +18,7 @@ const SAGGING_PER_MILLE: u16 = 600;
 macro_rules! link_sink {
     ($wired:expr, $sink:expr) => {
         LinkSink {
-            lane: &mut $wired.to_host,
+            link: &mut $wired.to_host,
             now_us: $wired.now_us,
             sink: $sink,
             #[cfg(test)]
@@ -44,8 +44,8 @@ pub struct WiredDevice {
     /// True time of the last boot.
     boot_us: u64,
     now_us: u64,
-    to_device: Lane,
-    to_host: Lane,
+    to_device: FaultyChannel,
+    to_host: FaultyChannel,
     /// Begins and ends of what happens at told times, latest first.
     schedule: Vec<(u64, bool, OneOff)>,
     /// How many causes keep the cable out, and the device from running.
@@ -64,8 +64,8 @@ impl WiredDevice {
         model.lies.extend(&faults.lies);
         model.wiring.dead.extend(&faults.wiring.dead);
         model.wiring.swapped.extend(&faults.wiring.swapped);
-        if let Some(most_ma) = faults.over_current_ma {
-            model.over_current_ma = Some(most_ma);
+        if let Some(max_ma) = faults.over_current_ma {
+            model.over_current_ma = Some(max_ma);
             // What trips must be measured.
             let usual = || ContactorModel::default().load();
             model.load.get_or_insert_with(usual);
@@ -86,8 +86,8 @@ impl WiredDevice {
             clock: DeviceClock::new(faults.clock_ppm, faults.tick_jitter_us, faults.seed),
             boot_us: 0,
             now_us: 0,
-            to_device: Lane::new(faults.to_device, Direction::ToDevice, faults.seed),
-            to_host: Lane::new(faults.to_host, Direction::ToHost, faults.seed),
+            to_device: FaultyChannel::new(faults.to_device, Direction::ToDevice, faults.seed),
+            to_host: FaultyChannel::new(faults.to_host, Direction::ToHost, faults.seed),
             schedule,
             n_unplugged: 0,
             n_booting: 0,
@@ -124,8 +124,8 @@ impl WiredDevice {
     /// bytes can change anything.
     pub(crate) fn next_deadline_us(&self) -> Option<u64> {
         let scheduled = self.schedule.last().map(|&(at_us, ..)| at_us);
-        let lanes = earlier(self.to_device.next_due_us(), self.to_host.next_due_us());
-        earlier(earlier(scheduled, self.core_deadline_us()), lanes)
+        let links = earlier(self.to_device.next_due_us(), self.to_host.next_due_us());
+        earlier(earlier(scheduled, self.core_deadline_us()), links)
     }
 
     /// Whether the cable is in.
@@ -202,7 +202,7 @@ impl WiredDevice {
         }
         self.advance_core(sink);
         self.deliver(sink);
-        let taken = [&mut self.to_device, &mut self.to_host].map(Lane::take_injections);
+        let taken = [&mut self.to_device, &mut self.to_host].map(FaultyChannel::take_injections);
         for injection in taken.into_iter().flatten() {
             sink.injected(&self.core.moment(), &injection);
         }
@@ -356,7 +356,7 @@ fn earlier(a: Option<u64>, b: Option<u64>) -> Option<u64> {
 
 /// What the device emits: bytes into the link, the rest on to whoever listens.
 struct LinkSink<'a, S> {
-    lane: &'a mut Lane,
+    link: &'a mut FaultyChannel,
     now_us: u64,
     sink: &'a mut S,
     #[cfg(test)]
@@ -367,7 +367,7 @@ impl<S: DeviceSink> DeviceSink for LinkSink<'_, S> {
     fn packet(&mut self, bytes: &[u8]) {
         #[cfg(test)]
         self.tap.emitted(bytes);
-        self.lane.send(self.now_us, bytes);
+        self.link.send(self.now_us, bytes);
     }
 
     fn applied(&mut self, frame: &AppliedFrame<'_>) {

@@ -17,7 +17,7 @@ const FASTEST_HZ: u32 = 192_000;
 /// Formats that we write, best first.
 const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
 /// Samples that are made at once, for formats that are not ours.
-const MOST_AT_ONCE: usize = 4096;
+const MAX_AT_ONCE: usize = 4096;
 
 /// A sound card that plays until it is dropped.
 pub struct AudioOutput {
@@ -200,7 +200,7 @@ fn build<T: SizedSample + FromSample<f32>>(
     failures: SyncSender<String>,
 ) -> Result<Stream, cpal::Error> {
     let n_outputs = usize::from(config.channels);
-    let n_at_once = MOST_AT_ONCE.max(n_outputs) / n_outputs * n_outputs;
+    let n_at_once = MAX_AT_ONCE.max(n_outputs) / n_outputs * n_outputs;
     let mut block = vec![0.0; n_at_once];
     let play = move |out: &mut [T], _: &cpal::OutputCallbackInfo| {
         for part in out.chunks_mut(n_at_once) {

@@ -17,7 +17,7 @@ use selvedge_render::RenderError;
 use selvedge_render::array::DriveSynth;
 
 /// Frames on the way: what a card takes at once, and some.
-const MOST_FRAMES: usize = 8;
+const MAX_FRAMES: usize = 8;
 /// Frames that are kept waiting: a card that takes 2048 samples at once begins two ticks in them.
 const DEPTH: usize = 3;
 /// How long a frame is held, s.
@@ -74,7 +74,7 @@ pub(super) fn wave(
     maker: Thread,
 ) -> Result<(WaveFrames, Wave), RenderError> {
     let synth = DriveSynth::prepare(rate_hz, n_contactors, 1.0)?;
-    let (sender, ring) = RingBuffer::new(MOST_FRAMES * n_contactors);
+    let (sender, ring) = RingBuffer::new(MAX_FRAMES * n_contactors);
     let shared = Arc::new(Shared::default());
     let frames = WaveFrames {
         ring: sender,
@@ -107,7 +107,7 @@ fn longest_tick(synth: &DriveSynth) -> usize {
 impl WaveFrames {
     /// Whether another frame is wanted.
     pub(super) fn wants_frame(&self) -> bool {
-        let n_waiting = MOST_FRAMES - self.ring.slots() / self.codes.len();
+        let n_waiting = MAX_FRAMES - self.ring.slots() / self.codes.len();
         n_waiting < DEPTH
     }
 

@@ -3,13 +3,13 @@
 use super::array::DrivenArray;
 use crate::StopSwitch;
 use crate::ready::ReadyCommand;
-use selvedge_device::{Bridge, PlantWatch, SessionLog, Target};
+use selvedge_device::{ActuatorWatch, Bridge, SessionLog, Target};
 
 /// What the handle keeps of devices.
 #[derive(Debug, Default)]
 pub(super) struct DeviceHandle {
     /// A look at the contactors of the emulator that was connected last.
-    pub(super) plant: Option<PlantWatch>,
+    pub(super) actuators: Option<ActuatorWatch>,
     /// What links are written to.
     pub(super) session_log: Option<SessionLog>,
 }
@@ -25,7 +25,7 @@ impl DeviceHandle {
         let waker = switch.clone();
         let wake = move || waker.wake_engine();
         let mut bridge = Bridge::open(target, driven.profile.clone(), driven.n_felt, wake);
-        self.plant = bridge.take_plant();
+        self.actuators = bridge.take_actuators();
         if let Some(log) = &self.session_log {
             let feed = log.feed(bridge.target());
             bridge.log_to(feed);

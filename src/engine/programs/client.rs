@@ -11,7 +11,7 @@ use super::super::input::{FeedItem, Lines, Said};
 use super::Shared;
 
 /// Lines on their way to a program: two and a half seconds.
-const MOST_LINES: usize = 100;
+const MAX_LINES: usize = 100;
 /// How long one line may take; a program that stands still longer is let go.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// What a second program that says positions is told.
@@ -30,7 +30,7 @@ impl Client {
     pub(super) fn start(id: u64, stream: TcpStream, shared: &Arc<Shared>) -> io::Result<Self> {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(PATIENCE))?;
-        let (lines, queue) = sync_channel(MOST_LINES);
+        let (lines, queue) = sync_channel(MAX_LINES);
         let named = |what: &str| thread::Builder::new().name(format!("selvedge-{what}-{id}"));
         let writing = stream.try_clone()?;
         named("to").spawn(move || write(writing, &queue))?;
@@ -40,7 +40,7 @@ impl Client {
     }
 
     /// Hands a line over; false if the program is too slow or gone.
-    pub(super) fn tell(&self, line: &Arc<str>) -> bool {
+    pub(super) fn send(&self, line: &Arc<str>) -> bool {
         self.lines.try_send(Arc::clone(line)).is_ok()
     }
 }
@@ -78,7 +78,7 @@ fn hear(id: u64, stream: &TcpStream, shared: &Arc<Shared>) {
             Said::Item(_) if state.writer.is_some_and(|writer| writer != id) => {
                 if !std::mem::replace(&mut was_told, true) {
                     let me = state.clients.iter().find(|client| client.id == id);
-                    me.map(|client| client.tell(&Arc::from(TAKEN)));
+                    me.map(|client| client.send(&Arc::from(TAKEN)));
                 }
             }
             Said::Item(item) => {

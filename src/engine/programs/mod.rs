@@ -27,7 +27,7 @@ use client::Client;
 use selvedge_foundation::files::push_number;
 
 /// Programs that may be connected at once.
-const MOST_CLIENTS: usize = 16;
+const MAX_CLIENTS: usize = 16;
 /// How long the teller sleeps when nothing wakes it.
 const NAP: Duration = Duration::from_millis(100);
 /// How long a goodbye may take.
@@ -125,7 +125,7 @@ impl ProgramLink {
             .map_err(EngineError::Thread)?;
         let telling = Arc::clone(&shared);
         let teller = named("selvedge-tell")
-            .spawn(move || tell(&telling))
+            .spawn(move || send_ticks(&telling))
             .map_err(EngineError::Thread)?;
         Ok(Self {
             address,
@@ -198,20 +198,20 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
             return;
         }
         let Ok(stream) = stream else { continue };
-        if state.clients.len() >= MOST_CLIENTS {
+        if state.clients.len() >= MAX_CLIENTS {
             continue;
         }
         let id = state.next_id;
         state.next_id += 1;
         if let Ok(client) = Client::start(id, stream, shared) {
-            client.tell(&Arc::from(state.header.as_str()));
+            client.send(&Arc::from(state.header.as_str()));
             state.clients.push(client);
         }
     }
 }
 
 /// Tells every program every tick until the link is over.
-fn tell(shared: &Arc<Shared>) {
+fn send_ticks(shared: &Arc<Shared>) {
     let mut felt = FeltTick::default();
     let mut text = String::new();
     loop {
@@ -221,9 +221,9 @@ fn tell(shared: &Arc<Shared>) {
         }
         let is_there = state.tap.as_mut().is_some_and(|tap| tap.next(&mut felt));
         if is_there {
-            state.tell_header(felt.amplitudes_um.len() / 2);
+            state.send_header(felt.amplitudes_um.len() / 2);
             write_line(&felt, &mut text);
-            state.tell(&Arc::from(text.as_str()));
+            state.send(&Arc::from(text.as_str()));
             continue;
         }
         state.forget_abandoned();
@@ -234,19 +234,19 @@ fn tell(shared: &Arc<Shared>) {
 
 impl State {
     /// Tells everybody of another array.
-    fn tell_header(&mut self, n_contactors: usize) {
+    fn send_header(&mut self, n_contactors: usize) {
         if n_contactors != self.n_contactors {
             self.n_contactors = n_contactors;
             self.header = header(n_contactors);
             let line = Arc::from(self.header.as_str());
-            self.tell(&line);
+            self.send(&line);
         }
     }
 
     /// Tells everybody; whoever has not read the last hundred lines is let go.
-    fn tell(&mut self, line: &Arc<str>) {
+    fn send(&mut self, line: &Arc<str>) {
         let before = self.clients.len();
-        self.clients.retain(|client| client.tell(line));
+        self.clients.retain(|client| client.send(line));
         self.let_go += (before - self.clients.len()) as u64;
     }
 

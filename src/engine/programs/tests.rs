@@ -47,7 +47,7 @@ fn places(input: &mut dyn PointerInput, n: usize) -> Vec<f64> {
     x_mm
 }
 
-fn tell(link: &ProgramLink, tick: f64) {
+fn send_ticks(link: &ProgramLink, tick: f64) {
     let mut text = String::new();
     let felt = FeltTick {
         tick,
@@ -55,7 +55,7 @@ fn tell(link: &ProgramLink, tick: f64) {
         amplitudes_um: vec![0.25, 3.0],
     };
     write_line(&felt, &mut text);
-    link.shared.state().tell(&Arc::from(text.as_str()));
+    link.shared.state().send(&Arc::from(text.as_str()));
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn every_reader_hears_the_header_and_every_tick() {
     let readers: Vec<TcpStream> = (0..3).map(|_| connect(&link)).collect();
     eventually("three", || link.counts().connected == 3);
     for tick in 40..43 {
-        tell(&link, f64::from(tick));
+        send_ticks(&link, f64::from(tick));
     }
     for reader in readers {
         let lines: Vec<String> = BufReader::new(reader)
@@ -155,7 +155,7 @@ fn a_reader_that_does_not_read_is_let_go_and_nobody_waits() {
     let mut tick = 0.0;
     while link.counts().connected == 1 {
         tick += 1.0;
-        tell(&link, tick);
+        send_ticks(&link, tick);
         assert!(
             begun.elapsed() < Duration::from_secs(20),
             "after {tick} lines"

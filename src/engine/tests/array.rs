@@ -33,7 +33,10 @@ fn faint() -> ArrayProfile {
 
 fn n_limited(engine: &mut Engine) -> usize {
     let contactors = &engine.snapshot().displays[0].contactors;
-    contactors.iter().filter(|one| one.bite.limited[0]).count()
+    contactors
+        .iter()
+        .filter(|one| one.limiter.limited[0])
+        .count()
 }
 
 #[test]

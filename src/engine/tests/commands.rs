@@ -142,7 +142,9 @@ fn limits_that_bite_are_shown_by_contactor() {
     explore(&mut engine, start, 10);
     let contactors = &engine.snapshot().displays[0].contactors;
     assert!(
-        contactors.iter().all(|contactor| contactor.bite.limited[0]),
+        contactors
+            .iter()
+            .all(|contactor| contactor.limiter.limited[0]),
         "{contactors:?}"
     );
 }

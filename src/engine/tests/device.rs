@@ -221,7 +221,7 @@ fn a_new_scene_keeps_to_the_limits_of_the_device_at_hand() {
     };
     let n_limited = |engine: &mut Engine| {
         let contactors = &engine.snapshot().displays[0].contactors;
-        contactors.iter().filter(|c| c.bite.limited[0]).count()
+        contactors.iter().filter(|c| c.limiter.limited[0]).count()
     };
     // Judged once the device is gone: its thread would outlive a failure in here.
     let (counts, _) = with_device("limits", model, |link, _| {

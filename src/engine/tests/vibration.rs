@@ -59,7 +59,10 @@ fn limits_show_and_masked_contactors_stay_silent() {
     let snapshot = engine.snapshot();
     let contactors = &snapshot.displays[0].contactors;
     assert_eq!(contactors[1].amplitude_um, [0.0; 2]);
-    assert_ne!(contactors[0].bite, selvedge_device::Bite::default());
+    assert_ne!(
+        contactors[0].limiter,
+        selvedge_device::LimiterState::default()
+    );
 }
 
 #[test]

@@ -46,14 +46,14 @@ impl<'a> Archive<'a> {
         names.map(std::borrow::Cow::into_owned).find(is_it)
     }
 
-    /// The bytes of a member, inflated to `most_bytes` at most.
+    /// The bytes of a member, inflated to `max_bytes` at most.
     ///
     /// # Errors
     /// No such member, a damaged one, or one that is larger.
-    pub fn member(&mut self, name: &str, most_bytes: usize) -> Result<Vec<u8>, FileError> {
+    pub fn member(&mut self, name: &str, max_bytes: usize) -> Result<Vec<u8>, FileError> {
         let member = self.zip.by_name(name);
         let member = member.map_err(|error| wrong(&self.path, &error))?;
-        let limit = u64::try_from(most_bytes).unwrap_or(u64::MAX);
+        let limit = u64::try_from(max_bytes).unwrap_or(u64::MAX);
         let mut bytes = Vec::new();
         let read = member
             .take(limit.saturating_add(1))
@@ -62,8 +62,8 @@ impl<'a> Archive<'a> {
                 let what = format!("{name} is damaged: {error}");
                 FileError::whole(&self.path, what, "get an intact copy")
             })?;
-        if read > most_bytes {
-            let what = format!("{name} inflates to more than {most_bytes} bytes");
+        if read > max_bytes {
+            let what = format!("{name} inflates to more than {max_bytes} bytes");
             let mend = "its header promises less; get an intact copy";
             return Err(FileError::whole(&self.path, what, mend));
         }

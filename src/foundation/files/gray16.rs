@@ -36,9 +36,9 @@ impl GrayImage {
 
 const GREY_MEND: &str = "save it as a grey picture of 8 or 16 bits";
 /// Deflate packs at most about 1032 bytes into one.
-const MOST_PACKED: usize = 1100;
+const MAX_PACKED: usize = 1100;
 /// What a decoder may hold of even the smallest picture, bytes.
-const LEAST_BUFFER: usize = 1 << 16;
+const MIN_BUFFER: usize = 1 << 16;
 
 /// Refuses a size beyond `most` pixels, or one that `n_bytes` of a file cannot hold.
 fn check_size(
@@ -57,7 +57,7 @@ fn check_size(
             "cut out or scale down what you need",
         ));
     }
-    if n > n_bytes.saturating_mul(MOST_PACKED) {
+    if n > n_bytes.saturating_mul(MAX_PACKED) {
         let what = format!("{width} × {height} pixels cannot be in {n_bytes} bytes");
         return Err(FileError::whole(path, what, "get an intact copy"));
     }
@@ -156,7 +156,7 @@ pub fn decode_gray_tiff(bytes: &[u8], path: &Path, most: usize) -> Result<GrayIm
         FileError::whole(path, one_line(&error), mend)
     };
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = most.saturating_mul(2).max(LEAST_BUFFER);
+    limits.decoding_buffer_size = most.saturating_mul(2).max(MIN_BUFFER);
     limits.intermediate_buffer_size = limits.decoding_buffer_size;
     let decoder = TiffDecoder::new(Cursor::new(bytes)).map_err(damaged)?;
     let mut decoder = decoder.with_limits(limits);

@@ -28,7 +28,7 @@ const MEND: &str = "give an intact PNG, JPEG, TIFF or BMP picture";
 /// What a decoder may hold beside the pixels, bytes.
 const ROOM: u64 = 1 << 26;
 /// Bytes of a pixel in the largest format that is decoded (four floats).
-const MOST_BYTES: u64 = 16;
+const MAX_BYTES: u64 = 16;
 
 /// Decodes a picture of at most 64 million pixels. `path` only names it in errors.
 ///
@@ -50,7 +50,7 @@ pub fn decode_picture(bytes: &[u8], path: &Path) -> Result<Rgb16Image, FileError
     };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::default();
-    limits.max_alloc = Some(MAX_PIXELS * MOST_BYTES + ROOM);
+    limits.max_alloc = Some(MAX_PIXELS * MAX_BYTES + ROOM);
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(wrong)?;
     let (width, height) = decoder.dimensions();

@@ -9,7 +9,7 @@ use quick_xml::events::Event;
 use super::{FileError, line_at};
 
 /// Deepest nesting that is read.
-const MOST_DEEP: usize = 64;
+const MAX_DEEP: usize = 64;
 
 /// Calls `visit` with the path (`Record1/Axes/CX`, without name-space prefixes) and the text of
 /// every element as it ends; texts are trimmed. `path` only names the document in errors.
@@ -34,8 +34,8 @@ pub fn visit_elements(
         let event = reader.read_event();
         match event.map_err(|error| wrong(error.to_string().replace('\n', " ")))? {
             Event::Start(tag) => {
-                if lengths.len() == MOST_DEEP {
-                    return Err(wrong(format!("more than {MOST_DEEP} elements deep")));
+                if lengths.len() == MAX_DEEP {
+                    return Err(wrong(format!("more than {MAX_DEEP} elements deep")));
                 }
                 lengths.push(names.len());
                 enter(&mut names, tag.local_name().as_ref());

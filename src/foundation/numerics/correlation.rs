@@ -11,7 +11,7 @@ use super::{Complex, Grid, RealTransform, in_pieces};
 /// Columns that one piece of work takes out of the spectra of rows: as many as cache lines feed.
 const N_TOGETHER: usize = 8;
 /// A variance below this share of the whole is that of one colour, up to rounding.
-const LEAST_VARIANCE: f64 = 1e-10;
+const MIN_VARIANCE: f64 = 1e-10;
 
 /// Correlation coefficients of a picture with itself, shifted.
 ///
@@ -29,7 +29,7 @@ pub fn overlap_autocorrelation(picture: &Grid<f64>, n_threads: usize) -> Grid<f6
     let products = Products::of(&centred, n_threads);
     let sums = SummedArea::of(&centred, |x| x);
     let squares = SummedArea::of(&centred, |x| x * x);
-    let least = LEAST_VARIANCE * squares.total().max(f64::MIN_POSITIVE) / (width * height) as f64;
+    let least = MIN_VARIANCE * squares.total().max(f64::MIN_POSITIVE) / (width * height) as f64;
     let n_columns = 2 * reach_x + 1;
     let mut rho = Grid::filled(n_columns, reach_y + 1, 0.0);
     let prepare = || products.scratch();
@@ -209,7 +209,7 @@ impl ColumnScratch {
         for (values, out) in [(&self.re, &mut self.a), (&self.im, &mut self.b)] {
             self.input[..self.height].copy_from_slice(&values[part.clone()]);
             self.input[self.height..].fill(0.0);
-            across.forward_into(&mut self.input, out, &mut self.room);
+            across.forward_into(&self.input, out, &mut self.room);
         }
         let scale = 1.0 / n as f64;
         for (l, (a, b)) in self.a.iter().zip(&self.b).enumerate() {
@@ -219,7 +219,7 @@ impl ColumnScratch {
             self.input[l] = here * scale;
             self.input[(n - l) % n] = if l == 0 { here * scale } else { there * scale };
         }
-        across.forward_into(&mut self.input, &mut self.a, &mut self.room);
+        across.forward_into(&self.input, &mut self.a, &mut self.room);
         for x in &mut self.a {
             *x = x.conj();
         }

@@ -6,91 +6,123 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use realfft::num_complex::Complex as AnyComplex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex as AnyComplex;
+use rustfft::{Fft, FftPlanner};
 
 /// A complex number in double precision.
 pub type Complex = AnyComplex<f64>;
 
 /// The DFT of a fixed number of real samples, both ways. Plans are made once and can be cloned.
+///
+/// An even number of samples is transformed as half as many complex ones, `x_{2i} + i x_{2i+1}`,
+/// whose spectrum is then taken apart: half the work of a complex transform.
 #[derive(Clone)]
 pub struct RealTransform {
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    n: usize,
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+    /// `e^{−2πi·k/n}` for the pairs of bins that are taken apart; none of an odd number.
+    twiddles: Vec<Complex>,
 }
 
 impl RealTransform {
     /// The transform of `n` real samples.
     pub fn new(n: usize) -> Self {
-        let mut planner = RealFftPlanner::new();
+        let n_complex = if n.is_multiple_of(2) { n / 2 } else { n };
+        let mut planner = FftPlanner::new();
+        let n_twiddles = if n.is_multiple_of(2) {
+            n.div_ceil(4)
+        } else {
+            0
+        };
+        let step = -TAU / n as f64;
+        let twiddle = |k: usize| {
+            let angle = step * k as f64;
+            Complex::new(angle.cos(), angle.sin())
+        };
         Self {
-            forward: planner.plan_fft_forward(n),
-            inverse: planner.plan_fft_inverse(n),
+            n,
+            forward: planner.plan_fft_forward(n_complex),
+            inverse: planner.plan_fft_inverse(n_complex),
+            twiddles: (1..n_twiddles).map(twiddle).collect(),
         }
     }
 
     /// Number of samples.
     pub fn len(&self) -> usize {
-        self.forward.len()
+        self.n
     }
 
     /// Whether it transforms no samples at all.
     pub fn is_empty(&self) -> bool {
-        self.len() == 0
+        self.n == 0
     }
 
     /// `X_k`, k = 0 … ⌊n/2⌋, of the first `n` samples (missing ones count as 0).
     pub fn forward(&self, samples: &[f64]) -> Vec<Complex> {
-        let mut input = self.forward.make_input_vec();
-        let given = samples.len().min(input.len());
-        input[..given].copy_from_slice(&samples[..given]);
-        let mut output = self.forward.make_output_vec();
-        let done = self.forward.process(&mut input, &mut output);
-        debug_assert!(done.is_ok(), "buffers come from the plan");
-        output
+        let given = &samples[..samples.len().min(self.n)];
+        let mut spectrum = vec![Complex::default(); self.n / 2 + 1];
+        self.forward_into(given, &mut spectrum, &mut self.room());
+        spectrum
     }
 
     /// The samples whose forward transform is `spectrum` (with the factor 1/n).
     pub fn inverse(&self, spectrum: &[Complex]) -> Vec<f64> {
-        let mut input = self.inverse.make_input_vec();
+        let mut input = vec![Complex::default(); self.n / 2 + 1];
         let given = spectrum.len().min(input.len());
         input[..given].copy_from_slice(&spectrum[..given]);
-        input[0].im = 0.0;
-        if self.len().is_multiple_of(2)
-            && let Some(last) = input.last_mut()
-        {
-            last.im = 0.0;
-        }
-        let mut output = self.inverse.make_output_vec();
-        let done = self.inverse.process(&mut input, &mut output);
-        debug_assert!(done.is_ok(), "buffers come from the plan");
-        let scale = 1.0 / self.len() as f64;
-        for x in &mut output {
-            *x *= scale;
-        }
-        output
+        let mut samples = vec![0.0; self.n];
+        self.inverse_into(&mut input, &mut samples, &mut self.room());
+        samples
     }
 
     /// Room to work in for [`Self::forward_into`] and [`Self::inverse_into`], to be used again.
     pub fn room(&self) -> Vec<Complex> {
-        let n = self
-            .forward
-            .get_scratch_len()
-            .max(self.inverse.get_scratch_len());
-        vec![Complex::default(); n]
+        let scratch = |fft: &Arc<dyn Fft<f64>>| {
+            if self.is_halved() {
+                fft.get_outofplace_scratch_len()
+            } else {
+                fft.get_inplace_scratch_len()
+            }
+        };
+        let n = scratch(&self.forward).max(scratch(&self.inverse));
+        vec![Complex::default(); self.forward.len() + n]
     }
 
-    /// [`Self::forward`] without holding anything new. `samples` (as many as the transform has) are
-    /// destroyed; `spectrum` holds ⌊n/2⌋ + 1 bins.
+    /// [`Self::forward`] without holding anything new. There are at most as many `samples` as the
+    /// transform has; `spectrum` holds ⌊n/2⌋ + 1 bins.
     pub(crate) fn forward_into(
         &self,
-        samples: &mut [f64],
+        samples: &[f64],
         spectrum: &mut [Complex],
         room: &mut [Complex],
     ) {
-        let room = &mut room[..self.forward.get_scratch_len()];
-        let done = self.forward.process_with_scratch(samples, spectrum, room);
-        debug_assert!(done.is_ok(), "the caller's buffers have the plan's lengths");
+        let (buffer, room) = room.split_at_mut(self.forward.len());
+        if samples.len() < self.n {
+            buffer.fill(Complex::default());
+        }
+        if !self.is_halved() {
+            for (z, &x) in buffer.iter_mut().zip(samples) {
+                *z = Complex::new(x, 0.0);
+            }
+            let room = &mut room[..self.forward.get_inplace_scratch_len()];
+            self.forward.process_with_scratch(buffer, room);
+            spectrum.copy_from_slice(&buffer[..spectrum.len()]);
+        } else if self.n > 0 {
+            let (pairs, rest) = samples.as_chunks();
+            for (z, &[re, im]) in buffer.iter_mut().zip(pairs) {
+                *z = Complex::new(re, im);
+            }
+            if let [last] = rest {
+                buffer[pairs.len()] = Complex::new(*last, 0.0);
+            }
+            let room = &mut room[..self.forward.get_outofplace_scratch_len()];
+            let half = &mut spectrum[..self.n / 2];
+            self.forward
+                .process_outofplace_with_scratch(buffer, half, room);
+            self.take_apart(spectrum);
+        }
+        spectrum[0].im = 0.0;
     }
 
     /// [`Self::inverse`] without holding anything new. `spectrum` is destroyed.
@@ -101,19 +133,86 @@ impl RealTransform {
         room: &mut [Complex],
     ) {
         spectrum[0].im = 0.0;
-        if self.len().is_multiple_of(2)
-            && let Some(last) = spectrum.last_mut()
-        {
-            last.im = 0.0;
+        let (buffer, room) = room.split_at_mut(self.inverse.len());
+        if !self.is_halved() {
+            buffer[..spectrum.len()].copy_from_slice(spectrum);
+            let mirrored = buffer.iter_mut().rev().take(self.n / 2);
+            for (z, bin) in mirrored.zip(&spectrum[1..]) {
+                *z = bin.conj();
+            }
+            let room = &mut room[..self.inverse.get_inplace_scratch_len()];
+            self.inverse.process_with_scratch(buffer, room);
+            for (x, z) in samples.iter_mut().zip(buffer.iter()) {
+                *x = z.re;
+            }
+        } else if self.n > 0 {
+            spectrum[self.n / 2].im = 0.0;
+            self.put_together(spectrum);
+            let room = &mut room[..self.inverse.get_outofplace_scratch_len()];
+            let half = &mut spectrum[..self.n / 2];
+            self.inverse
+                .process_outofplace_with_scratch(half, buffer, room);
+            for (pair, z) in samples.as_chunks_mut().0.iter_mut().zip(buffer.iter()) {
+                *pair = [z.re, z.im];
+            }
         }
-        let room = &mut room[..self.inverse.get_scratch_len()];
-        let done = self.inverse.process_with_scratch(spectrum, samples, room);
-        debug_assert!(done.is_ok(), "the caller's buffers have the plan's lengths");
-        let scale = 1.0 / self.len() as f64;
+        let scale = 1.0 / self.n as f64;
         for x in samples {
             *x *= scale;
         }
     }
+
+    fn is_halved(&self) -> bool {
+        self.n.is_multiple_of(2)
+    }
+
+    /// From the spectrum of the complex samples to that of the real ones.
+    fn take_apart(&self, spectrum: &mut [Complex]) {
+        let n_bins = spectrum.len();
+        let first = spectrum[0];
+        spectrum[0] = Complex::new(first.re + first.im, 0.0);
+        spectrum[n_bins - 1] = Complex::new(first.re - first.im, 0.0);
+        let (left, right) = spectrum.split_at_mut(n_bins / 2);
+        let pairs = left[1..].iter_mut().zip(right.iter_mut().rev().skip(1));
+        for (twiddle, (low, high)) in self.twiddles.iter().zip(pairs) {
+            let (sum, difference) = (*low + *high, *low - *high);
+            let turned = turned(sum, difference, *twiddle * 0.5);
+            let [re, im] = [0.5 * sum.re, 0.5 * difference.im];
+            *low = Complex::new(re + turned.re, im + turned.im);
+            *high = Complex::new(re - turned.re, turned.im - im);
+        }
+        if !n_bins.is_multiple_of(2) {
+            spectrum[n_bins / 2].im = -spectrum[n_bins / 2].im;
+        }
+    }
+
+    /// The way back.
+    fn put_together(&self, spectrum: &mut [Complex]) {
+        let n_bins = spectrum.len();
+        let (first, last) = (spectrum[0], spectrum[n_bins - 1]);
+        let (sum, difference) = (first + last, first - last);
+        spectrum[0] = Complex::new(sum.re - sum.im, difference.re - difference.im);
+        let (left, right) = spectrum.split_at_mut(n_bins / 2);
+        let pairs = left[1..].iter_mut().zip(right.iter_mut().rev().skip(1));
+        for (twiddle, (low, high)) in self.twiddles.iter().zip(pairs) {
+            let (sum, difference) = (*low + *high, *low - *high);
+            let turned = turned(sum, difference, twiddle.conj());
+            *low = Complex::new(sum.re - turned.re, difference.im - turned.im);
+            *high = Complex::new(sum.re + turned.re, -turned.im - difference.im);
+        }
+        if !n_bins.is_multiple_of(2) {
+            let middle = spectrum[n_bins / 2];
+            spectrum[n_bins / 2] = (middle + middle).conj();
+        }
+    }
+}
+
+/// The part of a pair of bins that the twiddle factor turns: both bins share its products.
+fn turned(sum: Complex, difference: Complex, twiddle: Complex) -> Complex {
+    Complex::new(
+        sum.im * twiddle.re + difference.re * twiddle.im,
+        sum.im * twiddle.im - difference.re * twiddle.re,
+    )
 }
 
 impl std::fmt::Debug for RealTransform {

@@ -10,7 +10,7 @@ pub struct Lowest<const N: usize> {
 }
 
 /// Evaluations before a search is given up.
-const MOST_EVALUATIONS: usize = 2000;
+const MAX_EVALUATIONS: usize = 2000;
 
 /// Walks downhill from `start` with a simplex whose edges are `steps`, until its values agree to
 /// about 1e-12; infinite values are walls.
@@ -32,7 +32,7 @@ pub fn lowest<const N: usize>(
         place[axis] += step;
         corners.push(at(place));
     }
-    for _ in 0..MOST_EVALUATIONS {
+    for _ in 0..MAX_EVALUATIONS {
         corners.sort_by(|a, b| a.value.total_cmp(&b.value));
         if is_small(&corners, &steps) {
             break;

@@ -67,9 +67,9 @@ pub struct PointSpread {
     /// Root mean square over all pairs of a warp point and a weft point.
     pub rms_um: [f64; 2],
     /// The smallest of all pairs.
-    pub least_um: [f64; 2],
+    pub min_um: [f64; 2],
     /// The largest of all pairs.
-    pub most_um: [f64; 2],
+    pub max_um: [f64; 2],
 }
 
 impl PointSpread {
@@ -80,8 +80,8 @@ impl PointSpread {
         Self {
             at_place_um: self.at_place_um.map(scaled),
             rms_um: scaled(self.rms_um),
-            least_um: scaled(self.least_um),
-            most_um: scaled(self.most_um),
+            min_um: scaled(self.min_um),
+            max_um: scaled(self.max_um),
         }
     }
 }
@@ -292,12 +292,12 @@ impl TextileResponse {
             let (warp, weft) = (pick(warp), pick(weft));
             [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
         };
-        let [least_um, most_um] = self.ends_um([warp, weft]);
+        let [min_um, max_um] = self.ends_um([warp, weft]);
         PointSpread {
             at_place_um: has_place.then(|| together(|powers| powers.at_place)),
             rms_um: together(|powers| powers.mean),
-            least_um,
-            most_um,
+            min_um,
+            max_um,
         }
     }
 

@@ -5,7 +5,7 @@
 use super::cases::{CARRIERS_HZ, SAMPLE_S, held_response, propagator};
 use crate::{Bench, Findings, Row};
 use selvedge_chart::{Axis, Ink, Plot, Series, Style};
-use selvedge_device::{ContactorModel, MOST_QUALITY, Plant, Skin};
+use selvedge_device::{ActuatorModel, ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 
 /// Contactors that run.
@@ -22,7 +22,7 @@ const TICKS_PER_S: f64 = 40.0;
 /// Rows of the displacement after the resonance has rung down.
 pub(super) fn find(bench: &mut Bench<'_>, findings: &mut Findings) {
     let loads = [Skin::FREE, Skin::LIGHT, Skin::FIRM, Skin::bonded(1e5, 0.0)];
-    let qualities = bench.effort.pick(&[40.0][..], &[40.0, MOST_QUALITY][..]);
+    let qualities = bench.effort.pick(&[40.0][..], &[40.0, MAX_QUALITY][..]);
     for quality in qualities {
         for skin in loads {
             let model = ContactorModel {
@@ -36,7 +36,7 @@ pub(super) fn find(bench: &mut Bench<'_>, findings: &mut Findings) {
 }
 
 fn run(model: &ContactorModel, bench: &mut Bench<'_>) -> Option<Row> {
-    let mut one = Plant::new(model, 1).ok()?;
+    let mut one = ActuatorModel::new(model, 1).ok()?;
     // The slowest swing falls by e in Q / (π f); 12 of those leave 6 millionths.
     let ringing_s = 12.0 * model.quality / (std::f64::consts::PI * model.bimorph.resonance_hz());
     for _ in 0..8 + ticks(ringing_s) {
@@ -56,7 +56,7 @@ fn run(model: &ContactorModel, bench: &mut Bench<'_>) -> Option<Row> {
     let error = off(&|hz| held_response(model, hz, SAMPLE_S).norm());
     let without_images =
         off(&|hz| model.response_um_per_v(hz).norm() * ContactorModel::hold_droop(hz));
-    let mut array = Plant::new(model, N_CONTACTORS).ok()?;
+    let mut array = ActuatorModel::new(model, N_CONTACTORS).ok()?;
     let codes = [CODES; N_CONTACTORS];
     let cost = bench.time(N_CONTACTORS, || array.tick(&codes, RAIL_V).n_ticks);
     Some(Row {

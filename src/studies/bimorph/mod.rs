@@ -12,7 +12,7 @@ mod limits;
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use cases::{CARRIERS_HZ, Case, SAMPLE_S, Step, held_response, propagator};
 use selvedge_chart::{Axis, Plot, Series, Style};
-use selvedge_device::{ContactorModel, MOST_QUALITY};
+use selvedge_device::{ContactorModel, MAX_QUALITY};
 use selvedge_foundation::numerics::ode::StepMethod;
 
 /// What the exact method keeps within.
@@ -197,7 +197,7 @@ fn notes(findings: &Findings) -> Vec<String> {
     let mut notes: Vec<String> = StepMethod::ALL.map(worst).into();
     notes.push(format!(
         "The exact hold needs one product of matrices a sample at any stiffness and any quality up \
-         to {MOST_QUALITY}; the emulator steps every contactor with it."
+         to {MAX_QUALITY}; the emulator steps every contactor with it."
     ));
     notes.push(
         "Where neither skin lifts off nor the amplifier reaches a limit the contactor is linear, \

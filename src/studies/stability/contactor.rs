@@ -1,7 +1,7 @@
 //! Contactors that are sharp, stiffly held, driven to the full, or no contactors at all.
 
 use super::case::{Case, Verdict, failed, refused, verdict};
-use selvedge_device::{Bimorph, ContactorModel, MOST_QUALITY, Plant, SAMPLES_PER_S, Skin};
+use selvedge_device::{Bimorph, ContactorModel, MAX_QUALITY, ActuatorModel, SAMPLES_PER_S, Skin};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::StepMethod;
 
@@ -48,7 +48,7 @@ pub(super) fn cases() -> Vec<Case> {
                 quality: 2000.0,
                 ..ContactorModel::default()
             };
-            refused(Plant::new(&model, 24), &["quality", "1000"])
+            refused(ActuatorModel::new(&model, 24), &["quality", "1000"])
         }),
     ]
 }
@@ -63,7 +63,7 @@ fn loaded(skin: Skin, quality: f64) -> ContactorModel {
 
 /// A held sine of 40 and 320 Hz at the samples, against its line and images through |H|.
 fn sharp_and_stiff() -> Verdict {
-    let model = loaded(Skin::bonded(1e5, 0.0), MOST_QUALITY);
+    let model = loaded(Skin::bonded(1e5, 0.0), MAX_QUALITY);
     let sample_s = 1.0 / f64::from(SAMPLES_PER_S);
     let step = model
         .system()
@@ -90,7 +90,7 @@ fn every_stiffness() -> Verdict {
     let (mut worst, mut n_steps) = (0.0_f64, 0);
     for stiffness in [0.0, 1.0, 1e3, 1e6, 1e9] {
         for step_s in [1e-6, 1e-4, 1e-2, 1.0] {
-            let model = loaded(Skin::bonded(stiffness, 0.0), MOST_QUALITY);
+            let model = loaded(Skin::bonded(stiffness, 0.0), MAX_QUALITY);
             let step = model
                 .system()
                 .propagator::<7>(StepMethod::ExactHold, step_s);
@@ -113,7 +113,8 @@ fn lifts_off() -> Verdict {
         preload_um: Some(1.0),
         ..Skin::bonded(1e9, 0.0)
     };
-    let mut plant = Plant::new(&loaded(skin, MOST_QUALITY), LOUDEST.len()).map_err(failed)?;
+    let mut plant =
+        ActuatorModel::new(&loaded(skin, MAX_QUALITY), LOUDEST.len()).map_err(failed)?;
     let mut most_um = 0.0_f64;
     for _ in 0..20 {
         for one in &plant.tick(&LOUDEST, 60.0).contactors {

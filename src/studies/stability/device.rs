@@ -4,7 +4,7 @@
 
 use super::case::{Case, Verdict, verdict};
 use selvedge_device::{
-    ArrayProfile, BridgeState, Coder, Decoder, DeviceModel, Faults, LaneFaults, OneOff, OneOffKind,
+    ArrayProfile, BridgeState, Coder, Decoder, DeviceModel, Faults, LinkFaults, OneOff, OneOffKind,
     Simulation,
 };
 use selvedge_foundation::numerics::Random;
@@ -126,9 +126,9 @@ fn comes_back() -> Verdict {
 }
 
 fn garbled() -> Verdict {
-    let garbling = LaneFaults {
+    let garbling = LinkFaults {
         flip_rate: 1.0,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let faults = Faults {
         to_host: garbling,

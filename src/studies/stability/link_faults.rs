@@ -7,7 +7,7 @@
 use super::case::{Case, Verdict, verdict};
 use super::device::{once, refused_by_host};
 use selvedge_device::{
-    BridgeState, DeviceModel, Faults, InjectionKind, LaneFaults, Latency, Lie, OneOffKind,
+    BridgeState, DeviceModel, Faults, InjectionKind, Latency, Lie, LinkFaults, OneOffKind,
     Simulation,
 };
 use selvedge_foundation::quantity::fixed;
@@ -50,28 +50,28 @@ fn lasting() -> Vec<(&'static str, Faults)> {
 
 /// Bytes that are harmed.
 fn harms() -> Vec<(&'static str, Faults)> {
-    let lane = LaneFaults::default();
-    let drops = LaneFaults {
+    let lane = LinkFaults::default();
+    let drops = LinkFaults {
         drop_rate: 1e-4,
         ..lane
     };
-    let flips = LaneFaults {
+    let flips = LinkFaults {
         flip_rate: 1e-4,
         ..lane
     };
-    let inserts = LaneFaults {
+    let inserts = LinkFaults {
         insert_rate: 1e-4,
         ..lane
     };
-    let lost = LaneFaults {
+    let lost = LinkFaults {
         usb_loss_rate: 1e-2,
         ..lane
     };
-    let twice = LaneFaults {
+    let twice = LinkFaults {
         repeat_rate: 1e-2,
         ..lane
     };
-    let garbage = LaneFaults {
+    let garbage = LinkFaults {
         garbage_every_us: Some(500_000),
         ..lane
     };
@@ -85,7 +85,7 @@ fn harms() -> Vec<(&'static str, Faults)> {
     ]
 }
 
-fn both(lane: LaneFaults) -> Faults {
+fn both(lane: LinkFaults) -> Faults {
     Faults {
         seed: 1,
         to_device: lane,
@@ -96,8 +96,8 @@ fn both(lane: LaneFaults) -> Faults {
 
 /// Bytes and ticks that come when they should not.
 fn delays() -> Vec<(&'static str, Faults)> {
-    let lane = LaneFaults::default();
-    let slow = LaneFaults {
+    let lane = LinkFaults::default();
+    let slow = LinkFaults {
         latency: Latency::Normal {
             mean_us: 3000,
             deviation_us: 1000,
@@ -106,7 +106,7 @@ fn delays() -> Vec<(&'static str, Faults)> {
         hiccup_us: 50_000,
         ..lane
     };
-    let mut ftdi = both(LaneFaults {
+    let mut ftdi = both(LinkFaults {
         latency: Latency::UsbFrame,
         ..lane
     });

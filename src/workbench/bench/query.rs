@@ -183,7 +183,7 @@ fn dot(contactor: &selvedge_engine::ContactorView, is_muted: bool) -> Dot {
         position: contactor.position,
         cloth: contactor.textile.map(usize::from),
         amplitude_um: contactor.amplitude_um.map(f64::from),
-        bite: contactor.bite,
+        limiter: contactor.limiter,
         is_muted,
     }
 }

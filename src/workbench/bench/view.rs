@@ -11,7 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::Sensation;
-use selvedge_device::{Bite, BridgeState, ClockFit, DeviceUid, Distribution};
+use selvedge_device::{LimiterState, BridgeState, ClockFit, DeviceUid, Distribution};
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
 use selvedge_render::scene::Pose;
@@ -236,7 +236,7 @@ pub(crate) struct Dot {
     /// Peak amplitudes of both bands after gains, before output limits, µm.
     pub amplitude_um: [f64; 2],
     /// Which output limits bite.
-    pub bite: Bite,
+    pub limiter: LimiterState,
     /// Whether it is silent because it was muted or another one is felt alone.
     pub(crate) is_muted: bool,
 }

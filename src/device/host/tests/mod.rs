@@ -13,7 +13,7 @@ use crate::device::DeviceModel;
 use crate::message::{
     Ack, AckCode, DeviceCounters, DeviceMessage, DeviceState, Fault, fault_bit, frame,
 };
-use crate::wire::{Faults, LaneFaults, Simulation};
+use crate::wire::{Faults, LinkFaults, Simulation};
 
 const NONCE: u32 = 0x1234_5678;
 

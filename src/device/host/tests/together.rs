@@ -173,11 +173,11 @@ fn clocks_that_drift_apart_miss_no_tick() {
 #[test]
 fn a_noisy_link_costs_frames_but_never_applies_a_wrong_one() {
     for seed in 0..8 {
-        let noisy = LaneFaults {
+        let noisy = LinkFaults {
             drop_rate: 1.0 / 1200.0,
             flip_rate: 1.0 / 1200.0,
             insert_rate: 1.0 / 1200.0,
-            ..LaneFaults::default()
+            ..LinkFaults::default()
         };
         let faults = Faults {
             seed,

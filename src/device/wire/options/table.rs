@@ -2,7 +2,7 @@
 
 use super::{FaultGroup, FaultKind, FaultOption, ON};
 use crate::device::{Lie, Miswiring};
-use crate::wire::faults::{Direction, Faults, LaneFaults, Latency, OneOff, OneOffKind};
+use crate::wire::faults::{Direction, Faults, Latency, LinkFaults, OneOff, OneOffKind};
 use crate::wire::parse;
 
 /// How much longer a write takes when nothing else is said, µs.
@@ -13,7 +13,7 @@ pub(super) struct Spoken {
     /// What holds for the device.
     faults: Faults,
     /// What bytes suffer, whichever way.
-    lane: LaneFaults,
+    link: LinkFaults,
     latency: [Latency; 2],
     /// One direction only, or both.
     way: Option<Direction>,
@@ -28,7 +28,7 @@ impl Default for Spoken {
                 seed: 1,
                 ..Faults::default()
             },
-            lane: LaneFaults::default(),
+            link: LinkFaults::default(),
             latency: [Latency::None; 2],
             way: None,
             chatter: false,
@@ -41,27 +41,27 @@ impl Spoken {
     /// What was said, as it acts.
     pub(super) fn faults(self) -> Faults {
         Faults {
-            to_device: self.lane(Direction::ToDevice),
-            to_host: self.lane(Direction::ToHost),
+            to_device: self.faults_of(Direction::ToDevice),
+            to_host: self.faults_of(Direction::ToHost),
             ..self.faults
         }
     }
 
-    fn lane(&self, direction: Direction) -> LaneFaults {
+    fn faults_of(&self, direction: Direction) -> LinkFaults {
         let (latency, chatter) = match direction {
             Direction::ToDevice => (self.latency[0], self.chatter),
             Direction::ToHost => (self.latency[1], self.banner),
         };
         if self.way.is_some_and(|only| only != direction) {
-            return LaneFaults {
+            return LinkFaults {
                 chatter,
-                ..LaneFaults::default()
+                ..LinkFaults::default()
             };
         }
-        LaneFaults {
+        LinkFaults {
             latency,
             chatter,
-            ..self.lane
+            ..self.link
         }
     }
 
@@ -103,10 +103,10 @@ fn way(text: &str) -> Result<Option<Direction>, String> {
     }
 }
 
-fn hiccup(lane: &mut LaneFaults, text: &str) -> Result<(), String> {
+fn hiccup(link: &mut LinkFaults, text: &str) -> Result<(), String> {
     let (rate, longer_us) = parse::rate_and_time(text, HICCUP_US)?;
     if rate > 0.0 {
-        (lane.hiccup_rate, lane.hiccup_us) = (rate, longer_us);
+        (link.hiccup_rate, link.hiccup_us) = (rate, longer_us);
     }
     Ok(())
 }
@@ -163,7 +163,7 @@ macro_rules! share {
             usual: "0",
             example: "0.1%",
             help: $help,
-            read: |said, text| parse::rate(text).map(|rate| said.lane.$field = rate),
+            read: |said, text| parse::rate(text).map(|rate| said.link.$field = rate),
         }
     };
 }
@@ -217,7 +217,7 @@ pub(super) const OPTIONS: &[FaultOption] = &[
         |said, text| parse::latency(text).map(|both| said.latency = both)),
     option!("hiccup", "Hiccup", Latency, One, "RATE[:TIME]", "", "1%:50ms",
         "Share of writes that take 50 ms, or TIME, longer",
-        |said, text| hiccup(&mut said.lane, text)),
+        |said, text| hiccup(&mut said.link, text)),
     share!("drop", "Drop", drop_rate, "Share of bytes lost"),
     share!("flip", "Flip", flip_rate, "Share of bytes changed"),
     share!("insert", "Insert", insert_rate, "Share of bytes that a random one comes before"),
@@ -225,7 +225,7 @@ pub(super) const OPTIONS: &[FaultOption] = &[
     share!("repeat", "Repeat", repeat_rate, "Share of writes that arrive twice"),
     option!("garbage-every", "Garbage every", Bytes, One, "TIME", "", "2s",
         "Mean time between bursts of random bytes",
-        |said, text| parse::time_us(text).map(|us| said.lane.garbage_every_us = Some(us))),
+        |said, text| parse::time_us(text).map(|us| said.link.garbage_every_us = Some(us))),
     switch!("chatter", "Modem manager's chatter", chatter,
         "A modem manager asks AT+GCAP before each visit of a host"),
     switch!("banner", "Boot banner", banner, "The device sends a boot banner after each boot"),
@@ -251,7 +251,7 @@ pub(super) const OPTIONS: &[FaultOption] = &[
     option!("over-current-above", "Over-current above", Device, One, "MA", "", "5",
         "The supply trips where the amplifiers take more than so many mA",
         |said, text| whole(text, "current in mA")
-            .map(|most_ma| said.faults.over_current_ma = Some(most_ma))),
+            .map(|max_ma| said.faults.over_current_ma = Some(max_ma))),
     once!("hv-sag-at", "High voltage sags at", Device, HvSag,
         "The high voltage breaks down, for 2s"),
     option!("dead", "Dead channels", Channels, Many, "CHANNEL", "", "3",

@@ -8,7 +8,7 @@ mod ports;
 mod silence;
 mod soak;
 
-use super::lane::Lane;
+use super::faulty_channel::FaultyChannel;
 use super::*;
 use crate::device::{AppliedFrame, DeviceModel, Moment};
 use crate::host::{BridgeState, DisarmedBy};
@@ -55,8 +55,8 @@ impl Tap {
         self.put(Tapped::Lost(bytes.to_vec()));
     }
 
-    pub(super) fn cleared(&mut self, lane: &Lane) {
-        for bytes in lane.waiting() {
+    pub(super) fn cleared(&mut self, link: &FaultyChannel) {
+        for bytes in link.waiting() {
             self.put(Tapped::Lost(bytes.to_vec()));
         }
     }
@@ -83,11 +83,11 @@ impl Tap {
 }
 
 /// Both directions treated alike.
-fn both(lane: LaneFaults) -> Faults {
+fn both(link: LinkFaults) -> Faults {
     Faults {
         seed: 5,
-        to_device: lane,
-        to_host: lane,
+        to_device: link,
+        to_host: link,
         ..Faults::default()
     }
 }

@@ -96,14 +96,14 @@ fn sensors_show_what_breaks_while_it_lasts() {
 
 #[test]
 fn a_supply_that_is_measured_trips_on_what_the_codes_take_and_can_be_armed_softer() {
-    let above = |most_ma| Faults {
-        over_current_ma: Some(most_ma),
+    let above = |max_ma| Faults {
+        over_current_ma: Some(max_ma),
         ..Faults::default()
     };
     let trial = Simulation::streaming_over(&above(u16::MAX), 3000);
     let status = *trial.host.status().unwrap();
     let codes = trial.device.output();
-    let load = crate::plant::ContactorModel::default().load();
+    let load = crate::actuator_model::ContactorModel::default().load();
     let ma = load.ma(codes.into_iter());
     assert!(ma > 2.0, "{ma}");
     assert!(
@@ -166,9 +166,9 @@ fn a_short_stall_either_way_is_lived_through() {
 
 #[test]
 fn chatter_and_banners_cost_a_text_and_no_more() {
-    let spoken = LaneFaults {
+    let spoken = LinkFaults {
         chatter: true,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let trial = Simulation::streaming_over(&both(spoken), 2000);
     assert_eq!(trial.host.state(), BridgeState::Streaming);
@@ -184,14 +184,14 @@ fn chatter_and_banners_cost_a_text_and_no_more() {
 
 #[test]
 fn the_same_seed_gives_the_same_life_and_another_seed_another() {
-    let noisy = LaneFaults {
+    let noisy = LinkFaults {
         drop_rate: 1e-3,
         garbage_every_us: Some(300_000),
         latency: Latency::Normal {
             mean_us: 2000,
             deviation_us: 900,
         },
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let life = |seed| {
         let faults = Faults {

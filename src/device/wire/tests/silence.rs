@@ -48,9 +48,9 @@ fn lasts_us(faults: &Faults, phase_us: u64, depth: u32) -> u64 {
 
 #[test]
 fn output_ends_within_100_ms_for_every_ms_in_a_tick_every_depth_and_any_clock() {
-    let slow_usb = LaneFaults {
+    let slow_usb = LinkFaults {
         latency: Latency::UsbFrame,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let cases = [
         Faults::default(),
@@ -107,9 +107,9 @@ fn a_pulled_cable_ramps_within_20_ms_and_does_not_wait_for_the_hold() {
 fn an_hour_at(clock_ppm: i32) {
     let faults = Faults {
         clock_ppm,
-        ..both(LaneFaults {
+        ..both(LinkFaults {
             latency: Latency::UsbFrame,
-            ..LaneFaults::default()
+            ..LinkFaults::default()
         })
     };
     let trial = Simulation::streaming_over(&faults, 3_600_000);

@@ -11,7 +11,7 @@ const APART_US: u64 = 40_000_000;
 /// Rare harm of every kind all along, and every half minute something worse.
 fn everything(seed: u64) -> Faults {
     let mut random = Random::new(seed).branch("soak");
-    let lane = LaneFaults {
+    let link = LinkFaults {
         latency: Latency::Normal {
             mean_us: 2000,
             deviation_us: 800,
@@ -41,8 +41,8 @@ fn everything(seed: u64) -> Faults {
         .collect();
     Faults {
         seed,
-        to_device: lane,
-        to_host: lane,
+        to_device: link,
+        to_host: link,
         clock_ppm: 100,
         tick_jitter_us: 500,
         once,

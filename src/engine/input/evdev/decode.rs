@@ -27,7 +27,7 @@ pub(super) mod code {
 /// Bytes of an event where a time has two numbers of 64 bits.
 pub(super) const EVENT_BYTES: usize = 24;
 /// Slots that are followed: more fingers than a hand has.
-pub(super) const MOST_SLOTS: usize = 16;
+pub(super) const MAX_SLOTS: usize = 16;
 
 /// One event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,7 +97,7 @@ pub(super) struct State {
     /// The tools in range, a bit each; `None` of devices that do not tell.
     pub(super) tools: Option<u8>,
     pub(super) slot: usize,
-    pub(super) slots: [Slot; MOST_SLOTS],
+    pub(super) slots: [Slot; MAX_SLOTS],
 }
 
 impl State {
@@ -108,7 +108,7 @@ impl State {
         is_touching: false,
         tools: None,
         slot: 0,
-        slots: [Slot::EMPTY; MOST_SLOTS],
+        slots: [Slot::EMPTY; MAX_SLOTS],
     };
 }
 
@@ -183,7 +183,7 @@ impl Decoder {
             code::ABS_X => state.at[0] = value,
             code::ABS_Y => state.at[1] = value,
             code::ABS_PRESSURE => state.pressure = value,
-            code::MT_SLOT => state.slot = usize::try_from(value).unwrap_or(MOST_SLOTS),
+            code::MT_SLOT => state.slot = usize::try_from(value).unwrap_or(MAX_SLOTS),
             _ => {
                 let current = state.slot;
                 // Fingers beyond the last slot are not followed.

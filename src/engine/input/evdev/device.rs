@@ -17,7 +17,7 @@ use rustix::time::{ClockId, clock_gettime};
 use super::super::InputError;
 use super::super::feed::{FeedItem, FeedSender, feed};
 use super::super::pointer::{PointerInput, SourceKind};
-use super::decode::{Contact, Decoder, EVENT_BYTES, Event, MOST_SLOTS, Report, Slot, State, code};
+use super::decode::{Contact, Decoder, EVENT_BYTES, Event, MAX_SLOTS, Report, Slot, State, code};
 use super::{Area, AxisRange, InputDevice};
 use crate::PointerSample;
 
@@ -25,7 +25,7 @@ const FOLDER: &str = "/dev/input";
 /// `CLOCK_MONOTONIC`, which the engine's clock is.
 const MONOTONIC: i32 = 1;
 /// Events that are read at once.
-const MOST_EVENTS: usize = 64;
+const MAX_EVENTS: usize = 64;
 /// How long the thread sleeps before it looks whether anybody still listens.
 const NAP: Timespec = Timespec {
     tv_sec: 0,
@@ -188,13 +188,13 @@ fn state_of(handle: &Handle, contact: Contact) -> State {
     state
 }
 
-fn slots_of(handle: &Handle) -> [Slot; MOST_SLOTS] {
-    let mut slots = [Slot::EMPTY; MOST_SLOTS];
+fn slots_of(handle: &Handle) -> [Slot; MAX_SLOTS] {
+    let mut slots = [Slot::EMPTY; MAX_SLOTS];
     let Ok(info) = handle.absolute_info(AbsoluteAxis::MultitouchSlot) else {
         return slots;
     };
     let n_slots = usize::try_from(info.maximum).map_or(1, |last| last + 1);
-    let n_slots = n_slots.min(MOST_SLOTS);
+    let n_slots = n_slots.min(MAX_SLOTS);
     let ask = |axis| {
         let mut values = vec![-1; n_slots];
         let asked = handle.multi_touch_slots(axis, &mut values);
@@ -225,7 +225,7 @@ struct Reader {
 impl Reader {
     /// Reads until nobody listens or the device is gone.
     fn run(mut self) {
-        let mut bytes = [0; MOST_EVENTS * EVENT_BYTES];
+        let mut bytes = [0; MAX_EVENTS * EVENT_BYTES];
         while !self.sender.is_abandoned() {
             match self.wait() {
                 Ok(false) => continue,

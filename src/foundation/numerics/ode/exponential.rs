@@ -27,9 +27,9 @@ const PADE: [f64; 14] = [
 /// The largest norm for which the approximant is exact to double precision.
 const LARGEST_NORM: f64 = 5.371_920_351_148_152;
 /// More squarings than this mean a matrix that no step of this program has.
-const MOST_SQUARINGS: i32 = 200;
+const MAX_SQUARINGS: i32 = 200;
 /// Sweeps of balancing; a few suffice.
-const MOST_SWEEPS: usize = 20;
+const MAX_SWEEPS: usize = 20;
 
 /// `e^matrix`; `None` when a number is not finite, in the matrix or in the result.
 pub(crate) fn exponential<const N: usize>(matrix: &Matrix<N, N>) -> Option<Matrix<N, N>> {
@@ -40,7 +40,7 @@ pub(crate) fn exponential<const N: usize>(matrix: &Matrix<N, N>) -> Option<Matri
     let n_squarings = (norm(&balanced) / LARGEST_NORM).log2().ceil().max(0.0);
     #[expect(clippy::cast_possible_truncation, reason = "at most 1075, whole")]
     let n_squarings = n_squarings as i32;
-    if n_squarings > MOST_SQUARINGS {
+    if n_squarings > MAX_SQUARINGS {
         return None;
     }
     let mut result = pade(&scaled(0.5_f64.powi(n_squarings), &balanced))?;
@@ -85,7 +85,7 @@ fn pade<const N: usize>(a: &Matrix<N, N>) -> Option<Matrix<N, N>> {
 /// The matrix with rows and columns of like size, and the scales D with `A = D · balanced · D⁻¹`.
 fn balance<const N: usize>(mut a: Matrix<N, N>) -> (Matrix<N, N>, [f64; N]) {
     let mut scales = [1.0; N];
-    for _ in 0..MOST_SWEEPS {
+    for _ in 0..MAX_SWEEPS {
         let mut is_done = true;
         for i in 0..N {
             let others = || (0..N).filter(|j| *j != i);

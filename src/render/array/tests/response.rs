@@ -118,7 +118,7 @@ fn the_spread_is_that_of_all_pairs_of_points() {
             assert!(near(spread.rms_um[b], mean_square.sqrt()), "{spread:?}");
             let most = of_band.clone().fold(0.0, f64::max);
             let least = of_band.fold(f64::INFINITY, f64::min);
-            assert!(near(spread.most_um[b], most) && near(spread.least_um[b], least));
+            assert!(near(spread.max_um[b], most) && near(spread.min_um[b], least));
         }
     }
 }
@@ -132,7 +132,7 @@ fn a_textile_that_cannot_be_felt_at_a_velocity_is_silent_everywhere() {
         assert_eq!(map.amplitudes_um([7.0, 8.0]), [0.0; 2]);
         let spread = response.at(Velocity::new(still, 0.0), Some([0; 4]));
         assert_eq!(
-            (spread.most_um, spread.at_place_um),
+            (spread.max_um, spread.at_place_um),
             ([0.0; 2], Some([0.0; 2]))
         );
         let around = response.by_direction(still, None, 3);

@@ -173,15 +173,15 @@ mod tests {
             rasteriser.apply(&mut window.run_after(4).textures_delta);
         }
         let dots = &window.workbench.bench.transient.live.dots;
-        let off: Vec<usize> = (0..24).filter(|index| dots[*index].bite.off).collect();
+        let off: Vec<usize> = (0..24).filter(|index| dots[*index].limiter.off).collect();
         assert_eq!(off, [6, 13]);
-        for dot in dots.iter().filter(|dot| !dot.bite.off) {
-            assert_eq!(dot.bite.limited[0], dot.amplitude_um[0] > 2.0, "{dot:?}");
+        for dot in dots.iter().filter(|dot| !dot.limiter.off) {
+            assert_eq!(dot.limiter.limited[0], dot.amplitude_um[0] > 2.0, "{dot:?}");
         }
-        assert!(dots.iter().any(|dot| dot.bite.limited[0]));
+        assert!(dots.iter().any(|dot| dot.limiter.limited[0]));
         let why = window.workbench.bench.transient.why.0.as_ref().unwrap();
         assert_eq!(why.output.limits.map(|limit| limit.um), [2.0, 50.0]);
-        assert!(why.output.bite.limited[0], "{:?}", why.output);
+        assert!(why.output.limiter.limited[0], "{:?}", why.output);
         let mut last = window.run();
         rasteriser.apply(&mut last.textures_delta);
         let Ok(folder) = std::env::var("SELVEDGE_PICTURES") else {

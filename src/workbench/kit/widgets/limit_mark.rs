@@ -5,7 +5,7 @@
 use eframe::egui::{Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use crate::kit::theme::Palette;
-use selvedge_device::Bite;
+use selvedge_device::LimiterState;
 
 /// Width and height of the mark, points.
 pub(crate) const LIMIT_MARK: f32 = 6.0;
@@ -31,16 +31,16 @@ pub(crate) fn paint_limit_mark(painter: &Painter, centre: Pos2) {
 }
 
 /// What bites a contactor, in words behind the mark; `None` when nothing does.
-pub(crate) fn limit_words(bite: Bite) -> Option<String> {
+pub(crate) fn limit_words(limiter: LimiterState) -> Option<String> {
     let whose = |band: usize| {
-        if bite.by_device[band] {
+        if limiter.by_device[band] {
             "the device's own limit"
         } else {
             "the array's limit"
         }
     };
-    let held = match bite.limited {
-        [true, true] if bite.by_device[0] == bite.by_device[1] => {
+    let held = match limiter.limited {
+        [true, true] if limiter.by_device[0] == limiter.by_device[1] => {
             Some(format!("both bands are held at {}", whose(0)))
         }
         [true, true] => Some(format!(
@@ -52,19 +52,19 @@ pub(crate) fn limit_words(bite: Bite) -> Option<String> {
         [false, true] => Some(format!("320 Hz is held at {}", whose(1))),
         [false, false] => None,
     };
-    let shared = bite
+    let shared = limiter
         .guarded
         .then_some("both bands are scaled down to share full drive");
-    let off = bite.off.then_some("switched off in the array profile");
-    let none = bite.non_finite.then_some("not a number, so silent");
+    let off = limiter.off.then_some("switched off in the array profile");
+    let none = limiter.non_finite.then_some("not a number, so silent");
     let words = [held.as_deref(), shared, off, none].into_iter();
     let words: Vec<&str> = words.flatten().collect();
     (!words.is_empty()).then(|| format!("Played weaker than shown: {}", words.join("; ")))
 }
 
 /// Whether what bites concerns a band.
-pub(crate) fn bites_band(bite: Bite, band: usize) -> bool {
-    bite.guarded || bite.off || bite.non_finite || bite.limited.get(band) == Some(&true)
+pub(crate) fn limits_band(limiter: LimiterState, band: usize) -> bool {
+    limiter.guarded || limiter.off || limiter.non_finite || limiter.limited.get(band) == Some(&true)
 }
 
 #[cfg(test)]
@@ -73,17 +73,17 @@ mod tests {
 
     #[test]
     fn every_limit_that_bites_has_its_words_and_its_bands() {
-        assert_eq!(limit_words(Bite::default()), None);
-        let held = Bite {
+        assert_eq!(limit_words(LimiterState::default()), None);
+        let held = LimiterState {
             limited: [false, true],
-            ..Bite::default()
+            ..LimiterState::default()
         };
         let words = limit_words(held).unwrap();
         assert_eq!(
             words,
             "Played weaker than shown: 320 Hz is held at the array's limit"
         );
-        let by_device = Bite {
+        let by_device = LimiterState {
             limited: [true, true],
             by_device: [true, false],
             ..held
@@ -93,14 +93,14 @@ mod tests {
             "Played weaker than shown: 40 Hz is held at the device's own limit, 320 Hz at the \
              array's limit"
         );
-        assert_eq!([0, 1].map(|band| bites_band(held, band)), [false, true]);
-        let off = Bite {
+        assert_eq!([0, 1].map(|band| limits_band(held, band)), [false, true]);
+        let off = LimiterState {
             off: true,
             guarded: true,
             ..held
         };
         let words = limit_words(off).unwrap();
         assert!(words.contains("share full drive; switched off"), "{words}");
-        assert_eq!([0, 1].map(|band| bites_band(off, band)), [true, true]);
+        assert_eq!([0, 1].map(|band| limits_band(off, band)), [true, true]);
     }
 }

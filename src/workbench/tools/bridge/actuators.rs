@@ -74,7 +74,7 @@ impl Bench {
     pub(crate) fn peek_at_plant(&mut self, ctx: &egui::Context) -> Option<&PlantView> {
         let full_scale_um = self.engine.profile().full_scale_um;
         let n_columns = usize::from(self.engine.profile().cols);
-        let watch = self.engine.plant()?;
+        let watch = self.engine.actuators()?;
         let peek = &mut self.transient.plant;
         peek.is_drawn = true;
         if watch.model().skin != peek.skin {
@@ -109,7 +109,7 @@ impl Bench {
     /// Lets the model rest whose pane was not drawn. To be called after every frame.
     pub(crate) fn leave_plant(&mut self) {
         let was_drawn = std::mem::take(&mut self.transient.plant.is_drawn);
-        if let Some(watch) = self.engine.plant().filter(|_| !was_drawn) {
+        if let Some(watch) = self.engine.actuators().filter(|_| !was_drawn) {
             watch.look(false);
         }
     }
@@ -126,7 +126,7 @@ fn beams(model: &ContactorModel) -> String {
 }
 
 /// Contactors of a reading; none before the first.
-fn cells(reading: &PlantReading, full_scale_um: [f64; 2]) -> impl Iterator<Item = PlantCell> {
+fn cells(reading: &ActuatorReading, full_scale_um: [f64; 2]) -> impl Iterator<Item = PlantCell> {
     let n = if reading.n_ticks > 0 {
         reading.contactors.len()
     } else {
@@ -173,7 +173,7 @@ mod tests {
         bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
         bench.dispatch(&ctx, DeviceCommand::LoadContactors(Skin::FIRM).into());
         assert_eq!(bench.peek_at_plant(&ctx).unwrap().skin, Skin::FIRM);
-        assert_eq!(bench.engine.plant().unwrap().model().skin, Skin::FIRM);
+        assert_eq!(bench.engine.actuators().unwrap().model().skin, Skin::FIRM);
         bench.dispatch(&ctx, DeviceCommand::Disconnect.into());
         assert!(bench.peek_at_plant(&ctx).is_none());
         bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn what_is_told_is_the_codes_share_of_full_scale() {
-        let mut reading = PlantReading::new(2);
+        let mut reading = ActuatorReading::new(2);
         assert_eq!(cells(&reading, [50.0; 2]).count(), 0, "before the first");
         reading.n_ticks = 1;
         reading.codes[1] = [65_535, 13_107];

@@ -209,7 +209,12 @@ fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
 /// How many contactors are played weaker than they are shown, with the mark that they carry.
 fn show_limited(ui: &mut Ui, view: &BridgePane<'_>) {
     let palette = Palette::in_ui(ui);
-    let n = view.live.dots.iter().filter(|dot| dot.bite.any()).count();
+    let n = view
+        .live
+        .dots
+        .iter()
+        .filter(|dot| dot.limiter.any())
+        .count();
     let words = if n == 0 {
         "none".to_owned()
     } else {

@@ -17,7 +17,7 @@ use crate::tools::bridge::ports::PortsView;
 use crate::tools::bridge::{BridgePane, BridgeTyped, show};
 use selvedge_device::wiring::Answer;
 use selvedge_device::{
-    ArrayProfile, Bite, BridgeEvent, Calibration, DeviceUid, FaultWords, Wiring,
+    ArrayProfile, BridgeEvent, Calibration, DeviceUid, FaultWords, LimiterState, Wiring,
 };
 
 const UID: DeviceUid = DeviceUid(*b"selvedge-emu");
@@ -51,9 +51,9 @@ impl Stage {
             ..BridgeView::default()
         };
         let held = Dot {
-            bite: Bite {
+            limiter: LimiterState {
                 limited: [true, false],
-                ..Bite::default()
+                ..LimiterState::default()
             },
             ..Dot::default()
         };

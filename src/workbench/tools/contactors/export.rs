@@ -61,7 +61,7 @@ fn sheet(scene: &SceneView, dots: &[Dot], n_columns: usize) -> Sheet {
         .with("textile", dots.iter().map(textile).collect::<Vec<_>>())
         .with("a40_um", number(&|dot| dot.amplitude_um[0]))
         .with("a320_um", number(&|dot| dot.amplitude_um[1]))
-        .with("is_limited", yes(&|dot| dot.bite.any()))
+        .with("is_limited", yes(&|dot| dot.limiter.any()))
         .with("is_muted", yes(&|dot| dot.is_muted))
 }
 

@@ -237,7 +237,7 @@ fn paint_cell(
     } else {
         painter.rect_filled(rect, 2, style.map.colour(share));
     }
-    if bites_band(dot.bite, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
+    if limits_band(dot.limiter, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
         paint_limit_mark(painter, rect.right_top() + vec2(-6.0, 6.0));
     }
     if style.has_numbers && rect.width() >= NUMBER_WIDTH {
@@ -325,7 +325,7 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> S
         None => "off every textile".to_owned(),
     };
     let bands = sensation.band_lines(dot.amplitude_um);
-    let limited = limit_words(dot.bite).map_or_else(String::new, |words| format!("\n{words}"));
+    let limited = limit_words(dot.limiter).map_or_else(String::new, |words| format!("\n{words}"));
     let muted = if dot.is_muted { "\nmuted" } else { "" };
     format!(
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \

@@ -21,7 +21,7 @@ use crate::bench::Bench;
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::Sensation;
 use crate::bench::view::Source;
-use selvedge_device::{ArrayProfile, Bite, Calibration, Coder, Limit};
+use selvedge_device::{ArrayProfile, LimiterState, Calibration, Coder, Limit};
 use selvedge_render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
@@ -64,7 +64,7 @@ pub(crate) struct Output {
     /// The channel that drives it.
     pub channel: usize,
     /// What the limits did.
-    pub bite: Bite,
+    pub limiter: LimiterState,
     /// Codes of both bands, 0…65535.
     pub codes: [u16; 2],
 }
@@ -94,7 +94,7 @@ impl Output {
             limits: coder.limits(0),
             calibration: profile.calibration_of(contactor),
             channel: profile.channel_of(contactor),
-            bite: coder.limited().first().copied().unwrap_or_default(),
+            limiter: coder.limited().first().copied().unwrap_or_default(),
             codes: codes.first().copied().unwrap_or_default(),
         }
     }

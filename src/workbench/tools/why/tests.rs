@@ -177,7 +177,7 @@ fn limits_that_hold_are_named() {
         (Some(1.0), None),
         false,
     );
-    assert!(loud.bite.limited[0] && loud.is_sent, "{loud:?}");
+    assert!(loud.limiter.limited[0] && loud.is_sent, "{loud:?}");
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     explained.output = loud;
     assert!(to_text(&explained).contains("40 Hz is held"));
@@ -194,8 +194,8 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
     let half = Some([32_768, 32_768]);
     let told = Output::of((&profile, 0), [30.0, 30.0], (Some(1.0), half), false);
     assert_eq!(told.limits.map(|limit| limit.is_of_device), [true, false]);
-    assert_eq!(told.bite.by_device, [true, false]);
-    assert_eq!(told.bite.limited, [true, true]);
+    assert_eq!(told.limiter.by_device, [true, false]);
+    assert_eq!(told.limiter.limited, [true, true]);
     explained.output = told;
     let text = to_text(&explained);
     assert!(
@@ -205,6 +205,6 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
     // What the device was asked for because of the profile is the profile's.
     let asked = Coder::new(&profile, 24).comp_limit();
     let told = Output::of((&profile, 0), [60.0, 60.0], (Some(1.0), Some(asked)), false);
-    assert_eq!(told.bite.by_device, [false, false]);
+    assert_eq!(told.limiter.by_device, [false, false]);
     assert_eq!(told.limits.map(|limit| limit.um), profile.limit_um);
 }

@@ -100,9 +100,9 @@ fn limits(why: &Why) -> String {
         [false, true] => format!("{low} / {high} µm (device)"),
         [true, true] => format!("{low} / {high} µm (both the device's)"),
     };
-    let bite = why.output.bite;
-    let words = match (bite.limited, bite.guarded) {
-        _ if bite.off => "switched off in the array profile",
+    let limiter = why.output.limiter;
+    let words = match (limiter.limited, limiter.guarded) {
+        _ if limiter.off => "switched off in the array profile",
         ([false, false], false) => "not met",
         ([false, false], true) => "both scaled down to share full drive",
         ([true, false], _) => "40 Hz is held",

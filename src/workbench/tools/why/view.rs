@@ -121,14 +121,14 @@ fn show_chain(ui: &mut Ui, why: &Why) {
             }
         });
         for (name, value) in lines {
-            let bite = why.output.bite;
-            let bites = (name == LIMITS).then(|| limit_words(bite)).flatten();
-            show_line(ui, &name, &value, bites);
+            let limiter = why.output.limiter;
+            let limiters = (name == LIMITS).then(|| limit_words(limiter)).flatten();
+            show_line(ui, &name, &value, limiters);
         }
     });
 }
 
-fn show_line(ui: &mut Ui, name: &str, value: &str, bites: Option<String>) {
+fn show_line(ui: &mut Ui, name: &str, value: &str, limiters: Option<String>) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), LINE);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
@@ -144,7 +144,7 @@ fn show_line(ui: &mut Ui, name: &str, value: &str, bites: Option<String>) {
             ui.set_min_width(NAMES);
             ui.label(name);
         });
-        if let Some(words) = bites {
+        if let Some(words) = limiters {
             let size = vec2(LIMIT_MARK + 6.0, LINE);
             let (rect, mark) = ui.allocate_exact_size(size, Sense::hover());
             paint_limit_mark(ui.painter(), rect.center() - vec2(3.0, 0.0));

@@ -147,7 +147,7 @@ impl Brush<'_> {
     /// Where the dots have room, the mark of an output limit that bites stands beside them.
     fn limit(&self, at: Pos2, dot: &Dot) {
         let has_room = self.points_per_mm >= LEAST_FOR_LIMIT;
-        if has_room && dot.bite.any() && dot.cloth.is_some() && !dot.is_muted {
+        if has_room && dot.limiter.any() && dot.cloth.is_some() && !dot.is_muted {
             let beside = 0.7 * self.points_per_mm;
             paint_limit_mark(self.painter, at + vec2(beside, -beside));
         }

@@ -83,7 +83,7 @@ fn of_dot(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> 
     };
     let [x, y] = [dot.position.x_mm, dot.position.y_mm].map(|mm| quantity::fixed(mm, 2));
     let bands = sensation.band_lines(dot.amplitude_um);
-    let state = match limit_words(dot.bite) {
+    let state = match limit_words(dot.limiter) {
         _ if dot.is_muted => "\nMuted".to_owned(),
         Some(words) => format!("\n{words}"),
         None => String::new(),

@@ -10,29 +10,26 @@
 //!
 //! # Invariants
 //! - no clock, no thread, no port: callers say which codes hold for which samples
-//! - nothing allocates after [`Plant::new`] but a change of the model
+//! - nothing allocates after [`ActuatorModel::new`] but a change of the model
 //! - whatever the codes, every number stays finite
 //! - no hysteresis and no creep: bimorphs have 10–15 % of the former
 
-mod amplifier;
 mod bimorph;
 mod contactor;
 mod lanes;
-mod load;
 mod reading;
 mod sample;
 mod skin;
 mod synth;
 mod watch;
 
-pub use amplifier::Amplifier;
 pub use bimorph::Bimorph;
-pub use contactor::{ContactorModel, MOST_QUALITY};
-pub use lanes::Plant;
-pub use reading::{ContactorReading, PlantReading};
+pub use contactor::{Amplifier, ContactorModel, MAX_QUALITY};
+pub use lanes::ActuatorModel;
+pub use reading::{ActuatorReading, ContactorReading};
 pub use skin::Skin;
-pub use watch::PlantWatch;
-pub(crate) use watch::{PlantFeed, plant_watch};
+pub use watch::ActuatorWatch;
+pub(crate) use watch::{ActuatorFeed, actuator_watch};
 
 /// Samples a second that the DAC is given.
 pub const SAMPLES_PER_S: u32 = 8000;

@@ -11,8 +11,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Amplifier, Bimorph, SAMPLES_PER_S, Skin};
-use crate::BridgeError;
+use super::{Bimorph, SAMPLES_PER_S, Skin};
+use crate::device::Load;
+use crate::{BridgeError, FULL_CODE};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::LinearSystem;
 
@@ -26,15 +27,17 @@ pub(super) const N_STATES: usize = 5;
 /// Inputs: what drives the amplifier, and 1 (the preload that is missing while the skin is off).
 pub(super) const N_INPUTS: usize = 2;
 
+/// The carriers, Hz.
+const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
 /// The highest quality factor that a model takes.
-pub const MOST_QUALITY: f64 = 1000.0;
+pub const MAX_QUALITY: f64 = 1000.0;
 
 /// Everything that is assumed of a contactor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactorModel {
     /// The beam.
     pub bimorph: Bimorph,
-    /// Quality factor of the free beam, up to [`MOST_QUALITY`]. 40 is an assumption.
+    /// Quality factor of the free beam, up to [`MAX_QUALITY`]. 40 is an assumption.
     pub quality: f64,
     /// Mass of the pin, mg.
     pub pin_mg: f64,
@@ -90,7 +93,7 @@ impl ContactorModel {
         self.bimorph.check()?;
         self.skin.check()?;
         let ranges = [
-            ("quality factor", self.quality, 0.1, MOST_QUALITY),
+            ("quality factor", self.quality, 0.1, MAX_QUALITY),
             ("full scale in V", self.full_scale_v, 1e-3, 1e4),
         ];
         for (name, value, least, most) in ranges {
@@ -227,6 +230,72 @@ impl ContactorModel {
     }
 }
 
+impl ContactorModel {
+    /// The current for each carrier's codes while they stay, skin on the pin and no limit of the
+    /// amplifier reached.
+    pub(crate) fn load(&self) -> Load {
+        let full = f64::from(FULL_CODE);
+        Load {
+            ma_per_code: CARRIERS_HZ
+                .map(|hz| 1e3 * self.full_scale_v * self.rms_a_per_v(hz) / full),
+        }
+    }
+
+    /// Root mean square of the current for a sine of 1 V peak through the DAC's hold, A/V.
+    ///
+    /// The DAC moves in steps of `2 sin(ωT/2)` that the amplifier's pole rounds, into the held
+    /// capacitance; at the carrier itself the moving beam adds its charge.
+    fn rms_a_per_v(&self, frequency_hz: f64) -> f64 {
+        let omega = TAU * frequency_hz;
+        let sample_s = 1.0 / f64::from(SAMPLES_PER_S);
+        let tau_s = self.amplifier.time_constant_s;
+        let capacitance_f = self.held_capacitance_f();
+        let rest = (-sample_s / tau_s).exp();
+        let turn = omega * sample_s;
+        // What is left of a step when the next one comes adds to it.
+        let left = 1.0 - 2.0 * rest * turn.cos() + rest * rest;
+        let step = 2.0 * (0.5 * turn).sin().powi(2) / left;
+        let slopes = step * (1.0 - rest * rest) / (2.0 * tau_s * sample_s);
+        let droop = Self::hold_droop(frequency_hz);
+        let output = droop / (1.0 + (omega * tau_s).powi(2)).sqrt();
+        let smooth = 0.5 * (omega * output).powi(2);
+        // Beam and amplifier share a phase but for the beam's own lag.
+        let amplifier = 1.0 / Complex::new(1.0, omega * tau_s);
+        let [beam, _] = self.beam_and_pin_um_per_v(frequency_hz);
+        let charge = capacitance_f * amplifier + 1e-6 * self.bimorph.force_n_per_v() * beam;
+        let carrier = 0.5 * (omega * droop * charge.norm()).powi(2);
+        (capacitance_f.powi(2) * (slopes - smooth) + carrier).sqrt()
+    }
+}
+
+/// An amplifier that follows its input until slope, current or rails say no.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amplifier {
+    /// Time constant of its pole, s.
+    pub(crate) time_constant_s: f64,
+    /// Steepest slope of its output, V/µs.
+    pub slew_v_per_us: f64,
+    /// Largest current into its load, mA: with a capacitance, another limit of the slope.
+    pub(crate) current_limit_ma: f64,
+}
+
+impl Default for Amplifier {
+    fn default() -> Self {
+        Self {
+            time_constant_s: 20e-6,
+            slew_v_per_us: 2.2,
+            current_limit_ma: 10.0,
+        }
+    }
+}
+
+impl Amplifier {
+    /// The steepest slope into `capacitance_f` farads, V/s.
+    pub(crate) fn steepest_v_per_s(&self, capacitance_f: f64) -> f64 {
+        (1e6 * self.slew_v_per_us).min(1e-3 * self.current_limit_ma / capacitance_f)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,7 +336,7 @@ mod tests {
     #[test]
     fn the_system_and_the_closed_form_respond_alike() {
         for skin in [Skin::FREE, Skin::LIGHT, Skin::FIRM, Skin::bonded(1e5, 0.0)] {
-            for quality in [0.5, 40.0, MOST_QUALITY] {
+            for quality in [0.5, 40.0, MAX_QUALITY] {
                 let model = ContactorModel {
                     quality,
                     skin,

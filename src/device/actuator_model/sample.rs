@@ -15,7 +15,7 @@ const HALVINGS: usize = 12;
 /// Smallest parts of a sample.
 const PARTS: u32 = 1 << HALVINGS;
 /// More changes of contact than this in a sample are chatter: the last one stays.
-const MOST_CHANGES: u32 = 8;
+const MAX_CHANGES: u32 = 8;
 /// Length of a sample, s.
 pub(super) const SAMPLE_S: f64 = 1.0 / SAMPLES_PER_S as f64;
 
@@ -186,7 +186,7 @@ impl Steps {
             let is_off = *contact == Contact::Off;
             let table = &self.tables[usize::from(is_off)][usize::from(drive == Drive::Slews)];
             let next = table[halvings].step(state, &input);
-            let has_changed = self.pushes(&next) == is_off && n_changes < MOST_CHANGES;
+            let has_changed = self.pushes(&next) == is_off && n_changes < MAX_CHANGES;
             if has_changed && size > 1 {
                 largest = size / 2;
                 continue;

@@ -2,21 +2,26 @@
 //!
 //! Every signal asks for the same, so that one that is sent twice does not cut a clean end short.
 
+use std::io;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use super::CliError;
+/// The system does not let the program listen to signals.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot listen to signals: {0}; try again")]
+pub struct SignalError(#[from] io::Error);
 
 /// A flag that SIGINT and SIGTERM raise.
-pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
+///
+/// # Errors
+/// The system does not let the program listen.
+pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        flag::register(signal, Arc::clone(&stop)).map_err(|error| {
-            CliError::Failed(format!("cannot listen to signals: {error}; try again"))
-        })?;
+        flag::register(signal, Arc::clone(&stop))?;
     }
     Ok(stop)
 }
@@ -25,7 +30,7 @@ pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
 /// process. Where signals cannot be listened to they end the program as they always did, and the
 /// device falls silent by its own rule.
 #[cfg(unix)]
-pub(super) fn on_signal(act: impl Fn() + Send + 'static) {
+pub fn on_signal(act: impl Fn() + Send + 'static) {
     let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else {
         return;
     };
@@ -37,4 +42,4 @@ pub(super) fn on_signal(act: impl Fn() + Send + 'static) {
 
 /// This system has no such signals.
 #[cfg(not(unix))]
-pub(super) fn on_signal(_act: impl Fn() + Send + 'static) {}
+pub fn on_signal(_act: impl Fn() + Send + 'static) {}

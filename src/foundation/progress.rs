@@ -7,10 +7,6 @@
 //! - no I/O, no locks; cancelling is one atomic flag
 //! - work that is cancelled returns [`Cancelled`] and leaves nothing half-done behind
 
-mod cpu_clock;
-
-pub use cpu_clock::thread_cpu_seconds;
-
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -91,6 +87,23 @@ impl std::fmt::Debug for Progress<'_> {
 /// Runs `work` with progress that nobody hears and that never cancels.
 pub fn unheard<T>(work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
     work(&mut Progress::new(&mut |_, _| {}, CancelFlag::new()))
+}
+
+/// CPU time that the calling thread has used, s, from an arbitrary origin.
+#[cfg(unix)]
+pub fn thread_cpu_seconds() -> f64 {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+}
+
+/// Wall time, s, from an arbitrary origin: this system has no clock of a thread's CPU time.
+#[cfg(not(unix))]
+pub fn thread_cpu_seconds() -> f64 {
+    use std::sync::OnceLock;
+    use std::time::Instant;
+
+    static ORIGIN: OnceLock<Instant> = OnceLock::new();
+    ORIGIN.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
 
 #[cfg(test)]

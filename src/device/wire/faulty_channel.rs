@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use super::faults::{Direction, Injection, InjectionKind, LaneFaults, Latency};
+use super::faults::{Direction, Injection, InjectionKind, Latency, LinkFaults};
 use selvedge_foundation::numerics::Random;
 
 /// Bytes that can wait in one direction.
@@ -66,8 +66,8 @@ impl Gap {
 
 /// One direction.
 #[derive(Clone, Debug)]
-pub(super) struct Lane {
-    faults: LaneFaults,
+pub(super) struct FaultyChannel {
+    faults: LinkFaults,
     direction: Direction,
     random: Random,
     drop: Gap,
@@ -84,14 +84,14 @@ pub(super) struct Lane {
     injections: Vec<Injection>,
 }
 
-impl Lane {
-    pub(super) fn new(faults: LaneFaults, direction: Direction, seed: u64) -> Self {
+impl FaultyChannel {
+    pub(super) fn new(faults: LinkFaults, direction: Direction, seed: u64) -> Self {
         let purpose = match direction {
             Direction::ToDevice => "to device",
             Direction::ToHost => "to host",
         };
         let mut random = Random::new(seed).branch(purpose);
-        let mut lane = Self {
+        let mut link = Self {
             drop: Gap::new(faults.drop_rate, &mut random),
             flip: Gap::new(faults.flip_rate, &mut random),
             insert: Gap::new(faults.insert_rate, &mut random),
@@ -107,8 +107,8 @@ impl Lane {
             timer: None,
             injections: Vec::new(),
         };
-        lane.draw_garbage(0);
-        lane
+        link.draw_garbage(0);
+        link
     }
 
     /// Takes what was written at `now_us`.

@@ -1,12 +1,12 @@
-//! A device in told time whose plant is looked at.
+//! A device in told time whose actuators is looked at.
 
 use super::*;
 use crate::device::tests::opening;
 use crate::message::{DeviceState, NEXT_TICK, frame};
 use crate::{DeviceCore, DeviceModel, DeviceSink};
 
-/// Feeds a plant and drops the packets.
-struct Fed(PlantFeed);
+/// Feeds actuators and drops the packets.
+struct Fed(ActuatorFeed);
 
 impl DeviceSink for Fed {
     fn packet(&mut self, _bytes: &[u8]) {}
@@ -17,8 +17,8 @@ impl DeviceSink for Fed {
 }
 
 /// A device that is armed at 10 ms and given full frames until 500 ms.
-fn play(until_ms: u64, is_looking: bool) -> (PlantWatch, DeviceCore) {
-    let (feed, watch) = plant_watch(ContactorModel::default(), 24);
+fn play(until_ms: u64, is_looking: bool) -> (ActuatorWatch, DeviceCore) {
+    let (feed, watch) = actuator_watch(ContactorModel::default(), 24);
     watch.look(is_looking);
     let (mut device, mut fed) = (DeviceCore::new(DeviceModel::default()), Fed(feed));
     for packet in opening() {

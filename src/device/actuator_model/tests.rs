@@ -34,12 +34,12 @@ fn volts(code: u16) -> f64 {
 fn displacement_at_40_and_320_hz_is_within_a_thousandth_of_the_closed_form() {
     for skin in LOADS {
         let model = loaded(skin);
-        let mut plant = Plant::new(&model, 24).unwrap();
+        let mut actuators = ActuatorModel::new(&model, 24).unwrap();
         let codes = [[30_000, 20_000]; 24];
         for _ in 0..40 {
-            plant.tick(&codes, RAIL_V);
+            actuators.tick(&codes, RAIL_V);
         }
-        for (index, contactor) in plant.reading().contactors.iter().enumerate() {
+        for (index, contactor) in actuators.reading().contactors.iter().enumerate() {
             for (band, frequency_hz) in [40.0, 320.0].into_iter().enumerate() {
                 let of_path = model.response_um_per_v(frequency_hz).norm()
                     * ContactorModel::hold_droop(frequency_hz);
@@ -62,13 +62,13 @@ fn displacement_at_40_and_320_hz_is_within_a_thousandth_of_the_closed_form() {
 fn the_current_in_closed_form_is_the_plants_own() {
     for skin in LOADS {
         let model = loaded(skin);
-        let mut plant = Plant::new(&model, 24).unwrap();
+        let mut actuators = ActuatorModel::new(&model, 24).unwrap();
         for codes in [[30_000, 20_000], [40_000, 0], [0, 40_000]] {
             for _ in 0..40 {
-                plant.tick(&[codes; 24], RAIL_V);
+                actuators.tick(&[codes; 24], RAIL_V);
             }
             let found = model.load().ma(std::iter::repeat_n(codes, 24));
-            let wanted = plant.reading().current_ma();
+            let wanted = actuators.reading().current_ma();
             assert!(
                 (found / wanted - 1.0).abs() < 5e-3,
                 "{skin}, {codes:?}: {found} mA, the plant {wanted} mA"
@@ -174,23 +174,26 @@ impl Oracle {
 }
 
 /// The largest difference of pins over five ticks of changing codes, over the largest way.
-fn against_oracle(model: ContactorModel, codes: impl Fn(usize) -> [u16; 2]) -> (f64, Plant) {
-    let mut plant = Plant::new(&model, 1).unwrap();
+fn against_oracle(
+    model: ContactorModel,
+    codes: impl Fn(usize) -> [u16; 2],
+) -> (f64, ActuatorModel) {
+    let mut actuators = ActuatorModel::new(&model, 1).unwrap();
     let synth = Synth::new(model.full_scale_v);
     let mut oracle = Oracle {
         model,
         state: [0.0; 5],
     };
-    let (mut off_um, mut most_um) = (0.0_f64, 0.0_f64);
+    let (mut off_um, mut max_um) = (0.0_f64, 0.0_f64);
     for sample in 0..5 * SAMPLES_PER_TICK {
         let codes = codes(sample / SAMPLES_PER_TICK);
-        plant.run(&[codes], 1e3, 1);
+        actuators.run(&[codes], 1e3, 1);
         oracle.sample(synth.volts(codes, synth.phasors(sample % SAMPLES_PER_TICK)));
         let wanted_um = 1e6 * oracle.state[X_PIN];
-        off_um = off_um.max((plant.displacement_um(0) - wanted_um).abs());
-        most_um = most_um.max(wanted_um.abs());
+        off_um = off_um.max((actuators.displacement_um(0) - wanted_um).abs());
+        max_um = max_um.max(wanted_um.abs());
     }
-    (off_um / most_um, plant)
+    (off_um / max_um, actuators)
 }
 
 fn changing(tick: usize) -> [u16; 2] {
@@ -219,9 +222,9 @@ fn lifting_off_and_slewing_agree_with_runge_kutta() {
             ..Skin::bonded(500.0, 0.2)
         });
         model.amplifier.slew_v_per_us = slew_v_per_us;
-        let (off, plant) = against_oracle(model, changing);
+        let (off, actuators) = against_oracle(model, changing);
         assert!(off < 2e-3, "{preload_um} µm, {slew_v_per_us} V/µs: {off:e}");
-        let last = plant.reading().contactors[0];
+        let last = actuators.reading().contactors[0];
         assert_eq!(last.lost_share > 0.0, preload_um < 100.0, "{last:?}");
         assert_eq!(last.saturated_share > 0.0, slew_v_per_us < 1.0, "{last:?}");
     }
@@ -233,25 +236,25 @@ fn skin_without_preload_is_off_for_about_half_of_the_time() {
         preload_um: Some(0.0),
         ..Skin::bonded(200.0, 0.05)
     });
-    let mut plant = Plant::new(&model, 1).unwrap();
+    let mut actuators = ActuatorModel::new(&model, 1).unwrap();
     for _ in 0..20 {
-        plant.tick(&[[40_000, 0]], RAIL_V);
+        actuators.tick(&[[40_000, 0]], RAIL_V);
     }
-    let share = plant.reading().contactors[0].lost_share;
+    let share = actuators.reading().contactors[0].lost_share;
     assert!((0.35..0.6).contains(&share), "{share}");
 }
 
 #[test]
 fn the_current_is_what_capacitance_and_motion_take() {
     let model = loaded(Skin::LIGHT);
-    let mut plant = Plant::new(&model, 1).unwrap();
+    let mut actuators = ActuatorModel::new(&model, 1).unwrap();
     let mut oracle = Oracle {
         model,
         state: [0.0; 5],
     };
     let synth = Synth::new(50.0);
     for _ in 0..8 {
-        plant.tick(&[[0, 65_535]], RAIL_V);
+        actuators.tick(&[[0, 65_535]], RAIL_V);
     }
     let (held_f, per_m) = (model.held_capacitance_f(), model.bimorph.force_n_per_v());
     let (mut squares, mut n) = (0.0, 0.0);
@@ -273,7 +276,7 @@ fn the_current_is_what_capacitance_and_motion_take() {
         }
     }
     let wanted_ma = 1e3 * (squares / n).sqrt();
-    let found = plant.reading().contactors[0];
+    let found = actuators.reading().contactors[0];
     assert!(
         (found.current_rms_ma / wanted_ma - 1.0).abs() < 0.02,
         "{found:?}, {wanted_ma} mA"
@@ -288,19 +291,19 @@ fn the_current_is_what_capacitance_and_motion_take() {
 
 #[test]
 fn rails_and_high_voltage_off_hold_the_amplifier_back() {
-    let mut plant = Plant::new(&loaded(Skin::LIGHT), 5).unwrap();
+    let mut actuators = ActuatorModel::new(&loaded(Skin::LIGHT), 5).unwrap();
     for _ in 0..10 {
-        plant.tick(&[[65_535, 0]; 5], 25.0);
+        actuators.tick(&[[65_535, 0]; 5], 25.0);
     }
-    let half = plant.reading().contactors[4];
+    let half = actuators.reading().contactors[4];
     assert!(
         (0.6..0.7).contains(&half.saturated_share),
         "a sine above half its peak: {half:?}"
     );
     for _ in 0..40 {
-        plant.tick(&[[65_535, 0]; 5], 0.0);
+        actuators.tick(&[[65_535, 0]; 5], 0.0);
     }
-    let off = plant.reading().contactors[4];
+    let off = actuators.reading().contactors[4];
     assert!(
         off.peak_um < 1e-6,
         "nothing moves without high voltage: {off:?}"
@@ -310,7 +313,7 @@ fn rails_and_high_voltage_off_hold_the_amplifier_back() {
 #[test]
 fn everything_stays_finite_at_the_extremes() {
     let mut random = Random::new(9);
-    for quality in [0.1, 40.0, MOST_QUALITY] {
+    for quality in [0.1, 40.0, MAX_QUALITY] {
         for (ks, cs) in [(0.0, 0.0), (1e5, 0.0), (1e5, 100.0), (1e9, 0.0), (0.0, 1e4)] {
             for preload_um in [None, Some(0.0), Some(1.0), Some(1e4)] {
                 let model = ContactorModel {
@@ -320,11 +323,11 @@ fn everything_stays_finite_at_the_extremes() {
                         ..Skin::bonded(ks, cs)
                     })
                 };
-                let mut plant = Plant::new(&model, 5).unwrap();
+                let mut actuators = ActuatorModel::new(&model, 5).unwrap();
                 for _ in 0..2 {
                     let code = |random: &mut Random| u16::try_from(random.index(65_536)).unwrap();
                     let codes = [(); 5].map(|()| [code(&mut random), u16::MAX]);
-                    let reading = plant.tick(&codes, 1e3);
+                    let reading = actuators.tick(&codes, 1e3);
                     for one in &reading.contactors {
                         let numbers = [one.peak_um, one.current_rms_ma, one.current_peak_ma];
                         let is_bounded = numbers.iter().all(|n| n.is_finite() && *n < 1e5);
@@ -339,7 +342,7 @@ fn everything_stays_finite_at_the_extremes() {
 #[test]
 fn a_sharp_resonance_against_stiff_skin_meets_the_closed_form_to_a_billionth() {
     let model = ContactorModel {
-        quality: MOST_QUALITY,
+        quality: MAX_QUALITY,
         ..loaded(Skin::bonded(1e5, 0.0))
     };
     let step = *Steps::new(&model).unwrap().plain();
@@ -360,18 +363,21 @@ fn a_sharp_resonance_against_stiff_skin_meets_the_closed_form_to_a_billionth() {
 
 #[test]
 fn what_rang_down_is_exactly_at_rest_and_moves_again_when_driven() {
-    let mut plant = Plant::new(&loaded(Skin::FREE), 3).unwrap();
+    let mut actuators = ActuatorModel::new(&loaded(Skin::FREE), 3).unwrap();
     let loud = [[0, 0], [20_000, 20_000], [0, 0]];
     for _ in 0..4 {
-        plant.tick(&loud, RAIL_V);
+        actuators.tick(&loud, RAIL_V);
     }
     for _ in 0..80 {
-        plant.tick(&[[0, 0]; 3], RAIL_V);
+        actuators.tick(&[[0, 0]; 3], RAIL_V);
     }
-    assert_eq!(plant.reading().contactors, [ContactorReading::default(); 3]);
-    assert_eq!(plant.reading().n_ticks, 84, "ticks go on");
-    plant.tick(&loud, RAIL_V);
-    let peaks = plant
+    assert_eq!(
+        actuators.reading().contactors,
+        [ContactorReading::default(); 3]
+    );
+    assert_eq!(actuators.reading().n_ticks, 84, "ticks go on");
+    actuators.tick(&loud, RAIL_V);
+    let peaks = actuators
         .reading()
         .contactors
         .iter()

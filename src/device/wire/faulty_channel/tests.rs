@@ -2,25 +2,25 @@
 
 use super::*;
 
-fn lane(faults: LaneFaults) -> Lane {
-    Lane::new(faults, Direction::ToHost, 7)
+fn lane(faults: LinkFaults) -> FaultyChannel {
+    FaultyChannel::new(faults, Direction::ToHost, 7)
 }
 
 /// Sends `n` writes of `length` bytes 25 ms apart; what arrives and when.
-fn through(faults: LaneFaults, n: u64, length: usize) -> (Vec<(u64, Vec<u8>)>, Vec<Injection>) {
-    let mut lane = lane(faults);
+fn through(faults: LinkFaults, n: u64, length: usize) -> (Vec<(u64, Vec<u8>)>, Vec<Injection>) {
+    let mut link = lane(faults);
     let mut arrived = Vec::new();
     let bytes: Vec<u8> = (0..=u8::MAX).cycle().take(length).collect();
     for write in 0..n {
-        lane.send(write * 25_000, &bytes);
-        while let Some(due_us) = lane.next_due_us().filter(|us| *us <= (write + 1) * 25_000) {
-            lane.make_due(due_us);
-            while let Some(bytes) = lane.take(due_us) {
+        link.send(write * 25_000, &bytes);
+        while let Some(due_us) = link.next_due_us().filter(|us| *us <= (write + 1) * 25_000) {
+            link.make_due(due_us);
+            while let Some(bytes) = link.take(due_us) {
                 arrived.push((due_us, bytes));
             }
         }
     }
-    (arrived, lane.take_injections())
+    (arrived, link.take_injections())
 }
 
 fn amount(injections: &[Injection], kind: InjectionKind) -> u64 {
@@ -30,7 +30,7 @@ fn amount(injections: &[Injection], kind: InjectionKind) -> u64 {
 
 #[test]
 fn a_lane_without_faults_passes_everything_at_once() {
-    let (arrived, injections) = through(LaneFaults::default(), 10, 111);
+    let (arrived, injections) = through(LinkFaults::default(), 10, 111);
     assert!(injections.is_empty());
     for (write, (at_us, bytes)) in (0..).zip(&arrived) {
         assert_eq!((*at_us, bytes.len()), (write * 25_000, 111));
@@ -51,11 +51,11 @@ fn bytes_are_dropped_changed_and_inserted_as_often_as_was_said() {
     {
         let mut rates = [0.0; 3];
         rates[nth] = rate;
-        let faults = LaneFaults {
+        let faults = LinkFaults {
             drop_rate: rates[0],
             flip_rate: rates[1],
             insert_rate: rates[2],
-            ..LaneFaults::default()
+            ..LinkFaults::default()
         };
         let (arrived, injections) = through(faults, 1000, 100);
         let harmed = amount(&injections, kind);
@@ -76,9 +76,9 @@ fn bytes_are_dropped_changed_and_inserted_as_often_as_was_said() {
 
 #[test]
 fn a_rate_of_one_harms_every_byte_and_none_stays_as_it_was() {
-    let faults = LaneFaults {
+    let faults = LinkFaults {
         flip_rate: 1.0,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let (arrived, _) = through(faults, 20, 256);
     let untouched = |bytes: &[u8]| (0..=u8::MAX).zip(bytes).any(|(was, is)| was == *is);
@@ -87,9 +87,9 @@ fn a_rate_of_one_harms_every_byte_and_none_stays_as_it_was() {
 
 #[test]
 fn usb_packets_are_lost_whole_and_writes_come_twice() {
-    let faults = LaneFaults {
+    let faults = LinkFaults {
         usb_loss_rate: 0.5,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let (arrived, injections) = through(faults, 400, 111);
     let lengths: Vec<usize> = arrived.iter().map(|(_, bytes)| bytes.len()).collect();
@@ -99,31 +99,31 @@ fn usb_packets_are_lost_whole_and_writes_come_twice() {
     );
     let lost = injections.len();
     assert!((330..470).contains(&lost), "400 of 800: {lost}");
-    let faults = LaneFaults {
+    let faults = LinkFaults {
         repeat_rate: 1.0,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     assert_eq!(through(faults, 5, 20).0.len(), 10);
 }
 
 #[test]
 fn latencies_keep_the_order_and_their_shape() {
-    let faults = LaneFaults {
+    let faults = LinkFaults {
         latency: Latency::Normal {
             mean_us: 20_000,
             deviation_us: 15_000,
         },
         hiccup_rate: 0.1,
         hiccup_us: 50_000,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
     let (arrived, injections) = through(faults, 500, 3);
     assert!(arrived.windows(2).all(|two| two[0].0 <= two[1].0));
     let hiccups = injections.len();
     assert!((25..80).contains(&hiccups), "50 of 500: {hiccups}");
-    let mut cdc = lane(LaneFaults {
+    let mut cdc = lane(LinkFaults {
         latency: Latency::UsbFrame,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     });
     cdc.send(1234, &[1]);
     assert_eq!(cdc.next_due_us(), Some(2000));
@@ -131,9 +131,9 @@ fn latencies_keep_the_order_and_their_shape() {
 
 #[test]
 fn an_adapter_waits_for_its_timer_or_for_62_bytes() {
-    let mut ftdi = lane(LaneFaults {
+    let mut ftdi = lane(LinkFaults {
         latency: Latency::Timer(16_000),
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     });
     ftdi.send(500, &[1; 47]);
     assert_eq!(ftdi.next_due_us(), Some(16_500));
@@ -150,7 +150,7 @@ fn an_adapter_waits_for_its_timer_or_for_62_bytes() {
 
 #[test]
 fn a_stalled_lane_holds_at_most_its_room_and_then_gives_it() {
-    let mut stalled = lane(LaneFaults::default());
+    let mut stalled = lane(LinkFaults::default());
     stalled.stall(1_000_000);
     for write in 0..1000 {
         stalled.send(write, &[7; 100]);
@@ -171,9 +171,9 @@ fn a_stalled_lane_holds_at_most_its_room_and_then_gives_it() {
 
 #[test]
 fn garbage_comes_by_itself_at_the_mean_interval() {
-    let mut noisy = lane(LaneFaults {
+    let mut noisy = lane(LinkFaults {
         garbage_every_us: Some(100_000),
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     });
     let mut n_bursts = 0;
     while let Some(due_us) = noisy.next_due_us().filter(|us| *us < 100_000_000) {
@@ -188,11 +188,11 @@ fn garbage_comes_by_itself_at_the_mean_interval() {
 
 #[test]
 fn a_modem_manager_asks_before_each_visit_and_not_within_one() {
-    let faults = LaneFaults {
+    let faults = LinkFaults {
         chatter: true,
-        ..LaneFaults::default()
+        ..LinkFaults::default()
     };
-    let mut chatty = Lane::new(faults, Direction::ToDevice, 7);
+    let mut chatty = FaultyChannel::new(faults, Direction::ToDevice, 7);
     for at_us in [0, 500_000, 1_000_000, 9_000_000] {
         chatty.send(at_us, &[0]);
     }

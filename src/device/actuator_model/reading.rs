@@ -21,7 +21,7 @@ pub struct ContactorReading {
 
 /// An array in a tick.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlantReading {
+pub struct ActuatorReading {
     /// Ticks read so far; 0 before the first.
     pub n_ticks: u64,
     /// The device's state at the end of the tick.
@@ -32,7 +32,7 @@ pub struct PlantReading {
     pub contactors: Vec<ContactorReading>,
 }
 
-impl PlantReading {
+impl ActuatorReading {
     /// Nothing read yet.
     pub fn new(n_contactors: usize) -> Self {
         Self {

@@ -8,7 +8,7 @@ use std::array::from_fn;
 use super::contactor::{Contact, N_STATES, U_AMP, V_BEAM, X_PIN};
 use super::sample::{SAMPLE_S, Step, Steps};
 use super::synth::{Phasors, Synth};
-use super::{ContactorModel, ContactorReading, PlantReading, SAMPLES_PER_TICK};
+use super::{ActuatorReading, ContactorModel, ContactorReading, SAMPLES_PER_TICK};
 use crate::BridgeError;
 use crate::message::DeviceState;
 
@@ -48,7 +48,7 @@ const AT_REST: Block = Block {
 
 /// The contactors of an array and what drives them.
 #[derive(Clone, Debug)]
-pub struct Plant {
+pub struct ActuatorModel {
     model: ContactorModel,
     steps: Box<Steps>,
     synth: Box<Synth>,
@@ -59,10 +59,10 @@ pub struct Plant {
     sample: usize,
     /// Whether nothing moves, so that nothing has to be computed until something is driven.
     is_at_rest: bool,
-    reading: PlantReading,
+    reading: ActuatorReading,
 }
 
-impl Plant {
+impl ActuatorModel {
     /// `n_contactors` alike contactors at rest.
     pub fn new(model: &ContactorModel, n_contactors: usize) -> Result<Self, BridgeError> {
         Ok(Self {
@@ -73,7 +73,7 @@ impl Plant {
             blocks: vec![AT_REST; n_contactors.div_ceil(LANES)],
             sample: 0,
             is_at_rest: true,
-            reading: PlantReading::new(n_contactors),
+            reading: ActuatorReading::new(n_contactors),
         })
     }
 
@@ -105,12 +105,12 @@ impl Plant {
     }
 
     /// The last whole tick.
-    pub fn reading(&self) -> &PlantReading {
+    pub fn reading(&self) -> &ActuatorReading {
         &self.reading
     }
 
     /// One tick of 25 ms with these output codes and rails of ±`rail_v`: what they did.
-    pub fn tick(&mut self, codes: &[[u16; 2]], rail_v: f64) -> &PlantReading {
+    pub fn tick(&mut self, codes: &[[u16; 2]], rail_v: f64) -> &ActuatorReading {
         self.run(codes, rail_v, SAMPLES_PER_TICK - self.sample);
         &self.reading
     }

@@ -1,7 +1,7 @@
 //! From a running emulator to whoever looks at its contactors: readings one way, models the other.
 //!
 //! Only the latest matters of both, so both are triple buffers. While nobody looks nothing is
-//! computed: the plant waits at rest.
+//! computed: the actuators wait at rest.
 
 use std::fmt;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use triple_buffer::{Input, Output, triple_buffer};
 
-use super::{ContactorModel, Plant, PlantReading, SAMPLES_PER_TICK};
+use super::{ActuatorModel, ActuatorReading, ContactorModel, SAMPLES_PER_TICK};
 use crate::device::{DeviceCore, Load};
 use crate::message::DeviceState;
 
@@ -21,47 +21,50 @@ const MS_US: u64 = 1000;
 const MS_PER_TICK: u64 = (SAMPLES_PER_TICK / SAMPLES_PER_MS) as u64;
 
 /// The end of who looks.
-pub struct PlantWatch {
+pub struct ActuatorWatch {
     is_looking: Arc<AtomicBool>,
-    readings: Output<PlantReading>,
+    readings: Output<ActuatorReading>,
     models: Input<ContactorModel>,
     model: ContactorModel,
 }
 
 /// The end of the device.
-pub(crate) struct PlantFeed {
+pub(crate) struct ActuatorFeed {
     is_looked_at: Arc<AtomicBool>,
-    readings: Input<PlantReading>,
+    readings: Input<ActuatorReading>,
     models: Output<ContactorModel>,
     n_contactors: usize,
     load: Load,
     /// Made when somebody looks for the first time; `None` also where the model is refused.
-    plant: Option<Box<Plant>>,
+    actuators: Option<Box<ActuatorModel>>,
     codes: Vec<[u16; 2]>,
     next_codes: Vec<[u16; 2]>,
     rail_v: f64,
-    /// Up to when the plant was stepped, µs of the device; `None` while nobody looks.
+    /// Up to when the actuators were stepped, µs of the device; `None` while nobody looks.
     until_us: Option<u64>,
 }
 
 /// Both ends for an array of `n_contactors`; nobody looks yet.
-pub(crate) fn plant_watch(model: ContactorModel, n_contactors: usize) -> (PlantFeed, PlantWatch) {
+pub(crate) fn actuator_watch(
+    model: ContactorModel,
+    n_contactors: usize,
+) -> (ActuatorFeed, ActuatorWatch) {
     let is_looking = Arc::new(AtomicBool::new(false));
-    let (readings_in, readings) = triple_buffer(&PlantReading::new(n_contactors));
+    let (readings_in, readings) = triple_buffer(&ActuatorReading::new(n_contactors));
     let (models, models_out) = triple_buffer(&model);
-    let feed = PlantFeed {
+    let feed = ActuatorFeed {
         is_looked_at: Arc::clone(&is_looking),
         readings: readings_in,
         models: models_out,
         n_contactors,
         load: model.load(),
-        plant: None,
+        actuators: None,
         codes: vec![[0; 2]; n_contactors],
         next_codes: vec![[0; 2]; n_contactors],
         rail_v: 0.0,
         until_us: None,
     };
-    let watch = PlantWatch {
+    let watch = ActuatorWatch {
         is_looking,
         readings,
         models,
@@ -70,7 +73,7 @@ pub(crate) fn plant_watch(model: ContactorModel, n_contactors: usize) -> (PlantF
     (feed, watch)
 }
 
-impl PlantWatch {
+impl ActuatorWatch {
     /// Whether readings are wanted from now on.
     pub fn look(&self, is_looking: bool) {
         self.is_looking.store(is_looking, Ordering::Relaxed);
@@ -82,7 +85,7 @@ impl PlantWatch {
     }
 
     /// The latest reading; of 0 ticks before the first.
-    pub fn reading(&mut self) -> &PlantReading {
+    pub fn reading(&mut self) -> &ActuatorReading {
         self.readings.read()
     }
 
@@ -98,7 +101,7 @@ impl PlantWatch {
     }
 }
 
-impl PlantFeed {
+impl ActuatorFeed {
     /// What the contactors take of their amplifiers, by the model that the feed was made with:
     /// whoever looks, and whatever finger is laid on them since, the device tells the same.
     pub(crate) fn load(&self) -> Load {
@@ -128,46 +131,54 @@ impl PlantFeed {
         self.play(now_us, device.state());
         self.codes.copy_from_slice(&self.next_codes);
         self.rail_v = rail_v;
-        if let Some(plant) = &mut self.plant {
-            plant.set_state(device.state());
+        if let Some(actuators) = &mut self.actuators {
+            actuators.set_state(device.state());
         }
     }
 
-    /// Steps the plant up to now. A device that slept was silent meanwhile.
+    /// Steps the actuators up to now. A device that slept was silent meanwhile.
     fn play(&mut self, now_us: u64, state: DeviceState) {
         let is_changed = self.models.updated();
-        if self.plant.is_none() || is_changed {
+        if self.actuators.is_none() || is_changed {
             self.remodel();
         }
-        let Some(plant) = &mut self.plant else { return };
+        let Some(actuators) = &mut self.actuators else {
+            return;
+        };
         let now_ms = now_us / MS_US;
         let last_ms = self.until_us.replace(now_us).map(|us| us / MS_US);
         let passed_ms = last_ms.and_then(|last_ms| now_ms.checked_sub(last_ms));
         let behind_ms = passed_ms
             .filter(|passed| *passed <= 2 * MS_PER_TICK)
             .unwrap_or_else(|| {
-                plant.rest();
-                plant.set_state(state);
+                actuators.rest();
+                actuators.set_state(state);
                 now_ms % MS_PER_TICK
             });
         let behind = usize::try_from(behind_ms).unwrap_or(0) * SAMPLES_PER_MS;
-        if plant.run(&self.codes, self.rail_v, behind) {
-            self.readings.input_buffer_mut().copy_from(plant.reading());
+        if actuators.run(&self.codes, self.rail_v, behind) {
+            self.readings
+                .input_buffer_mut()
+                .copy_from(actuators.reading());
             self.readings.publish();
         }
     }
 
-    /// Makes the plant of the model that is wanted. One that is refused leaves the last.
+    /// Makes the actuators of the model that is wanted. One that is refused leaves the last.
     fn remodel(&mut self) {
         let model = *self.models.read();
-        match &mut self.plant {
-            Some(plant) => drop(plant.set_model(&model)),
-            None => self.plant = Plant::new(&model, self.n_contactors).map(Box::new).ok(),
+        match &mut self.actuators {
+            Some(actuators) => drop(actuators.set_model(&model)),
+            None => {
+                self.actuators = ActuatorModel::new(&model, self.n_contactors)
+                    .map(Box::new)
+                    .ok()
+            }
         }
     }
 }
 
-impl fmt::Debug for PlantWatch {
+impl fmt::Debug for ActuatorWatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("PlantWatch")
             .field("is_looking", &self.is_looking())
@@ -175,7 +186,7 @@ impl fmt::Debug for PlantWatch {
     }
 }
 
-impl fmt::Debug for PlantFeed {
+impl fmt::Debug for ActuatorFeed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("PlantFeed")
             .field("n_contactors", &self.n_contactors)
