@@ -1,7 +1,7 @@
 //! Contactors that are sharp, stiffly held, driven to the full, or no contactors at all.
 
 use super::case::{Case, Verdict, failed, refused, verdict};
-use selvedge_device::{Bimorph, ContactorModel, MAX_QUALITY, ActuatorModel, SAMPLES_PER_S, Skin};
+use selvedge_device::{ActuatorModel, Bimorph, ContactorModel, MAX_QUALITY, SAMPLES_PER_S, Skin};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::StepMethod;
 

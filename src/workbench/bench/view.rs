@@ -11,7 +11,7 @@ use eframe::egui::{TextureId, Vec2};
 
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::Sensation;
-use selvedge_device::{LimiterState, BridgeState, ClockFit, DeviceUid, Distribution};
+use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState};
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
 use selvedge_render::scene::Pose;

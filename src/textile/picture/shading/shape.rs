@@ -67,7 +67,7 @@ pub struct ShadingOptions {
     /// What keeps the methods from amplifying what the light does not show. Linear: ε of
     /// `H* F / (|H|² + ε)` is the square of this share of |H| at one cycle a tile along the light
     /// (0.1). Variational: the weight of squared curvature (0.001).
-    pub(crate) regulariser: Option<f64>,
+    pub regulariser: Option<f64>,
 }
 
 /// Most iterations.

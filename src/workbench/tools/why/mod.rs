@@ -21,7 +21,7 @@ use crate::bench::Bench;
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::Sensation;
 use crate::bench::view::Source;
-use selvedge_device::{ArrayProfile, LimiterState, Calibration, Coder, Limit};
+use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState};
 use selvedge_render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
