@@ -7,7 +7,7 @@ use eframe::egui;
 use std::time::Duration;
 
 use crate::bench::Bench;
-use selvedge_device::{Bimorph, ContactorModel, FULL_CODE, PlantReading, Skin};
+use selvedge_device::{Bimorph, ContactorModel, FULL_CODE, ActuatorReading, Skin};
 
 /// How soon a first reading is looked for again.
 const SOON: Duration = Duration::from_millis(100);
@@ -156,7 +156,7 @@ mod tests {
         assert!(bench.peek_at_plant(&ctx).is_none(), "no emulator yet");
         bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
         assert!(!bench.peek_at_plant(&ctx).unwrap().is_open);
-        let is_looking = |bench: &mut Bench| bench.engine.plant().unwrap().is_looking();
+        let is_looking = |bench: &mut Bench| bench.engine.actuators().unwrap().is_looking();
         assert!(!is_looking(&mut bench), "the section is closed");
         bench.dispatch(&ctx, DeviceCommand::ShowContactors(true).into());
         assert!(bench.peek_at_plant(&ctx).unwrap().is_open);
