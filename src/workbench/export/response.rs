@@ -89,10 +89,10 @@ fn sheet(asked: &[Asked]) -> Sheet {
         .with("a320_here_um", here(1))
         .with("a40_rms_um", number(&|one| one.given.rms_um[0]))
         .with("a320_rms_um", number(&|one| one.given.rms_um[1]))
-        .with("a40_least_um", number(&|one| one.given.least_um[0]))
-        .with("a320_least_um", number(&|one| one.given.least_um[1]))
-        .with("a40_most_um", number(&|one| one.given.most_um[0]))
-        .with("a320_most_um", number(&|one| one.given.most_um[1]))
+        .with("a40_least_um", number(&|one| one.given.min_um[0]))
+        .with("a320_least_um", number(&|one| one.given.min_um[1]))
+        .with("a40_most_um", number(&|one| one.given.max_um[0]))
+        .with("a320_most_um", number(&|one| one.given.max_um[1]))
 }
 
 fn panel(asked: &[&Asked], (x, y): (Axis, Axis), at: &dyn Fn(&Asked) -> f64) -> Panel {

@@ -209,8 +209,8 @@ impl Plot {
         ink: Color32,
     ) {
         let b = band.index();
-        let lower = self.points(felt, direction, |spread| spread.least_um[b]);
-        let upper = self.points(felt, direction, |spread| spread.most_um[b]);
+        let lower = self.points(felt, direction, |spread| spread.min_um[b]);
+        let upper = self.points(felt, direction, |spread| spread.max_um[b]);
         crate::panes::response_range(
             &painter.with_clip_rect(self.area),
             (&lower, &upper),

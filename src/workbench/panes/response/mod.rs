@@ -145,8 +145,8 @@ fn levels_db(spread: &PointSpread, factors: [f64; 2], band: Band) -> [f64; 4] {
     [
         spread.at_place_um.map_or(f64::NAN, level),
         level(spread.rms_um),
-        level(spread.least_um),
-        level(spread.most_um),
+        level(spread.min_um),
+        level(spread.max_um),
     ]
 }
 
