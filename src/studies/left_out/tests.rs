@@ -1,6 +1,7 @@
 //! The study of what is left out: complete, exact, and open to savings of other floors.
 
 use super::*;
+use crate::Effort;
 use crate::tests::quick;
 
 /// A saving of some other floor.
