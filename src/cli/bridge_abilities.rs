@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use selvedge_device::framing::LARGEST_BODY;
+use selvedge_device::LARGEST_BODY;
 use selvedge_device::{ArrayProfile, Caps, DeviceModel};
 
 /// The smallest `max_body` that a device may have.

@@ -69,7 +69,7 @@ pub enum BridgeError {
     },
     /// An array profile.
     #[error(transparent)]
-    Profile(#[from] selvedge_foundation::files::FileError),
+    Profile(#[from] FileError),
     /// A WAV file has no room for more.
     #[error(
         "a WAV file holds less than 4 GiB: choose 16-bit samples, a lower rate or a shorter path"

@@ -37,12 +37,12 @@ mod emulator;
 mod error;
 mod fields;
 mod frames;
-pub mod framing;
+mod framing;
 mod handle;
 mod hjif;
 mod host;
 mod link;
-pub mod message;
+mod message;
 mod port;
 mod self_test;
 mod session_log;
@@ -57,17 +57,15 @@ pub use actuator_model::{
 };
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState};
-pub use device::AppliedFrame;
-pub use device::DeviceSink;
-pub use device::Load;
-pub use device::Miswiring;
-pub use device::SampledTick;
-pub use device::{CoreCounters, DeviceCore, DeviceModel, Lie, Moment, SampleCount, Sense};
+pub use device::{
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
+    SampleCount, SampledTick, Sense,
+};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use error::{BridgeError, SinkError};
 pub use frames::FrameTable;
-pub use framing::{Decoder, Packet, Received};
+pub use framing::{Decoder, LARGEST_BODY, Packet, Received};
 pub use handle::{Bridge, SampleStream, Target};
 pub use hjif::{HjifSpec, HjifWriter};
 pub use host::HostSession;
@@ -78,8 +76,8 @@ pub use host::{
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, Arm, Caps, Clear, Config, DeviceCounters, DeviceMessage, DeviceState, Fault, Hello, Ident,
-    LARGEST_CHANNELS, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, fault_bit, frame, kind,
-    samples,
+    LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable,
+    fault_bit, frame, kind, samples,
 };
 pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,

@@ -57,7 +57,7 @@ impl Drive {
     }
 
     /// What to ask of the device, within its CAPS.
-    pub(super) fn request(&self, device: &Reported) -> Config {
+    pub(super) fn wanted_config(&self, device: &Reported) -> Config {
         let (hv_max_dv, max) = device
             .caps
             .map_or((0, [0; 2]), |caps| (caps.hv_max_dv, caps.comp_limit));

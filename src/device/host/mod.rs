@@ -313,7 +313,7 @@ impl HostSession {
     fn note_of(&self, request: u8) -> Note {
         match request {
             kind::HELLO => Note::Hello(self.nonce),
-            kind::CONFIG => Note::Config(self.drive.request(&self.device)),
+            kind::CONFIG => Note::Config(self.drive.wanted_config(&self.device)),
             kind::CLEAR => Note::Clear,
             _ => Note::Arm,
         }
@@ -333,7 +333,7 @@ impl HostSession {
             kind::HELLO => self.hello().packet(seq),
             kind::CONFIG => self
                 .drive
-                .request(&self.device)
+                .wanted_config(&self.device)
                 .request(seq, self.drive.n_contactors),
             kind::CLEAR => Clear { bits: u16::MAX }.packet(seq),
             _ => Arm::new(self.nonce).packet(seq),

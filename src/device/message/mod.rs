@@ -23,7 +23,7 @@ use super::fields::{FieldReader, FieldWriter};
 use super::framing::Packet;
 
 /// The four bytes that open HELLO and CAPS.
-pub const MAGIC: [u8; 4] = *b"HBP1";
+pub(crate) const MAGIC: [u8; 4] = *b"HBP1";
 /// The only protocol version so far.
 pub(crate) const VERSION: u8 = 1;
 /// Device tick in µs: every amplitude lasts one tick, in which both carriers complete whole

@@ -1,4 +1,4 @@
-//! A device in told time whose actuators is looked at.
+//! A device in told time whose actuators are looked at.
 
 use super::*;
 use crate::device::tests::opening;

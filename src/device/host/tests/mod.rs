@@ -32,7 +32,7 @@ fn ready_alone(now: Instant) -> HostSession {
         now,
         &DeviceMessage::Caps(DeviceModel::default().caps(NONCE, 1)),
     );
-    let config = host.drive.request(&host.device);
+    let config = host.drive.wanted_config(&host.device);
     host.on_message(now, &DeviceMessage::Cfg(config));
     assert_eq!(host.state(), BridgeState::Ready);
     while host.next_packet().is_some() {}
