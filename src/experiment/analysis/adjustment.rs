@@ -1,11 +1,10 @@
 //! Adjustment: what parameters were left at, by stimulus and by where they began; gains matched to
 //! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
 
-use super::Options;
 use super::draw::{Bar, bars, scatter};
 use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, tests};
+use super::model::{Cell, Section, Table, tests, undefined};
+use super::options::Options;
 use super::properties::Measures;
 use super::variance::effects;
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};

@@ -3,8 +3,7 @@
 use super::draw::scatter;
 use super::judgement_cells::differences_of_conditions;
 use super::kept::{Experiment, Subject};
-use super::map::undefined;
-use super::model::{Cell, Drawn, Section, Table};
+use super::model::{Cell, Drawn, Section, Table, undefined};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_statistics::{Computed, Summary, power_of_t, tost};
 

@@ -2,8 +2,7 @@
 //! Of three, that is the d′ of the triangle test.
 
 use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, matrix};
+use super::model::{Cell, Section, Table, ends, matrix, undefined};
 use selvedge_statistics::Computed;
 use selvedge_statistics::detection::{Choice, Correction, triangle};
 use selvedge_statistics::ranking::{OddOneOut, PairTally};

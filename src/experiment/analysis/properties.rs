@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Options;
 use super::kept::Experiment;
 use super::model::{Cell, Section, Table};
+use super::options::Options;
 use super::own_speeds::{self, MOVING_MM_PER_S, OwnSpeeds};
 use crate::design::Source;
 use selvedge_foundation::progress::{Cancelled, Progress};

@@ -3,10 +3,9 @@
 //! would look.
 
 use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, tests};
+use super::model::{Cell, Section, Table, ends, tests, undefined};
 use super::pairs::over_subjects;
-use super::ranking::Rankings;
+use super::ranking_answers::Rankings;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};

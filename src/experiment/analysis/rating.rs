@@ -1,9 +1,9 @@
 //! Rating scales: means by stimulus, how scales go together, and with what was measured.
 
-use super::Options;
 use super::draw::{Bar, bars};
 use super::kept::Experiment;
 use super::model::{Cell, Drawn, SUMMARY, Section, Table, file_name, summary_cells, tests};
+use super::options::Options;
 use super::properties::Measures;
 use super::variance::effects;
 use crate::design::{Rating, Scale};

@@ -20,7 +20,6 @@ mod measure;
 mod percept;
 mod scale;
 mod strength;
-mod times;
 
 pub use answer::Participant;
 pub use measure::Stimuli;
