@@ -1,6 +1,6 @@
 //! Experiments of one folder beside each other: a real against a virtual target, say.
 
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Section, summaries, tests};
 use super::ranking_answers::{Rankings, rankings};
 use crate::design::Method;
@@ -88,7 +88,7 @@ fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
         Method::OddOneOut(_) | Method::Judgement(_) => true,
         _ => false,
     };
-    let of = |subject: &super::kept::Subject<'_>| {
+    let of = |subject: &super::included_trials::Subject<'_>| {
         let right: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
         let n = right.iter().filter(|is_right| **is_right).count();
         (

@@ -1,8 +1,8 @@
 //! Confidence in judgements: the receiver operating characteristic.
 
 use super::draw::scatter;
+use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::{Judgement, judgements};
-use super::kept::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, ends, tests, undefined};
 use crate::design::Judging;
 use selvedge_chart::{Axis, Series, Style};
@@ -80,14 +80,10 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
 }
 
 fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
-    let points = pooled
-        .points
-        .iter()
-        .map(|p| [p.false_alarm_rate, p.hit_rate]);
     let series = vec![
         Series {
             name: "all together".to_owned(),
-            points: points.collect(),
+            points: pooled.points.clone(),
             style: Style::LineAndDots,
             ..Series::default()
         },

@@ -1,8 +1,8 @@
 //! Pairs of which the real one was to be found, as comparisons: what was taken for real rather than
 //! what.
 
+use super::included_trials::{Experiment, Subject};
 use super::judgement_cells::levels;
-use super::kept::{Experiment, Subject};
 use super::model::Section;
 use super::options::Options;
 use super::pairs::{INTRODUCTION, Pairs};

@@ -2,7 +2,7 @@
 //! trials, track by track and subject by subject.
 
 use super::draw::{Bar, bars, scatter};
-use super::kept::{Experiment, Subject};
+use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Section, Table, ends, resampled, summaries, tests, undefined};
 use super::options::Options;
 use crate::design::{Levels, StaircaseTrack, Track};

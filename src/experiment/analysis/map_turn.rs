@@ -49,7 +49,7 @@ impl Mapping<'_> {
         section: &mut Section,
         progress: &mut Progress<'_>,
     ) -> Result<(), Cancelled> {
-        self.measures.tell(section);
+        self.measures.describe(section);
         let measures = self.measures;
         self.fitted(plane, section);
         let mut turns = Table::new("turns", "The plane map turned to two measures", &TURNS);

@@ -1,7 +1,7 @@
 //! What the logs of an experiment say: tables, tests, maps and the papers' figures.
 //!
 //! ```text
-//! sessions ─▶ kept (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ files
+//! sessions ─▶ included trials (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ files
 //!                                                                  └▶ a pane
 //! ```
 //!
@@ -14,13 +14,13 @@ mod adjustment;
 mod draw;
 mod draw_map;
 mod groups;
+mod included_trials;
 mod judgement;
 mod judgement_answers;
 mod judgement_cells;
 mod judgement_confidence;
 mod judgement_pairs;
 mod judgement_power;
-mod kept;
 mod levels;
 mod magnitude;
 mod map;
@@ -57,7 +57,7 @@ pub(super) use ranking_answers::rank_trial;
 use super::ExperimentError;
 use super::design::Method;
 use super::session::{self, Found, Unread};
-use kept::Experiment;
+use included_trials::Experiment;
 use selvedge_foundation::progress::Progress;
 
 /// The key of the section that lists logs that cannot be read.
@@ -136,7 +136,7 @@ pub fn analyse(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
-    let experiments = kept::experiments(found);
+    let experiments = included_trials::experiments(found);
     let mut sections = Vec::new();
     for experiment in &experiments {
         sections.push(experiment.sessions_section());

@@ -2,7 +2,7 @@
 //! were mistaken, and the distances that follow.
 
 use super::draw::{Bar, bars};
-use super::kept::{Experiment, Subject};
+use super::included_trials::{Experiment, Subject};
 use super::map::Mapping;
 use super::model::{
     Cell, Drawn, Section, Table, ends, matrix, percent_interval, resampled, summaries, tests,
@@ -237,7 +237,7 @@ fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
         .filter(|s| s.sessions.len() == most);
     let rows: Vec<Vec<f64>> = with_all
         .map(|subject| {
-            let of = |session: &super::kept::Session<'_>| {
+            let of = |session: &super::included_trials::Session<'_>| {
                 let own: Vec<TriadAnswer> = session
                     .trials
                     .iter()

@@ -1,6 +1,6 @@
 //! The odd ones that were chosen, as they were given.
 
-use super::kept::Subject;
+use super::included_trials::Subject;
 use crate::{Answer, Record, Task};
 use selvedge_statistics::ranking::{Grade, GradeWeights, TriadAnswer};
 

@@ -1,7 +1,7 @@
 //! Distances of fabrics as Craven (1992) takes them: the d′ of odd-man-out choices, pair by pair.
 //! Of three, that is the d′ of the triangle test.
 
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, ends, matrix, undefined};
 use selvedge_statistics::Computed;
 use selvedge_statistics::detection::{Choice, Correction, triangle};

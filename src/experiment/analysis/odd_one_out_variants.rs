@@ -1,7 +1,7 @@
 //! How much a map hangs on what answers count: the design's weights against others and against
 //! Craven's distances.
 
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, undefined};
 use super::odd_one_out_answers::grade_weights;

@@ -2,7 +2,7 @@
 //! found, what was taken for what, and the map that follows.
 
 use super::draw::{Bar, bars};
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, ends, percent_interval, resampled, summaries, tests};
 use super::options::Options;

@@ -1,6 +1,6 @@
 //! Rankings against a target as they were given, subject by subject.
 
-use super::kept::{Experiment, Subject};
+use super::included_trials::{Experiment, Subject};
 use crate::{Answer, Record, Task};
 use selvedge_statistics::ranking::RankTrial;
 

@@ -2,7 +2,7 @@
 
 use super::draw::{Bar, bars};
 use super::draw_map::heat;
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Cell, Drawn, Section, Table, ends, matrix, percent_interval};
 use super::ranking_answers::CHANCE_PERCENT;
 use crate::design::{Ranking, Standard};

@@ -2,7 +2,7 @@
 //! (Plackett & Luce, and Bradley & Terry of the same rankings in pairs), and how rankings by chance
 //! would look.
 
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, ends, tests, undefined};
 use super::pairs::over_subjects;
 use super::ranking_answers::Rankings;

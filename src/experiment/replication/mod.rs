@@ -131,7 +131,7 @@ fn in_full(
     progress.step(0.0, "one study of each in full")?;
     for laid in each {
         let n_sessions = odd_one_out::sessions_of(&laid.design);
-        found.extend(studies::held(
+        found.extend(studies::simulate_study(
             laid,
             by_levels().observer,
             n_sessions,

@@ -106,7 +106,7 @@ pub(super) fn planned(design: &Design) -> usize {
 }
 
 /// A study of a design's planned size as its logs would be found, without writing them.
-pub(super) fn held(
+pub(super) fn simulate_study(
     laid: &DesignWithStimuli,
     observer: Observer,
     n_sessions: u32,

@@ -159,7 +159,11 @@ fn what_the_shipped_ranking_gives() {
                 let shares: Vec<f64> = (0..8).map(share).collect();
                 let summary = selvedge_statistics::Summary::of(&shares).unwrap();
                 let se = summary.sd / 8.0_f64.sqrt();
-                println!("{:.1} % ± {se:.1} SE: {}", summary.mean, observer.told());
+                println!(
+                    "{:.1} % ± {se:.1} SE: {}",
+                    summary.mean,
+                    observer.describe()
+                );
             }
         }
     }
