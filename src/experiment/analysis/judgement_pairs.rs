@@ -5,7 +5,7 @@ use super::included_trials::{Experiment, Subject};
 use super::judgement_cells::levels;
 use super::model::Section;
 use super::options::Options;
-use super::pairs::{INTRODUCTION, Pairs};
+use super::pairs::{NOTE, Pairs};
 use crate::{Answer, Record, Task};
 use selvedge_statistics::Computed;
 use selvedge_statistics::ranking::Preferences;
@@ -24,7 +24,7 @@ fn chosen(record: &Record) -> Option<[usize; 2]> {
 pub(super) fn section(experiment: &Experiment<'_>, options: &Options) -> Section {
     let title = format!("{}: taken for real, pair by pair", experiment.design.title);
     let mut section = Section::new(experiment.key("pairs"), title);
-    section.note(INTRODUCTION);
+    section.note(NOTE);
     section.note(
         "Preferred is what was taken for real. Conditions are compared over all materials; stimuli \
          are on one scale only where pairs join them.",

@@ -25,7 +25,7 @@ pub(super) fn draws(options: &Options) -> (usize, u64) {
 }
 
 /// What every section with such scales says of them.
-pub(super) const INTRODUCTION: &str = "Bradley and Terry's values are logits: the natural logarithm of \
+pub(super) const NOTE: &str = "Bradley and Terry's values are logits: the natural logarithm of \
     the odds that one is preferred to the other is their difference. The unit of Thurstone's (Case \
     V) is the standard deviation of the difference of two sensations; times √2 it is that of one, \
     the unit of d′. Row means of z (Mosteller) are in the same unit. Scales have no zero of their \

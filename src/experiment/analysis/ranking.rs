@@ -6,7 +6,7 @@ use super::included_trials::Experiment;
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, ends, percent_interval, resampled, summaries, tests};
 use super::options::Options;
-use super::pairs::{INTRODUCTION, Pairs};
+use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
 use super::ranking_answers::{CHANCE_PERCENT, Rankings, rankings};
 use super::{ranking_confusions, ranking_scale};
@@ -248,7 +248,7 @@ fn pairs_section(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Op
          targets together: preferred is what was ranked nearer. Values that differ say that some \
          textiles are ranked near whatever the target is.",
     );
-    section.note(INTRODUCTION);
+    section.note(NOTE);
     section.note(
         "**Pairs of one ranking are not independent**: errors that take them so are too small, and \
          so are their p. Errors over subjects, by drawing subjects again, are the ones to quote.",

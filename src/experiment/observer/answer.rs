@@ -359,7 +359,8 @@ fn place(observer: &Observer, stimuli: &Stimuli, item: usize, gains_db: [f64; 2]
     observer.strategy.place(observer.jnd, levels, gains_db)
 }
 
-/// Median time of a task, s; intervals come on top. All assumed, but that a ranking takes 30 to 90 s.
+/// Median time of a task, s; intervals come on top. All assumed, but that a ranking takes 30 to
+/// 90 s.
 fn median_s(task: &Task) -> f64 {
     match task {
         Task::Rank { .. } => 50.0,
@@ -372,7 +373,8 @@ fn median_s(task: &Task) -> f64 {
     }
 }
 
-/// How long a subject takes for a trial, s, log-normal about the median. A subject that is quick is quick in all.
+/// How long a subject takes for a trial, s, log-normal about the median. A subject that is quick is
+/// quick in all.
 fn response_s(participant: &Participant<'_>, task: &Task, random: &Random) -> f64 {
     let spread = participant.observer.habits.time_spread;
     let own = participant.person.branch("quickness").normal();
