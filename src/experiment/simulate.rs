@@ -124,7 +124,11 @@ impl Simulation<'_> {
             let share = nth as f64 / subjects.len() as f64;
             progress.step(share, &subject.pseudonym)?;
             let records = self.records(subject)?;
-            let device = format!("{SIMULATED}: {}, seed {}", self.observer.told(), self.seed);
+            let device = format!(
+                "{SIMULATED}: {}, seed {}",
+                self.observer.describe(),
+                self.seed
+            );
             let opening = Opening::at(Clock::of(subject).at(), &device, 0);
             let held = (self.design, subject);
             logs.push(write_whole(folder, held, opening, &records)?);

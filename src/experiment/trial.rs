@@ -192,7 +192,7 @@ impl Answer {
     pub(super) fn check_choice(&self, n: usize) -> Result<(), AnswerError> {
         match self {
             Self::Chosen { position, .. } if *position >= n => Err(AnswerError::value(
-                told(*position),
+                describe_position(*position),
                 format!("give 1 to {n}"),
             )),
             _ => Ok(()),
@@ -208,7 +208,7 @@ impl Task {
     /// design's to check.
     pub(crate) fn verdict(&self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
         let chosen = |position: usize, n: usize| {
-            let mend = || AnswerError::value(told(position), format!("give 1 to {n}"));
+            let mend = || AnswerError::value(describe_position(position), format!("give 1 to {n}"));
             if position < n {
                 Ok(position)
             } else {
@@ -264,7 +264,7 @@ impl Task {
     }
 }
 
-fn told(position: usize) -> String {
+fn describe_position(position: usize) -> String {
     format!("there is no number {}", position.saturating_add(1))
 }
 

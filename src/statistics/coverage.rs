@@ -13,8 +13,7 @@ use crate::variance::{
 };
 use crate::{
     Computed, Outcome, Resampling, Summary, bootstrap, fisher_z, mean, normal_lower, one_sample_t,
-    paired_t, pearson, pearson_r, sign_flip, two_sample_t, wilcoxon_pairs, wilcoxon_signed_rank,
-    wilson,
+    paired_t, pearson, pearson_r, sign_flip, two_sample_t, wilcoxon_signed_rank, wilson,
 };
 
 const LEVEL: f64 = 0.95;
@@ -130,9 +129,10 @@ fn tests_find_no_more_than_their_level_where_nothing_is() {
             let b = Summary::of(&normals::<N>(random, 0.0, 3.0))?;
             rejects(two_sample_t(&a, &b).map(|tests| tests.welch))
         }),
-        ("Wilcoxon, pairs", 2000, |random| {
+        ("Wilcoxon, differences of pairs", 2000, |random| {
             let [a, b] = correlated(random);
-            rejects(wilcoxon_pairs(&a, &b))
+            let differences: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
+            rejects(wilcoxon_signed_rank(&differences, 0.0))
         }),
         ("sign flips", 1000, |random| {
             rejects(sign_flip(&normals::<N>(random, 0.0, 1.0), 0, 0))

@@ -39,7 +39,7 @@ pub use outcome::{Computed, Freedom, Interval, Named, Outcome, Sides, Undefined}
 pub use permutation::sign_flip;
 pub use summary::{Summary, mean};
 pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
-pub use wilcoxon::{Ranks, wilcoxon_pairs, wilcoxon_signed_rank};
+pub use wilcoxon::{Ranks, wilcoxon_signed_rank};
 
 pub mod adaptive;
 pub mod mds;

@@ -3,7 +3,7 @@
 use selvedge_foundation::numerics::median;
 
 use super::distribution::normal_upper;
-use super::summary::{at_least, differences, largest, rounding};
+use super::summary::{at_least, largest, rounding};
 use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Undefined};
 
 /// Up to so many differences that are not zero every pattern of signs is counted.
@@ -24,14 +24,6 @@ const LEVEL: f64 = 0.95;
 pub fn wilcoxon_signed_rank(values: &[f64], expected: f64) -> Computed<Outcome> {
     let differences = values.iter().map(|v| v - expected).collect();
     signed_rank(differences, expected, largest(values).max(expected.abs()))
-}
-
-/// Likewise of the differences `a − b` of pairs.
-///
-/// # Errors
-/// As [`wilcoxon_signed_rank`], and different lengths.
-pub fn wilcoxon_pairs(a: &[f64], b: &[f64]) -> Computed<Outcome> {
-    signed_rank(differences(a, b)?, 0.0, largest(a).max(largest(b)))
 }
 
 /// Sizes that differ by no more than the rounding of numbers as large as `scale` become equal, and
@@ -233,6 +225,12 @@ impl Ranks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::summary::differences;
+
+    /// Of the differences of pairs.
+    fn pairs(a: &[f64], b: &[f64]) -> Computed<Outcome> {
+        signed_rank(differences(a, b)?, 0.0, largest(a).max(largest(b)))
+    }
 
     /// The two-sided p by trying every pattern of signs.
     fn by_enumeration(values: &[f64]) -> f64 {
@@ -283,7 +281,7 @@ mod tests {
 
     #[test]
     fn zeros_are_left_out_and_ties_are_said() -> Computed<()> {
-        let found = wilcoxon_pairs(&[1.0, 2.0, 5.0, 5.0], &[1.0, 1.0, 4.0, 2.0])?;
+        let found = pairs(&[1.0, 2.0, 5.0, 5.0], &[1.0, 1.0, 4.0, 2.0])?;
         assert_eq!(found.n, [3]);
         assert!(
             found
@@ -306,8 +304,8 @@ mod tests {
 
     #[test]
     fn rounding_breaks_no_ties_and_leaves_no_zeros() -> Computed<()> {
-        let shares = wilcoxon_pairs(&[0.3, 0.8, 0.7, 0.1 + 0.2], &[0.2, 0.7, 0.8, 0.3])?;
-        let whole = wilcoxon_pairs(&[3.0, 8.0, 7.0, 3.0], &[2.0, 7.0, 8.0, 3.0])?;
+        let shares = pairs(&[0.3, 0.8, 0.7, 0.1 + 0.2], &[0.2, 0.7, 0.8, 0.3])?;
+        let whole = pairs(&[3.0, 8.0, 7.0, 3.0], &[2.0, 7.0, 8.0, 3.0])?;
         assert_eq!((shares.n, shares.p), (whole.n, whole.p));
         assert_eq!(shares.statistic, whole.statistic);
         assert_eq!(shares.notes, whole.notes);

@@ -11,7 +11,7 @@
 //! # Invariants
 //! - studies measure only with [`Bench`]: warm-up, repeats, medians, CPU time beside wall time
 //! - a study's numbers depend on its seed, never on the machine; its times are the machine's
-//! - no GUI: the window's own studies are handed in by `app`
+//! - no GUI: the window's own studies are handed in by `workbench`
 #![cfg_attr(
     test,
     expect(clippy::float_cmp, reason = "tests compare exact results on purpose")

@@ -30,12 +30,12 @@ pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
 }
 
 /// A study that does what it is told.
-struct Told {
+struct MadeUp {
     name: &'static str,
     run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
 }
 
-impl Study for Told {
+impl Study for MadeUp {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -65,11 +65,11 @@ impl Study for Told {
     }
 }
 
-fn told(
+fn made_up(
     name: &'static str,
     run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
 ) -> Box<dyn Study> {
-    Box::new(Told { name, run })
+    Box::new(MadeUp { name, run })
 }
 
 /// A method that keeps its promise, one that is cheaper and wrong, and the reference.
@@ -137,7 +137,7 @@ const COLUMNS: [&str; 16] = [
 #[test]
 fn a_wrong_method_shows_up_as_wrong() {
     let folder = ScratchFolder::made("runner");
-    let studies = [told("made-up", one_is_wrong)];
+    let studies = [made_up("made-up", one_is_wrong)];
     let (report, _) = run_in(&folder, &studies, &CancelFlag::new());
     assert_eq!(report.n_broken(), 1);
     let table = Table::read(
@@ -177,7 +177,7 @@ fn a_wrong_method_shows_up_as_wrong() {
 #[test]
 fn the_table_holds_what_the_plot_shows() {
     let folder = ScratchFolder::made("runner");
-    let studies = [told("made-up", one_is_wrong)];
+    let studies = [made_up("made-up", one_is_wrong)];
     run_in(&folder, &studies, &CancelFlag::new());
     let table = Table::read(
         &folder.read("made-up.csv"),
@@ -216,7 +216,7 @@ fn the_index_says_where_how_and_how_to_repeat_it() {
     let folder = ScratchFolder::made("runner");
     run_in(
         &folder,
-        &[told("made-up", one_is_wrong)],
+        &[made_up("made-up", one_is_wrong)],
         &CancelFlag::new(),
     );
     let (index, machine) = (folder.read("index.md"), Machine::here());
@@ -250,10 +250,10 @@ fn a_study_that_fails_or_panics_harms_no_other() {
         })
     };
     let studies = [
-        told("fails", fails),
-        told("panics", |_| panic!("out of cloth")),
-        told("endless", |_| panic!("it ran without being asked for")),
-        told("made-up", one_is_wrong),
+        made_up("fails", fails),
+        made_up("panics", |_| panic!("out of cloth")),
+        made_up("endless", |_| panic!("it ran without being asked for")),
+        made_up("made-up", one_is_wrong),
     ];
     let (report, shares) = run_in(&folder, &studies, &CancelFlag::new());
     let failures: Vec<(&str, &str)> = report.failures().collect();
@@ -283,9 +283,9 @@ fn a_cancelled_report_keeps_what_is_finished() {
         Ok(Findings::default())
     };
     let studies = [
-        told("made-up", one_is_wrong),
-        told("cancels", cancels),
-        told("never", cancels),
+        made_up("made-up", one_is_wrong),
+        made_up("cancels", cancels),
+        made_up("never", cancels),
     ];
     let options = Options {
         out: folder.to_owned(),
@@ -309,7 +309,7 @@ fn a_cancelled_report_keeps_what_is_finished() {
 
 #[test]
 fn studies_are_chosen_by_name_and_nonsense_is_refused() {
-    let all = || vec![told("a", one_is_wrong), told("b", one_is_wrong)];
+    let all = || vec![made_up("a", one_is_wrong), made_up("b", one_is_wrong)];
     let names = |only: &[&str]| {
         let only: Vec<String> = only.iter().map(|name| (*name).to_owned()).collect();
         choose(all(), &only).map(|studies| studies.iter().map(|s| s.name()).collect::<Vec<_>>())

@@ -146,7 +146,7 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
         design.study,
         design.experiment,
         args.out.display(),
-        observer.told()
+        observer.describe()
     );
     output::print(&told)
 }

@@ -1,11 +1,10 @@
 //! Adjustment: what parameters were left at, by stimulus and by where they began; gains matched to
 //! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
 
-use super::Options;
 use super::draw::{Bar, bars, scatter};
-use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, tests};
+use super::included_trials::Experiment;
+use super::model::{Cell, Section, Table, tests, undefined};
+use super::options::Options;
 use super::properties::Measures;
 use super::variance::effects;
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
@@ -207,7 +206,7 @@ fn start_effect(
             .filter(|s| s.subject == name && (s.start < middle) == is_low);
         selvedge_statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>())
     };
-    let of = |subject: &super::kept::Subject<'_>| {
+    let of = |subject: &super::included_trials::Subject<'_>| {
         Ok(mean_of(subject.name, false)? - mean_of(subject.name, true)?)
     };
     experiment.subjects.iter().map(of).collect()

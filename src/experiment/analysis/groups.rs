@@ -1,8 +1,8 @@
 //! Experiments of one folder beside each other: a real against a virtual target, say.
 
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Section, summaries, tests};
-use super::ranking;
+use super::ranking_answers::{Rankings, rankings};
 use crate::design::Method;
 use selvedge_statistics::{Computed, Outcome, Summary, Undefined, paired_t, two_sample_t};
 
@@ -81,14 +81,14 @@ fn two(what: &str, first: &Scores, second: &Scores) -> Vec<(String, Computed<Out
 fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
     let is_scored = match &experiment.design.method {
         Method::Ranking(_) => {
-            let all = ranking::rankings(experiment);
-            let of = |r: &ranking::Rankings<'_>| (r.subject.to_owned(), r.percent());
+            let all = rankings(experiment);
+            let of = |r: &Rankings<'_>| (r.subject.to_owned(), r.percent());
             return Some(all.iter().map(of).collect());
         }
         Method::OddOneOut(_) | Method::Judgement(_) => true,
         _ => false,
     };
-    let of = |subject: &super::kept::Subject<'_>| {
+    let of = |subject: &super::included_trials::Subject<'_>| {
         let right: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
         let n = right.iter().filter(|is_right| **is_right).count();
         (

@@ -1,61 +1,14 @@
 //! Real or generated (Cai et al. 2021, phase 2): sensitivity and bias by subject, confidence, and
 //! whether material and condition matter to what is called real.
 
-use super::kept::{Experiment, Subject};
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
-use super::{Options, judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
+use super::included_trials::{Experiment, Subject};
+use super::judgement_answers::judgements;
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests, undefined};
+use super::options::Options;
+use super::{judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::design::{Judging, JudgingProtocol};
-use crate::{Answer, Record, Task};
 use selvedge_statistics::detection::{Answers, Correction, forced_choice, yes_no};
 use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
-
-#[expect(
-    clippy::struct_field_names,
-    reason = "what was said is told from what is"
-)]
-/// What was said of one stimulus: whether it was called real. A pair says it of both of its own.
-pub(crate) struct Said {
-    pub item: usize,
-    pub is_real: bool,
-    pub(crate) said_real: bool,
-    pub confidence: Option<u8>,
-}
-
-pub(crate) fn said(record: &Record) -> Vec<Said> {
-    match (&record.trial.task, record.answer()) {
-        (
-            Task::Judge { item, is_real },
-            Some(Answer::Judged {
-                is_real: said,
-                confidence,
-            }),
-        ) => {
-            vec![Said {
-                item: *item,
-                is_real: *is_real,
-                said_real: *said,
-                confidence: *confidence,
-            }]
-        }
-        (
-            Task::JudgePair { items, real },
-            Some(Answer::Chosen {
-                position,
-                confidence,
-            }),
-        ) => {
-            let of = |at: usize| Said {
-                item: items[at],
-                is_real: at == *real,
-                said_real: at == *position,
-                confidence: *confidence,
-            };
-            vec![of(0), of(1)]
-        }
-        _ => Vec::new(),
-    }
-}
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
@@ -166,14 +119,14 @@ fn counts(subject: &Subject<'_>) -> Answers {
         false_alarms: 0,
         n_noise: 0,
     };
-    for said in subject.trials().flat_map(said) {
-        let (n, yes) = if said.is_real {
+    for judged in subject.trials().flat_map(judgements) {
+        let (n, yes) = if judged.is_real {
             (&mut answers.n_signal, &mut answers.hits)
         } else {
             (&mut answers.n_noise, &mut answers.false_alarms)
         };
         *n += 1;
-        *yes += u64::from(said.said_real);
+        *yes += u64::from(judged.called_real);
     }
     answers
 }

@@ -1,8 +1,8 @@
 //! What was called real by material and condition: percentages and their analysis of variance.
 
 use super::draw::{Bar, bars};
-use super::judgement::said;
-use super::kept::{Experiment, Subject};
+use super::included_trials::{Experiment, Subject};
+use super::judgement_answers::judgements;
 use super::model::{Section, summaries, tests};
 use super::variance::effects;
 use crate::design::Stimulus;
@@ -120,12 +120,12 @@ fn by_subject(
 fn cell_answers(experiment: &Experiment<'_>) -> Vec<CellAnswer> {
     let mut all = Vec::new();
     for subject in &experiment.subjects {
-        for said in subject.trials().flat_map(said) {
-            let stimulus = &experiment.design.stimuli[said.item];
+        for judged in subject.trials().flat_map(judgements) {
+            let stimulus = &experiment.design.stimuli[judged.item];
             all.push(CellAnswer {
                 subject: subject.name.to_owned(),
                 levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
-                value: if said.said_real { 100.0 } else { 0.0 },
+                value: if judged.called_real { 100.0 } else { 0.0 },
             });
         }
     }

@@ -1,10 +1,9 @@
 //! Confidence in judgements: the receiver operating characteristic.
 
 use super::draw::scatter;
-use super::judgement::{Said, said};
-use super::kept::{Experiment, Subject};
-use super::map::undefined;
-use super::model::{Cell, Drawn, Section, Table, ends, tests};
+use super::included_trials::{Experiment, Subject};
+use super::judgement_answers::{Judgement, judgements};
+use super::model::{Cell, Drawn, Section, Table, ends, tests, undefined};
 use crate::design::Judging;
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_statistics::detection::{Roc, roc};
@@ -12,23 +11,23 @@ use selvedge_statistics::{Computed, Summary, one_sample_t};
 
 /// How often each rating from `surely generated` to `surely real` was given, of real ones and of
 /// the others.
-fn ratings(answers: impl Iterator<Item = Said>, grades: u8) -> [Vec<u64>; 2] {
+fn ratings(answers: impl Iterator<Item = Judgement>, grades: u8) -> [Vec<u64>; 2] {
     let n = usize::from(grades);
     let mut counts = [vec![0; 2 * n], vec![0; 2 * n]];
-    for said in answers {
-        let Some(sure) = said
+    for judged in answers {
+        let Some(sure) = judged
             .confidence
             .map(usize::from)
             .filter(|c| (1..=n).contains(c))
         else {
             continue;
         };
-        let at = if said.said_real {
+        let at = if judged.called_real {
             n + sure - 1
         } else {
             n - sure
         };
-        counts[usize::from(!said.is_real)][at] += 1;
+        counts[usize::from(!judged.is_real)][at] += 1;
     }
     counts
 }
@@ -56,7 +55,7 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
     let grades = judging.confidence_grades;
     let mut areas = Vec::new();
     for subject in &experiment.subjects {
-        let [real, others] = ratings(subject.trials().flat_map(said), grades);
+        let [real, others] = ratings(subject.trials().flat_map(judgements), grades);
         let found = roc(&real, &others);
         areas.extend(found.as_ref().ok().map(|r| r.area));
         table.push(roc_row(subject.name, &found));
@@ -65,7 +64,7 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
         .subjects
         .iter()
         .flat_map(Subject::trials)
-        .flat_map(said);
+        .flat_map(judgements);
     let [real, others] = ratings(everyone, grades);
     let pooled = roc(&real, &others);
     table.push(roc_row("all together", &pooled));
@@ -81,14 +80,10 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
 }
 
 fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
-    let points = pooled
-        .points
-        .iter()
-        .map(|p| [p.false_alarm_rate, p.hit_rate]);
     let series = vec![
         Series {
             name: "all together".to_owned(),
-            points: points.collect(),
+            points: pooled.points.clone(),
             style: Style::LineAndDots,
             ..Series::default()
         },

@@ -1,11 +1,11 @@
 //! Pairs of which the real one was to be found, as comparisons: what was taken for real rather than
 //! what.
 
-use super::Options;
+use super::included_trials::{Experiment, Subject};
 use super::judgement_cells::levels;
-use super::kept::{Experiment, Subject};
 use super::model::Section;
-use super::pairs::{Pairs, TOLD};
+use super::options::Options;
+use super::pairs::{NOTE, Pairs};
 use crate::{Answer, Record, Task};
 use selvedge_statistics::Computed;
 use selvedge_statistics::ranking::Preferences;
@@ -24,7 +24,7 @@ fn chosen(record: &Record) -> Option<[usize; 2]> {
 pub(super) fn section(experiment: &Experiment<'_>, options: &Options) -> Section {
     let title = format!("{}: taken for real, pair by pair", experiment.design.title);
     let mut section = Section::new(experiment.key("pairs"), title);
-    section.note(TOLD);
+    section.note(NOTE);
     section.note(
         "Preferred is what was taken for real. Conditions are compared over all materials; stimuli \
          are on one scale only where pairs join them.",
@@ -48,7 +48,7 @@ pub(super) fn section(experiment: &Experiment<'_>, options: &Options) -> Section
         ),
     ] {
         match Pairs::of(names, subjects.into_iter()) {
-            Ok(pairs) => pairs.tell(of, of, options, &mut section),
+            Ok(pairs) => pairs.describe(of, of, options, &mut section),
             Err(why) => section.note(format!("No scale of {of}: {}.", why.reason)),
         }
     }

@@ -1,10 +1,9 @@
 //! What a judgement that finds nothing does say: equivalence, and what would have been found.
 
 use super::draw::scatter;
+use super::included_trials::{Experiment, Subject};
 use super::judgement_cells::differences_of_conditions;
-use super::kept::{Experiment, Subject};
-use super::map::undefined;
-use super::model::{Cell, Drawn, Section, Table};
+use super::model::{Cell, Drawn, Section, Table, undefined};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_statistics::{Computed, Summary, power_of_t, tost};
 
@@ -28,7 +27,7 @@ pub(super) fn section(experiment: &Experiment<'_>, percents: &[f64]) -> Section 
     section.tables.push(equivalence(experiment, percents));
     let n_trials = trials(experiment);
     let curve = Curve::of(percents, &n_trials);
-    section.note(curve.told(percents.len()));
+    section.note(curve.describe(percents.len()));
     section.tables.push(curve.table());
     section.figures.extend(curve.drawn(experiment));
     section
@@ -129,7 +128,7 @@ impl Curve {
         powers.iter().position(is_enough).map(|at| self.shares[at])
     }
 
-    fn told(&self, n_subjects: usize) -> String {
+    fn describe(&self, n_subjects: usize) -> String {
         let share = |powers: &[Computed]| match self.found_from(powers) {
             Some(share) => format!("{share} %"),
             None => "no share".to_owned(),

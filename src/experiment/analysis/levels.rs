@@ -1,11 +1,10 @@
 //! Thresholds and just noticeable differences: the mean of the last reversals and a fit to all
 //! trials, track by track and subject by subject.
 
-use super::Options;
 use super::draw::{Bar, bars, scatter};
-use super::kept::{Experiment, Subject};
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
+use super::included_trials::{Experiment, Subject};
+use super::model::{Cell, Section, Table, ends, resampled, summaries, tests, undefined};
+use super::options::Options;
 use crate::design::{Levels, StaircaseTrack, Track};
 use crate::{Record, Task};
 use selvedge_chart::{Axis, Series, Style};

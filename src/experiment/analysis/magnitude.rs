@@ -1,9 +1,8 @@
 //! Magnitude estimation: exponents of Stevens' law by condition and subject.
 
 use super::draw::{Bar, bars, scatter};
-use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, summaries, tests};
+use super::included_trials::Experiment;
+use super::model::{Cell, Section, Table, ends, summaries, tests, undefined};
 use crate::design::Source;
 use crate::{Answer, Task};
 use selvedge_chart::{Axis, Scale, Series, Style};

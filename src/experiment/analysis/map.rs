@@ -1,15 +1,16 @@
 //! Maps from dissimilarities: stress by dimensions, the elbow, Shepard's diagram, ellipses over
 //! subjects.
 
-use super::Options;
 use super::draw::scatter;
 use super::model::{Cell, Section, Table, matrix, tests};
+use super::options::Options;
 use super::properties::Measures;
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_statistics::Undefined;
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
 use selvedge_statistics::properties::{Ellipse, bootstrap_ellipses};
+use selvedge_statistics::variance::friedman;
+use selvedge_statistics::{Computed, Outcome, Undefined};
 
 /// The share of resampled subjects that an ellipse holds.
 const ELLIPSE_SHARE: f64 = 0.95;
@@ -78,7 +79,7 @@ impl Mapping<'_> {
         section.note(format!(
             "Non-metric multidimensional scaling; {} made small, {} ties; stress-1 and S-stress of \
              the same points beside each other. {} pairs, {} missing.",
-            told(self.loss),
+            loss_heading(self.loss),
             self.ties.name(),
             data.pairs().len(),
             data.n_missing()
@@ -91,10 +92,10 @@ impl Mapping<'_> {
             self.turned((plane, &ellipses), options, &mut section, progress)?;
         }
         for map in &maps {
-            let told = map.warnings.iter();
+            let warnings = map.warnings.iter();
             section
                 .notes
-                .extend(told.map(|w| format!("{} dimensions: {w}", map.dims)));
+                .extend(warnings.map(|w| format!("{} dimensions: {w}", map.dims)));
         }
         Ok(section)
     }
@@ -198,18 +199,37 @@ impl Mapping<'_> {
     }
 }
 
+impl Mapping<'_> {
+    /// How well subjects agree on the order of the pairs that all of them met: Kendall's W.
+    pub(super) fn agreement(&self) -> Computed<Outcome> {
+        let n = self.names.len();
+        let upper = (0..n).flat_map(|i| (i + 1..n).map(move |j| i * n + j));
+        let is_met = |at: &usize| {
+            let met = |subject: &Vec<Option<f64>>| subject.get(*at).is_some_and(Option::is_some);
+            self.subjects.iter().all(met)
+        };
+        let cells: Vec<usize> = upper.filter(is_met).collect();
+        if self.subjects.len() < 2 || cells.len() < 2 {
+            let (n, pairs) = (self.subjects.len(), cells.len());
+            let reason = format!("{n} subjects with {pairs} pairs in common have no agreement");
+            return Err(Undefined::because(reason));
+        }
+        let row = |subject: &Vec<Option<f64>>| cells.iter().filter_map(|at| subject[*at]).collect();
+        let rows: Vec<Vec<f64>> = self.subjects.iter().map(row).collect();
+        friedman(&rows).map(|mut outcome| {
+            let note = "takes pairs for independent, which share their items";
+            outcome.notes.push(note.to_owned());
+            outcome
+        })
+    }
+}
+
 /// A loss as people write it.
-pub(super) fn told(loss: Loss) -> &'static str {
+pub(super) fn loss_heading(loss: Loss) -> &'static str {
     match loss {
         Loss::Stress1 => "stress-1",
         Loss::SStress => "S-stress",
     }
-}
-
-pub(super) fn undefined(why: &Undefined, n: usize) -> Vec<Cell> {
-    (0..n)
-        .map(|_| Cell::Undefined(why.reason.clone()))
-        .collect()
 }
 
 fn stress_table(maps: &[Map], (elbow, loss): (&Elbow, Loss), chance: &[Null]) -> Table {

@@ -1,9 +1,9 @@
 //! Maps turned towards what was measured, and measures fitted into them.
 
-use super::Options;
 use super::draw_map::MapDrawing;
-use super::map::{Mapping, told, undefined};
-use super::model::{Cell, Section, Table, ends};
+use super::map::{Mapping, loss_heading};
+use super::model::{Cell, Section, Table, ends, undefined};
+use super::options::Options;
 use super::properties::Measure;
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -49,7 +49,7 @@ impl Mapping<'_> {
         section: &mut Section,
         progress: &mut Progress<'_>,
     ) -> Result<(), Cancelled> {
-        self.measures.tell(section);
+        self.measures.describe(section);
         let measures = self.measures;
         self.fitted(plane, section);
         let mut turns = Table::new("turns", "The plane map turned to two measures", &TURNS);
@@ -92,7 +92,7 @@ impl Mapping<'_> {
         };
         let note = format!(
             "{} {}, {} ties; stress-1 {}. A bar is as long as the multiple correlation.",
-            told(self.loss),
+            loss_heading(self.loss),
             selvedge_foundation::quantity::fixed(plane.loss(self.loss), 4),
             self.ties.name(),
             selvedge_foundation::quantity::fixed(plane.stress1, 4)

@@ -1,7 +1,7 @@
 //! What the logs of an experiment say: tables, tests, maps and the papers' figures.
 //!
 //! ```text
-//! sessions ─▶ kept (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ files
+//! sessions ─▶ included trials (rules of the design) ─▶ by method ─▶ Analysis ─┬▶ files
 //!                                                                  └▶ a pane
 //! ```
 //!
@@ -14,29 +14,31 @@ mod adjustment;
 mod draw;
 mod draw_map;
 mod groups;
+mod included_trials;
 mod judgement;
+mod judgement_answers;
 mod judgement_cells;
 mod judgement_confidence;
 mod judgement_pairs;
 mod judgement_power;
-mod kept;
 mod levels;
 mod magnitude;
 mod map;
-mod map_chance;
 mod map_speeds;
 mod map_turn;
 mod model;
 mod odd_one_out;
+mod odd_one_out_answers;
 mod odd_one_out_craven;
-mod odd_one_out_distances;
 mod odd_one_out_variants;
+mod options;
 mod own_speeds;
 mod pairs;
 mod properties;
+mod random_data;
 mod ranking;
+mod ranking_answers;
 mod ranking_confusions;
-mod ranking_pairs;
 mod ranking_scale;
 mod rating;
 mod variance;
@@ -45,71 +47,21 @@ mod write;
 use std::path::Path;
 
 pub(super) use draw::scatter;
-pub(super) use judgement::said as judged;
-pub use map_chance::RandomData;
+pub(super) use judgement_answers::judgements;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
-pub(super) use odd_one_out::{triad as triad_answer, weights as grade_weights};
-pub(super) use ranking::ranking as rank_trial;
+pub(super) use odd_one_out_answers::{grade_weights, triad_answer};
+pub use options::Options;
+pub use random_data::RandomData;
+pub(super) use ranking_answers::rank_trial;
 
 use super::ExperimentError;
 use super::design::Method;
 use super::session::{self, Found, Unread};
-use kept::Experiment;
+use included_trials::Experiment;
 use selvedge_foundation::progress::Progress;
-use selvedge_statistics::Resampling;
-use selvedge_textile::BuildCache;
 
 /// The key of the section that lists logs that cannot be read.
 pub const UNREAD: &str = "unread";
-
-/// Choices that the logs leave open.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// What chance begins with.
-    pub seed: u64,
-    /// Resamples of subjects for intervals, at least 100.
-    pub n_resamples: usize,
-    /// Permutations for p values.
-    pub n_permutations: usize,
-    /// Maps of resampled subjects, from which ellipses follow; 0 for none.
-    pub n_maps: usize,
-    /// Starts of a map in two dimensions and more.
-    pub n_starts: usize,
-    /// Starts of a map on a line.
-    pub n_starts_on_a_line: usize,
-    /// Sets of random ranks to compare the stress of maps with; 0 for none.
-    pub n_random_data: usize,
-    /// What was found of them before.
-    pub random_data: RandomData,
-    /// Where textiles that are built from recipes are kept.
-    pub cache: Option<BuildCache>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            seed: 1,
-            n_resamples: 2000,
-            n_permutations: 4999,
-            n_maps: 100,
-            n_starts: 50,
-            n_starts_on_a_line: 1000,
-            n_random_data: 40,
-            random_data: RandomData::default(),
-            cache: None,
-        }
-    }
-}
-
-impl Options {
-    fn resampling(&self) -> Resampling {
-        Resampling {
-            n_resamples: self.n_resamples.max(100),
-            seed: self.seed,
-            level: 0.95,
-        }
-    }
-}
 
 /// Analyses every session in a folder. A log that cannot be read, since a later version wrote it or
 /// it was damaged, is listed with its reason, and the others are analysed.
@@ -130,7 +82,7 @@ pub fn analyse_folder(
 /// # Errors
 /// The folder or all of its logs cannot be read, or there are no sessions.
 pub fn sessions(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
-    let (found, unread) = session::find_readable(folder)?;
+    let (found, unread) = session::find_sessions(folder)?;
     if !found.is_empty() {
         return Ok((found, unread));
     }
@@ -184,7 +136,7 @@ pub fn analyse(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
-    let experiments = kept::experiments(found);
+    let experiments = included_trials::experiments(found);
     let mut sections = Vec::new();
     for experiment in &experiments {
         sections.push(experiment.sessions_section());

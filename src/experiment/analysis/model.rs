@@ -2,7 +2,8 @@
 
 use selvedge_chart::Figure;
 use selvedge_statistics::{
-    Computed, Freedom, Interval, Named, Outcome, Resampling, Sides, Summary, bootstrap, mean,
+    Computed, Freedom, Interval, Named, Outcome, Resampling, Sides, Summary, Undefined, bootstrap,
+    mean, wilson,
 };
 
 /// What was found.
@@ -74,6 +75,7 @@ pub struct Drawn {
 }
 
 impl Section {
+    /// Without notes, tables and figures.
     pub fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
             key: key.into(),
@@ -82,6 +84,7 @@ impl Section {
         }
     }
 
+    /// Adds a note.
     pub fn note(&mut self, note: impl Into<String>) {
         self.notes.push(note.into());
     }
@@ -106,6 +109,7 @@ impl Table {
         self
     }
 
+    /// Adds a row; cells that are missing are undefined.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
         let missing = || Cell::Undefined("no value".to_owned());
@@ -152,6 +156,7 @@ impl Cell {
         }
     }
 
+    /// No number, for this reason.
     pub fn none(reason: &str) -> Self {
         Self::Undefined(reason.to_owned())
     }
@@ -206,6 +211,22 @@ pub(super) fn ends(interval: &Computed<Interval>) -> [Cell; 2] {
         Ok(interval) => [interval.low.into(), interval.high.into()],
         Err(why) => [(); 2].map(|()| Cell::Undefined(why.reason.clone())),
     }
+}
+
+/// So many cells without a number, and why.
+pub(super) fn undefined(why: &Undefined, n: usize) -> Vec<Cell> {
+    (0..n)
+        .map(|_| Cell::Undefined(why.reason.clone()))
+        .collect()
+}
+
+/// Wilson's interval of a share, %.
+pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<Interval> {
+    wilson(hits, n, 0.95).map(|mut interval| {
+        interval.low *= 100.0;
+        interval.high *= 100.0;
+        interval
+    })
 }
 
 /// Columns of [`tests`].

@@ -2,13 +2,16 @@
 //! were mistaken, and the distances that follow.
 
 use super::draw::{Bar, bars};
-use super::kept::{Experiment, Subject};
+use super::included_trials::{Experiment, Subject};
 use super::map::Mapping;
-use super::model::{Cell, Drawn, Section, Table, ends, resampled, summaries, tests};
+use super::model::{
+    Cell, Drawn, Section, Table, ends, matrix, percent_interval, resampled, summaries, tests,
+};
+use super::odd_one_out_answers::{grade_weights, n_right, percent, triad_answer, triads};
 use super::odd_one_out_craven::Craven;
+use super::options::Options;
 use super::properties::Measures;
-use super::{Options, odd_one_out_craven, odd_one_out_distances, odd_one_out_variants};
-use crate::{self as exp, Answer, Record, Task};
+use super::{odd_one_out_craven, odd_one_out_variants};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::detection::{Correction, triangle};
 use selvedge_statistics::mds::{Loss, Ties};
@@ -16,44 +19,11 @@ use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
 use selvedge_statistics::variance::friedman;
 use selvedge_statistics::{
     Computed, Outcome, Sides, Summary, Undefined, exact_binomial, one_sample_t,
-    wilcoxon_signed_rank, wilson,
+    wilcoxon_signed_rank,
 };
 
 const CHANCE: f64 = 1.0 / 3.0;
 const CHANCE_PERCENT: f64 = 100.0 / 3.0;
-/// The answer to a triad.
-pub(crate) fn triad(record: &Record) -> Option<TriadAnswer> {
-    let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
-        (&record.trial.task, record.answer())
-    else {
-        return None;
-    };
-    Some(TriadAnswer {
-        pair: [items[*odd], items[(*odd + 1) % items.len()]],
-        is_correct: record.is_correct?,
-        grade: match grade {
-            exp::Grade::Easy => Grade::Easy,
-            exp::Grade::Normal => Grade::Normal,
-            exp::Grade::Hard => Grade::Hard,
-        },
-    })
-}
-
-fn triads(subject: &Subject<'_>) -> Vec<TriadAnswer> {
-    subject.trials().filter_map(triad).collect()
-}
-
-fn n_right(answers: &[TriadAnswer]) -> u64 {
-    answers.iter().filter(|a| a.is_correct).count() as u64
-}
-
-fn percent(answers: &[TriadAnswer]) -> f64 {
-    100.0 * n_right(answers) as f64 / answers.len() as f64
-}
-
-pub(crate) fn weights([easy, normal, hard]: [f64; 3]) -> GradeWeights {
-    GradeWeights { easy, normal, hard }
-}
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
@@ -64,7 +34,7 @@ pub(super) fn sections(
     let names = experiment.ids();
     let all: Vec<TriadAnswer> = experiment.subjects.iter().flat_map(triads).collect();
     let mut sections = vec![accuracy(experiment, options), grades(experiment)];
-    let found = match OddOneOut::of(names.len(), &all, weights(own_weights)) {
+    let found = match OddOneOut::of(names.len(), &all, grade_weights(own_weights)) {
         Ok(found) => found,
         Err(why) => {
             sections[0].note(format!("No distances: {}.", why.reason));
@@ -72,13 +42,13 @@ pub(super) fn sections(
         }
     };
     let craven = Craven::of(&found);
-    sections.push(odd_one_out_distances::section(experiment, &found, &names));
+    sections.push(distances(experiment, &found, &names));
     sections.push(odd_one_out_craven::section(
         experiment, &found, &craven, &names,
     ));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |subject: &Subject<'_>| {
-        let own = OddOneOut::of(names.len(), &triads(subject), weights(own_weights)).ok()?;
+        let own = OddOneOut::of(names.len(), &triads(subject), grade_weights(own_weights)).ok()?;
         Some(own.mean_weights())
     };
     let subjects: Vec<Vec<Option<f64>>> =
@@ -137,7 +107,7 @@ fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell>
     } else {
         Cell::none("no triads")
     });
-    row.extend(ends(&interval(right, n)));
+    row.extend(ends(&percent_interval(right, n)));
     row.push(Cell::of(
         &exact_binomial(right, n, CHANCE, Sides::Greater).map(|o| o.p),
     ));
@@ -146,14 +116,6 @@ fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell>
     ));
     row.extend(ends(&choice.and_then(|c| c.interval)));
     row
-}
-
-pub(super) fn interval(right: u64, n: u64) -> Computed<selvedge_statistics::Interval> {
-    wilson(right, n, 0.95).map(|mut interval| {
-        interval.low *= 100.0;
-        interval.high *= 100.0;
-        interval
-    })
 }
 
 fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
@@ -167,7 +129,11 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     let mut shown = Vec::new();
     for subject in &experiment.subjects {
         for session in &subject.sessions {
-            let own: Vec<TriadAnswer> = session.trials.iter().filter_map(|r| triad(r)).collect();
+            let own: Vec<TriadAnswer> = session
+                .trials
+                .iter()
+                .filter_map(|r| triad_answer(r))
+                .collect();
             let number = Cell::from(f64::from(session.found.subject.session));
             table.push(share_row(subject.name, number, &own));
         }
@@ -175,7 +141,7 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
         if subject.sessions.len() > 1 {
             table.push(share_row(subject.name, "all".into(), &all));
         }
-        let ends = interval(n_right(&all), all.len() as u64).ok();
+        let ends = percent_interval(n_right(&all), all.len() as u64).ok();
         shown.push(Bar {
             name: subject.name.to_owned(),
             group: String::new(),
@@ -271,9 +237,12 @@ fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
         .filter(|s| s.sessions.len() == most);
     let rows: Vec<Vec<f64>> = with_all
         .map(|subject| {
-            let of = |session: &super::kept::Session<'_>| {
-                let own: Vec<TriadAnswer> =
-                    session.trials.iter().filter_map(|r| triad(r)).collect();
+            let of = |session: &super::included_trials::Session<'_>| {
+                let own: Vec<TriadAnswer> = session
+                    .trials
+                    .iter()
+                    .filter_map(|r| triad_answer(r))
+                    .collect();
                 percent(&own)
             };
             subject.sessions.iter().map(of).collect()
@@ -318,7 +287,7 @@ fn grades(experiment: &Experiment<'_>) -> Section {
     for (name, is_correct) in [("right", true), ("wrong", false)] {
         for grade in [Grade::Easy, Grade::Normal, Grade::Hard] {
             let (count, shares) = graded(experiment, is_correct, grade);
-            let told = exp::Grade::ALL[grade as usize].name();
+            let told = crate::Grade::ALL[grade as usize].name();
             let summary = Summary::of(&shares);
             let mean = selvedge_statistics::mean(&shares);
             table.push([
@@ -352,4 +321,52 @@ fn grades(experiment: &Experiment<'_>) -> Section {
         &[],
     ));
     section
+}
+
+/// Sums of weights, and errors by fabric.
+fn distances(experiment: &Experiment<'_>, found: &OddOneOut, names: &[String]) -> Section {
+    let title = format!("{}: distances", experiment.design.title);
+    let mut section = Section::new(experiment.key("distances"), title);
+    let GradeWeights { easy, normal, hard } = found.weights;
+    section.note(format!(
+        "A right answer counts {easy}, {normal} or {hard} as it was easy, normal or hard, a \
+         wrong one 0; the distance of two fabrics is the sum over all answers. {} pairs are \
+         at the ceiling (always right and easy), {} at the floor, {} were never asked.",
+        found.n_ceiling, found.n_floor, found.n_missing
+    ));
+    let cells = found.distances().into_iter();
+    let cells = cells.map(|d| d.map_or_else(|| Cell::none("itself, or never asked"), Cell::from));
+    section.tables.push(matrix(
+        "distances",
+        "Sums of weights",
+        names,
+        cells.collect(),
+    ));
+    section.tables.push(errors_by_fabric(found, names));
+    section
+}
+
+fn errors_by_fabric(found: &OddOneOut, names: &[String]) -> Table {
+    let columns = [
+        ("item", "fabric"),
+        ("triads", "triads with it"),
+        ("wrong", "wrong"),
+        ("percent", "%"),
+        ("ci_low_percent", "95 % CI from"),
+        ("ci_high_percent", "to"),
+    ];
+    let title = "Wrong answers by fabric; both fabrics of a triad count";
+    let mut table = Table::new("errors", title, &columns);
+    for (name, errors) in names.iter().zip(&found.errors) {
+        let (wrong, n) = (errors.n_wrong as u64, errors.n_triads as u64);
+        let mut row = vec![Cell::from(name.as_str()), n.into(), wrong.into()];
+        row.push(if n > 0 {
+            (100.0 * wrong as f64 / n as f64).into()
+        } else {
+            Cell::none("never asked")
+        });
+        row.extend(ends(&percent_interval(wrong, n)));
+        table.push(row);
+    }
+    table
 }

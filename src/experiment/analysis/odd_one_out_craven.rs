@@ -1,9 +1,8 @@
 //! Distances of fabrics as Craven (1992) takes them: the d′ of odd-man-out choices, pair by pair.
 //! Of three, that is the d′ of the triangle test.
 
-use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, matrix};
+use super::included_trials::Experiment;
+use super::model::{Cell, Section, Table, ends, matrix, undefined};
 use selvedge_statistics::Computed;
 use selvedge_statistics::detection::{Choice, Correction, triangle};
 use selvedge_statistics::ranking::{OddOneOut, PairTally};

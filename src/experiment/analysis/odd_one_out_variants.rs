@@ -1,12 +1,12 @@
 //! How much a map hangs on what answers count: the design's weights against others and against
 //! Craven's distances.
 
-use super::Options;
-use super::kept::Experiment;
-use super::map::{Mapping, undefined};
-use super::model::{Cell, Section, Table};
-use super::odd_one_out::weights;
+use super::included_trials::Experiment;
+use super::map::Mapping;
+use super::model::{Cell, Section, Table, undefined};
+use super::odd_one_out_answers::grade_weights;
 use super::odd_one_out_craven::Craven;
+use super::options::Options;
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Map, Mds};
@@ -118,7 +118,7 @@ pub(super) fn section(
 }
 
 fn variants(n_items: usize, all: &[TriadAnswer], craven: &Craven) -> Vec<Variant> {
-    let weighted = |other: [f64; 3]| OddOneOut::of(n_items, all, weights(other)).ok();
+    let weighted = |other: [f64; 3]| OddOneOut::of(n_items, all, grade_weights(other)).ok();
     let others = OTHER_WEIGHTS.into_iter().filter_map(weighted);
     let mut variants: Vec<Variant> = others.map(|found| Variant::weighted(&found)).collect();
     variants.push(Variant {

@@ -8,7 +8,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::kept::{Experiment, Subject};
+use super::included_trials::{Experiment, Subject};
 use crate::session::path_file;
 use selvedge_foundation::numerics::{in_pieces, n_threads, quantile};
 use selvedge_foundation::progress::{Cancelled, Progress};

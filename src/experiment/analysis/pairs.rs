@@ -1,9 +1,8 @@
 //! Scales from comparisons of two, subject by subject: Bradley and Terry's, Thurstone's, and how
 //! consistent the comparisons are.
 
-use super::Options;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, tests};
+use super::model::{Cell, Section, Table, ends, tests, undefined};
+use super::options::Options;
 use selvedge_statistics::ranking::{
     BradleyTerry, Estimate, Majority, Preferences, Prior, Scale, Thurstone, bradley_terry,
     mosteller, thurstone,
@@ -26,7 +25,7 @@ pub(super) fn draws(options: &Options) -> (usize, u64) {
 }
 
 /// What every section with such scales says of them.
-pub(super) const TOLD: &str = "Bradley and Terry's values are logits: the natural logarithm of \
+pub(super) const NOTE: &str = "Bradley and Terry's values are logits: the natural logarithm of \
     the odds that one is preferred to the other is their difference. The unit of Thurstone's (Case \
     V) is the standard deviation of the difference of two sensations; times √2 it is that of one, \
     the unit of d′. Row means of z (Mosteller) are in the same unit. Scales have no zero of their \
@@ -68,7 +67,7 @@ impl<'a> Pairs<'a> {
 
 impl Pairs<'_> {
     /// Everything of them: scales, tests, consistency, with keys that begin so.
-    pub(super) fn tell(&self, key: &str, of: &str, options: &Options, section: &mut Section) {
+    pub(super) fn describe(&self, key: &str, of: &str, options: &Options, section: &mut Section) {
         let together = Preferences::together(self.subjects.iter().map(|(_, own)| own));
         let all = match together {
             Ok(all) if all.n_comparisons() > 0 => all,

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Options;
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table};
+use super::options::Options;
 use super::own_speeds::{self, MOVING_MM_PER_S, OwnSpeeds};
 use crate::design::Source;
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -185,7 +185,7 @@ impl Measures {
         table
     }
 
-    pub(super) fn tell(&self, section: &mut Section) {
+    pub(super) fn describe(&self, section: &mut Section) {
         section.notes.extend(self.notes.iter().cloned());
         if !self.all.is_empty() {
             section.note(format!(

@@ -1,85 +1,26 @@
 //! Ranking against a target (Philpott & Summers 2012): how often and how nearly the target was
 //! found, what was taken for what, and the map that follows.
 
-use super::Options;
 use super::draw::{Bar, bars};
-use super::kept::{Experiment, Subject};
+use super::included_trials::Experiment;
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, ends, resampled, summaries, tests};
+use super::model::{Cell, Section, Table, ends, percent_interval, resampled, summaries, tests};
+use super::options::Options;
+use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
-use super::{ranking_confusions, ranking_pairs, ranking_scale};
+use super::ranking_answers::{CHANCE_PERCENT, Rankings, rankings};
+use super::{ranking_confusions, ranking_scale};
 use crate::design::{Ranking, Standard};
-use crate::{Answer, Task};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::detection::{Choice, Correction, forced_choice};
 use selvedge_statistics::mds::{Loss, Ties};
-use selvedge_statistics::ranking::{MeanRanks, RankTrial};
+use selvedge_statistics::ranking::{MeanRanks, Preferences, RankTrial};
 use selvedge_statistics::{
-    Computed, Outcome, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank, wilson,
+    Computed, Outcome, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank,
 };
 
-/// The share of guesses that rank the target first, %.
-pub(super) const CHANCE_PERCENT: f64 = 25.0;
 /// The mean rank that guesses give the target.
 const CHANCE_RANK: f64 = 2.5;
-
-/// A subject's rankings.
-pub(super) struct Rankings<'a> {
-    pub(super) subject: &'a str,
-    pub(super) trials: Vec<RankTrial>,
-}
-
-impl Rankings<'_> {
-    pub(super) fn n_first(&self) -> u64 {
-        self.trials
-            .iter()
-            .filter(|t| rank_of_target(t) == Some(1))
-            .count() as u64
-    }
-
-    /// Targets ranked first, %.
-    pub(super) fn percent(&self) -> f64 {
-        100.0 * self.n_first() as f64 / self.trials.len() as f64
-    }
-
-    fn mean_rank(&self) -> f64 {
-        let sum: usize = self.trials.iter().filter_map(rank_of_target).sum();
-        sum as f64 / self.trials.len() as f64
-    }
-}
-
-fn rank_of_target(trial: &RankTrial) -> Option<usize> {
-    let at = trial.alternatives.iter().position(|a| *a == trial.target)?;
-    trial.ranks.get(at).copied()
-}
-
-/// The rankings of every subject.
-pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
-    let of = |subject: &Subject<'a>| Rankings {
-        subject: subject.name,
-        trials: subject.trials().filter_map(ranking).collect(),
-    };
-    experiment.subjects.iter().map(of).collect()
-}
-
-/// A ranking as it was given; `None` of another task or without an answer.
-pub(crate) fn ranking(record: &crate::Record) -> Option<RankTrial> {
-    let (
-        Task::Rank {
-            target,
-            alternatives,
-        },
-        Some(Answer::Ranks(ranks)),
-    ) = (&record.trial.task, record.answer())
-    else {
-        return None;
-    };
-    Some(RankTrial {
-        target: *target,
-        alternatives: alternatives.to_vec(),
-        ranks: ranks.iter().map(|rank| usize::from(*rank)).collect(),
-    })
-}
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
@@ -100,7 +41,7 @@ pub(super) fn sections(
     };
     sections.push(ranking_confusions::section(experiment, &ranks, &names, how));
     sections.push(ranking_scale::section(experiment, &all, progress)?);
-    sections.push(ranking_pairs::section(experiment, &all, options));
+    sections.push(pairs_section(experiment, &all, options));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |r: &Rankings<'_>| {
         let ranks = MeanRanks::of(names.len(), &r.trials).ok()?;
@@ -218,14 +159,6 @@ fn subject_row(one: &Rankings<'_>, choice: &Computed<Choice>) -> Vec<Cell> {
     row
 }
 
-pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<selvedge_statistics::Interval> {
-    wilson(hits, n, 0.95).map(|mut interval| {
-        interval.low *= 100.0;
-        interval.high *= 100.0;
-        interval
-    })
-}
-
 fn against_chance(
     all: &[Rankings<'_>],
     [percents, d_primes, ranks]: [&[f64]; 3],
@@ -294,4 +227,41 @@ fn by_subject(
         (&shown, Some([0.0, 100.0])),
         &[(CHANCE_PERCENT, "chance")],
     )
+}
+
+/// The alternatives of a trial that are not its target, the nearest first.
+fn others(trial: &RankTrial) -> Vec<usize> {
+    let mut all = trial.best_first();
+    all.retain(|item| *item != trial.target);
+    all
+}
+
+/// Scales of all alternatives but the target, over all targets.
+fn pairs_section(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Options) -> Section {
+    let title = format!(
+        "{}: nearer to whatever the target was",
+        experiment.design.title
+    );
+    let mut section = Section::new(experiment.key("pairs"), title);
+    section.note(
+        "Every ranking is taken apart into its pairs of alternatives that were not the target, all \
+         targets together: preferred is what was ranked nearer. Values that differ say that some \
+         textiles are ranked near whatever the target is.",
+    );
+    section.note(NOTE);
+    section.note(
+        "**Pairs of one ranking are not independent**: errors that take them so are too small, and \
+         so are their p. Errors over subjects, by drawing subjects again, are the ones to quote.",
+    );
+    let names = experiment.ids();
+    let of = |one: &Rankings<'_>| {
+        let rankings: Vec<Vec<usize>> = one.trials.iter().map(others).collect();
+        Preferences::of_rankings(names.len(), &rankings)
+    };
+    let subjects = all.iter().map(|one| (one.subject, of(one)));
+    match Pairs::of(&names, subjects) {
+        Ok(pairs) => pairs.describe("alternatives", "alternatives", options, &mut section),
+        Err(why) => section.note(format!("No pairs: {}.", why.reason)),
+    }
+    section
 }

@@ -2,9 +2,9 @@
 
 use super::draw::{Bar, bars};
 use super::draw_map::heat;
-use super::kept::Experiment;
-use super::model::{Cell, Drawn, Section, Table, ends, matrix};
-use super::ranking::{CHANCE_PERCENT, percent_interval};
+use super::included_trials::Experiment;
+use super::model::{Cell, Drawn, Section, Table, ends, matrix, percent_interval};
+use super::ranking_answers::CHANCE_PERCENT;
 use crate::design::{Ranking, Standard};
 use selvedge_statistics::ranking::MeanRanks;
 

@@ -2,11 +2,10 @@
 //! (Plackett & Luce, and Bradley & Terry of the same rankings in pairs), and how rankings by chance
 //! would look.
 
-use super::kept::Experiment;
-use super::map::undefined;
-use super::model::{Cell, Section, Table, ends, tests};
+use super::included_trials::Experiment;
+use super::model::{Cell, Section, Table, ends, tests, undefined};
 use super::pairs::over_subjects;
-use super::ranking::Rankings;
+use super::ranking_answers::Rankings;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};

@@ -1,9 +1,9 @@
 //! Rating scales: means by stimulus, how scales go together, and with what was measured.
 
-use super::Options;
 use super::draw::{Bar, bars};
-use super::kept::Experiment;
+use super::included_trials::Experiment;
 use super::model::{Cell, Drawn, SUMMARY, Section, Table, file_name, summary_cells, tests};
+use super::options::Options;
 use super::properties::Measures;
 use super::variance::effects;
 use crate::design::{Rating, Scale};
@@ -17,7 +17,7 @@ type Subjects = Vec<Vec<Option<f64>>>;
 
 fn ratings(experiment: &Experiment<'_>, scale: usize) -> Subjects {
     let n = experiment.design.stimuli.len();
-    let of = |subject: &super::kept::Subject<'_>| {
+    let of = |subject: &super::included_trials::Subject<'_>| {
         let mut sums = vec![[0.0; 2]; n];
         for record in subject.trials() {
             if let (Task::Rate { item }, Some(Answer::Ratings(values))) =
@@ -99,7 +99,7 @@ pub(super) fn sections(
         "Scales with each other",
         &between(&by_scale),
     ));
-    measures.tell(&mut section);
+    measures.describe(&mut section);
     if !measures.all.is_empty() {
         section.tables.push(measures.table(&names));
         let with = with_measures(&by_scale, &measures);

@@ -1,7 +1,6 @@
 //! Tables of analyses of variance.
 
-use super::map::undefined;
-use super::model::{Cell, Table};
+use super::model::{Cell, Table, undefined};
 use selvedge_statistics::Computed;
 use selvedge_statistics::variance::{Effect, Repeated};
 

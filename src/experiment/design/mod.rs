@@ -6,29 +6,44 @@
 mod check;
 mod check_levels;
 mod file;
-mod library;
 mod method;
-mod shipped;
-mod stimulus;
 mod tables;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-pub use method::Adjusting;
-pub use method::Choosing;
-pub use method::Judging;
-pub use method::QuestPlusTrack;
-pub use method::Ranking;
-pub use method::StaircaseTrack;
 pub(crate) use method::Tunable;
 pub use method::{
-    JudgingProtocol, Levels, Method, Rating, Scale, Standard, Stopping, Track, TunedParameter,
+    Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, QuestPlusTrack, Ranking, Rating,
+    Scale, StaircaseTrack, Standard, Stopping, Track, TunedParameter,
 };
-pub use stimulus::Medium;
-pub use stimulus::Source;
-pub use stimulus::Stimulus;
 
-use selvedge_textile::tactile::Tuning;
+use selvedge_textile::tactile::{Band, Tuning};
+use selvedge_textile::{BuildCache, Library, TextileError, is_of_the_program};
+
+macro_rules! shipped {
+    ($name:literal) => {
+        (
+            $name,
+            include_str!(concat!("../../../assets/designs/", $name, ".toml")),
+        )
+    };
+}
+
+/// The designs that are part of the program: the papers' sessions and the usual measurements.
+const SHIPPED: [(&str, &str); 12] = [
+    shipped!("ranking-real-target"),
+    shipped!("ranking-virtual-target"),
+    shipped!("odd-one-out"),
+    shipped!("adjustment-two-gains"),
+    shipped!("gain-matching"),
+    shipped!("real-or-generated"),
+    shipped!("threshold-40"),
+    shipped!("threshold-320"),
+    shipped!("jnd-40"),
+    shipped!("jnd-320"),
+    shipped!("magnitude"),
+    shipped!("rating"),
+];
 
 /// A study.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +74,100 @@ pub struct Design {
     pub hash: String,
     /// The file's text, which every log carries.
     pub text: String,
+}
+
+impl Design {
+    /// The names of the designs that are part of the program.
+    pub fn shipped_names() -> impl Iterator<Item = &'static str> {
+        SHIPPED.iter().map(|(name, _)| *name)
+    }
+
+    /// The text of a design of the program.
+    pub fn shipped_text(name: &str) -> Option<&'static str> {
+        let mut shipped = SHIPPED.iter();
+        shipped
+            .find(|(known, _)| *known == name)
+            .map(|(_, text)| *text)
+    }
+
+    /// The design of the program with this name.
+    pub fn shipped(name: &str) -> Option<Self> {
+        let text = Self::shipped_text(name)?;
+        Self::from_toml(text, Path::new(name)).ok()
+    }
+
+    /// Opens the design's library: the one that it names, seen from the folder that the design's
+    /// file lies in, or the shipped one. What is built from recipes is kept in `cache`.
+    ///
+    /// # Errors
+    /// There is no such library, or it cannot be read.
+    pub fn open_library(
+        &self,
+        folder: &Path,
+        cache: Option<&BuildCache>,
+    ) -> Result<Library, TextileError> {
+        match &self.library {
+            None => Library::shipped(),
+            Some(name) if is_of_the_program(name) => Library::named(name, cache),
+            Some(name) => Library::named(&folder.join(name), cache),
+        }
+    }
+}
+
+/// What the finger lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Medium {
+    /// A tactile array, real or emulated.
+    Array,
+    /// Cloth on the table.
+    RealCloth,
+}
+
+impl Medium {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Array, Self::RealCloth];
+
+    /// As files spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Array => "array",
+            Self::RealCloth => "real-cloth",
+        }
+    }
+}
+
+/// Something that is felt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stimulus {
+    /// Its name in logs and analyses; no two share one.
+    pub id: String,
+    /// Which material it is or stands for; several stimuli may stand for one.
+    pub material: String,
+    /// Where it comes from, as the study calls it: `measured`, `picture`, …
+    pub condition: String,
+    /// What presents it.
+    pub source: Source,
+}
+
+/// What presents a stimulus.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Source {
+    /// A textile of the library on the array.
+    Textile {
+        /// Its id in the library.
+        id: String,
+        /// Gain on top of the textile's own, dB.
+        gain_db: f64,
+    },
+    /// A cloth on the table that goes by this name.
+    RealCloth(String),
+    /// A steady vibration of every contactor.
+    Vibration {
+        /// Its band.
+        band: Band,
+        /// Its level, dB re 1 µm.
+        level_db: f64,
+    },
 }
 
 /// What surrounds the trials.

@@ -20,7 +20,6 @@ mod measure;
 mod percept;
 mod scale;
 mod strength;
-mod times;
 
 pub use answer::Participant;
 pub use measure::Stimuli;
@@ -157,7 +156,7 @@ impl Observer {
     }
 
     /// In a line, as logs hold it.
-    pub fn told(&self) -> String {
+    pub fn describe(&self) -> String {
         let jnd = match self.jnd {
             Jnd::Published => "published".to_owned(),
             Jnd::Fixed([low, high]) => format!("{low} and {high} dB"),

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{Apparatus, Outcome, Record, SCHEMA_VERSION, Timing, column_names};
+use super::columns::{Column, columns};
+use super::{Apparatus, Outcome, Record, SCHEMA_VERSION, Timing};
 use crate::ExperimentError;
 use crate::design::{Design, JudgingProtocol, Method};
 use crate::trial::{Adjustment, Answer, Grade, Task, Trial};
@@ -19,11 +20,12 @@ pub(crate) fn read_records(
     table: &Table,
     path: &Path,
 ) -> Result<Vec<Record>, ExperimentError> {
-    let names = column_names(design);
-    let columns = names.iter().map(|name| (name.as_str(), table.text(name)));
-    let columns: Vec<(&str, Vec<&str>)> = columns
-        .filter_map(|(name, cells)| Some((name, cells?)))
-        .collect();
+    let with_cells = |column: Column| {
+        let cells = table.text(&column.name)?;
+        Some((column, cells))
+    };
+    let columns: Vec<(Column, Vec<&str>)> =
+        columns(design).into_iter().filter_map(with_cells).collect();
     let row = |nth: usize| {
         let row = Row {
             columns: &columns,
@@ -38,7 +40,7 @@ pub(crate) fn read_records(
 }
 
 struct Row<'a> {
-    columns: &'a [(&'a str, Vec<&'a str>)],
+    columns: &'a [(Column, Vec<&'a str>)],
     nth: usize,
     place: (&'a Path, usize),
     design: &'a Design,
@@ -46,7 +48,7 @@ struct Row<'a> {
 
 impl Row<'_> {
     fn record(&self) -> Result<Record, FileError> {
-        let version: u32 = self.parsed("schema_version", "a version")?;
+        let version: u32 = self.parsed("schema_version")?;
         if version > SCHEMA_VERSION {
             let what = format!("the log has version {version} of its columns");
             let mend = format!("this program knows up to {SCHEMA_VERSION}: use a later one");
@@ -82,7 +84,7 @@ impl Row<'_> {
                 is_practice: self.is_set("practice")?,
                 task,
             },
-            attempt: self.parsed("attempt", "a number from 1")?,
+            attempt: self.parsed("attempt")?,
             outcome,
             is_correct,
             timing: self.timing()?,
@@ -95,8 +97,8 @@ impl Row<'_> {
         Ok(Timing {
             start_utc: self.cell("t_start_utc")?.to_owned(),
             response_utc: self.cell("t_response_utc")?.to_owned(),
-            start_ns: self.parsed("t_start_ns", "whole ns")?,
-            response_ns: self.parsed("t_response_ns", "whole ns")?,
+            start_ns: self.parsed("t_start_ns")?,
+            response_ns: self.parsed("t_response_ns")?,
         })
     }
 
@@ -104,10 +106,10 @@ impl Row<'_> {
         Ok(Apparatus {
             device: self.cell("device")?.to_owned(),
             tuning: Tuning {
-                gain_db: self.parsed("gain_db", "a number of dB")?,
-                gain_40_db: self.parsed("gain_40_db", "a number of dB")?,
-                gain_320_db: self.parsed("gain_320_db", "a number of dB")?,
-                compression: self.parsed("compression", "a number from 0 to 1")?,
+                gain_db: self.parsed("gain_db")?,
+                gain_40_db: self.parsed("gain_40_db")?,
+                gain_320_db: self.parsed("gain_320_db")?,
+                compression: self.parsed("compression")?,
                 compression_reference_db: None,
             },
             stimulus_hash: self.cell("stimulus_hash")?.to_owned(),
@@ -134,7 +136,7 @@ impl Row<'_> {
                 odd: self.counted("position_odd")?,
             },
             Method::Adjustment(adjusting) => {
-                let start = |key: &str| self.parsed(&format!("start_{key}"), "a number");
+                let start = |key: &str| self.parsed(&format!("start_{key}"));
                 let keys = adjusting
                     .parameters
                     .iter()
@@ -156,7 +158,7 @@ impl Row<'_> {
             },
             Method::Levels(_) => Task::Interval {
                 track: self.counted("track")?,
-                level_db: self.parsed("level_db", "a number of dB")?,
+                level_db: self.parsed("level_db")?,
                 signal: self.counted("interval_signal")?,
             },
             Method::Magnitude { .. } => Task::Estimate {
@@ -171,10 +173,10 @@ impl Row<'_> {
     fn answer(&self, task: &Task) -> Result<Answer, FileError> {
         Ok(match task {
             Task::Rank { .. } => Answer::Ranks([
-                self.parsed("rank1", "a rank")?,
-                self.parsed("rank2", "a rank")?,
-                self.parsed("rank3", "a rank")?,
-                self.parsed("rank4", "a rank")?,
+                self.parsed("rank1")?,
+                self.parsed("rank2")?,
+                self.parsed("rank3")?,
+                self.parsed("rank4")?,
             ]),
             Task::OddOne { .. } => {
                 let name = self.cell("grade")?;
@@ -203,12 +205,12 @@ impl Row<'_> {
                 position: self.counted("response")?,
                 confidence: self.confidence()?,
             },
-            Task::Estimate { .. } => Answer::Magnitude(self.parsed("response", "a number")?),
+            Task::Estimate { .. } => Answer::Magnitude(self.parsed("response")?),
             Task::Rate { .. } => {
                 let Method::Rating(rating) = &self.design.method else {
                     return Err(self.wrong("a rating without scales", "restore the design"));
                 };
-                let place = |key: &str| self.parsed(&format!("rating_{key}"), "a number");
+                let place = |key: &str| self.parsed(&format!("rating_{key}"));
                 let keys = rating.scales.iter().map(|scale| scale.key.as_str());
                 Answer::Ratings(keys.map(place).collect::<Result<_, _>>()?)
             }
@@ -224,7 +226,7 @@ impl Row<'_> {
             .iter()
             .map(|parameter| parameter.what.name())
             .collect();
-        let value = |key: &&str| self.parsed(&format!("value_{key}"), "a number");
+        let value = |key: &&str| self.parsed(&format!("value_{key}"));
         let values = keys.iter().map(value).collect::<Result<_, _>>()?;
         let text = self.cell("steps")?;
         let step = |text: &str| {
@@ -252,7 +254,7 @@ impl Row<'_> {
     fn confidence(&self) -> Result<Option<u8>, FileError> {
         match self.cell("confidence")? {
             "" => Ok(None),
-            _ => self.parsed("confidence", "a grade from 1").map(Some),
+            _ => self.parsed("confidence").map(Some),
         }
     }
 
@@ -272,7 +274,7 @@ impl Row<'_> {
 
     /// A number that counts from 1, from 0.
     fn counted(&self, column: &str) -> Result<usize, FileError> {
-        let number: usize = self.parsed(column, "a number from 1")?;
+        let number: usize = self.parsed(column)?;
         let less = number.checked_sub(1);
         less.ok_or_else(|| self.wrong(format!("{column} is 0"), "count from 1"))
     }
@@ -285,18 +287,26 @@ impl Row<'_> {
         }
     }
 
-    fn parsed<T: std::str::FromStr>(&self, column: &str, expected: &str) -> Result<T, FileError> {
-        let cell = self.cell(column)?;
-        let wrong = |_| self.wrong(format!("{column} is {cell:?}"), format!("give {expected}"));
+    fn parsed<T: std::str::FromStr>(&self, name: &str) -> Result<T, FileError> {
+        let (column, cell) = self.at(name)?;
+        let wrong = |_| {
+            let mend = format!("give {}", column.expected());
+            self.wrong(format!("{name} is {cell:?}"), mend)
+        };
         cell.parse().map_err(wrong)
     }
 
-    fn cell(&self, column: &str) -> Result<&str, FileError> {
-        let found = self.columns.iter().find(|(name, _)| *name == column);
-        let cell = found.and_then(|(_, cells)| cells.get(self.nth));
-        cell.copied().ok_or_else(|| {
+    fn cell(&self, name: &str) -> Result<&str, FileError> {
+        Ok(self.at(name)?.1)
+    }
+
+    /// A column and the row's cell in it.
+    fn at(&self, name: &str) -> Result<(&Column, &str), FileError> {
+        let found = self.columns.iter().find(|(column, _)| column.name == name);
+        let cell = found.and_then(|(column, cells)| Some((column, *cells.get(self.nth)?)));
+        cell.ok_or_else(|| {
             self.wrong(
-                format!("there is no column {column}"),
+                format!("there is no column {name}"),
                 "restore the log's header",
             )
         })

@@ -1,9 +1,10 @@
 //! Real or generated (Cai et al. 2021, phase 2): what is called real, and its analysis of variance.
 
+use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels, guessing};
+use super::printed;
 use super::studies::{Studies, Subjects, percent_right};
-use super::{Kind, Laid, Options, Replication, by_levels, guessing, printed};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, judged};
+use crate::analysis::{Cell, Section, Table, judgements};
 use crate::design::Design;
 use selvedge_foundation::progress::Progress;
 use selvedge_statistics::variance::{Answer, Crossed, Effect, repeated_two_way};
@@ -27,7 +28,7 @@ struct Found {
 /// # Errors
 /// A study cannot be held, or it was cancelled.
 pub(super) fn section(
-    laid: &Laid,
+    laid: &DesignWithStimuli,
     options: &Options,
     all: &mut Replication,
     progress: &mut Progress<'_>,
@@ -61,7 +62,7 @@ pub(super) fn section(
             .collect();
         let n_found = p.iter().filter(|p| **p < ALPHA).count();
         table.push([
-            kind.told.into(),
+            kind.description.into(),
             if p.is_empty() {
                 Cell::none("no study had an F")
             } else {
@@ -78,15 +79,15 @@ fn found(subjects: &Subjects, design: &Design) -> Found {
     let mut answers = Vec::new();
     let mut called = [[0.0; 2]; 2];
     for (nth, rows) in subjects.iter().enumerate() {
-        for said in rows.iter().flat_map(judged) {
-            let stimulus = &design.stimuli[said.item];
-            let which = usize::from(!said.is_real);
-            called[which][0] += f64::from(u8::from(said.said_real));
+        for judged in rows.iter().flat_map(judgements) {
+            let stimulus = &design.stimuli[judged.item];
+            let which = usize::from(!judged.is_real);
+            called[which][0] += f64::from(u8::from(judged.called_real));
             called[which][1] += 1.0;
             answers.push(Answer {
                 subject: format!("o{nth:02}"),
                 levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
-                value: if said.said_real { 100.0 } else { 0.0 },
+                value: if judged.called_real { 100.0 } else { 0.0 },
             });
         }
     }

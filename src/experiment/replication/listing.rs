@@ -1,6 +1,6 @@
 //! Number by number: printed beside obtained.
 
-use super::Comparison;
+use super::comparison::Comparison;
 use crate::analysis::{Cell, Section, Table};
 
 const COLUMNS: [(&str, &str); 12] = [

@@ -1,8 +1,9 @@
 //! The map of experiment 2 of Philpott & Summers 2012, turned to the levels of both bands.
 
+use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels, practised};
+use super::printed;
 use super::ranking::VIRTUAL;
 use super::studies::{Studies, Subjects};
-use super::{Kind, Laid, Options, Replication, by_levels, practised, printed};
 use crate::ExperimentError;
 use crate::analysis::{Cell, Section, Table, rank_trial};
 use crate::observer::Jnd;
@@ -33,7 +34,7 @@ struct Mapped {
 /// # Errors
 /// A study cannot be held, or it was cancelled.
 pub(super) fn section(
-    laid: &Laid,
+    laid: &DesignWithStimuli,
     options: &Options,
     all: &mut Replication,
     progress: &mut Progress<'_>,
@@ -58,7 +59,7 @@ pub(super) fn section(
         if n_mapped < n {
             section.note(format!(
                 "{}: {} studies had no map.",
-                kind.told,
+                kind.description,
                 n - n_mapped
             ));
         }
@@ -93,7 +94,7 @@ fn mds(loss: Loss, ties: Ties, n_starts: usize) -> Mds {
     }
 }
 
-fn mapped(trials: &[RankTrial], laid: &Laid, mds: &Mds) -> Computed<Mapped> {
+fn mapped(trials: &[RankTrial], laid: &DesignWithStimuli, mds: &Mds) -> Computed<Mapped> {
     let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
     let ranks = MeanRanks::of(names.len(), trials)?;
     let data = Dissimilarities::new(names, &ranks.dissimilarities())?;
@@ -110,7 +111,7 @@ fn mapped(trials: &[RankTrial], laid: &Laid, mds: &Mds) -> Computed<Mapped> {
 }
 
 /// What is felt of every stimulus, dB by band.
-fn levels_db(laid: &Laid) -> [Vec<f64>; 2] {
+fn levels_db(laid: &DesignWithStimuli) -> [Vec<f64>; 2] {
     let items = 0..laid.design.stimuli.len();
     [0, 1].map(|band| {
         let of = |item| level_db(laid.stimuli.felt_um(item)[band]);
@@ -136,7 +137,7 @@ fn compare(found: &[Mapped], kind: &Kind, all: &mut Replication) {
     }
 }
 
-fn by_loss(trials: &[RankTrial], laid: &Laid) -> Table {
+fn by_loss(trials: &[RankTrial], laid: &DesignWithStimuli) -> Table {
     let columns = [
         ("loss", "made small"),
         ("ties", "ties"),

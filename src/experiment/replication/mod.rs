@@ -14,6 +14,7 @@
 //! - studies have random numbers of their own: neither their number nor threads change one of them
 //! - numbers that were printed stand in `printed.rs` alone
 
+mod comparison;
 mod judgement;
 mod listing;
 mod maps;
@@ -26,188 +27,24 @@ mod tests;
 
 use crate::ExperimentError;
 use crate::analysis::{self, Analysis};
-use crate::design::Design;
-use crate::observer::{Observer, Stimuli, Strategy, Weighting};
-use selvedge_chart::{Plot, Series, Style};
 use selvedge_foundation::progress::Progress;
-use selvedge_textile::BuildCache;
 
-pub use studies::Spread;
-
-/// How much is simulated.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// What all chance begins with.
-    pub seed: u64,
-    /// Studies of every comparison, at least 20.
-    pub n_studies: usize,
-    /// Studies of every point of a sweep, at least 2.
-    pub n_swept: usize,
-    /// Studies that maps are made of, at least 2.
-    pub n_maps: usize,
-    /// Whether one study of each experiment is analysed in full.
-    pub is_detailed: bool,
-    /// Where textiles that are built from recipes are kept.
-    pub cache: Option<BuildCache>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            seed: 1,
-            n_studies: 200,
-            n_swept: 50,
-            n_maps: 50,
-            is_detailed: true,
-            cache: None,
-        }
-    }
-}
-
-/// A printed number, and what the same study of simulated observers comes to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Comparison {
-    /// Paper and experiment.
-    pub paper: &'static str,
-    /// What is compared, with its unit.
-    pub quantity: String,
-    /// What was printed; `None` where only chance or nothing can be compared with.
-    pub printed: Option<f64>,
-    /// How the observers felt and answered.
-    pub observer: &'static str,
-    /// What of that is assumed: nothing, or in words.
-    pub assumed: &'static str,
-    /// What came of the studies.
-    pub obtained: Spread,
-}
-
-impl Comparison {
-    /// Whether the printed number lies where 95 of 100 simulated studies lie.
-    pub fn is_within(&self) -> Option<bool> {
-        let printed = self.printed?;
-        Some((self.obtained.low..=self.obtained.high).contains(&printed))
-    }
-}
-
-/// Printed and obtained.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Replication {
-    /// Number by number.
-    pub comparisons: Vec<Comparison>,
-    /// What changes with what is assumed, and the names of the files.
-    pub sweeps: Vec<(String, Plot)>,
-    /// All of it, to be read.
-    pub analysis: Analysis,
-}
-
-impl Replication {
-    /// Adds what studies of a kind of observer came to, one number a study; nothing where fewer
-    /// than two studies have it.
-    fn add(
-        &mut self,
-        (paper, kind): (&'static str, &Kind),
-        (quantity, printed): (&str, Option<f64>),
-        values: &[f64],
-    ) {
-        if let Ok(obtained) = Spread::of(values) {
-            self.comparisons.push(Comparison {
-                paper,
-                quantity: quantity.to_owned(),
-                printed,
-                observer: kind.told,
-                assumed: kind.assumed,
-                obtained,
-            });
-        }
-    }
-}
-
-/// A kind of observer.
-#[derive(Debug, Clone, Copy)]
-struct Kind {
-    told: &'static str,
-    assumed: &'static str,
-    observer: Observer,
-}
-
-/// Levels of both bands, noise from published differences, one look.
-fn by_levels() -> Kind {
-    Kind {
-        told: "levels, one look",
-        assumed: "nothing",
-        observer: Observer::default(),
-    }
-}
-
-/// All that the array tells, each cue by what it is worth.
-fn practised() -> Kind {
-    Kind {
-        told: "all cues by their worth, one look",
-        assumed: "cues beyond levels have the noise of levels",
-        observer: Observer {
-            strategy: Strategy::All,
-            weighting: Weighting::Learnt,
-            ..Observer::default()
-        },
-    }
-}
-
-/// Nothing to go by.
-fn guessing() -> Kind {
-    Kind {
-        told: "guesses",
-        assumed: "nothing",
-        observer: Observer {
-            strategy: Strategy::None,
-            ..Observer::default()
-        },
-    }
-}
-
-/// A shipped design, and its stimuli as they are measured.
-struct Laid {
-    design: Design,
-    stimuli: Stimuli,
-}
-
-impl Laid {
-    fn open(
-        name: &str,
-        options: &Options,
-        progress: &mut Progress<'_>,
-    ) -> Result<Self, ExperimentError> {
-        let design = Design::shipped(name).ok_or_else(|| {
-            let what = format!("there is no design {name}");
-            ExperimentError::value(what, "take a build of the program that has all designs")
-        })?;
-        let library = design.open_library(std::path::Path::new(""), options.cache.as_ref())?;
-        let stimuli = Stimuli::of(&design, &library, progress)?;
-        Ok(Self { design, stimuli })
-    }
-}
-
-/// A printed number as a line across a plot.
-fn printed_line(name: &str, value: f64, [from, to]: [f64; 2]) -> Series {
-    Series {
-        name: name.to_owned(),
-        points: vec![[from, value], [to, value]],
-        style: Style::Dashed,
-        ..Series::default()
-    }
-}
+pub use comparison::{Comparison, Options, Replication, Spread};
+use comparison::{DesignWithStimuli, by_levels};
 
 /// The papers' experiments as designs.
 struct Papers {
-    real: Laid,
-    virtually: Laid,
-    triads: Laid,
-    judged: Laid,
+    real: DesignWithStimuli,
+    virtually: DesignWithStimuli,
+    triads: DesignWithStimuli,
+    judged: DesignWithStimuli,
 }
 
 impl Papers {
     fn open(options: &Options, progress: &mut Progress<'_>) -> Result<Self, ExperimentError> {
-        let mut open =
-            |name: &str, part| progress.within(part, |part| Laid::open(name, options, part));
+        let mut open = |name: &str, part| {
+            progress.within(part, |part| DesignWithStimuli::open(name, options, part))
+        };
         Ok(Self {
             real: open("ranking-real-target", [0.0, 0.2])?,
             virtually: open("ranking-virtual-target", [0.2, 0.4])?,
@@ -286,7 +123,7 @@ fn replicated(
 
 /// One study of each experiment as the logs of people would be analysed.
 fn in_full(
-    each: &[&Laid],
+    each: &[&DesignWithStimuli],
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<analysis::Section>, ExperimentError> {
@@ -294,7 +131,7 @@ fn in_full(
     progress.step(0.0, "one study of each in full")?;
     for laid in each {
         let n_sessions = odd_one_out::sessions_of(&laid.design);
-        found.extend(studies::held(
+        found.extend(studies::simulate_study(
             laid,
             by_levels().observer,
             n_sessions,

@@ -1,7 +1,7 @@
 //! The odd one of three (Allerkamp et al.): seven similar fabrics in three sessions.
 
+use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels, guessing};
 use super::studies::{Studies, Subjects, percent_right, planned};
-use super::{Kind, Laid, Options, Replication, by_levels, guessing};
 use crate::ExperimentError;
 use crate::analysis::{Cell, Section, Table, grade_weights, triad_answer};
 use crate::design::{Design, Method};
@@ -46,7 +46,7 @@ struct Found {
 /// # Errors
 /// A study cannot be held, or it was cancelled.
 pub(super) fn section(
-    laid: &Laid,
+    laid: &DesignWithStimuli,
     options: &Options,
     all: &mut Replication,
     progress: &mut Progress<'_>,
@@ -90,7 +90,7 @@ pub(super) fn section(
     Ok(section)
 }
 
-fn found(subjects: &Subjects, laid: &Laid) -> Found {
+fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
     let rows = || subjects.iter().flatten();
     let answers: Vec<TriadAnswer> = rows().filter_map(triad_answer).collect();
     let percents: Vec<f64> = subjects.iter().map(|own| percent_right(own)).collect();
@@ -134,7 +134,7 @@ fn mds() -> Mds {
 /// # Errors
 /// There are too few fabrics to be mapped, or it was cancelled.
 pub(super) fn chance(
-    laid: &Laid,
+    laid: &DesignWithStimuli,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Null>, ExperimentError> {
     let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
@@ -185,7 +185,7 @@ fn shares(kind: &Kind, elbows: &[Elbow]) -> Vec<Cell> {
     let n = elbows.len();
     if n == 0 {
         let none = || Cell::none("no study had a map");
-        let mut row = vec![Cell::from(kind.told)];
+        let mut row = vec![Cell::from(kind.description)];
         row.extend((0..4).map(|_| none()));
         row.push(n.into());
         return row;
@@ -195,7 +195,7 @@ fn shares(kind: &Kind, elbows: &[Elbow]) -> Vec<Cell> {
         Cell::from(100.0 * n_such as f64 / n as f64)
     };
     vec![
-        kind.told.into(),
+        kind.description.into(),
         percent(&|elbow| elbow.by_bend == Some(1)),
         percent(&|elbow| elbow.by_bend == Some(2)),
         percent(&|elbow| elbow.by_bend > Some(2)),

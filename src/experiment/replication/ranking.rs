@@ -1,9 +1,12 @@
 //! Ranking against a target (Philpott & Summers 2012): identification with a virtual and with a
 //! real target, and how it changes with what is assumed.
 
-use super::studies::{Spread, Studies, Subjects, percent_right};
-use super::{Kind, Laid, Options, Replication, by_levels, guessing, practised};
-use super::{printed, printed_line};
+use super::comparison::{
+    DesignWithStimuli, Kind, Options, Replication, Spread, by_levels, guessing, practised,
+    printed_line,
+};
+use super::printed;
+use super::studies::{Studies, Subjects, percent_right};
 use crate::ExperimentError;
 use crate::analysis::{Cell, Section, Table, scatter};
 use crate::observer::{Observer, Strategy, Weighting};
@@ -25,8 +28,8 @@ pub(super) const REAL: &str = "Philpott & Summers 2012, experiment 1";
 
 /// Both experiments.
 pub(super) struct Rankings<'a> {
-    pub(super) real: &'a Laid,
-    pub(super) virtually: &'a Laid,
+    pub(super) real: &'a DesignWithStimuli,
+    pub(super) virtually: &'a DesignWithStimuli,
     pub(super) options: &'a Options,
 }
 
@@ -51,7 +54,7 @@ struct Swept {
 impl Rankings<'_> {
     fn studies(
         &self,
-        laid: &Laid,
+        laid: &DesignWithStimuli,
         observer: Observer,
         (n, doing): (usize, &str),
         progress: &mut Progress<'_>,
@@ -96,7 +99,7 @@ impl Rankings<'_> {
     }
 
     /// What is compared with what was printed.
-    fn cases(&self) -> [(&'static str, &Laid, Kind, printed::Share); 5] {
+    fn cases(&self) -> [(&'static str, &DesignWithStimuli, Kind, printed::Share); 5] {
         let with_error = |kind: Kind, assumed: &'static str| Kind {
             assumed,
             observer: Observer {
@@ -156,7 +159,11 @@ impl Rankings<'_> {
         Ok(())
     }
 
-    fn swept(&self, laid: &Laid, observer: Observer) -> Result<Vec<Found>, ExperimentError> {
+    fn swept(
+        &self,
+        laid: &DesignWithStimuli,
+        observer: Observer,
+    ) -> Result<Vec<Found>, ExperimentError> {
         let n = self.options.n_swept;
         unheard(|progress| self.studies(laid, observer, (n, ""), progress))
     }

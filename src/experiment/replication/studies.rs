@@ -2,52 +2,18 @@
 
 use std::path::PathBuf;
 
-use super::{Laid, Options};
+use super::comparison::{DesignWithStimuli, Options};
 use crate::design::Design;
 use crate::observer::Observer;
 use crate::session::Found;
 use crate::{ExperimentError, Record, Simulation, simulated_subject};
-use selvedge_foundation::numerics::{Random, in_pieces, n_threads, quantile};
+use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::progress::Progress;
-use selvedge_statistics::{Computed, Summary, mean};
-
-/// How a number is spread over studies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spread {
-    /// Studies in which it could be computed.
-    pub n: usize,
-    /// Its mean over studies.
-    pub mean: f64,
-    /// What the mean is uncertain by, since studies are not endless: its standard error.
-    pub se: f64,
-    /// The lower end of the middle 95 of 100 studies.
-    pub low: f64,
-    /// The upper end.
-    pub high: f64,
-}
-
-impl Spread {
-    /// Of one number a study.
-    ///
-    /// # Errors
-    /// Fewer than two of them.
-    pub fn of(values: &[f64]) -> Computed<Self> {
-        let summary = Summary::of(values)?;
-        let mut sorted = values.to_vec();
-        Ok(Self {
-            n: summary.n,
-            mean: mean(values)?,
-            se: summary.se,
-            low: quantile(&mut sorted, 0.025),
-            high: quantile(&mut sorted, 0.975),
-        })
-    }
-}
 
 /// Observers in a design, study after study.
 #[derive(Clone, Copy)]
 pub(super) struct Studies<'a> {
-    laid: &'a Laid,
+    laid: &'a DesignWithStimuli,
     observer: Observer,
     /// Subjects and sessions of each.
     size: (usize, u32),
@@ -60,7 +26,7 @@ pub(super) type Subjects = Vec<Vec<Record>>;
 impl<'a> Studies<'a> {
     /// As many subjects as the design plans, eight where it does not, each in so many sessions.
     pub(super) fn of(
-        laid: &'a Laid,
+        laid: &'a DesignWithStimuli,
         observer: Observer,
         n_sessions: u32,
         options: &Options,
@@ -140,8 +106,8 @@ pub(super) fn planned(design: &Design) -> usize {
 }
 
 /// A study of a design's planned size as its logs would be found, without writing them.
-pub(super) fn held(
-    laid: &Laid,
+pub(super) fn simulate_study(
+    laid: &DesignWithStimuli,
     observer: Observer,
     n_sessions: u32,
     options: &Options,

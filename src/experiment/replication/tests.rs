@@ -2,6 +2,7 @@
 
 use super::ranking::crossing;
 use super::*;
+use crate::design::Design;
 use selvedge_foundation::progress::unheard;
 
 fn small() -> Options {
@@ -19,7 +20,7 @@ fn papers() -> Papers {
     let laid = |name: &str| {
         let design = Design::shipped(name).unwrap();
         let stimuli = crate::observer::tests::stimuli(&design);
-        Laid { design, stimuli }
+        DesignWithStimuli { design, stimuli }
     };
     Papers {
         real: laid("ranking-real-target"),

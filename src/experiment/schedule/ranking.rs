@@ -27,14 +27,6 @@ pub(crate) struct RankingTrial {
     pub alternatives: [usize; N_ALTERNATIVES],
 }
 
-impl RankingTrial {
-    /// The position of the correct alternative, from 0.
-    pub(crate) fn correct(&self) -> usize {
-        let found = self.alternatives.iter().position(|&a| a == self.target);
-        found.unwrap_or(N_ALTERNATIVES)
-    }
-}
-
 /// Why there is no schedule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum ScheduleError {

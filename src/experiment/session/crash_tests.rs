@@ -3,8 +3,10 @@
 use super::tests::{Folder, circumstances, files_text, go_on, subject};
 use super::*;
 use crate::Grade;
+use crate::Trial;
 use selvedge_foundation::numerics::Random;
 use selvedge_render::scene::PathRow;
+use std::path::PathBuf;
 
 /// Twenty-one triads of cloth on the table.
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\

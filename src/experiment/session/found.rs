@@ -33,20 +33,13 @@ pub struct Unread {
     pub error: ExperimentError,
 }
 
-/// Every session in a folder, by name. Tables without a sidecar are no sessions.
-///
-/// # Errors
-/// The folder or a log cannot be read.
-pub fn find(folder: &Path) -> Result<Vec<Found>, ExperimentError> {
-    logs(folder)?.iter().map(|log| Found::read(log)).collect()
-}
-
-/// Likewise, with the logs that cannot be read apart: what a later version wrote, or what was
-/// damaged, does not keep the others from being read.
+/// Every session in a folder, by name, and the logs that cannot be read: what a later version wrote,
+/// or what was damaged, does not keep the others from being read. Tables without a sidecar are no
+/// sessions.
 ///
 /// # Errors
 /// The folder cannot be read.
-pub fn find_readable(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
+pub fn find_sessions(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
     let (mut found, mut unread) = (Vec::new(), Vec::new());
     for log in logs(folder)? {
         match Found::read(&log) {

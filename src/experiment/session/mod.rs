@@ -10,18 +10,18 @@
 //!
 //! The path of a trial is written before its row: a row that is there has all that belongs to it.
 
+mod files;
 mod found;
 mod origin;
-mod samples;
 mod sidecar;
 mod whole;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::SystemTime;
 
-pub use found::Unread;
-pub use found::{Found, find, find_readable};
+pub use files::{log_path, path_file, samples_file};
+pub use found::{Found, Unread, find_sessions};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
 pub(crate) use whole::{unwritten, write_whole};
@@ -30,10 +30,9 @@ use super::ExperimentError;
 use super::course::{Course, Step};
 use super::design::{Design, Subject, is_name};
 use super::record::{Apparatus, Outcome, Record, Timing, column_names, read_records};
-use super::trial::{Answer, Trial};
+use super::trial::Answer;
 use selvedge_engine::RecordedSample;
 use selvedge_foundation::files::{FileError, Journal, Reopened};
-use selvedge_foundation::quantity::rfc3339;
 use selvedge_render::scene::ExplorationPath;
 
 /// A session that is being held.
@@ -232,7 +231,7 @@ impl Session {
         }
         if !circumstances.samples.is_empty() {
             let file = samples_file(self.log(), &record.trial, record.attempt);
-            samples::write(circumstances.samples, &file)?;
+            files::write_samples(circumstances.samples, &file)?;
         }
         let cells = record.cells(&self.design, &self.subject);
         let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
@@ -251,38 +250,6 @@ impl Session {
         path.write(&file)
             .map_err(|error| ExperimentError::value(error.to_string(), "answer again"))
     }
-}
-
-/// The file of how a trial was explored.
-pub fn path_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
-    let stem = log.file_stem().unwrap_or_default().to_string_lossy();
-    let practice = if trial.is_practice {
-        "practice"
-    } else {
-        "trial"
-    };
-    let again = if attempt > 1 {
-        format!("-{attempt}")
-    } else {
-        String::new()
-    };
-    let name = format!("{practice}-{:03}{again}.csv", trial.number + 1);
-    log.with_file_name(format!("{stem}-paths")).join(name)
-}
-
-/// The file of what pointer or tablet reported in a trial.
-pub fn samples_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
-    let path = path_file(log, trial, attempt);
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-samples.csv"))
-}
-
-/// The log of a subject's session in a folder.
-pub fn log_path(folder: &Path, design: &Design, subject: &Subject) -> PathBuf {
-    folder.join(format!(
-        "{}_{}_{}_{}.csv",
-        design.study, design.experiment, subject.pseudonym, subject.session
-    ))
 }
 
 /// A log whose sidecar was never written, since the program ended between the two: it has no row.
@@ -305,11 +272,6 @@ fn check_pseudonym(pseudonym: &str) -> Result<(), ExperimentError> {
         format!("the subject is {pseudonym:?}"),
         mend,
     ))
-}
-
-/// A moment as logs hold it.
-pub(super) fn told_utc(at: SystemTime) -> String {
-    rfc3339(at)
 }
 
 #[cfg(test)]

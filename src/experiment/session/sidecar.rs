@@ -7,11 +7,11 @@ use std::time::SystemTime;
 use serde::{Deserialize, Serialize};
 
 use super::origin::{DesignFolder, Origin};
-use super::told_utc;
 use crate::ExperimentError;
 use crate::design::{Design, Subject};
-use crate::record::{SCHEMA_VERSION, columns};
+use crate::record::{SCHEMA_VERSION, dictionary};
 use selvedge_foundation::files::{self, FileError};
+use selvedge_foundation::quantity::rfc3339;
 use selvedge_textile::is_of_the_program;
 
 /// What the file of a design is called where its own name is not known.
@@ -61,7 +61,7 @@ impl Opening {
     /// An opening of a log with so many rows.
     pub fn at(when: SystemTime, device: &str, rows: usize) -> Self {
         Self {
-            utc: told_utc(when),
+            utc: rfc3339(when),
             device: device.to_owned(),
             rows,
             after_utc: None,
@@ -86,7 +86,7 @@ impl Sidecar {
             design_sha256: design.hash.clone(),
             design: design.text.clone(),
             design_folder: None,
-            columns: columns(design).into_iter().collect(),
+            columns: dictionary(design),
             openings: Vec::new(),
         }
     }

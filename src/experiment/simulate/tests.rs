@@ -4,7 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::observer::{Strategy, Weighting, tests::stimuli};
-use crate::session::{Circumstances, Session, find, tests::Folder};
+use crate::session::{Circumstances, Session, find_sessions, tests::Folder};
 use selvedge_foundation::progress::unheard;
 use selvedge_textile::Library;
 
@@ -36,7 +36,7 @@ fn every_shipped_design_is_simulated_to_its_end_and_read_back() {
         let simulation = simulation(&design, &stimuli, &observer);
         let logs = unheard(|progress| simulation.write(&place, (2, 2), progress)).unwrap();
         assert_eq!(logs.len(), 4, "{name}");
-        for found in find(&place).unwrap() {
+        for found in find_sessions(&place).unwrap().0 {
             let records = simulation.records(&found.subject).unwrap();
             assert_eq!(
                 found.records, records,
@@ -159,7 +159,11 @@ fn what_the_shipped_ranking_gives() {
                 let shares: Vec<f64> = (0..8).map(share).collect();
                 let summary = selvedge_statistics::Summary::of(&shares).unwrap();
                 let se = summary.sd / 8.0_f64.sqrt();
-                println!("{:.1} % ± {se:.1} SE: {}", summary.mean, observer.told());
+                println!(
+                    "{:.1} % ± {se:.1} SE: {}",
+                    summary.mean,
+                    observer.describe()
+                );
             }
         }
     }

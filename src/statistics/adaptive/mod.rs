@@ -24,8 +24,10 @@ pub use quest_plus::QuestSummary;
 pub use quest_plus::Reckoned;
 pub use quest_plus::{QuestGrid, QuestPlus};
 pub use rule::{Rule, StepScale};
+#[cfg(test)]
+pub(crate) use staircase::Limit;
 pub use staircase::Reversal;
-pub use staircase::{Limit, ReversalMean, Stage, Staircase, StaircasePlan};
+pub use staircase::{ReversalMean, Stage, Staircase, StaircasePlan};
 pub(crate) use stop::Reached;
 pub use stop::Stop;
 

@@ -102,7 +102,7 @@ pub struct Reversal {
 
 /// A limit of the stimulus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limit {
+pub(crate) enum Limit {
     /// The weakest.
     Low,
     /// The strongest.

@@ -12,7 +12,7 @@ const SHARES: [f64; 2] = [1e-9, 1.0 - 1e-9];
 ///
 /// # Errors
 /// Fewer than two or more than 1000 alternatives, a distance that is not finite.
-pub fn share_of_d_prime(d_prime: f64, m: u32) -> Computed {
+pub(crate) fn share_of_d_prime(d_prime: f64, m: u32) -> Computed {
     if !(2..=1000).contains(&m) || !d_prime.is_finite() {
         let reason = format!("d′ = {d_prime} among {m} alternatives");
         return Err(Undefined::because(reason));

@@ -12,7 +12,9 @@ mod yes_no;
 
 pub(crate) use choice::inverted;
 pub use choice::{Choice, Correction};
-pub use forced_choice::{forced_choice, share_of_d_prime};
-pub use roc::{Roc, RocPoint, roc};
-pub use triangle::{triangle, triangle_d_prime};
+pub use forced_choice::forced_choice;
+#[cfg(test)]
+pub(crate) use forced_choice::share_of_d_prime;
+pub use roc::{Roc, roc};
+pub use triangle::triangle;
 pub use yes_no::{Answers, YesNo, yes_no};

@@ -3,20 +3,12 @@
 use crate::distribution::normal_quantile;
 use crate::{Computed, Interval, Undefined};
 
-/// Shares of signals and of others rated at least so high.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RocPoint {
-    /// Share of false alarms.
-    pub false_alarm_rate: f64,
-    /// Share of hits.
-    pub hit_rate: f64,
-}
-
 /// The curve and its area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Roc {
-    /// From (0, 0) to (1, 1), the strictest criterion first.
-    pub points: Vec<RocPoint>,
+    /// Shares of others and of signals rated at least so high, from (0, 0) to (1, 1), the strictest
+    /// criterion first.
+    pub points: Vec<[f64; 2]>,
     /// Trials with the signal and without.
     pub n: [u64; 2],
     /// Area by trapezia: the probability that a signal is rated higher than another trial, ties
@@ -84,14 +76,11 @@ pub fn roc(signals: &[u64], others: &[u64]) -> Computed<Roc> {
     })
 }
 
-fn points(signals: &[u64], others: &[u64], n: [u64; 2]) -> Vec<RocPoint> {
+fn points(signals: &[u64], others: &[u64], n: [u64; 2]) -> Vec<[f64; 2]> {
     let mut counts = [0, 0];
     let mut points = Vec::with_capacity(signals.len() + 1);
     let mut push = |counts: [u64; 2]| {
-        points.push(RocPoint {
-            false_alarm_rate: counts[1] as f64 / n[1] as f64,
-            hit_rate: counts[0] as f64 / n[0] as f64,
-        });
+        points.push([1, 0].map(|of| counts[of] as f64 / n[of] as f64));
     };
     push(counts);
     for (signal, other) in signals.iter().zip(others).rev() {
@@ -132,8 +121,8 @@ mod tests {
             .points
             .windows(2)
             .map(|w| {
-                let width = w[1].false_alarm_rate - w[0].false_alarm_rate;
-                0.5 * width * (w[0].hit_rate + w[1].hit_rate)
+                let width = w[1][0] - w[0][0];
+                0.5 * width * (w[0][1] + w[1][1])
             })
             .sum();
         // Pairs won and half of those tied, of 20 × 20.
@@ -142,11 +131,8 @@ mod tests {
         let pairs = (f64::from(won) + 0.5 * f64::from(tied)) / 400.0;
         assert!((found.area - trapezia).abs() < 1e-14, "{found:?}");
         assert!((found.area - pairs).abs() < 1e-14, "{found:?}");
-        let last = found
-            .points
-            .last()
-            .map(|p| [p.false_alarm_rate, p.hit_rate]);
-        assert_eq!(last, Some([1.0, 1.0]));
+        let last = found.points.last();
+        assert_eq!(last, Some(&[1.0, 1.0]));
         Ok(())
     }
 

@@ -40,7 +40,7 @@ fn share(d_prime: f64) -> f64 {
 ///
 /// # Errors
 /// A share outside 0 … 1 − 1e-9.
-pub fn triangle_d_prime(correct: f64) -> Computed {
+fn triangle_d_prime(correct: f64) -> Computed {
     if !(0.0..=1.0 - 1e-9).contains(&correct) {
         let reason = format!("a share of {correct} of triads has no finite d′");
         return Err(Undefined::because(reason));

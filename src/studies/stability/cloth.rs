@@ -92,7 +92,7 @@ pub(super) fn extent_um(frame: &DisplayFrame) -> [f32; 2] {
 }
 
 /// Amplitudes in words.
-pub(super) fn told_um([low, high]: [f32; 2]) -> String {
+pub(super) fn range_um([low, high]: [f32; 2]) -> String {
     if low == high {
         format!("{low} µm everywhere")
     } else {

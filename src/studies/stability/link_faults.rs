@@ -148,7 +148,7 @@ fn streams_on(faults: &Faults) -> Verdict {
     trial.run(LASTING_MS / 2);
     let state = trial.host.state();
     let is_open = state.is_open() && trial.loudest_age_us <= SILENT_BY_US;
-    verdict(is_open, told(&trial))
+    verdict(is_open, describe(&trial))
 }
 
 fn ends_safely(kind: OneOffKind) -> Verdict {
@@ -163,12 +163,15 @@ fn ends_safely(kind: OneOffKind) -> Verdict {
         matches!(it.host.state(), BridgeState::Ready | BridgeState::Faulted)
     });
     let is_safe = is_kept && trial.loudest_age_us <= SILENT_BY_US && reason.is_some();
-    let words = reason.unwrap_or_else(|| "nothing told".to_owned());
-    verdict(is_safe && is_usable, format!("{}; {words}", told(&trial)))
+    let message = reason.unwrap_or_else(|| "nothing told".to_owned());
+    verdict(
+        is_safe && is_usable,
+        format!("{}; {message}", describe(&trial)),
+    )
 }
 
 /// Injected, counted, and the longest output after a last frame.
-fn told(trial: &Simulation) -> String {
+fn describe(trial: &Simulation) -> String {
     let injected = trial.log.injections.iter();
     let n_injected = injected
         .filter(|it| !matches!(it.kind, InjectionKind::Ends(_)))

@@ -1,8 +1,8 @@
 //! Stability: what comes back when something extreme goes in, against what is promised.
 //!
-//! Every case runs for real on the library's own functions, on a thread of its own: one that
-//! panics or never ends is reported as such and harms no other. None of them may panic, hang, or give
-//! a number that is not finite to a device.
+//! Every case runs for real on the library's own functions, on a thread of its own: one that panics
+//! or never ends is reported as such and harms no other. None of them may panic, hang, or give a
+//! number that is not finite to a device.
 #![expect(
     clippy::float_cmp,
     reason = "silence is exactly 0, and what must not change must not change by a bit"

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::case::{Case, Verdict, verdict};
-use super::cloth::{METHODS, extent_um, moving, placed, renderer, scene, surface, told_um};
+use super::cloth::{METHODS, extent_um, moving, placed, range_um, renderer, scene, surface};
 use super::cloth::{waves, wavy_scene};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_foundation::geometry::Point;
@@ -94,7 +94,7 @@ fn silent_at(pose: Pose, is_counted: bool) -> Verdict {
             [moving(100.0), pose, moving(100.0)].map(|pose| extent_um(&renderer.tick(&[pose])[0]));
         let [before, silent, after] = heard;
         if silent != [0.0; 2] || before != after || before[1] <= 0.0 {
-            let [silent, after] = [silent, after].map(told_um);
+            let [silent, after] = [silent, after].map(range_um);
             return Err(format!("{method:?}: {silent}, then {after}"));
         }
         let counters = renderer.counters();
@@ -110,7 +110,7 @@ fn level_of_equal_heights() -> Verdict {
     let heard = extent_um(&felt(&flat, Method::Reference)?);
     let level = level_db.map_or_else(|| "none".to_owned(), |level_db| format!("{level_db} dB"));
     let is_kept = heard == [0.0; 2] && level_db.is_none();
-    verdict(is_kept, format!("{}, level {level}", told_um(heard)))
+    verdict(is_kept, format!("{}, level {level}", range_um(heard)))
 }
 
 fn tiny_heights() -> Verdict {
@@ -118,9 +118,9 @@ fn tiny_heights() -> Verdict {
     for method in METHODS {
         let heard = extent_um(&felt(&waves(1e-12)?, method)?);
         let is_computed = heard[1] > 0.0 && heard[1] < 1e-11;
-        came_back.push(told_um(heard));
+        came_back.push(range_um(heard));
         if !is_computed {
-            return Err(format!("{method:?}: {}", told_um(heard)));
+            return Err(format!("{method:?}: {}", range_um(heard)));
         }
     }
     Ok(came_back.swap_remove(0))
@@ -138,7 +138,7 @@ fn huge_heights() -> Verdict {
             .map(|[low, high]| u32::from(*low) + u32::from(*high))
             .max();
         let [n_low, n_high] = coder.counters().limited;
-        came_back = format!("{}, {} limited", told_um(heard), n_low + n_high);
+        came_back = format!("{}, {} limited", range_um(heard), n_low + n_high);
         let is_limited = n_low + n_high > 0 && largest.is_some_and(|codes| codes <= 65_535);
         if !(heard[1].is_finite() && heard[1] > 1e9 && is_limited) {
             return Err(format!("{method:?}: {came_back}, codes up to {largest:?}"));
@@ -154,7 +154,7 @@ fn no_textile() -> Verdict {
         .filter(|contactor| frame.textile(*contactor).is_some())
         .count();
     let heard = extent_um(frame);
-    verdict(heard == [0.0; 2] && n_owned == 0, told_um(heard))
+    verdict(heard == [0.0; 2] && n_owned == 0, range_um(heard))
 }
 
 fn hundred_overlapping() -> Verdict {

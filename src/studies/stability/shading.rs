@@ -44,7 +44,7 @@ pub(super) fn cases() -> Vec<Case> {
         "refused with advice",
         || {
             let found = found(&checks(), [45.0, 135.0], Method::TsaiShah);
-            told(found, "turn the picture")
+            refused_with(found, "turn the picture")
         },
     );
     cases
@@ -86,7 +86,7 @@ fn found(
 }
 
 /// That it was refused, with these words.
-fn told(found: Result<Shape, String>, word: &str) -> Verdict {
+fn refused_with(found: Result<Shape, String>, word: &str) -> Verdict {
     match found {
         Err(text) if text.contains(word) => Ok(text),
         Err(text) => Err(text),
@@ -95,7 +95,7 @@ fn told(found: Result<Shape, String>, word: &str) -> Verdict {
 }
 
 fn refused(tile: &Grid<f64>, slant_deg: f64, word: &str) -> Verdict {
-    let all = Method::ALL.map(|method| told(found(tile, [slant_deg, 20.0], method), word));
+    let all = Method::ALL.map(|method| refused_with(found(tile, [slant_deg, 20.0], method), word));
     let texts: Vec<String> = all.into_iter().collect::<Result<_, _>>()?;
     Ok(texts.into_iter().next().unwrap_or_default())
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::case::{Case, Verdict, failed, refused, verdict};
-use super::cloth::{METHODS, extent_um, moving, renderer, told_um, wavy_scene};
+use super::cloth::{METHODS, extent_um, moving, range_um, renderer, wavy_scene};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_engine::{Command, Engine, EngineConfig, Notice, PreparedScene};
 use selvedge_foundation::geometry::Point;
@@ -77,7 +77,7 @@ fn in_file(line: &str) -> Result<Scene, impl std::fmt::Display + use<>> {
 fn silent_with_gain(gain_db: f64) -> Verdict {
     let heard = heard_with_gain(gain_db)?;
     let is_silent = heard.iter().all(|extent| *extent == [0.0; 2]);
-    verdict(is_silent, told_um(heard[0]))
+    verdict(is_silent, range_um(heard[0]))
 }
 
 fn finite_with_gain(gain_db: f64) -> Verdict {
@@ -94,7 +94,7 @@ fn finite_with_gain(gain_db: f64) -> Verdict {
     let is_number = heard.iter().flatten().all(|um| !um.is_nan());
     verdict(
         is_bounded && is_number,
-        format!("{}, codes within full drive", told_um(heard[0])),
+        format!("{}, codes within full drive", range_um(heard[0])),
     )
 }
 

@@ -106,7 +106,7 @@ pub(super) fn notes(results: &[Outcome]) -> Vec<String> {
     if let Some(best) = overall.first() {
         notes.push(format!(
             "Least rms error over all strokes and pointers: {}.",
-            told(best)
+            describe(best)
         ));
     }
     let steady = overall.iter().find(|all| all.steady_db <= STEADY_DB);
@@ -114,21 +114,21 @@ pub(super) fn notes(results: &[Outcome]) -> Vec<String> {
         let within = with_unit(STEADY_DB, 0, "dB");
         notes.push(format!(
             "Least of those within {within} on a steady stroke: {}.",
-            told(steady)
+            describe(steady)
         ));
     }
     let default = overall
         .iter()
         .find(|all| all.candidate.method == VelocityMethod::default());
     if let Some(default) = default {
-        notes.push(format!("The default: {}.", told(default)));
+        notes.push(format!("The default: {}.", describe(default)));
     }
     let mut seen: Vec<&str> = Vec::new();
     for all in &overall {
         let label = all.candidate.method.label();
         if !seen.contains(&label) {
             seen.push(label);
-            notes.push(format!("Best setting of its kind: {}.", told(all)));
+            notes.push(format!("Best setting of its kind: {}.", describe(all)));
         }
     }
     notes.push(
@@ -139,7 +139,7 @@ pub(super) fn notes(results: &[Outcome]) -> Vec<String> {
     notes
 }
 
-fn told(all: &Overall<'_>) -> String {
+fn describe(all: &Overall<'_>) -> String {
     let Overall {
         candidate,
         tally,

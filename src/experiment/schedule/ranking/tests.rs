@@ -11,6 +11,14 @@ fn schedule(n: usize, subject: u32) -> RankingSchedule {
     .unwrap()
 }
 
+impl RankingTrial {
+    /// The position of the correct alternative, from 0.
+    fn correct(&self) -> usize {
+        let found = self.alternatives.iter().position(|&a| a == self.target);
+        found.unwrap_or(N_ALTERNATIVES)
+    }
+}
+
 #[test]
 fn sixteen_textiles_make_eighty_trials_balanced_in_every_way() {
     for subject in 0..16 {

@@ -54,7 +54,7 @@ impl Study for PictureRouteStudy {
                 let subject = Subject::new(cloth, *picture, bench.seed)?;
                 results.push(Tried::of(&subject, is_timed, bench));
             }
-            results::told(&results, setting(*picture), done == 0, &mut findings);
+            results::report(&results, setting(*picture), done == 0, &mut findings);
         }
         findings.notes.push(
             "The level error is the larger of both bands' at 100 mm/s. smd_error_percent and \

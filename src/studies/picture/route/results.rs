@@ -51,7 +51,7 @@ impl Tried {
 }
 
 /// Adds the rows of all cloths, those of all together, notes, and plots if asked for.
-pub(super) fn told(results: &[Tried], setting: &str, is_drawn: bool, findings: &mut Findings) {
+pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings: &mut Findings) {
     for tried in results {
         for (way, felt, cost) in &tried.by_way {
             if is_drawn || way.is_picture() {
@@ -391,7 +391,7 @@ mod tests {
     #[test]
     fn a_route_that_is_upside_down_shows_up_as_wrong() {
         let mut findings = Findings::default();
-        told(&made_up(), "25 px/mm", true, &mut findings);
+        report(&made_up(), "25 px/mm", true, &mut findings);
         let right = Summary::of(&made_up(), Way::ALL[0]);
         let wrong = Summary::of(&made_up(), Way::ALL[1]);
         assert!(

@@ -8,7 +8,7 @@ use crate::bench::task::Task;
 use crate::tools::experiment::noise::NOISE_FILE;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
-use selvedge_experiment::session::{Found, find_readable, log_path};
+use selvedge_experiment::session::{Found, find_sessions, log_path};
 use selvedge_experiment::{Course, Participant, Participants};
 
 /// Which design is taken.
@@ -281,7 +281,7 @@ pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
         return Err(format!("there is no folder {folder}; check the path"));
     }
     let told = |error: selvedge_experiment::ExperimentError| error.to_string();
-    let (found, unread) = find_readable(folder).map_err(told)?;
+    let (found, unread) = find_sessions(folder).map_err(told)?;
     Ok(Listed {
         found: found.into_iter().map(row).collect(),
         unread: unread.into_iter().map(|one| told(one.error)).collect(),

@@ -17,7 +17,7 @@ use crate::bench::view::Live;
 use crate::shell::headless::Headless;
 use selvedge_experiment::Task;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::session::{find, path_file, samples_file};
+use selvedge_experiment::session::{find_sessions, path_file, samples_file};
 use selvedge_render::scene::ExplorationPath;
 use selvedge_scratch::ScratchFolder as Folder;
 
@@ -147,7 +147,7 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
         None,
         "no recording of the user's"
     );
-    let found = find(&folder.0).unwrap();
+    let found = find_sessions(&folder.0).unwrap().0;
     let [one] = &found[..] else {
         panic!("one session")
     };
@@ -322,7 +322,7 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     window.dispatch(ExperimentCommand::Pause(false));
     window.pass(2);
     assert!(held(&window).trial().is_some_and(|next| *next != trial));
-    let found = find(&folder.0).unwrap();
+    let found = find_sessions(&folder.0).unwrap().0;
     let rows = &found[0].records;
     assert_eq!(
         (rows.len(), rows[0].note.as_str(), rows[1].attempt),
@@ -355,7 +355,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     assert!((felt_db(&mut window) - turned).abs() < 1e-9);
     window.dispatch(ExperimentCommand::Answer);
     window.pass(4);
-    let found = find(&folder.0).unwrap();
+    let found = find_sessions(&folder.0).unwrap().0;
     let Some(selvedge_experiment::Answer::Adjusted { values, steps }) =
         found[0].records[0].answer()
     else {

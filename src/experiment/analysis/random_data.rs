@@ -3,11 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
-use super::map::{Mapping, told};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Map, Mds, Null, NullKind};
-use selvedge_statistics::variance::friedman;
-use selvedge_statistics::{Computed, Outcome, Undefined};
 
 /// What was found of random ranks before; clones share it. It depends on the number of objects,
 /// the pairs that are missing, dimensions and loss, never on the answers: ranks at random have no
@@ -53,7 +50,7 @@ impl RandomData {
             let asked = Asked {
                 n_objects: data.n_objects(),
                 pairs: data.pairs().iter().map(|pair| pair.objects).collect(),
-                loss: told(mds.loss),
+                loss: mds.loss.name(),
                 dims: map.dims,
                 n_sets,
                 starts: [mds.n_starts, mds.n_starts_on_a_line, mds.n_exchanged],
@@ -72,30 +69,5 @@ impl RandomData {
             all.push(null);
         }
         Ok(all)
-    }
-}
-
-impl Mapping<'_> {
-    /// How well subjects agree on the order of the pairs that all of them met: Kendall's W.
-    pub(super) fn agreement(&self) -> Computed<Outcome> {
-        let n = self.names.len();
-        let upper = (0..n).flat_map(|i| (i + 1..n).map(move |j| i * n + j));
-        let is_met = |at: &usize| {
-            let met = |subject: &Vec<Option<f64>>| subject.get(*at).is_some_and(Option::is_some);
-            self.subjects.iter().all(met)
-        };
-        let cells: Vec<usize> = upper.filter(is_met).collect();
-        if self.subjects.len() < 2 || cells.len() < 2 {
-            let (n, pairs) = (self.subjects.len(), cells.len());
-            let reason = format!("{n} subjects with {pairs} pairs in common have no agreement");
-            return Err(Undefined::because(reason));
-        }
-        let row = |subject: &Vec<Option<f64>>| cells.iter().filter_map(|at| subject[*at]).collect();
-        let rows: Vec<Vec<f64>> = self.subjects.iter().map(row).collect();
-        friedman(&rows).map(|mut outcome| {
-            let note = "takes pairs for independent, which share their items";
-            outcome.notes.push(note.to_owned());
-            outcome
-        })
     }
 }

@@ -116,7 +116,7 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
         format!("{key}-sessions"),
         format!("{}: sessions", design.title),
     );
-    rules_told(design, &mut section);
+    describe_rules(design, &mut section);
     let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
     let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);
     let mut subjects: Vec<Subject<'_>> = Vec::new();
@@ -181,7 +181,7 @@ const LEFT_OUT: [(&str, &str); 4] = [
     ("why", "why"),
 ];
 
-fn rules_told(design: &Design, section: &mut Section) {
+fn describe_rules(design: &Design, section: &mut Section) {
     let rules = &design.rules;
     section.note(format!(
         "Study `{}`, experiment `{}`, method {}, seed {}, design SHA-256 {}.",
@@ -191,32 +191,32 @@ fn rules_told(design: &Design, section: &mut Section) {
         design.seed,
         design.hash
     ));
-    let mut told = vec![match rules.subjects {
+    let mut texts = vec![match rules.subjects {
         0 => "the number of subjects was left open".to_owned(),
         n => format!("{n} subjects planned"),
     }];
     if rules.least_trials > 0 {
-        told.push(format!(
+        texts.push(format!(
             "a session with fewer than {} trials is left out",
             rules.least_trials
         ));
     }
     if rules.least_response_s > 0.0 {
-        told.push(format!(
+        texts.push(format!(
             "a trial answered in less than {} s is left out",
             rules.least_response_s
         ));
     }
     if rules.least_share_correct > 0.0 {
         let share = 100.0 * rules.least_share_correct;
-        told.push(format!(
+        texts.push(format!(
             "a subject with less than {share} % right is left out"
         ));
     }
     section.note(format!(
         "Settled in the design before the first subject: {}. Practice and aborted trials never \
          count.",
-        told.join("; ")
+        texts.join("; ")
     ));
 }
 
@@ -300,14 +300,14 @@ fn numbers(trials: &[&Record]) -> String {
             None => runs.push([number; 2]),
         }
     }
-    let told = |[from, to]: &[usize; 2]| {
+    let texts = |[from, to]: &[usize; 2]| {
         if from == to {
             from.to_string()
         } else {
             format!("{from}–{to}")
         }
     };
-    runs.iter().map(told).collect::<Vec<_>>().join(", ")
+    runs.iter().map(texts).collect::<Vec<_>>().join(", ")
 }
 
 fn without_fast<'a>(mut session: Session<'a>, left_out: &mut Table) -> Session<'a> {

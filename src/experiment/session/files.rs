@@ -1,16 +1,18 @@
-//! What pointer or tablet reported during a trial: time and place of every report, at its own rate,
-//! beside the path at 40 Hz that is replayed.
+//! The files of a session: where each is, and what pointer or tablet reported during a trial.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use crate::Trial;
+use crate::design::{Design, Subject};
 use selvedge_engine::RecordedSample;
 use selvedge_foundation::files::{FileError, push_number, write_atomic};
 
 /// Columns: s after the path's first row, and the place, mm.
 const HEADER: &str = "t_s,x_mm,y_mm\n";
 
-/// Writes the reports into a file whose folder may be missing.
-pub(super) fn write(samples: &[RecordedSample], file: &Path) -> Result<(), FileError> {
+/// Writes what pointer or tablet reported (time and place of every report, at its own rate, beside
+/// the path at 40 Hz that is replayed) into a file whose folder may be missing.
+pub(super) fn write_samples(samples: &[RecordedSample], file: &Path) -> Result<(), FileError> {
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder).map_err(|source| FileError::Write {
             path: folder.to_owned(),
@@ -31,6 +33,38 @@ pub(super) fn write(samples: &[RecordedSample], file: &Path) -> Result<(), FileE
     write_atomic(file, text.as_bytes())
 }
 
+/// The file of how a trial was explored.
+pub fn path_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
+    let stem = log.file_stem().unwrap_or_default().to_string_lossy();
+    let practice = if trial.is_practice {
+        "practice"
+    } else {
+        "trial"
+    };
+    let again = if attempt > 1 {
+        format!("-{attempt}")
+    } else {
+        String::new()
+    };
+    let name = format!("{practice}-{:03}{again}.csv", trial.number + 1);
+    log.with_file_name(format!("{stem}-paths")).join(name)
+}
+
+/// The file of what pointer or tablet reported in a trial.
+pub fn samples_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
+    let path = path_file(log, trial, attempt);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-samples.csv"))
+}
+
+/// The log of a subject's session in a folder.
+pub fn log_path(folder: &Path, design: &Design, subject: &Subject) -> PathBuf {
+    folder.join(format!(
+        "{}_{}_{}_{}.csv",
+        design.study, design.experiment, subject.pseudonym, subject.session
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,7 +81,7 @@ mod tests {
             position: Point::new(0.1 * f64::from(n), 12.5),
         };
         let samples: Vec<RecordedSample> = (0..200).map(sample).collect();
-        write(&samples, &file).unwrap();
+        write_samples(&samples, &file).unwrap();
         let text = read_text(&file).unwrap();
         assert!(
             text.starts_with("t_s,x_mm,y_mm\n-0.01,0,12.5\n-0.0025,0.1,12.5\n"),
