@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use selvedge_textile::metrology::{self, Asked, LengthUnit};
+use selvedge_textile::LengthUnit;
+use selvedge_textile::metrology::{self, Asked};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{Description, HeightImport, HeightPlace, ImportOptions, TextileError};
 

@@ -9,8 +9,8 @@ use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesFile, KesImport, KesOptions, KesPlace,
-    KesReading, PlaceUnit, ReturnOrder, measured_figures,
+    ClothAxis, ColumnRole, DecimalSign, KesFile, KesImport, KesOptions, KesPlace, KesReading,
+    LengthUnit, ReturnOrder, Unit, measured_figures,
 };
 
 /// Files of the tester, what they do not say, and where the textile goes.
@@ -150,14 +150,14 @@ impl ImportKesArgs {
             rate_hz: self.rate_hz,
             um_per_volt: self.um_per_volt,
             x_unit: self.x_unit.map(|unit| match unit {
-                XUnit::Mm => PlaceUnit::Mm,
-                XUnit::Cm => PlaceUnit::Cm,
-                XUnit::Um => PlaceUnit::Um,
+                XUnit::Mm => LengthUnit::Millimetre,
+                XUnit::Cm => LengthUnit::Centimetre,
+                XUnit::Um => LengthUnit::Micrometre,
             }),
             height_unit: self.height_unit.map(|unit| match unit {
-                ZUnit::Um => HeightUnit::Um,
-                ZUnit::Mm => HeightUnit::Mm,
-                ZUnit::Volt => HeightUnit::Volt,
+                ZUnit::Um => Unit::Length(LengthUnit::Micrometre),
+                ZUnit::Mm => Unit::Length(LengthUnit::Millimetre),
+                ZUnit::Volt => Unit::Volt,
             }),
             decimal: self.decimal.map(|sign| match sign {
                 Decimal::Point => DecimalSign::Point,

@@ -31,6 +31,7 @@ mod shipped;
 mod sources;
 pub mod surface;
 pub mod tactile;
+mod unit;
 mod yarns;
 
 pub use build::{BuiltFile, Trial, build, make, write};
@@ -43,9 +44,8 @@ pub use import::{
 };
 pub use import::{KesFigures, Scaled};
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesColumn, KesFile, KesKnown, KesLook,
-    KesOptions, KesPlace, KesReading, KesSection, KesStroke, MarkKind, PlaceUnit, ReturnOrder,
-    StrokeSide,
+    ClothAxis, ColumnRole, DecimalSign, KesColumn, KesFile, KesKnown, KesLook, KesOptions,
+    KesPlace, KesReading, KesSection, KesStroke, MarkKind, ReturnOrder, StrokeSide,
 };
 pub use kes::{KesFriction, KesLine, Mark};
 pub use library::{
@@ -75,6 +75,7 @@ pub use sources::restoration::Restoration;
 pub use sources::restoration::Reduced;
 pub use sources::weave::{NAMES as INTERLACINGS, Weave};
 pub use sources::{RECIPES, Source, groups};
+pub use unit::{LengthUnit, Unit};
 
 #[cfg(test)]
 mod tests;

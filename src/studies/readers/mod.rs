@@ -7,9 +7,8 @@ use super::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Plot, Series, Style};
 use selvedge_foundation::files::Number;
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_textile::metrology::{
-    About, Asked, Coding, LengthUnit, Measured, open, write, write_x3p,
-};
+use selvedge_textile::LengthUnit;
+use selvedge_textile::metrology::{About, Asked, Coding, Measured, open, write, write_x3p};
 
 /// Reading time and error of Sq over formats and sizes.
 #[derive(Debug, Clone, Copy, Default)]

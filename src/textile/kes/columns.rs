@@ -1,6 +1,7 @@
 //! What the columns of a table are: by what the user says, by their names, else by their number.
 
 use super::dialect::RawTable;
+use crate::unit::{LengthUnit, Unit};
 
 /// One of the two axes of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,41 +36,11 @@ pub enum ColumnRole {
     Skip,
 }
 
-/// A unit as a header states it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Unit {
-    Metre,
-    Centimetre,
-    Millimetre,
-    Micrometre,
-    Volt,
-    Millivolt,
-    Second,
-    /// A unit of something else.
-    Other,
-}
-
 /// A column: what it is, and its unit if its header states one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Column {
     pub(super) role: ColumnRole,
     pub(super) unit: Option<Unit>,
-}
-
-impl Unit {
-    /// How people write it; empty for a unit of something else.
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Centimetre => "cm",
-            Self::Millimetre => "mm",
-            Self::Micrometre => "µm",
-            Self::Volt => "V",
-            Self::Millivolt => "mV",
-            Self::Second => "s",
-            Self::Other => "",
-        }
-    }
 }
 
 impl ColumnRole {
@@ -185,11 +156,11 @@ fn unit_of(tokens: &[String]) -> Option<Unit> {
     let known: [(&[&str], Unit); 8] = [
         (
             &["um", "micron", "microns", "micrometre", "micrometer"],
-            Unit::Micrometre,
+            Unit::Length(LengthUnit::Micrometre),
         ),
-        (&["mm"], Unit::Millimetre),
-        (&["cm"], Unit::Centimetre),
-        (&["m"], Unit::Metre),
+        (&["mm"], Unit::Length(LengthUnit::Millimetre)),
+        (&["cm"], Unit::Length(LengthUnit::Centimetre)),
+        (&["m"], Unit::Length(LengthUnit::Metre)),
         (&["mv"], Unit::Millivolt),
         (&["v", "volt", "volts"], Unit::Volt),
         (&["s", "sec"], Unit::Second),
@@ -324,9 +295,9 @@ mod tests {
         assert_eq!(found[0].role, ColumnRole::Skip);
         assert_eq!(
             (found[1].role, found[1].unit),
-            (Distance, Some(Unit::Millimetre))
+            (Distance, Some(Unit::Length(LengthUnit::Millimetre)))
         );
-        assert_eq!(found[2].unit, Some(Unit::Micrometre));
+        assert_eq!(found[2].unit, Some(Unit::Length(LengthUnit::Micrometre)));
         assert_eq!(found[2].role, Height(None, None));
         let found = columns("time\tsignal\ns\tV\n0\t5\n0.1\t7\n").unwrap();
         assert_eq!((found[0].role, found[0].unit), (Time, Some(Unit::Second)));

@@ -146,7 +146,7 @@ fn columns(table: &RawTable, said: Option<&[ColumnRole]>) -> Vec<KesColumn> {
     let column = |(index, column): (usize, super::columns::Column)| KesColumn {
         name: name(index),
         role: column.role,
-        unit: column.unit.map_or("", super::columns::Unit::label),
+        unit: column.unit.map_or("", crate::unit::Unit::label),
         known: if is_said {
             KesKnown::Said
         } else if is_named(index, column.role) {

@@ -18,7 +18,6 @@ mod sur;
 mod text;
 mod text_layout;
 mod tmd;
-mod unit;
 mod x3p;
 
 #[cfg(test)]
@@ -28,8 +27,8 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
+use crate::unit::LengthUnit;
 pub use reading::{About, Asked, Measured};
-pub use unit::LengthUnit;
 pub use x3p::{Coding, write as write_x3p};
 
 use std::path::Path;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::unit::LengthUnit;
 use crate::error::TextileError;
 use crate::surface::{HeightMap, MOST_POINTS, SurfaceError};
+use crate::unit::LengthUnit;
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::numerics::Grid;
 

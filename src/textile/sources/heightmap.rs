@@ -4,12 +4,13 @@
 use std::path::Path;
 
 use crate::error::TextileError;
-use crate::metrology::{Asked, LengthUnit, Measured, open};
+use crate::metrology::{Asked, Measured, open};
 use crate::recipe::{Checker, HeightsFile, Number, Recipe, keys};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
     WINDOW_LENGTH_MM,
 };
+use crate::unit::LengthUnit;
 use selvedge_foundation::files::{FileError, sha256_hex};
 use selvedge_foundation::numerics::{Grid, Random};
 

@@ -7,7 +7,7 @@ use crate::importing::{Failure, Found, Heights, HeightsDraft, Importing};
 use crate::theme::STEP;
 use crate::widgets::toggle;
 use selvedge_foundation::quantity::fixed;
-use selvedge_textile::metrology::LengthUnit;
+use selvedge_textile::LengthUnit;
 use selvedge_textile::surface::Representation;
 
 /// Width of a field for a number, points.
