@@ -5,7 +5,7 @@ use crate::unit::{LengthUnit, Unit};
 
 /// One of the two axes of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ClothAxis {
+pub enum TextileAxis {
     /// Along the warp.
     Warp,
     /// Along the weft.
@@ -29,7 +29,7 @@ pub enum ColumnRole {
     /// The time.
     Time,
     /// Heights of a stroke; what is not said is that of the file.
-    Height(Option<ClothAxis>, Option<StrokeSide>),
+    Height(Option<TextileAxis>, Option<StrokeSide>),
     /// The coefficient of friction.
     Friction(Option<StrokeSide>),
     /// Nothing of interest.
@@ -46,8 +46,8 @@ pub(super) struct Column {
 impl ColumnRole {
     /// What people call it.
     pub fn label(self) -> &'static str {
-        use ClothAxis::{Warp, Weft};
         use StrokeSide::{Forward, Return};
+        use TextileAxis::{Warp, Weft};
 
         match self {
             Self::Distance => "distance",
@@ -90,13 +90,13 @@ fn has(tokens: &[String], words: &[&str]) -> bool {
 }
 
 /// The axis that words name.
-pub(super) fn axis_of(tokens: &[String]) -> Option<ClothAxis> {
+pub(super) fn axis_of(tokens: &[String]) -> Option<TextileAxis> {
     let holds = |part: &str| tokens.iter().any(|token| token.contains(part));
     if holds("warp") || has(tokens, &["kette", "wale", "wales"]) {
-        return Some(ClothAxis::Warp);
+        return Some(TextileAxis::Warp);
     }
     let is_weft = holds("weft") || has(tokens, &["fill", "filling", "schuss", "course", "courses"]);
-    is_weft.then_some(ClothAxis::Weft)
+    is_weft.then_some(TextileAxis::Weft)
 }
 
 /// The side that words name.
@@ -244,8 +244,8 @@ fn names(table: &RawTable) -> Option<Vec<Vec<String>>> {
 /// What unnamed columns are: places first, if the first rises or falls throughout, or goes out and
 /// back; then forward and return, of the warp and of the weft.
 fn by_number(table: &RawTable) -> Option<Vec<ColumnRole>> {
-    use ClothAxis::{Warp, Weft};
     use StrokeSide::{Forward, Return};
+    use TextileAxis::{Warp, Weft};
 
     let height = |axis, side| ColumnRole::Height(axis, side);
     let strokes = |n| {
@@ -307,8 +307,8 @@ mod tests {
             roles("x weftForward weft_return\n0 5 6\n1 7 8\n"),
             [
                 Distance,
-                Height(Some(ClothAxis::Weft), Some(StrokeSide::Forward)),
-                Height(Some(ClothAxis::Weft), Some(StrokeSide::Return)),
+                Height(Some(TextileAxis::Weft), Some(StrokeSide::Forward)),
+                Height(Some(TextileAxis::Weft), Some(StrokeSide::Return)),
             ]
         );
     }
@@ -338,7 +338,7 @@ mod tests {
         let role = ColumnRole::from_word("warp-return").unwrap();
         assert_eq!(
             role,
-            ColumnRole::Height(Some(ClothAxis::Warp), Some(StrokeSide::Return))
+            ColumnRole::Height(Some(TextileAxis::Warp), Some(StrokeSide::Return))
         );
         assert_eq!(ColumnRole::from_word("colour"), None);
     }

@@ -31,7 +31,7 @@ mod tests;
 mod text;
 mod units;
 
-pub use columns::{ClothAxis, ColumnRole, StrokeSide};
+pub use columns::{ColumnRole, StrokeSide, TextileAxis};
 pub use dialect::DecimalSign;
 pub use look::KesLine;
 pub use look::{KesColumn, KesKnown, KesLook};
@@ -76,7 +76,7 @@ pub struct KesOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct KesPlace {
     /// Warp or weft.
-    pub axis: ClothAxis,
+    pub axis: TextileAxis,
     /// Out or back.
     pub side: Option<StrokeSide>,
 }

@@ -20,9 +20,9 @@ pub struct Probe {
     /// Noise of the instrument, µm rms, white over the samples.
     pub noise_um: f64,
     /// Length over which the reading follows the surface, mm.
-    pub(crate) lag_mm: f64,
+    pub lag_mm: f64,
     /// Lift on a flank that rises in travel, µm per µm/mm.
-    pub(crate) climb_mm: f64,
+    pub climb_mm: f64,
 }
 
 impl Default for Probe {

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::{Failure, Step};
 use selvedge_textile::LengthUnit;
-use selvedge_textile::metrology::Asked;
+use selvedge_textile::metrology::HeightOptions;
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     ColumnRole, Construction, DecimalSign, Description, ImportOptions, KesOptions, KesPlace,
@@ -223,7 +223,7 @@ impl Told {
         };
         let column = typed.column.trim();
         Ok(ImportOptions {
-            asked: Asked {
+            asked: HeightOptions {
                 height_unit: typed.height_unit,
                 length_unit: typed.length_unit,
                 step_mm: number(&typed.step_mm, "the distance of points in mm")?,

@@ -7,7 +7,7 @@ use super::images::Image;
 use crate::keep::NewTextile;
 use crate::widgets::Relief3d;
 use selvedge_foundation::numerics::Grid;
-use selvedge_textile::picture::felt::Brightness;
+use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, LightEstimate, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, Directions, Found as Tiled, Maxima, Picture, SignificantMaxima,

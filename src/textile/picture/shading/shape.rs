@@ -55,7 +55,7 @@ impl Method {
 pub struct ShadingOptions {
     /// The method.
     pub method: Method,
-    /// Iterations, 1 to [`MOST_ITERATIONS`]; the method's own number unless stated. The linear
+    /// Iterations, 1 to [`MAX_ITERATIONS`]; the method's own number unless stated. The linear
     /// inversion takes one; the variational method ends sooner where more would not help.
     pub iterations: Option<usize>,
     /// What Tsai & Shah's differences do at the first row and column; the others always repeat.
@@ -67,11 +67,11 @@ pub struct ShadingOptions {
     /// What keeps the methods from amplifying what the light does not show. Linear: ε of
     /// `H* F / (|H|² + ε)` is the square of this share of |H| at one cycle a tile along the light
     /// (0.1). Variational: the weight of squared curvature (0.001).
-    pub(crate) regulariser: Option<f64>,
+    pub regulariser: Option<f64>,
 }
 
 /// Most iterations.
-pub(crate) const MOST_ITERATIONS: usize = 10_000;
+pub(crate) const MAX_ITERATIONS: usize = 10_000;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]

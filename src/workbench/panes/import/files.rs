@@ -10,7 +10,7 @@ use crate::importing::{DraftFile, Found, ImportCommand, Importing};
 use crate::panes::Wishes;
 use crate::theme::{self, Palette, STEP};
 use crate::widgets::{button, toggle};
-use selvedge_textile::{ClothAxis, KesPlace, Measurement, StrokeSide};
+use selvedge_textile::{KesPlace, Measurement, StrokeSide, TextileAxis};
 
 /// What is said before anything was chosen.
 const EMPTY: [&str; 3] = [
@@ -23,10 +23,10 @@ const EMPTY: [&str; 3] = [
 ];
 /// What a file of the tester may hold.
 const HOLDS: [(Option<KesPlace>, &str); 7] = {
-    use ClothAxis::{Warp, Weft};
     use StrokeSide::{Forward, Return};
+    use TextileAxis::{Warp, Weft};
 
-    const fn place(axis: ClothAxis, side: Option<StrokeSide>) -> KesPlace {
+    const fn place(axis: TextileAxis, side: Option<StrokeSide>) -> KesPlace {
         KesPlace { axis, side }
     }
     [

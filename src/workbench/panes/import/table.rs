@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use crate::theme::{self, Palette};
-use selvedge_textile::{ClothAxis, ColumnRole, KesKnown, KesLook, StrokeSide};
+use selvedge_textile::{ColumnRole, KesKnown, KesLook, StrokeSide, TextileAxis};
 
 /// Height of a line, points.
 const LINE: f32 = 14.0;
@@ -18,9 +18,9 @@ const LEAST: f32 = 84.0;
 
 /// What a column may be said to hold.
 pub(super) const ROLES_OFFERED: [ColumnRole; 14] = {
-    use ClothAxis::{Warp, Weft};
     use ColumnRole::{Distance, Friction, Height, Skip, Time};
     use StrokeSide::{Forward, Return};
+    use TextileAxis::{Warp, Weft};
     [
         Distance,
         Time,

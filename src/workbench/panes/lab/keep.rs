@@ -61,5 +61,5 @@ pub(super) fn refusal(view: &LabView<'_>) -> Option<String> {
     if lab.share().is_some() {
         return Some("Wait until it is computed, or stop that".to_owned());
     }
-    lab.fault().map(|fault| fault.words.clone())
+    lab.fault().map(|fault| fault.message.clone())
 }
