@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
-use selvedge_textile::metrology::{self, Asked, LengthUnit};
+use selvedge_textile::LengthUnit;
+use selvedge_textile::metrology::{self, HeightOptions};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{Description, HeightImport, HeightPlace, ImportOptions, TextileError};
 
@@ -35,8 +36,8 @@ struct AskedArgs {
 }
 
 impl AskedArgs {
-    fn asked(&self) -> Asked {
-        Asked {
+    fn asked(&self) -> HeightOptions {
+        HeightOptions {
             height_unit: self.height_unit,
             length_unit: self.length_unit,
             step_mm: self.step_mm,

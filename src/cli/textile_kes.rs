@@ -9,8 +9,8 @@ use super::textile_words::{Made, WordsArgs};
 use super::{CliError, output, terminal};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesFile, KesImport, KesOptions, KesPlace,
-    KesReading, PlaceUnit, ReturnOrder, measured_figures,
+    ColumnRole, DecimalSign, KesFile, KesImport, KesOptions, KesPlace, KesReading, LengthUnit,
+    ReturnOrder, TextileAxis, Unit, measured_figures,
 };
 
 /// Files of the tester, what they do not say, and where the textile goes.
@@ -101,7 +101,7 @@ enum Order {
 /// A section of one axis, or of both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Section {
-    axis: Option<ClothAxis>,
+    axis: Option<TextileAxis>,
     mm: [f64; 2],
 }
 
@@ -121,8 +121,8 @@ fn section(text: &str) -> Result<Section, String> {
     let wrong = || "say FROM,TO in mm, warp=FROM,TO or weft=FROM,TO".to_owned();
     let (axis, range) = match text.split_once('=') {
         None => (None, text),
-        Some(("warp", range)) => (Some(ClothAxis::Warp), range),
-        Some(("weft", range)) => (Some(ClothAxis::Weft), range),
+        Some(("warp", range)) => (Some(TextileAxis::Warp), range),
+        Some(("weft", range)) => (Some(TextileAxis::Weft), range),
         Some(_) => return Err(wrong()),
     };
     let (from, to) = range.split_once(',').ok_or_else(wrong)?;
@@ -150,14 +150,14 @@ impl ImportKesArgs {
             rate_hz: self.rate_hz,
             um_per_volt: self.um_per_volt,
             x_unit: self.x_unit.map(|unit| match unit {
-                XUnit::Mm => PlaceUnit::Mm,
-                XUnit::Cm => PlaceUnit::Cm,
-                XUnit::Um => PlaceUnit::Um,
+                XUnit::Mm => LengthUnit::Millimetre,
+                XUnit::Cm => LengthUnit::Centimetre,
+                XUnit::Um => LengthUnit::Micrometre,
             }),
             height_unit: self.height_unit.map(|unit| match unit {
-                ZUnit::Um => HeightUnit::Um,
-                ZUnit::Mm => HeightUnit::Mm,
-                ZUnit::Volt => HeightUnit::Volt,
+                ZUnit::Um => Unit::Length(LengthUnit::Micrometre),
+                ZUnit::Mm => Unit::Length(LengthUnit::Millimetre),
+                ZUnit::Volt => Unit::Volt,
             }),
             decimal: self.decimal.map(|sign| match sign {
                 Decimal::Point => DecimalSign::Point,
@@ -172,7 +172,7 @@ impl ImportKesArgs {
     }
 
     fn sections(&self) -> [Option<[f64; 2]>; 2] {
-        [ClothAxis::Warp, ClothAxis::Weft].map(|axis| {
+        [TextileAxis::Warp, TextileAxis::Weft].map(|axis| {
             let is_meant = |section: &&Section| section.axis.is_none_or(|said| said == axis);
             self.section
                 .iter()
@@ -238,7 +238,7 @@ fn report(import: &KesImport, out: &Path) -> Result<String, CliError> {
         )
         .map_err(failed)?;
     }
-    for (axis, name) in [(ClothAxis::Warp, "warp"), (ClothAxis::Weft, "weft")] {
+    for (axis, name) in [(TextileAxis::Warp, "warp"), (TextileAxis::Weft, "weft")] {
         let Some(section) = import.section(axis) else {
             continue;
         };
@@ -276,7 +276,7 @@ mod tests {
         assert_eq!(section("5,25").unwrap().mm, [5.0, 25.0]);
         assert_eq!(
             section("weft=4.5, 24.5").unwrap().axis,
-            Some(ClothAxis::Weft)
+            Some(TextileAxis::Weft)
         );
         for text in ["5", "bias=5,25", "5;25", "a,b", "nan,25"] {
             assert!(section(text).is_err(), "{text}");
@@ -288,7 +288,7 @@ mod tests {
         let said = place("weft-return").unwrap();
         assert_eq!(
             (said.axis, said.side),
-            (ClothAxis::Weft, Some(StrokeSide::Return))
+            (TextileAxis::Weft, Some(StrokeSide::Return))
         );
         assert_eq!(place("warp").unwrap().side, None);
         assert_eq!(

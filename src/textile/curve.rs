@@ -1,12 +1,12 @@
 //! Long curves with as many corners as a picture shows.
 
 /// Stretches that a curve is drawn by: two corners each.
-const MOST_STRETCHES: usize = 700;
+const MAX_STRETCHES: usize = 700;
 
 /// Values at `places`, `[place, value]`, with no more corners than a picture shows: of every
 /// stretch the least and the greatest value, in their order.
 pub(crate) fn corners(place: impl Fn(usize) -> f64, values: &[f64]) -> Vec<[f64; 2]> {
-    let n_stretch = values.len().div_ceil(MOST_STRETCHES).max(1);
+    let n_stretch = values.len().div_ceil(MAX_STRETCHES).max(1);
     let at = |index: usize| [place(index), values[index]];
     if n_stretch < 3 {
         return (0..values.len()).map(at).collect();
@@ -14,10 +14,10 @@ pub(crate) fn corners(place: impl Fn(usize) -> f64, values: &[f64]) -> Vec<[f64;
     let mut corners = Vec::new();
     for (nth, stretch) in values.chunks(n_stretch).enumerate() {
         let by_value = |a: &usize, b: &usize| stretch[*a].total_cmp(&stretch[*b]);
-        let least = (0..stretch.len()).min_by(by_value).unwrap_or(0);
+        let min = (0..stretch.len()).min_by(by_value).unwrap_or(0);
         let greatest = (0..stretch.len()).max_by(by_value).unwrap_or(0);
         let first = nth * n_stretch;
-        corners.extend([least.min(greatest), least.max(greatest)].map(|i| at(first + i)));
+        corners.extend([min.min(greatest), min.max(greatest)].map(|i| at(first + i)));
     }
     corners
 }
@@ -32,7 +32,7 @@ mod tests {
         values[31_007] = 5.0;
         values[90_001] = -7.0;
         let corners = corners(|i| i as f64, &values);
-        assert!(corners.len() <= 2 * MOST_STRETCHES, "{}", corners.len());
+        assert!(corners.len() <= 2 * MAX_STRETCHES, "{}", corners.len());
         assert!(corners.contains(&[31_007.0, 5.0]), "the peak");
         assert!(corners.contains(&[90_001.0, -7.0]), "the pit");
         assert!(

@@ -31,9 +31,10 @@ mod shipped;
 mod sources;
 pub mod surface;
 pub mod tactile;
+mod unit;
 mod yarns;
 
-pub use build::{BuiltFile, Trial, build, make, write};
+pub use build::{BuiltFile, RecipePreview, build, make, write};
 pub use catalogue::{write_catalogue, write_figure};
 pub use draft::{Draft, Fault, example, restored};
 pub use error::{KesAsk, TextileError};
@@ -41,11 +42,10 @@ pub use import::{
     Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesImport, Measurement,
     PictureTextile, read_measurement, relief_um_of, scaled, smd_um, textile_of,
 };
-pub use import::{KesFigures, Scaled};
+pub use import::{KesFigures, ScaledRelief};
 pub use kes::{
-    ClothAxis, ColumnRole, DecimalSign, HeightUnit, KesColumn, KesFile, KesKnown, KesLook,
-    KesOptions, KesPlace, KesReading, KesSection, KesStroke, MarkKind, PlaceUnit, ReturnOrder,
-    StrokeSide,
+    ColumnRole, DecimalSign, KesColumn, KesFile, KesKnown, KesLook, KesOptions, KesPlace,
+    KesReading, KesSection, KesStroke, MarkKind, ReturnOrder, StrokeSide, TextileAxis,
 };
 pub use kes::{KesFriction, KesLine, Mark};
 pub use library::{
@@ -61,7 +61,7 @@ pub use manifest::{
 pub use profile_file::read as read_profile;
 pub use recipe::{Group, Parameter, ParameterKind, Place, lit};
 pub use sources::brownian::{Brownian, Generator, Hurst};
-pub use sources::fourier::{Fourier, Imported};
+pub use sources::fourier::{Fourier, ImportedProfile};
 pub use sources::fourier::{
     FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
     templates_from_toml, templates_to_toml,
@@ -75,6 +75,7 @@ pub use sources::restoration::Restoration;
 pub use sources::restoration::Reduced;
 pub use sources::weave::{NAMES as INTERLACINGS, Weave};
 pub use sources::{RECIPES, Source, groups};
+pub use unit::{LengthUnit, Unit};
 
 #[cfg(test)]
 mod tests;

@@ -7,9 +7,8 @@ use super::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Plot, Series, Style};
 use selvedge_foundation::files::Number;
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_textile::metrology::{
-    About, Asked, Coding, LengthUnit, Measured, open, write, write_x3p,
-};
+use selvedge_textile::LengthUnit;
+use selvedge_textile::metrology::{About, Coding, HeightOptions, Measured, open, write, write_x3p};
 
 /// Reading time and error of Sq over formats and sizes.
 #[derive(Debug, Clone, Copy, Default)]
@@ -117,10 +116,10 @@ impl Study for ReadersStudy {
 fn row(bench: &mut Bench<'_>, written: Written, map: &Measured) -> Result<Row, ReportError> {
     let bytes = written.bytes(map)?;
     let path = Path::new("map");
-    let asked = Asked {
+    let asked = HeightOptions {
         height_unit: (written.ending == "npy").then_some(LengthUnit::Micrometre),
         step_mm: (written.ending == "npy").then_some(map.step_mm[0]),
-        ..Asked::default()
+        ..HeightOptions::default()
     };
     let read = open(&bytes, path, &asked)?;
     let n_points = map.heights_um.values().len();
@@ -181,10 +180,10 @@ mod tests {
         let map = map(64, 1).unwrap();
         for written in WRITTEN {
             let bytes = written.bytes(&map).unwrap();
-            let asked = Asked {
+            let asked = HeightOptions {
                 height_unit: Some(LengthUnit::Micrometre).filter(|_| written.ending == "npy"),
                 step_mm: Some(0.01).filter(|_| written.ending == "npy"),
-                ..Asked::default()
+                ..HeightOptions::default()
             };
             let read = open(&bytes, Path::new("map"), &asked).unwrap();
             let off = (read.sq_um() / map.sq_um() - 1.0).abs();

@@ -3,9 +3,9 @@
 //! Same recipe, same bytes: nothing here looks at a clock, a thread count or the order of a
 //! folder.
 
-mod trial;
+mod preview;
 
-pub use trial::Trial;
+pub use preview::RecipePreview;
 
 use std::fs;
 use std::path::Path;

@@ -221,10 +221,10 @@ fn grey(share: f64) -> [u8; 3] {
 
 /// Power by wavenumber and place, one panel a direction.
 fn spectra(textile: &Textile) -> Row {
-    let [least, most] = POWERS_DB;
+    let [min, max] = POWERS_DB;
     let cell = |power_um2: f64| {
         let db = 0.5 * level_db(power_um2.max(1e-30));
-        Some(grey((db - least) / (most - least)))
+        Some(grey((db - min) / (max - min)))
     };
     let panel = |direction: Direction| {
         let spectra = textile.surface().spectra(direction);

@@ -31,7 +31,7 @@ pub struct Fault {
     /// The parameter that is wrong; `None` if it is none that can be set by itself.
     pub place: Option<Place>,
     /// What is wrong and how to mend it, one line.
-    pub words: String,
+    pub message: String,
 }
 
 impl Draft {
@@ -109,7 +109,7 @@ impl Draft {
             TextileError::File(file) => self.fault(&text, file),
             other => Fault {
                 place: None,
-                words: other.to_string(),
+                message: other.to_string(),
             },
         })
     }
@@ -122,7 +122,7 @@ impl Draft {
         else {
             return Fault {
                 place: None,
-                words: error.to_string(),
+                message: error.to_string(),
             };
         };
         let groups = groups(self.kind());
@@ -135,7 +135,7 @@ impl Draft {
         });
         Fault {
             place,
-            words: format!("{what}; {mend}"),
+            message: format!("{what}; {mend}"),
         }
     }
 }

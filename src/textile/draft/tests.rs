@@ -47,8 +47,8 @@ fn the_bounds_of_the_tables_are_those_of_the_reader() {
                 wrong.set(parameter.place, Some(value));
                 let fault = wrong.read().unwrap_err();
                 assert_eq!(fault.place, Some(parameter.place), "{kind}: {fault:?}");
-                assert!(fault.words.contains(parameter.place.key), "{fault:?}");
-                assert!(!fault.words.contains('\n'), "{fault:?}");
+                assert!(fault.message.contains(parameter.place.key), "{fault:?}");
+                assert!(!fault.message.contains('\n'), "{fault:?}");
             }
         }
     }

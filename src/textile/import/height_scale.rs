@@ -27,7 +27,7 @@ const MAX_RELIEF_UM: f64 = 1e5;
 
 /// A relief in µm, and how its height was found.
 #[derive(Debug)]
-pub struct Scaled {
+pub struct ScaledRelief {
     /// The relief of one repeat.
     pub map: HeightMap,
     /// From its lowest to its highest height.
@@ -42,7 +42,7 @@ pub fn scaled(
     step_mm: [f64; 2],
     scale: HeightScale,
     strokes: &impl Fn(&HeightMap) -> Result<ProfileSet, TextileError>,
-) -> Result<Scaled, TextileError> {
+) -> Result<ScaledRelief, TextileError> {
     if shape.is_flat() {
         return Err(ShadingError::Flat.into());
     }
@@ -64,7 +64,7 @@ pub fn scaled(
             (relief_for(wanted, of_relief)?, Some(wanted))
         }
     };
-    Ok(Scaled {
+    Ok(ScaledRelief {
         map: of(relief_um)?,
         relief_um,
         smd_um,

@@ -13,7 +13,7 @@ use super::profile_files::{profile_files, shaded, smd_um};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
-use crate::metrology::{Asked, Measured};
+use crate::metrology::{HeightOptions, Measured};
 use crate::recipe::{ProfileFiles, SourceKeys};
 use crate::sources::Source;
 use crate::sources::heightmap::{Heightmap, Laid};
@@ -25,7 +25,7 @@ use selvedge_foundation::files::{encode_png_small, sha256_hex};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImportOptions {
     /// What the file leaves open.
-    pub asked: Asked,
+    pub asked: HeightOptions,
     /// Whether the map is one repeat of the cloth.
     pub is_periodic: bool,
     /// Whether textiles are felt along four strokes, or at every point of the map.

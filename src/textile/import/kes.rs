@@ -8,7 +8,7 @@ use super::description::{Description, manifest_file};
 use crate::build::BuiltFile;
 use crate::error::{KesAsk, TextileError};
 use crate::kes::{
-    ClothAxis, KesReading, KesSection, KesStroke, asks, covered_mm, n_samples, suggested,
+    KesReading, KesSection, KesStroke, TextileAxis, asks, covered_mm, n_samples, suggested,
 };
 use crate::manifest::MANIFEST;
 use crate::profile_file;
@@ -61,8 +61,8 @@ impl KesImport {
         let reading = reading.into();
         let [warp, weft] = said;
         let sections = [
-            section_of(&reading, ClothAxis::Warp, warp)?,
-            section_of(&reading, ClothAxis::Weft, weft)?,
+            section_of(&reading, TextileAxis::Warp, warp)?,
+            section_of(&reading, TextileAxis::Weft, weft)?,
         ];
         let friction = friction_stroke(&reading);
         let friction_section = friction.as_ref().and_then(|stroke| {
@@ -85,8 +85,8 @@ impl KesImport {
     }
 
     /// The evaluated section of an axis, if anything was measured along it.
-    pub fn section(&self, axis: ClothAxis) -> Option<&KesSection> {
-        self.sections[usize::from(axis == ClothAxis::Weft)].as_ref()
+    pub fn section(&self, axis: TextileAxis) -> Option<&KesSection> {
+        self.sections[usize::from(axis == TextileAxis::Weft)].as_ref()
     }
 
     /// The evaluated section of the friction trace.
@@ -211,7 +211,7 @@ impl KesImport {
 impl KesFigures {
     /// The figures by the keys of a manifest's `[measured]`.
     pub fn measured(&self) -> BTreeMap<String, f64> {
-        use ClothAxis::{Warp, Weft};
+        use TextileAxis::{Warp, Weft};
 
         let both = |values: &[(Direction, f64)]| {
             let has = |axis| mean_of(values, Some(axis)).is_some();
@@ -238,10 +238,10 @@ impl KesFigures {
 }
 
 /// The mean over the strokes of an axis, or of both; `None` of none.
-fn mean_of(values: &[(Direction, f64)], axis: Option<ClothAxis>) -> Option<f64> {
+fn mean_of(values: &[(Direction, f64)], axis: Option<TextileAxis>) -> Option<f64> {
     let is_weft = |direction| matches!(direction, Direction::WeftForward | Direction::WeftReverse);
     let is_meant = |(direction, _): &&(Direction, f64)| {
-        axis.is_none_or(|axis| is_weft(*direction) == (axis == ClothAxis::Weft))
+        axis.is_none_or(|axis| is_weft(*direction) == (axis == TextileAxis::Weft))
     };
     let of_axis: Vec<f64> = values
         .iter()
@@ -259,14 +259,14 @@ fn rounded(value: f64, per_unit: f64) -> f64 {
 /// The section of an axis: the one said, or the one suggested.
 fn section_of(
     reading: &KesReading,
-    axis: ClothAxis,
+    axis: TextileAxis,
     said: Option<[f64; 2]>,
 ) -> Result<Option<KesSection>, TextileError> {
     let along = |stroke: &&KesStroke| stroke.axis() == axis;
     let strokes: Vec<&KesStroke> = reading.strokes.iter().filter(along).collect();
     let name = match axis {
-        ClothAxis::Warp => "warp",
-        ClothAxis::Weft => "weft",
+        TextileAxis::Warp => "warp",
+        TextileAxis::Weft => "weft",
     };
     let first = reading.files.first().map_or("-", |[name, _]| name);
     let wrong = |what: String| asks(Path::new(first), 1, what, KesAsk::Section);

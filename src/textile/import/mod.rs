@@ -11,7 +11,7 @@ mod picture;
 mod profile_files;
 
 pub use description::Description;
-pub use height_scale::{HeightScale, Scaled, scaled};
+pub use height_scale::{HeightScale, ScaledRelief, scaled};
 pub use heights::{HeightImport, HeightPlace, ImportOptions};
 pub use kes::{KesFigures, KesImport};
 #[cfg(test)]

@@ -4,14 +4,14 @@
 use std::path::Path;
 
 use super::description::manifest_file;
-use super::height_scale::{HeightScale, Scaled, no_surface, scaled};
+use super::height_scale::{HeightScale, ScaledRelief, no_surface, scaled};
 use super::profile_files::{profile_files, shaded, smd_um};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance};
-use crate::metrology::{self, Asked, Measured};
+use crate::metrology::{self, HeightOptions, Measured};
 use crate::picture::Tile;
-use crate::picture::felt::Brightness;
+use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
 use crate::recipe::{ProfileFiles, SourceKeys};
 use crate::sources::Source;
@@ -106,7 +106,7 @@ pub(crate) fn to_textile(
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
     keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
     // Strokes are drawn over the map as the file has it.
-    let kept = metrology::open(&bytes, path, &Asked::default())?;
+    let kept = metrology::open(&bytes, path, &HeightOptions::default())?;
     let profiles = keys.map().strokes(&kept, path)?;
     let mut files = vec![file(MAP, bytes)];
     files.extend(profile_files(&profiles)?);
@@ -159,7 +159,7 @@ fn heights(
     shape: &Shape,
     about: &PictureTextile,
     keys: &PictureSource,
-) -> Result<Scaled, TextileError> {
+) -> Result<ScaledRelief, TextileError> {
     let (width, height) = (shape.height_px.width(), shape.height_px.height());
     if width < 2 || height < 2 {
         return Err(ShadingError::TooSmall { width, height }.into());

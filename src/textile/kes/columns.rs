@@ -1,10 +1,11 @@
 //! What the columns of a table are: by what the user says, by their names, else by their number.
 
 use super::dialect::RawTable;
+use crate::unit::{LengthUnit, Unit};
 
 /// One of the two axes of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ClothAxis {
+pub enum TextileAxis {
     /// Along the warp.
     Warp,
     /// Along the weft.
@@ -28,25 +29,11 @@ pub enum ColumnRole {
     /// The time.
     Time,
     /// Heights of a stroke; what is not said is that of the file.
-    Height(Option<ClothAxis>, Option<StrokeSide>),
+    Height(Option<TextileAxis>, Option<StrokeSide>),
     /// The coefficient of friction.
     Friction(Option<StrokeSide>),
     /// Nothing of interest.
     Skip,
-}
-
-/// A unit as a header states it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Unit {
-    Metre,
-    Centimetre,
-    Millimetre,
-    Micrometre,
-    Volt,
-    Millivolt,
-    Second,
-    /// A unit of something else.
-    Other,
 }
 
 /// A column: what it is, and its unit if its header states one.
@@ -56,27 +43,11 @@ pub(super) struct Column {
     pub(super) unit: Option<Unit>,
 }
 
-impl Unit {
-    /// How people write it; empty for a unit of something else.
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Centimetre => "cm",
-            Self::Millimetre => "mm",
-            Self::Micrometre => "µm",
-            Self::Volt => "V",
-            Self::Millivolt => "mV",
-            Self::Second => "s",
-            Self::Other => "",
-        }
-    }
-}
-
 impl ColumnRole {
     /// What people call it.
     pub fn label(self) -> &'static str {
-        use ClothAxis::{Warp, Weft};
         use StrokeSide::{Forward, Return};
+        use TextileAxis::{Warp, Weft};
 
         match self {
             Self::Distance => "distance",
@@ -119,13 +90,13 @@ fn has(tokens: &[String], words: &[&str]) -> bool {
 }
 
 /// The axis that words name.
-pub(super) fn axis_of(tokens: &[String]) -> Option<ClothAxis> {
+pub(super) fn axis_of(tokens: &[String]) -> Option<TextileAxis> {
     let holds = |part: &str| tokens.iter().any(|token| token.contains(part));
     if holds("warp") || has(tokens, &["kette", "wale", "wales"]) {
-        return Some(ClothAxis::Warp);
+        return Some(TextileAxis::Warp);
     }
     let is_weft = holds("weft") || has(tokens, &["fill", "filling", "schuss", "course", "courses"]);
-    is_weft.then_some(ClothAxis::Weft)
+    is_weft.then_some(TextileAxis::Weft)
 }
 
 /// The side that words name.
@@ -185,11 +156,11 @@ fn unit_of(tokens: &[String]) -> Option<Unit> {
     let known: [(&[&str], Unit); 8] = [
         (
             &["um", "micron", "microns", "micrometre", "micrometer"],
-            Unit::Micrometre,
+            Unit::Length(LengthUnit::Micrometre),
         ),
-        (&["mm"], Unit::Millimetre),
-        (&["cm"], Unit::Centimetre),
-        (&["m"], Unit::Metre),
+        (&["mm"], Unit::Length(LengthUnit::Millimetre)),
+        (&["cm"], Unit::Length(LengthUnit::Centimetre)),
+        (&["m"], Unit::Length(LengthUnit::Metre)),
         (&["mv"], Unit::Millivolt),
         (&["v", "volt", "volts"], Unit::Volt),
         (&["s", "sec"], Unit::Second),
@@ -273,8 +244,8 @@ fn names(table: &RawTable) -> Option<Vec<Vec<String>>> {
 /// What unnamed columns are: places first, if the first rises or falls throughout, or goes out and
 /// back; then forward and return, of the warp and of the weft.
 fn by_number(table: &RawTable) -> Option<Vec<ColumnRole>> {
-    use ClothAxis::{Warp, Weft};
     use StrokeSide::{Forward, Return};
+    use TextileAxis::{Warp, Weft};
 
     let height = |axis, side| ColumnRole::Height(axis, side);
     let strokes = |n| {
@@ -324,9 +295,9 @@ mod tests {
         assert_eq!(found[0].role, ColumnRole::Skip);
         assert_eq!(
             (found[1].role, found[1].unit),
-            (Distance, Some(Unit::Millimetre))
+            (Distance, Some(Unit::Length(LengthUnit::Millimetre)))
         );
-        assert_eq!(found[2].unit, Some(Unit::Micrometre));
+        assert_eq!(found[2].unit, Some(Unit::Length(LengthUnit::Micrometre)));
         assert_eq!(found[2].role, Height(None, None));
         let found = columns("time\tsignal\ns\tV\n0\t5\n0.1\t7\n").unwrap();
         assert_eq!((found[0].role, found[0].unit), (Time, Some(Unit::Second)));
@@ -336,8 +307,8 @@ mod tests {
             roles("x weftForward weft_return\n0 5 6\n1 7 8\n"),
             [
                 Distance,
-                Height(Some(ClothAxis::Weft), Some(StrokeSide::Forward)),
-                Height(Some(ClothAxis::Weft), Some(StrokeSide::Return)),
+                Height(Some(TextileAxis::Weft), Some(StrokeSide::Forward)),
+                Height(Some(TextileAxis::Weft), Some(StrokeSide::Return)),
             ]
         );
     }
@@ -367,7 +338,7 @@ mod tests {
         let role = ColumnRole::from_word("warp-return").unwrap();
         assert_eq!(
             role,
-            ColumnRole::Height(Some(ClothAxis::Warp), Some(StrokeSide::Return))
+            ColumnRole::Height(Some(TextileAxis::Warp), Some(StrokeSide::Return))
         );
         assert_eq!(ColumnRole::from_word("colour"), None);
     }

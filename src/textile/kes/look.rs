@@ -9,11 +9,11 @@ use crate::error::TextileError;
 use selvedge_foundation::files::FileError;
 
 /// Lines above the numbers that are shown: the last ones.
-const MOST_ABOVE: usize = 5;
+const MAX_ABOVE: usize = 5;
 /// Lines of numbers that are shown.
-const MOST_ROWS: usize = 6;
+const MAX_ROWS: usize = 6;
 /// Characters of a line that are shown.
-const MOST_LETTERS: usize = 400;
+const MAX_LETTERS: usize = 400;
 
 /// By what something is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,7 +146,7 @@ fn columns(table: &RawTable, said: Option<&[ColumnRole]>) -> Vec<KesColumn> {
     let column = |(index, column): (usize, super::columns::Column)| KesColumn {
         name: name(index),
         role: column.role,
-        unit: column.unit.map_or("", super::columns::Unit::label),
+        unit: column.unit.map_or("", crate::unit::Unit::label),
         known: if is_said {
             KesKnown::Said
         } else if is_named(index, column.role) {
@@ -166,7 +166,7 @@ fn lines_above(text: &str, table: &RawTable) -> Vec<KesLine> {
         .into_iter()
         .filter(|(_, line)| !line.trim().is_empty());
     let all: Vec<(usize, &str)> = filled.collect();
-    let last = all.len().saturating_sub(MOST_ABOVE);
+    let last = all.len().saturating_sub(MAX_ABOVE);
     let line = |&(number, line): &(usize, &str)| {
         let cells = table.dialect.cells(line);
         let is_whole = cells.len() == table.columns.len();
@@ -187,7 +187,7 @@ fn first_rows<'a>(text: &'a str, table: &'a RawTable) -> impl Iterator<Item = Ke
     let first = table.lines.first().copied().unwrap_or(1);
     let rows = (first..).zip(text.lines().skip(first - 1));
     let rows = rows.filter(|(number, _)| table.lines.binary_search(number).is_ok());
-    rows.take(MOST_ROWS).map(|(number, line)| KesLine {
+    rows.take(MAX_ROWS).map(|(number, line)| KesLine {
         number,
         cells: table
             .dialect
@@ -201,7 +201,7 @@ fn first_rows<'a>(text: &'a str, table: &'a RawTable) -> impl Iterator<Item = Ke
 
 fn shortened(cell: &str) -> String {
     let plain = cell.chars().map(|c| if c.is_control() { ' ' } else { c });
-    plain.take(MOST_LETTERS).collect()
+    plain.take(MAX_LETTERS).collect()
 }
 
 #[cfg(test)]

@@ -15,11 +15,11 @@ use selvedge_foundation::numerics::median;
 /// The length of a piece, mm.
 const PIECE_MM: f64 = 1.0;
 /// How many spreads a piece may be off.
-const MOST_SPREADS: f64 = 4.0;
+const MAX_SPREADS: f64 = 4.0;
 /// How many spreads a sample may stand off its neighbours.
-const MOST_SPIKE: f64 = 8.0;
+const MAX_SPIKE: f64 = 8.0;
 /// Smaller spikes than this are never marked, µm.
-const LEAST_SPIKE_UM: f64 = 1.0;
+const MIN_SPIKE_UM: f64 = 1.0;
 
 /// What a mark says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,14 +113,14 @@ fn ends(heights: &[f64], step_mm: f64) -> (usize, usize) {
             .collect::<Vec<f64>>()
     };
     let usual = [0, 1].map(|which| median(&mut of(which)));
-    let least = 0.2 * usual[1];
-    let spread = [0, 1].map(|which| spread(&of(which)).max(least));
+    let min = 0.2 * usual[1];
+    let spread = [0, 1].map(|which| spread(&of(which)).max(min));
     let is_off = |piece: &&[f64; 2]| {
-        (0..2).any(|which| (piece[which] - usual[which]).abs() > MOST_SPREADS * spread[which])
+        (0..2).any(|which| (piece[which] - usual[which]).abs() > MAX_SPREADS * spread[which])
     };
-    let most = pieces.len() / 3;
-    let head = pieces.iter().take(most).take_while(is_off).count();
-    let tail = pieces.iter().rev().take(most).take_while(is_off).count();
+    let max = pieces.len() / 3;
+    let head = pieces.iter().take(max).take_while(is_off).count();
+    let tail = pieces.iter().rev().take(max).take_while(is_off).count();
     let rest = if tail > 0 { heights.len() % n_piece } else { 0 };
     (head * n_piece, tail * n_piece + rest)
 }
@@ -140,11 +140,11 @@ fn outliers(heights: &[f64], step_mm: f64) -> Vec<std::ops::Range<usize>> {
         heights[i] - median(&mut heights[first..last].to_vec())
     };
     let off: Vec<f64> = (0..heights.len()).map(off_neighbours).collect();
-    let least = (MOST_SPIKE * spread(&off))
+    let min = (MAX_SPIKE * spread(&off))
         .max(spread(heights))
-        .max(LEAST_SPIKE_UM);
+        .max(MIN_SPIKE_UM);
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
-    for index in (0..off.len()).filter(|i| off[*i].abs() > least) {
+    for index in (0..off.len()).filter(|i| off[*i].abs() > min) {
         match found.last_mut() {
             Some(last) if last.end == index => last.end = index + 1,
             _ => found.push(index..index + 1),

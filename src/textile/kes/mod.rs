@@ -31,7 +31,7 @@ mod tests;
 mod text;
 mod units;
 
-pub use columns::{ClothAxis, ColumnRole, StrokeSide};
+pub use columns::{ColumnRole, StrokeSide, TextileAxis};
 pub use dialect::DecimalSign;
 pub use look::KesLine;
 pub use look::{KesColumn, KesKnown, KesLook};
@@ -45,6 +45,7 @@ pub(crate) use section::{covered_mm, suggested};
 use std::path::{Path, PathBuf};
 
 use crate::error::{KesAsk, TextileError};
+use crate::unit::{LengthUnit, Unit};
 
 /// What is known of files beyond what they say. The default knows nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -60,9 +61,9 @@ pub struct KesOptions {
     /// What 1 V stands for, µm: heights are in volts then.
     pub um_per_volt: Option<f64>,
     /// The unit of places.
-    pub x_unit: Option<PlaceUnit>,
+    pub x_unit: Option<LengthUnit>,
     /// The unit of heights.
-    pub height_unit: Option<HeightUnit>,
+    pub height_unit: Option<Unit>,
     /// The decimal sign.
     pub decimal: Option<DecimalSign>,
     /// What the columns are.
@@ -75,31 +76,9 @@ pub struct KesOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct KesPlace {
     /// Warp or weft.
-    pub axis: ClothAxis,
+    pub axis: TextileAxis,
     /// Out or back.
     pub side: Option<StrokeSide>,
-}
-
-/// A unit of places.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PlaceUnit {
-    /// Millimetres.
-    Mm,
-    /// Centimetres.
-    Cm,
-    /// Micrometres.
-    Um,
-}
-
-/// A unit of heights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum HeightUnit {
-    /// Micrometres.
-    Um,
-    /// Millimetres.
-    Mm,
-    /// Volts, with `um_per_volt`.
-    Volt,
 }
 
 /// How the rows of a return stroke follow one another.

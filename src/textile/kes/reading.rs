@@ -5,15 +5,15 @@ use std::path::Path;
 use super::marks::{Mark, marks_of};
 use super::section::covered_mm;
 use super::strokes::{RawStroke, Reader, name_of};
-use super::{ClothAxis, KesAsk, KesOptions, ReturnOrder, StrokeSide, asks, returns};
+use super::{KesAsk, KesOptions, ReturnOrder, StrokeSide, TextileAxis, asks, returns};
 use crate::error::TextileError;
 use crate::surface::{Direction, SurfaceError, WINDOW_LENGTH_MM};
 use selvedge_foundation::files::{FileError, sha256_hex};
 
 /// Heights that span more than this are in another unit than they say, µm.
-const MOST_SPAN_UM: f64 = 20_000.0;
+const MAX_SPAN_UM: f64 = 20_000.0;
 /// Heights that span less than this are remarked upon, µm.
-const LEAST_SPAN_UM: f64 = 0.1;
+const MIN_SPAN_UM: f64 = 0.1;
 
 /// A file of the tester.
 #[derive(Debug, Clone, Copy)]
@@ -138,7 +138,7 @@ impl KesReading {
     }
 
     /// What all strokes of an axis cover, mm; `None` where none runs along it.
-    pub fn covered_mm(&self, axis: ClothAxis) -> Option<[f64; 2]> {
+    pub fn covered_mm(&self, axis: TextileAxis) -> Option<[f64; 2]> {
         let along = self.strokes.iter().filter(|stroke| stroke.axis() == axis);
         covered_mm(&along.collect::<Vec<_>>())
     }
@@ -206,12 +206,12 @@ fn assembled(
 }
 
 /// The direction of a stroke.
-fn direction_of(axis: ClothAxis, side: StrokeSide) -> Direction {
+fn direction_of(axis: TextileAxis, side: StrokeSide) -> Direction {
     match (axis, side) {
-        (ClothAxis::Warp, StrokeSide::Forward) => Direction::WarpForward,
-        (ClothAxis::Warp, StrokeSide::Return) => Direction::WarpReverse,
-        (ClothAxis::Weft, StrokeSide::Forward) => Direction::WeftForward,
-        (ClothAxis::Weft, StrokeSide::Return) => Direction::WeftReverse,
+        (TextileAxis::Warp, StrokeSide::Forward) => Direction::WarpForward,
+        (TextileAxis::Warp, StrokeSide::Return) => Direction::WarpReverse,
+        (TextileAxis::Weft, StrokeSide::Forward) => Direction::WeftForward,
+        (TextileAxis::Weft, StrokeSide::Return) => Direction::WeftReverse,
     }
 }
 
@@ -227,7 +227,10 @@ fn check_once(raw: &[(&Path, RawStroke)]) -> Result<(), TextileError> {
             return Err(asks(path, stroke.line, what, KesAsk::Direction));
         }
     }
-    if raw.iter().any(|(_, stroke)| stroke.axis == ClothAxis::Warp) {
+    if raw
+        .iter()
+        .any(|(_, stroke)| stroke.axis == TextileAxis::Warp)
+    {
         return Ok(());
     }
     let (path, line) = raw
@@ -262,18 +265,18 @@ fn check_span(
     (path, line): (&Path, usize),
     notes: &mut Vec<String>,
 ) -> Result<(), TextileError> {
-    let most = heights_um.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let least = heights_um.iter().copied().fold(f64::INFINITY, f64::min);
-    let span_um = most - least;
+    let max = heights_um.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let min = heights_um.iter().copied().fold(f64::INFINITY, f64::min);
+    let span_um = max - min;
     if !span_um.is_finite() {
         let mend = "give heights that a cloth can have";
         return Err(FileError::content(path, line, "heights beyond all numbers", mend).into());
     }
-    if span_um > MOST_SPAN_UM {
+    if span_um > MAX_SPAN_UM {
         let what = format!("heights span {span_um:.0} µm, more than any cloth");
         return Err(asks(path, line, what, KesAsk::HeightUnit));
     }
-    if span_um < LEAST_SPAN_UM {
+    if span_um < MIN_SPAN_UM {
         notes.push(format!(
             "{}: heights span {span_um:.4} µm only; if they are in mm or volts, say so",
             name_of(path)

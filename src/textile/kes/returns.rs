@@ -7,7 +7,7 @@
 use super::ReturnOrder;
 
 /// How far the way back may be shifted against the way out, mm.
-const MOST_PLAY_MM: f64 = 2.0;
+const MAX_PLAY_MM: f64 = 2.0;
 /// What the better reading must reach.
 const GOOD: f64 = 0.5;
 /// What it may leave unexplained, as a share of what the other does.
@@ -15,11 +15,11 @@ const BETTER: f64 = 0.6;
 /// What the other must leave unexplained at least.
 const ALIKE: f64 = 0.02;
 /// More samples than this are thinned before they are compared.
-const MOST_SAMPLES: usize = 6000;
+const MAX_SAMPLES: usize = 6000;
 
 /// The order of `back`, rows as stored, given the way out; heights without tilt, `step_mm` apart.
 pub(super) fn order_of(forward: &[f64], back: &[f64], step_mm: f64) -> Option<ReturnOrder> {
-    let every = forward.len().max(back.len()).div_ceil(MOST_SAMPLES).max(1);
+    let every = forward.len().max(back.len()).div_ceil(MAX_SAMPLES).max(1);
     let thin = |heights: &mut dyn Iterator<Item = &f64>| {
         heights.step_by(every).copied().collect::<Vec<f64>>()
     };
@@ -31,9 +31,9 @@ pub(super) fn order_of(forward: &[f64], back: &[f64], step_mm: f64) -> Option<Re
         clippy::cast_sign_loss,
         reason = "a step of at least 0.0005 mm gives at most 4000 lags"
     )]
-    let most_lag = (MOST_PLAY_MM / (step_mm * every as f64)).floor() as usize;
+    let max_lag = (MAX_PLAY_MM / (step_mm * every as f64)).floor() as usize;
     let [mirrored, travel] =
-        [&by_place, &by_travel].map(|back| best_correlation(&forward, back, most_lag));
+        [&by_place, &by_travel].map(|back| best_correlation(&forward, back, max_lag));
     let (best, other) = (mirrored.max(travel), mirrored.min(travel));
     let is_clear = 1.0 - other >= ALIKE && 1.0 - best <= BETTER * (1.0 - other);
     if best < GOOD || !is_clear {
@@ -47,9 +47,9 @@ pub(super) fn order_of(forward: &[f64], back: &[f64], step_mm: f64) -> Option<Re
 }
 
 /// The largest correlation over lags; 0 where the overlap is less than half.
-fn best_correlation(one: &[f64], other: &[f64], most_lag: usize) -> f64 {
+fn best_correlation(one: &[f64], other: &[f64], max_lag: usize) -> f64 {
     let mut best = 0.0_f64;
-    for lag in 0..=most_lag.min(one.len() / 2) {
+    for lag in 0..=max_lag.min(one.len() / 2) {
         best = best.max(correlation(&one[lag..], other));
         best = best.max(correlation(one, other.get(lag..).unwrap_or(&[])));
     }

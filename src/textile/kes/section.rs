@@ -7,7 +7,7 @@
 //! of equals the one nearest to the middle. Both strokes of an axis get the same piece of cloth.
 
 use super::marks::n_samples;
-use super::{ClothAxis, KesStroke};
+use super::{KesStroke, TextileAxis};
 use crate::surface::mean_deviation;
 
 /// The length of the evaluated section, mm.
@@ -30,12 +30,12 @@ pub struct KesSection {
 
 impl KesStroke {
     /// The axis it runs along.
-    pub fn axis(&self) -> ClothAxis {
+    pub fn axis(&self) -> TextileAxis {
         use crate::surface::Direction::{WarpForward, WarpReverse};
 
         match self.direction {
-            WarpForward | WarpReverse => ClothAxis::Warp,
-            _ => ClothAxis::Weft,
+            WarpForward | WarpReverse => TextileAxis::Warp,
+            _ => TextileAxis::Weft,
         }
     }
 

@@ -6,7 +6,7 @@ use super::columns::{Column, axis_of, columns_of, side_of, tokens};
 use super::dialect::{NoTable, RawTable, table_of};
 use super::places::{Run, Uneven, run_of, step_of};
 use super::text::text_of;
-use super::{ClothAxis, ColumnRole, KesAsk, KesOptions, KesPlace, StrokeSide, asks};
+use super::{ColumnRole, KesAsk, KesOptions, KesPlace, StrokeSide, TextileAxis, asks};
 use crate::error::TextileError;
 use selvedge_foundation::files::FileError;
 
@@ -16,7 +16,7 @@ const LONGEST_MM: f64 = 300.0;
 /// A stroke in the order of its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RawStroke {
-    pub(super) axis: ClothAxis,
+    pub(super) axis: TextileAxis,
     pub(super) side: StrokeSide,
     /// Friction, not heights.
     pub(super) is_friction: bool,
@@ -237,7 +237,7 @@ impl Reader<'_> {
         rows: &Rows,
         (is_alone, is_split): (bool, bool),
         line: usize,
-    ) -> Result<(ClothAxis, StrokeSide), TextileError> {
+    ) -> Result<(TextileAxis, StrokeSide), TextileError> {
         let said = self.options.directions.get(self.nth).copied().flatten();
         let said = said.filter(|_| !self.is_friction);
         let name = self.path.file_stem().unwrap_or_default().to_string_lossy();
@@ -247,7 +247,7 @@ impl Reader<'_> {
             ColumnRole::Friction(side) => (None, side),
             _ => (None, None),
         };
-        let only = (self.n_files == 1 || self.is_friction).then_some(ClothAxis::Warp);
+        let only = (self.n_files == 1 || self.is_friction).then_some(TextileAxis::Warp);
         let axis = axis
             .or_else(|| said.map(|place: KesPlace| place.axis))
             .or_else(|| axis_of(&name))
@@ -280,7 +280,7 @@ impl Reader<'_> {
         table: &RawTable,
         (index, column): (usize, Column),
         rows: &Rows,
-        (axis, side): (ClothAxis, StrokeSide),
+        (axis, side): (TextileAxis, StrokeSide),
     ) -> Result<RawStroke, TextileError> {
         let is_friction = self.is_friction || matches!(column.role, ColumnRole::Friction(_));
         let line = table.lines[rows.range.start];

@@ -5,7 +5,7 @@ use std::path::Path;
 use selvedge_foundation::files::FileError;
 
 /// Larger files are refused before they are read as text.
-const MOST_BYTES: usize = 64 << 20;
+const MAX_BYTES: usize = 64 << 20;
 
 /// The text of a file, without a byte-order mark; line ends are what they are.
 ///
@@ -14,7 +14,7 @@ const MOST_BYTES: usize = 64 << 20;
 pub(super) fn text_of(bytes: &[u8], path: &Path) -> Result<String, FileError> {
     let mend = "give the tester's export as text: rows of numbers under an optional header";
     let wrong = |what: &str| FileError::content(path, 1, what, mend);
-    if bytes.len() > MOST_BYTES {
+    if bytes.len() > MAX_BYTES {
         return Err(wrong("this file is larger than 64 MB"));
     }
     let text = match bytes {

@@ -1,9 +1,10 @@
 //! Units: what one of a column is, by what the user says, else by its header.
 
-use super::columns::{Column, Unit, tokens};
+use super::columns::{Column, tokens};
 use super::strokes::Reader;
-use super::{ColumnRole, HeightUnit, KesAsk, PlaceUnit, asks};
+use super::{ColumnRole, KesAsk, asks};
 use crate::error::TextileError;
+use crate::unit::Unit;
 use selvedge_foundation::files::FileError;
 
 impl Reader<'_> {
@@ -20,18 +21,11 @@ impl Reader<'_> {
             }
             return Ok(speed);
         }
-        match self.options.x_unit {
-            Some(PlaceUnit::Mm) => return Ok(1.0),
-            Some(PlaceUnit::Cm) => return Ok(10.0),
-            Some(PlaceUnit::Um) => return Ok(1e-3),
-            None => {}
-        }
-        match column.unit {
-            None | Some(Unit::Millimetre) => Ok(1.0),
-            Some(Unit::Centimetre) => Ok(10.0),
-            Some(Unit::Micrometre) => Ok(1e-3),
-            Some(Unit::Metre) => Ok(1e3),
-            Some(_) => {
+        let unit = self.options.x_unit.map(Unit::Length).or(column.unit);
+        match unit.map(Unit::length) {
+            None => Ok(1.0),
+            Some(Some(unit)) => Ok(unit.um() / 1e3),
+            Some(None) => {
                 let what = "the distance has a unit that is no length";
                 Err(asks(self.path, line, what, KesAsk::XUnit))
             }
@@ -59,16 +53,9 @@ impl Reader<'_> {
         let in_volts = |word: &String| volts.contains(&word.as_str());
         let header_says_volts =
             column.unit.is_none() && header.iter().any(|line| tokens(line).iter().any(in_volts));
-        let is_length = matches!(
-            column.unit,
-            Some(Unit::Metre | Unit::Centimetre | Unit::Millimetre | Unit::Micrometre)
-        );
+        let is_length = |unit: Option<Unit>| unit.and_then(Unit::length).is_some();
         match (self.options.um_per_volt, self.options.height_unit) {
-            (Some(_), Some(HeightUnit::Um | HeightUnit::Mm)) => ask(
-                "a sensitivity, and heights that are no volts",
-                KesAsk::HeightUnit,
-            ),
-            (Some(_), None) if is_length => ask(
+            (Some(_), stated) if is_length(stated.or(column.unit)) => ask(
                 "a sensitivity, and heights that are no volts",
                 KesAsk::HeightUnit,
             ),
@@ -80,15 +67,10 @@ impl Reader<'_> {
                 Ok(um_per_volt * 1e-3)
             }
             (Some(um_per_volt), _) => Ok(um_per_volt),
-            (None, Some(HeightUnit::Um)) => Ok(1.0),
-            (None, Some(HeightUnit::Mm)) => Ok(1e3),
-            (None, Some(HeightUnit::Volt)) => ask("heights in volts", KesAsk::UmPerVolt),
             (None, None) if header_says_volts => ask("heights in volts", KesAsk::UmPerVolt),
-            (None, None) => match column.unit {
-                None | Some(Unit::Micrometre) => Ok(1.0),
-                Some(Unit::Millimetre) => Ok(1e3),
-                Some(Unit::Centimetre) => Ok(1e4),
-                Some(Unit::Metre) => Ok(1e6),
+            (None, stated) => match stated.or(column.unit) {
+                None => Ok(1.0),
+                Some(Unit::Length(unit)) => Ok(unit.um()),
                 Some(Unit::Volt | Unit::Millivolt) => ask("heights in volts", KesAsk::UmPerVolt),
                 Some(_) => ask("heights with a unit that is no length", KesAsk::HeightUnit),
             },

@@ -18,7 +18,7 @@ use selvedge_foundation::files::write_atomic;
 use selvedge_foundation::progress::Progress;
 
 /// Textiles that may share a name but for a number.
-const MOST_ALIKE: u32 = 9999;
+const MAX_ALIKE: u32 = 9999;
 
 impl Library {
     /// Keeps textiles, each a wished id and its files, in the folder `to`.
@@ -30,7 +30,7 @@ impl Library {
     /// # Errors
     /// Files that are no textile, before anything is written; a folder that cannot be written;
     /// cancelling, which leaves copies behind and no new textile.
-    pub fn keep(
+    pub fn add(
         &self,
         textiles: &[(String, Vec<BuiltFile>)],
         to: &Path,
@@ -109,10 +109,10 @@ fn free_id(id: &str, folder: &Path, index: Option<&Index>) -> Result<String, Tex
     };
     let with_number = |n: u32| format!("{id}-{n}");
     std::iter::once(id.to_owned())
-        .chain((2..=MOST_ALIKE).map(with_number))
+        .chain((2..=MAX_ALIKE).map(with_number))
         .find(is_free)
         .ok_or_else(|| {
-            let words = format!("there are {MOST_ALIKE} textiles called {id}; give another name");
+            let words = format!("there are {MAX_ALIKE} textiles called {id}; give another name");
             TextileError::Model(words)
         })
 }

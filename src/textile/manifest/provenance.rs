@@ -6,9 +6,9 @@ use crate::error::TextileError;
 use crate::recipe::Checker;
 
 /// Most parents of a textile.
-const MOST_PARENTS: usize = 16;
+const MAX_PARENTS: usize = 16;
 /// Most letters of the name of a program.
-const MOST_LETTERS: usize = 100;
+const MAX_LETTERS: usize = 100;
 
 /// The table `[provenance]`. It holds no date: the same recipe makes the same bytes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,7 +46,7 @@ impl Provenance {
             |key: &str, what: String, mend: &str| Err(checker.wrong("provenance", key, what, mend));
         let is_line = |text: &str| {
             !text.trim().is_empty()
-                && text.chars().count() <= MOST_LETTERS
+                && text.chars().count() <= MAX_LETTERS
                 && !text.chars().any(char::is_control)
         };
         if !is_line(&self.made_by) {
@@ -58,9 +58,9 @@ impl Provenance {
             );
         }
         let n_parents = self.parents.len();
-        if n_parents > MOST_PARENTS {
+        if n_parents > MAX_PARENTS {
             let what = format!("{n_parents} parents");
-            return wrong("parents", what, &format!("name at most {MOST_PARENTS}"));
+            return wrong("parents", what, &format!("name at most {MAX_PARENTS}"));
         }
         for Parent { id, hash } in &self.parents {
             if !is_line(id) || id.contains(['/', '\\']) {

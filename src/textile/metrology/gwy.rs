@@ -4,11 +4,11 @@
 use std::path::Path;
 
 use super::reading::Stated;
-use super::{Asked, Reading, n_points};
+use super::{HeightOptions, Reading, n_points};
 use selvedge_foundation::files::{ByteReader, FileError, Number};
 
 /// Deepest nesting that is read.
-const MOST_DEEP: usize = 32;
+const MAX_DEEP: usize = 32;
 
 /// A component of an object; kinds that are not needed are passed over.
 enum Value<'a> {
@@ -27,8 +27,8 @@ struct Object<'a> {
 
 impl<'a> Object<'a> {
     fn of(reader: &mut ByteReader<'a>, path: &Path, depth: usize) -> Result<Self, FileError> {
-        if depth > MOST_DEEP {
-            let what = format!("objects stand more than {MOST_DEEP} deep");
+        if depth > MAX_DEEP {
+            let what = format!("objects stand more than {MAX_DEEP} deep");
             return Err(FileError::whole(path, what, "get an intact copy"));
         }
         let class = reader.text()?;
@@ -143,7 +143,7 @@ impl<'a> Value<'a> {
 }
 
 /// Reads a field: the channel with the lowest number, or the one asked for.
-pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
     let mut reader = ByteReader::new(bytes, path);
     reader.seek(4)?;
     let top = Object::of(&mut reader, path, 0)?;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::field::{FieldKeys, field_reading};
 use super::reading::Stated;
-use super::{Asked, LengthUnit, Measured, Reading};
-use crate::surface::MOST_POINTS;
+use super::{HeightOptions, LengthUnit, Measured, Reading};
+use crate::surface::MAX_POINTS;
 use selvedge_foundation::files::{
     FileError, GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff,
     gray_values,
@@ -15,9 +15,13 @@ use selvedge_foundation::files::{
 const PREFIX: &str = "Gwy::";
 
 /// Reads a PNG.
-pub(super) fn read_png(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+pub(super) fn read_png(
+    bytes: &[u8],
+    path: &Path,
+    asked: &HeightOptions,
+) -> Result<Reading, FileError> {
     reading(
-        &decode_gray_png(bytes, path, MOST_POINTS)?,
+        &decode_gray_png(bytes, path, MAX_POINTS)?,
         "PNG",
         path,
         asked,
@@ -25,9 +29,13 @@ pub(super) fn read_png(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Readi
 }
 
 /// Reads a TIFF.
-pub(super) fn read_tiff(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+pub(super) fn read_tiff(
+    bytes: &[u8],
+    path: &Path,
+    asked: &HeightOptions,
+) -> Result<Reading, FileError> {
     reading(
-        &decode_gray_tiff(bytes, path, MOST_POINTS)?,
+        &decode_gray_tiff(bytes, path, MAX_POINTS)?,
         "TIFF",
         path,
         asked,
@@ -38,7 +46,7 @@ fn reading(
     picture: &GrayImage,
     format: &'static str,
     path: &Path,
-    asked: &Asked,
+    asked: &HeightOptions,
 ) -> Result<Reading, FileError> {
     let mut keys = FieldKeys::default();
     for (key, value) in &picture.texts {

@@ -4,7 +4,7 @@
 //! mm, rows in the order of rising w; what was not measured is NaN and stays so here. A unit that
 //! a file does not state is asked for, never guessed.
 //!
-//! Sizes are checked before anything of that size is held: against [`MOST_POINTS`] and against the
+//! Sizes are checked before anything of that size is held: against [`MAX_POINTS`] and against the
 //! bytes that are there.
 
 mod field;
@@ -18,7 +18,6 @@ mod sur;
 mod text;
 mod text_layout;
 mod tmd;
-mod unit;
 mod x3p;
 
 #[cfg(test)]
@@ -28,8 +27,8 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
-pub use reading::{About, Asked, Measured};
-pub use unit::LengthUnit;
+use crate::unit::LengthUnit;
+pub use reading::{About, HeightOptions, Measured};
 pub use x3p::{Coding, write as write_x3p};
 
 use std::path::Path;
@@ -86,9 +85,9 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 /// Reads measured heights. `path` only names the file in errors.
 ///
 /// # Errors
-/// One line: a format that is not read, a damaged file, a size beyond [`MOST_POINTS`], steps that
+/// One line: a format that is not read, a damaged file, a size beyond [`MAX_POINTS`], steps that
 /// are not even, a unit or step that must be given, no height at all.
-pub fn open(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Measured, TextileError> {
+pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
     let reading = match Format::of(bytes) {
         Some(Format::X3p) => x3p::read(bytes, path)?,
         Some(Format::Sur) => sur::read(bytes, path)?,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::open;
 use super::samples::all;
-use crate::surface::MOST_POINTS;
+use crate::surface::MAX_POINTS;
 use selvedge_foundation::numerics::Random;
 
 /// Inputs made of each sample; the environment variable `SELVEDGE_MUTATIONS` sets another number.
@@ -27,7 +27,7 @@ fn every_reader_withstands_faulty_files() {
             match open(&faulty, Path::new(name), &asked) {
                 Ok(read) => {
                     n_read += 1;
-                    assert!(read.heights_um.values().len() <= MOST_POINTS, "{name}");
+                    assert!(read.heights_um.values().len() <= MAX_POINTS, "{name}");
                     assert!(read.step_mm.iter().all(|step| *step > 0.0), "{name}");
                     assert!(read.sq_um() >= 0.0 || read.sq_um().is_nan(), "{name}");
                 }

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use super::{Measured, Reading};
-use crate::surface::MOST_POINTS;
+use crate::surface::MAX_POINTS;
 use selvedge_foundation::files::{FileError, NumberArray, decode_npy, encode_npy};
 
 /// Reads an array; neither unit nor step is in it.
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
-    let array = decode_npy(bytes, path, MOST_POINTS)?;
+    let array = decode_npy(bytes, path, MAX_POINTS)?;
     Ok(Reading::of_rows(array.n_columns, array.values, "NPY", path)?.turned_over())
 }
 

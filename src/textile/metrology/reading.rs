@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use super::unit::LengthUnit;
 use crate::error::TextileError;
-use crate::surface::{HeightMap, MOST_POINTS, SurfaceError};
+use crate::surface::{HeightMap, MAX_POINTS, SurfaceError};
+use crate::unit::LengthUnit;
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::numerics::Grid;
 
 /// What a file may leave open, and what is known better than the file does.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Asked {
+pub struct HeightOptions {
     /// The unit of the heights.
     pub height_unit: Option<LengthUnit>,
     /// The unit of places along and across.
@@ -104,7 +104,7 @@ impl Measured {
 }
 
 /// Highest relief that is believed without a word, µm.
-const MOST_RELIEF_UM: f64 = 1e5;
+const MAX_RELIEF_UM: f64 = 1e5;
 
 /// A unit that a file states.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -198,7 +198,11 @@ impl Reading {
     }
 
     /// Heights in µm with steps in mm.
-    pub(super) fn finish(mut self, path: &Path, asked: &Asked) -> Result<Measured, TextileError> {
+    pub(super) fn finish(
+        mut self,
+        path: &Path,
+        asked: &HeightOptions,
+    ) -> Result<Measured, TextileError> {
         let mend = "give height_unit (--height-unit): m, mm, um or nm";
         let unit = self.height_unit.clone();
         let unit = self.decide(("heights", mend), &unit, asked.height_unit, path)?;
@@ -227,7 +231,7 @@ impl Reading {
             },
         };
         let [low, high] = measured.range_um();
-        if high - low > MOST_RELIEF_UM {
+        if high - low > MAX_RELIEF_UM {
             let span_mm = (high - low) * 1e-3;
             let line = format!("heights span {span_mm:.0} mm: their unit may be another");
             measured.warnings.push(line);
@@ -264,7 +268,7 @@ impl Reading {
         })
     }
 
-    fn step_mm(&mut self, path: &Path, asked: &Asked) -> Result<[f64; 2], FileError> {
+    fn step_mm(&mut self, path: &Path, asked: &HeightOptions) -> Result<[f64; 2], FileError> {
         let mend = "give step_mm (--step-mm), the distance of points in mm";
         let wrong = |what: String| FileError::whole(path, what, mend);
         let steps_mm = match (asked.step_mm, self.steps) {
@@ -321,11 +325,11 @@ pub(super) fn even_step(places: &[f64], slack: f64) -> Result<f64, String> {
 /// What to do about places that are not even.
 pub(super) const UNEVEN_MEND: &str = "resample to even steps (within 1 %)";
 
-/// The number of points of a grid, checked against [`MOST_POINTS`].
+/// The number of points of a grid, checked against [`MAX_POINTS`].
 pub(super) fn n_points(n_columns: usize, n_rows: usize, path: &Path) -> Result<usize, FileError> {
     let n = n_columns.checked_mul(n_rows);
-    n.filter(|n| (1..=MOST_POINTS).contains(n)).ok_or_else(|| {
-        let what = format!("{n_columns} × {n_rows} points where 1 to {MOST_POINTS} are read");
+    n.filter(|n| (1..=MAX_POINTS).contains(n)).ok_or_else(|| {
+        let what = format!("{n_columns} × {n_rows} points where 1 to {MAX_POINTS} are read");
         FileError::whole(path, what, "the header lies, or cut out what you need")
     })
 }

@@ -1,6 +1,6 @@
 //! Small files of every format, made byte by byte for tests.
 
-use super::{Asked, Coding, LengthUnit, Measured, frt, gsf, image16, npy, tmd, x3p};
+use super::{Coding, HeightOptions, LengthUnit, Measured, frt, gsf, image16, npy, tmd, x3p};
 use crate::metrology::About;
 use selvedge_foundation::files::{Number, deflate, pack};
 use selvedge_foundation::numerics::Grid;
@@ -30,15 +30,15 @@ pub(super) fn map(n_missing: usize) -> Measured {
 }
 
 /// One file of every format and layout, with what has to be asked for.
-pub(super) fn all() -> Vec<(&'static str, Vec<u8>, Asked)> {
+pub(super) fn all() -> Vec<(&'static str, Vec<u8>, HeightOptions)> {
     let path = Path::new("sample");
-    let asked = Asked {
+    let asked = HeightOptions {
         height_unit: Some(LengthUnit::Micrometre),
         length_unit: Some(LengthUnit::Millimetre),
         step_mm: Some(0.05),
-        ..Asked::default()
+        ..HeightOptions::default()
     };
-    let none = Asked::default();
+    let none = HeightOptions::default();
     let coded = |number, is_list| x3p::write(&map(2), Coding { number, is_list }, path).unwrap();
     vec![
         ("x3p f64", coded(Number::F64, false), none.clone()),

@@ -58,7 +58,7 @@ fn texts_give_profiles_and_maps_with_the_units_of_their_headings() {
             .into_iter()
             .find(|(name, ..)| *name == wanted)
             .unwrap();
-        open(&bytes, Path::new(wanted), &Asked::default()).unwrap()
+        open(&bytes, Path::new(wanted), &HeightOptions::default()).unwrap()
     };
     let stylus = of("two columns");
     assert!(stylus.is_profile() && stylus.heights_um.width() == 60);
@@ -89,7 +89,7 @@ fn x3p_comes_back_from_every_number_type_binary_and_listed() {
                 let bytes = write_x3p(&given, Coding { number, is_list }, path).unwrap();
                 let again = write_x3p(&given, Coding { number, is_list }, path).unwrap();
                 assert_eq!(bytes, again, "the same map, the same bytes");
-                let read = open(&bytes, path, &Asked::default()).unwrap();
+                let read = open(&bytes, path, &HeightOptions::default()).unwrap();
                 let um = if number == Number::I16 { 2e-4 } else { 1e-5 };
                 assert_alike(&read, &given, um, &format!("{number:?} {is_list}"));
                 assert_eq!(read.warnings, Vec::<String>::new());
@@ -121,7 +121,7 @@ fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
     let mut data = archive.member("bindata/data.bin", 1 << 20).unwrap();
     data[7] ^= 1;
     let changed = pack(&[("main.xml", &xml), ("bindata/data.bin", &data)], path).unwrap();
-    let read = open(&changed, path, &Asked::default()).unwrap();
+    let read = open(&changed, path, &HeightOptions::default()).unwrap();
     assert_eq!(read.warnings.len(), 2, "{:?}", read.warnings);
     assert!(read.warnings[1].contains("does not fit bindata/data.bin"));
     for (data, expected) in [
@@ -129,7 +129,7 @@ fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
         (&[0; 9999], "more than 672"),
     ] {
         let bytes = pack(&[("main.xml", &xml), ("bindata/data.bin", data)], path).unwrap();
-        let error = open(&bytes, path, &Asked::default())
+        let error = open(&bytes, path, &HeightOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected), "{error}");
@@ -137,7 +137,7 @@ fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
     let giant = String::from_utf8(xml).unwrap().replace(">12<", ">9999999<");
     let giant = giant.replace("<SizeY>7<", "<SizeY>9999999999<");
     let bytes = pack(&[("main.xml", giant.as_bytes())], path).unwrap();
-    let error = open(&bytes, path, &Asked::default())
+    let error = open(&bytes, path, &HeightOptions::default())
         .unwrap_err()
         .to_string();
     assert!(
@@ -179,7 +179,9 @@ fn what_is_not_stated_or_wrong_is_asked_for_in_one_line() {
             "every height is missing",
         ),
     ] {
-        let error = read_text(text, &Asked::default()).unwrap_err().to_string();
+        let error = read_text(text, &HeightOptions::default())
+            .unwrap_err()
+            .to_string();
         assert!(error.contains(expected), "{text:?}: {error}");
         assert!(
             error.starts_with("a.txt:") && !error.contains('\n'),
@@ -190,15 +192,15 @@ fn what_is_not_stated_or_wrong_is_asked_for_in_one_line() {
 
 const TWO_COLUMNS: &str = "0.0 1.0\n0.1 2.0\n0.2 3.0\n";
 
-fn read_text(text: &str, asked: &Asked) -> Result<Measured, TextileError> {
+fn read_text(text: &str, asked: &HeightOptions) -> Result<Measured, TextileError> {
     open(text.as_bytes(), Path::new("a.txt"), asked)
 }
 
 #[test]
 fn units_that_are_given_count_and_what_is_known_better_is_said() {
-    let mut asked = Asked {
+    let mut asked = HeightOptions {
         height_unit: Some(LengthUnit::Nanometre),
-        ..Asked::default()
+        ..HeightOptions::default()
     };
     let error = read_text(TWO_COLUMNS, &asked).unwrap_err().to_string();
     assert!(
@@ -226,9 +228,9 @@ fn units_that_are_given_count_and_what_is_known_better_is_said() {
 #[test]
 fn a_column_among_many_is_chosen_by_name_or_number() {
     let text = ",first,second\n0,1.5,7\n1,2.5,8\n2,,9\n";
-    let mut asked = Asked {
+    let mut asked = HeightOptions {
         height_unit: Some(LengthUnit::Micrometre),
-        ..Asked::default()
+        ..HeightOptions::default()
     };
     for column in ["first", "2"] {
         asked.column = Some(column.to_owned());
@@ -239,7 +241,7 @@ fn a_column_among_many_is_chosen_by_name_or_number() {
                 .contains("distance of points is not stated"),
             "{error}"
         );
-        let with_step = Asked {
+        let with_step = HeightOptions {
             step_mm: Some(0.01),
             ..asked.clone()
         };
@@ -279,7 +281,7 @@ fn lying_and_foreign_files_are_refused_in_one_line() {
             "no block with the grid",
         ),
     ] {
-        let error = open(&bytes, path, &Asked::default())
+        let error = open(&bytes, path, &HeightOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected) && error.contains("; "), "{error}");
@@ -429,11 +431,11 @@ fn files_of_instruments_have_the_sq_that_independent_readers_find() {
     let Some(folder) = test_data() else { return };
     for (name, unit, n_missing, sq_um, whose) in FILES {
         let bytes = std::fs::read(folder.join(name)).unwrap();
-        let asked = Asked {
+        let asked = HeightOptions {
             height_unit: LengthUnit::of(unit),
             step_mm: (unit == "um").then_some(0.01),
             column: name.ends_with("aux.csv").then(|| "iso1661029_a".to_owned()),
-            ..Asked::default()
+            ..HeightOptions::default()
         };
         let read = open(&bytes, Path::new(name), &asked).unwrap();
         let off = (read.sq_um() / sq_um - 1.0).abs();
@@ -459,7 +461,7 @@ fn files_of_instruments_have_the_sq_that_independent_readers_find() {
         ("navierpy/vectoraux.csv", "9 columns: 1, 2 \"iso1661029_a\""),
     ] {
         let bytes = std::fs::read(folder.join(name)).unwrap();
-        let error = open(&bytes, Path::new(name), &Asked::default())
+        let error = open(&bytes, Path::new(name), &HeightOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected), "{name}: {error}");

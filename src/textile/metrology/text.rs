@@ -5,11 +5,11 @@ use std::path::Path;
 
 use super::reading::{Stated, UNEVEN_MEND, even_step};
 use super::text_layout::{Columns, Layout, MatrixKeys, decoded};
-use super::{Asked, LengthUnit, Reading};
+use super::{HeightOptions, LengthUnit, Reading};
 use selvedge_foundation::files::FileError;
 
 /// Reads a profile or a map.
-pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, FileError> {
+pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
     let text = decoded(bytes);
     let layout = Layout::of(&text, path)?;
     let columns = layout.columns(path)?;
@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &Asked) -> Result<Reading, 
 }
 
 /// Places that rounding may displace: fewer cannot show that they were even before.
-const LEAST_ROUNDED: usize = 32;
+const MIN_ROUNDED: usize = 32;
 
 /// How far the digits that were written may displace places: a unit of the last digit, for a place
 /// against the line between two others, where steps are longer than that.
@@ -53,7 +53,7 @@ fn rounding(places: &[f64], decimals: i32) -> f64 {
     let digit = 10.0_f64.powi(-decimals);
     let span = (places[places.len() - 1] - places[0]).abs();
     let is_fine = span > digit * places.len() as f64;
-    if is_fine && places.len() >= LEAST_ROUNDED {
+    if is_fine && places.len() >= MIN_ROUNDED {
         digit
     } else {
         0.0
@@ -68,7 +68,7 @@ struct Choice {
 }
 
 impl Choice {
-    fn of(columns: &Columns, asked: &Asked, path: &Path) -> Result<Self, FileError> {
+    fn of(columns: &Columns, asked: &HeightOptions, path: &Path) -> Result<Self, FileError> {
         let n = columns.numbers.len();
         let x = (n > 1 && rises(&columns.numbers[0])).then_some(0);
         if let Some(name) = &asked.column {

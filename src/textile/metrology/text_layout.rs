@@ -198,9 +198,9 @@ impl<'a> Layout<'a> {
             plain.then(|| cell.split_once('.').map_or(0, |(_, digits)| digits.len()))
         };
         let all = self.lines.iter().take(1000).map(decimals);
-        let most = all.collect::<Option<Vec<usize>>>();
-        let most = most.and_then(|all| all.into_iter().max());
-        most.and_then(|most| i32::try_from(most).ok()).unwrap_or(15)
+        let max = all.collect::<Option<Vec<usize>>>();
+        let max = max.and_then(|all| all.into_iter().max());
+        max.and_then(|max| i32::try_from(max).ok()).unwrap_or(15)
     }
 }
 

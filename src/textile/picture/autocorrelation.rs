@@ -9,7 +9,7 @@ use selvedge_foundation::files::{GrayImage, gray_values};
 use selvedge_foundation::numerics::{Grid, overlap_autocorrelation};
 
 /// Pixels that are correlated at most; of a larger picture the middle.
-const MOST_PIXELS: usize = 1 << 24;
+const MAX_PIXELS: usize = 1 << 24;
 
 /// Correlation coefficients of a picture with itself.
 #[derive(Debug, Clone)]
@@ -21,13 +21,13 @@ pub struct Autocorrelation {
 
 /// The part of a picture of this size that is correlated: x, y, width, height.
 pub(crate) fn correlated_part(width: usize, height: usize) -> [usize; 4] {
-    if width * height <= MOST_PIXELS {
+    if width * height <= MAX_PIXELS {
         return [0, 0, width, height];
     }
-    let side = MOST_PIXELS.isqrt();
+    let side = MAX_PIXELS.isqrt();
     let (w, h) = match (width < side, height < side) {
-        (true, _) => (width, MOST_PIXELS / width),
-        (_, true) => (MOST_PIXELS / height, height),
+        (true, _) => (width, MAX_PIXELS / width),
+        (_, true) => (MAX_PIXELS / height, height),
         _ => (side, side),
     };
     let (w, h) = (w.min(width), h.min(height));
@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(correlated_part(8000, 8000), [1952, 1952, 4096, 4096]);
         let [x, y, w, h] = correlated_part(64_000, 1000);
         assert_eq!([y, h], [0, 1000]);
-        assert!(w * h <= MOST_PIXELS && x > 0, "{w} × {h} from {x}");
+        assert!(w * h <= MAX_PIXELS && x > 0, "{w} × {h} from {x}");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 pub type Place = [f64; 2];
 
 /// Steps of a reduction; each makes the longer vector shorter, so that few are ever needed.
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 
 /// Two vectors in pixels that span a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +100,7 @@ impl Basis {
     #[must_use]
     pub fn reduced(&self) -> Self {
         let (mut a, mut b) = (self.p1, self.p2);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             if dot(a, a) > dot(b, b) {
                 std::mem::swap(&mut a, &mut b);
             }
@@ -161,11 +161,11 @@ impl Basis {
         if area.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             return Vec::new();
         }
-        let most = |other: Place| whole((reach * length(other) / area).ceil());
-        let (most_i, most_j) = (most(self.p2), most(self.p1));
+        let max = |other: Place| whole((reach * length(other) / area).ceil());
+        let (max_i, max_j) = (max(self.p2), max(self.p1));
         let mut found = Vec::new();
-        for j in 0..=most_j {
-            for i in -most_i..=most_i {
+        for j in 0..=max_j {
+            for i in -max_i..=max_i {
                 let is_half = j > 0 || i > 0;
                 if is_half && length(self.place([i as f64, j as f64])) <= reach {
                     found.push([i, j]);

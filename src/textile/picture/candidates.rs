@@ -10,7 +10,7 @@ use super::maxima::Maxima;
 use super::significant::{SHORTEST_PX, Significant, SignificantMaxima};
 
 /// A lattice whose angle has a smaller sine than this is no lattice of threads.
-pub(super) const LEAST_SINE: f64 = 0.2;
+pub(super) const MIN_SINE: f64 = 0.2;
 /// Shares are raised to this power, so that maxima as high as the highest count most.
 const POWER: i32 = 4;
 /// A candidate is judged as far out as this many times its longer vector.
@@ -116,7 +116,7 @@ pub(super) fn judge(
 ) -> Option<Candidate> {
     let start = start.reduced();
     let is_sound =
-        |b: &Basis| b.shorter() >= SHORTEST_PX && b.longer() <= longest && b.sine() >= LEAST_SINE;
+        |b: &Basis| b.shorter() >= SHORTEST_PX && b.longer() <= longest && b.sine() >= MIN_SINE;
     if !is_sound(&start) {
         return None;
     }

@@ -6,9 +6,9 @@ use super::tile::Tile;
 use selvedge_foundation::numerics::Grid;
 
 /// Colour varies with the period if it does at least this much of what brightness does.
-const LEAST_SHARE: f64 = 0.5;
+const MIN_SHARE: f64 = 0.5;
 /// And at least this much of white: less is the camera's.
-const LEAST_SPREAD: f64 = 0.01;
+const MIN_SPREAD: f64 = 0.01;
 
 /// How much colour varies with a lattice, beside brightness.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +54,6 @@ impl PeriodicColour {
 
     /// Whether the pattern is one of colours.
     pub fn is_printed(&self) -> bool {
-        self.colour_spread >= LEAST_SPREAD.max(LEAST_SHARE * self.brightness_spread)
+        self.colour_spread >= MIN_SPREAD.max(MIN_SHARE * self.brightness_spread)
     }
 }

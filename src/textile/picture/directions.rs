@@ -17,7 +17,7 @@ const N_DIRECTIONS: usize = 720;
 /// Of the maxima that count, the nearest are looked along.
 const N_NEAREST: usize = 150;
 /// Two directions of a basis differ by at least this, radians.
-const LEAST_APART: f64 = 0.2;
+const MIN_APART: f64 = 0.2;
 
 /// What [`Directions::of`] may be told.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -193,7 +193,7 @@ fn two_best(curve: &[f64]) -> Option<[f64; 2]> {
         between.min(PI - between)
     };
     let mut others = peaks.into_iter().skip(1).map(refined);
-    let second = others.find(|&angle| apart(angle) >= LEAST_APART)?;
+    let second = others.find(|&angle| apart(angle) >= MIN_APART)?;
     Some([first, second])
 }
 

@@ -15,17 +15,17 @@ use super::multiples::{Evidence, coarser, finer};
 use super::significant::SignificantMaxima;
 
 /// Below this score the maxima are not those of a lattice.
-const LEAST_SCORE: f64 = 0.6;
+const MIN_SCORE: f64 = 0.6;
 /// Below this mean correlation at its points a lattice is not told from chance.
-const LEAST_LEVEL: f64 = 0.05;
+const MIN_LEVEL: f64 = 0.05;
 /// Between lattice points the correlation must fall by at least this share of its mean there.
-const LEAST_CONTRAST: f64 = 0.12;
+const MIN_CONTRAST: f64 = 0.12;
 /// A picture must hold this many cells.
-const LEAST_CELLS: f64 = 5.0;
+const MIN_CELLS: f64 = 5.0;
 /// A picture smaller than this on one side cannot hold two repeats that are told apart.
-const LEAST_SIDE: usize = 12;
+const MIN_SIDE: usize = 12;
 /// A variance below this (of luminance 0…1) is that of one colour.
-const LEAST_VARIANCE: f64 = 1e-7;
+const MIN_VARIANCE: f64 = 1e-7;
 
 /// Why a picture has no lattice.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -123,10 +123,10 @@ impl Lattice {
     /// # Errors
     /// The picture is tiny or of one colour.
     pub fn worth_looking(width: usize, height: usize, variance: f64) -> Result<(), NoLattice> {
-        if width.min(height) < LEAST_SIDE {
+        if width.min(height) < MIN_SIDE {
             return Err(NoLattice::TooSmall(width, height));
         }
-        if variance.partial_cmp(&LEAST_VARIANCE) != Some(std::cmp::Ordering::Greater) {
+        if variance.partial_cmp(&MIN_VARIANCE) != Some(std::cmp::Ordering::Greater) {
             return Err(NoLattice::OneColour);
         }
         Ok(())
@@ -148,7 +148,7 @@ impl Lattice {
             significant,
         };
         let (first, method) = best(&evidence, directions)?;
-        if first.score() < LEAST_SCORE {
+        if first.score() < MIN_SCORE {
             return Err(NoLattice::NotResolved {
                 score: first.score(),
             });
@@ -156,7 +156,7 @@ impl Lattice {
         let basis = coarser(&evidence, finer(&evidence, first.basis));
         let (level, between) = levels(&evidence, &basis)?;
         let cells = 4.0 * rho.reach()[0] as f64 * rho.reach()[1] as f64 / basis.area();
-        if cells < LEAST_CELLS {
+        if cells < MIN_CELLS {
             return Err(NoLattice::TooFewRepeats { cells });
         }
         let tolerance = 0.15 * first.basis.shorter();
@@ -258,10 +258,10 @@ fn levels(evidence: &Evidence<'_>, basis: &Basis) -> Result<(f64, f64), NoLattic
         .chain(diagonals);
     let between = halves.map(|half| evidence.level(basis, reach, half));
     let between = between.fold(f64::NEG_INFINITY, f64::max);
-    if level.is_nan() || level < LEAST_LEVEL {
+    if level.is_nan() || level < MIN_LEVEL {
         return Err(NoLattice::Weak { level });
     }
-    if level - between < LEAST_CONTRAST * level {
+    if level - between < MIN_CONTRAST * level {
         return Err(NoLattice::OneDirection);
     }
     Ok((level, between))

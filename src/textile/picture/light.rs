@@ -5,7 +5,7 @@ use selvedge_foundation::numerics::Grid;
 /// The smooth part is taken over this share of the shorter side unless a radius is said.
 const SHARE_OF_SIDE: f64 = 0.125;
 /// A smooth part that holds less than this share of the variance is left alone by `Auto`.
-const LEAST_SHARE: f64 = 0.01;
+const MIN_SHARE: f64 = 0.01;
 /// The smooth part is never taken as darker than this share of the mean.
 const DARKEST: f64 = 0.05;
 /// Three box filters in a row are about a Gaussian.
@@ -33,7 +33,7 @@ pub fn even_light(luminance: &Grid<f64>, how: EvenLight) -> (Grid<f64>, bool) {
     };
     let smooth = smoothed(luminance, sigma);
     let (mean, variance) = mean_and_variance(luminance);
-    let is_even = mean_and_variance(&smooth).1 < LEAST_SHARE * variance;
+    let is_even = mean_and_variance(&smooth).1 < MIN_SHARE * variance;
     if mean <= 0.0 || (how == EvenLight::Auto && is_even) {
         return (luminance.clone(), false);
     }
@@ -146,8 +146,8 @@ mod tests {
                 .filter(|i| (20..140).contains(&(i % 160)))
                 .map(|i| ratio(of, i))
                 .collect();
-            let most = all.iter().copied().fold(0.0, f64::max);
-            most / all.iter().copied().fold(f64::INFINITY, f64::min)
+            let max = all.iter().copied().fold(0.0, f64::max);
+            max / all.iter().copied().fold(f64::INFINITY, f64::min)
         };
         assert!(
             spread(&shaded) > 1.9 && spread(&mended) < 1.35,

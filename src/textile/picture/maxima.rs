@@ -92,8 +92,8 @@ impl Maxima {
     }
 
     /// The maximum nearest to a place, and its distance, if within `most` px.
-    pub(crate) fn nearest(&self, place: Place, most: f64) -> Option<(&Maximum, f64)> {
-        let (i, distance) = self.buckets.nearest(place, most)?;
+    pub(crate) fn nearest(&self, place: Place, max: f64) -> Option<(&Maximum, f64)> {
+        let (i, distance) = self.buckets.nearest(place, max)?;
         Some((self.all.get(i)?, distance))
     }
 }
@@ -155,14 +155,14 @@ impl Buckets {
     }
 
     /// The nearest point within `most`, and its distance; of equally near ones the first inserted.
-    fn nearest(&self, place: Place, most: f64) -> Option<(usize, f64)> {
+    fn nearest(&self, place: Place, max: f64) -> Option<(usize, f64)> {
         let [ci, cj] = self.bucket(place);
         let mut best: Option<(usize, f64)> = None;
         let rings = self.n[0].max(self.n[1]);
         for ring in 0..rings {
             // Nothing in this ring is nearer than this.
-            let least = (ring as f64 - 1.0) * BUCKET_PX;
-            if least > best.map_or(most, |(_, d)| d) {
+            let min = (ring as f64 - 1.0) * BUCKET_PX;
+            if min > best.map_or(max, |(_, d)| d) {
                 break;
             }
             for j in (cj - ring).max(0)..=(cj + ring).min(self.n[1] - 1) {
@@ -173,7 +173,7 @@ impl Buckets {
                     for &(point, index) in &self.points[(j * self.n[0] + i).cast_unsigned()] {
                         let distance = (point[0] - place[0]).hypot(point[1] - place[1]);
                         let is_nearer = best.is_none_or(|(_, d)| distance < d);
-                        if is_nearer && distance <= most {
+                        if is_nearer && distance <= max {
                             best = Some((index, distance));
                         }
                     }
@@ -229,8 +229,8 @@ mod tests {
         let (found, distance) = maxima.nearest([11.5, 9.25], 1.0).unwrap();
         assert!(distance < 0.1 && found.height > 0.97, "{found:?}");
         let ranked = maxima.ranked();
-        let least = ranked.last().unwrap().dominance_px;
-        assert!(least > 9.0, "all maxima are lattice points: {least}");
+        let min = ranked.last().unwrap().dominance_px;
+        assert!(min > 9.0, "all maxima are lattice points: {min}");
         assert!(
             ranked.is_sorted_by(|a, b| a.dominance_px >= b.dominance_px),
             "ranked"

@@ -10,10 +10,10 @@
 mod analysis;
 mod autocorrelation;
 mod basis;
+pub mod brightness;
 mod candidates;
 mod colour;
 mod directions;
-pub mod felt;
 mod lattice;
 mod light;
 mod maxima;

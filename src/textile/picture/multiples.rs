@@ -18,17 +18,17 @@ use super::significant::SignificantMaxima;
 /// The coset of a finer lattice must be this share as high as the lattice itself.
 const FINER_SHARE: f64 = 0.93;
 /// The largest factor that alternating heights are looked for.
-const MOST_FACTOR: isize = 6;
+const MAX_FACTOR: isize = 6;
 /// What alternation must add to the mean height, as a share of it: from every second point to every
 /// second, and for each point skipped where it is more.
-const LEAST_GAIN_OF_TWO: f64 = 0.12;
-const LEAST_GAIN: f64 = 0.08;
+const MIN_GAIN_OF_TWO: f64 = 0.12;
+const MIN_GAIN: f64 = 0.08;
 /// How much higher the lowest of the high maxima must be than the highest of the others.
 const CLEAR_GAP: f64 = 1.1;
 /// Heights alternate within a Gaussian window that fades over this many periods.
 const WINDOW_PERIODS: f64 = 14.0;
 /// Rounds of making coarser.
-const MOST_ROUNDS: usize = 4;
+const MAX_ROUNDS: usize = 4;
 
 /// What a lattice is compared on.
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +81,7 @@ impl Evidence<'_> {
 /// The finest lattice whose points are as high as those of `basis`: halves and thirds are tried.
 pub(super) fn finer(evidence: &Evidence<'_>, basis: Basis) -> Basis {
     let mut basis = basis;
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let reach = evidence.near(&basis);
         let level = evidence.level(&basis, reach, [0.0; 2]);
         let fractions = [
@@ -117,7 +117,7 @@ pub(super) fn finer(evidence: &Evidence<'_>, basis: Basis) -> Basis {
 /// The coarser lattice that the heights at the points of `basis` ask for, or `basis` itself.
 pub(super) fn coarser(evidence: &Evidence<'_>, basis: Basis) -> Basis {
     let mut basis = basis;
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let rows = by_gap(evidence, &basis).or_else(|| by_alternation(evidence, &basis));
         let Some(next) = rows.map(|rows| basis.coarser(rows)) else {
             break;
@@ -158,7 +158,7 @@ fn by_gap(evidence: &Evidence<'_>, basis: &Basis) -> Option<[[isize; 2]; 2]> {
     None
 }
 
-/// A lattice coarser by at most [`MOST_FACTOR`] by which the heights alternate.
+/// A lattice coarser by at most [`MAX_FACTOR`] by which the heights alternate.
 fn by_alternation(evidence: &Evidence<'_>, basis: &Basis) -> Option<[[isize; 2]; 2]> {
     let heights = Heights::of(evidence, basis);
     let mean = heights.sum([0.0; 2]);
@@ -166,7 +166,7 @@ fn by_alternation(evidence: &Evidence<'_>, basis: &Basis) -> Option<[[isize; 2];
         return None;
     }
     let mut found: Vec<(f64, isize, [[isize; 2]; 2])> = Vec::new();
-    for factor in 2..=MOST_FACTOR {
+    for factor in 2..=MAX_FACTOR {
         for rows in sublattices(factor) {
             let gains: Vec<f64> = fractions(rows)
                 .iter()
@@ -174,12 +174,12 @@ fn by_alternation(evidence: &Evidence<'_>, basis: &Basis) -> Option<[[isize; 2];
                 .collect();
             let gain: f64 = gains.iter().sum();
             let lowest = gains.iter().copied().fold(f64::INFINITY, f64::min);
-            let least = if factor == 2 {
-                LEAST_GAIN_OF_TWO
+            let min = if factor == 2 {
+                MIN_GAIN_OF_TWO
             } else {
-                LEAST_GAIN * factor as f64
+                MIN_GAIN * factor as f64
             };
-            if gain > least && lowest > -0.02 {
+            if gain > min && lowest > -0.02 {
                 found.push((gain, factor, rows));
             }
         }

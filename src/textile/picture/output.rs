@@ -16,7 +16,7 @@ use selvedge_foundation::files::{
 use selvedge_foundation::numerics::Grid;
 
 /// Rows of the table of maxima at most.
-const MOST_ROWS: usize = 5000;
+const MAX_ROWS: usize = 5000;
 
 /// Every name that [`files`] may give.
 pub const FILE_NAMES: [&str; 8] = [
@@ -174,7 +174,7 @@ fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {
         .as_ref()
         .map(|m| m.maxima.ranked())
         .unwrap_or_default();
-    for (rank, maximum) in (1_u32..).zip(ranked.iter().take(MOST_ROWS)) {
+    for (rank, maximum) in (1_u32..).zip(ranked.iter().take(MAX_ROWS)) {
         table.number(rank);
         for x in [
             maximum.place[0],

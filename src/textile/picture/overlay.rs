@@ -7,7 +7,7 @@ use selvedge_foundation::numerics::Grid;
 /// Pictures are enlarged by a whole factor until a cell measures this.
 const CELL_PX: f64 = 30.0;
 /// Of what is larger than this then, the middle is shown.
-const MOST_SIDE: usize = 2000;
+const MAX_SIDE: usize = 2000;
 /// Lines of either family, and how much of the picture they cover.
 const FIRST: [f64; 3] = [255.0, 176.0, 0.0];
 const SECOND: [f64; 3] = [0.0, 190.0, 230.0];
@@ -21,12 +21,12 @@ pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
     let cell = lattice.map_or(CELL_PX, |basis| basis.shorter());
     let factor = whole((CELL_PX / cell).ceil()).clamp(1, 12).cast_unsigned();
     let size = [luminance.width(), luminance.height()];
-    let most = if factor > 1 {
-        MOST_SIDE / factor
+    let max = if factor > 1 {
+        MAX_SIDE / factor
     } else {
         usize::MAX
     };
-    let shown = size.map(|n| n.min(most));
+    let shown = size.map(|n| n.min(max));
     let first = [0, 1].map(|i| (size[i] - shown[i]) / 2);
     let (low, high) = range(luminance);
     let mut pixels = Vec::with_capacity(shown[0] * shown[1] * factor * factor);

@@ -8,9 +8,9 @@ use selvedge_foundation::numerics::Grid;
 /// Sides of a part, as shares of the picture's, largest first.
 const SHARES: [usize; 3] = [2, 4, 8];
 /// Parts of a size that are tried at most, spread evenly.
-const MOST_PARTS: usize = 24;
+const MAX_PARTS: usize = 24;
 /// A part must hold this many cells.
-const LEAST_CELLS: f64 = 40.0;
+const MIN_CELLS: f64 = 40.0;
 
 /// A part of a picture, the mean of its cells, and what that explains of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,10 +34,10 @@ pub(super) fn flattest<E>(
     let mut best: Option<FlatPart> = None;
     for (round, share) in SHARES.into_iter().enumerate() {
         let size = [luminance.width() / share, luminance.height() / share];
-        if ((size[0] * size[1]) as f64) < LEAST_CELLS * basis.area() {
+        if ((size[0] * size[1]) as f64) < MIN_CELLS * basis.area() {
             break;
         }
-        let every = (share * share).div_ceil(MOST_PARTS);
+        let every = (share * share).div_ceil(MAX_PARTS);
         for n in (0..share * share).step_by(every) {
             let done = n as f64 / (share * share) as f64;
             step((round as f64 + done) / SHARES.len() as f64)?;

@@ -18,7 +18,7 @@ const N_BLOCKS: usize = 16;
 /// Rounds: folding, and searching near the last vectors.
 const N_ROUNDS: usize = 2;
 /// Another round must promise more of the variance than this.
-const LEAST_GAIN: f64 = 1e-3;
+const MIN_GAIN: f64 = 1e-3;
 /// A round ends when the vectors are known to this share of a pixel at the picture's edge.
 const FINEST_PX: f64 = 1e-3;
 
@@ -51,7 +51,7 @@ pub fn refine<E>(
         }
         let gain = now - explained;
         (best, explained) = (tile, now);
-        if gain < LEAST_GAIN {
+        if gain < MIN_GAIN {
             break;
         }
     }

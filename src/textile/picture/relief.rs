@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::felt::{Brightness, Extent, brightness_of, shape_of};
+use super::brightness::{Brightness, Extent, brightness_of, shape_of};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
 use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png, gray_values};

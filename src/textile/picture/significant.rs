@@ -10,7 +10,7 @@ use super::maxima::{Maxima, is_half};
 /// Most maxima that are looked at; the nearest.
 const MOST: usize = 400;
 /// Of the highest at their distance or beyond, the share that counts.
-const LEAST_SHARE: f64 = 0.5;
+const MIN_SHARE: f64 = 0.5;
 /// Maxima from this share of a distance on are "at that distance".
 const AT_LEAST: f64 = 0.7;
 /// Shifts shorter than this are no repeat: less than two pixels cannot hold a thread and a gap.
@@ -39,10 +39,10 @@ pub struct SignificantMaxima {
 impl SignificantMaxima {
     /// Chooses them.
     pub fn of(maxima: &Maxima, rho: &Autocorrelation) -> Self {
-        let most = 0.98 * rho.radius();
+        let max = 0.98 * rho.radius();
         let is_candidate = |place: Place| {
             let distance = length(place);
-            is_half(place) && (SHORTEST_PX..=most).contains(&distance)
+            is_half(place) && (SHORTEST_PX..=max).contains(&distance)
         };
         let chosen = maxima.all().iter().filter(|m| is_candidate(m.place));
         let mut near: Vec<_> = chosen.collect();
@@ -63,7 +63,7 @@ impl SignificantMaxima {
                 fading_px = distance;
             }
             let share = maximum.height / envelope;
-            if share >= LEAST_SHARE && all.len() < MOST {
+            if share >= MIN_SHARE && all.len() < MOST {
                 all.push(Significant {
                     place: maximum.place,
                     height: maximum.height,

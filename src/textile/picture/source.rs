@@ -10,9 +10,9 @@ use selvedge_foundation::numerics::Grid;
 /// Channels that differ by more than this share of white are coloured.
 const COLOURED: f64 = 0.02;
 /// A rectified picture has at most this many pixels on a side.
-const MOST_SIDE: f64 = 16_000.0;
+const MAX_SIDE: f64 = 16_000.0;
 /// And at most this many in all.
-const MOST_PIXELS: f64 = 64e6;
+const MAX_PIXELS: f64 = 64e6;
 
 /// A picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +36,8 @@ pub fn load(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
         (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / white
     };
     let is_coloured = decoded.pixels.iter().any(|p| {
-        let most = p.iter().max().copied().unwrap_or(0);
-        f64::from(most - p.iter().min().copied().unwrap_or(0)) > COLOURED * white
+        let max = p.iter().max().copied().unwrap_or(0);
+        f64::from(max - p.iter().min().copied().unwrap_or(0)) > COLOURED * white
     });
     let share = |&[r, g, b]: &[u16; 3]| {
         // One step of 8 bits is added to each, so that black is grey.
@@ -109,8 +109,8 @@ impl Picture {
         ]
         .map(f64::round);
         let is_sound =
-            (0..4).all(|i| turn(i) > 0.0) && size.iter().all(|n| (1.0..=MOST_SIDE).contains(n));
-        if !is_sound || size[0] * size[1] > MOST_PIXELS {
+            (0..4).all(|i| turn(i) > 0.0) && size.iter().all(|n| (1.0..=MAX_SIDE).contains(n));
+        if !is_sound || size[0] * size[1] > MAX_PIXELS {
             let what = "the four corners do not span a convex figure clockwise";
             let mend = "give upper left, upper right, lower right, lower left";
             return Err(PictureError::Input(format!("{what}; {mend}")));

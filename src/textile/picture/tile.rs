@@ -8,7 +8,7 @@ use super::light::mean_and_variance;
 use selvedge_foundation::numerics::{Grid, in_pieces};
 
 /// Samples of a tile at most.
-const MOST_SAMPLES: f64 = 1_048_576.0;
+const MAX_SAMPLES: f64 = 1_048_576.0;
 /// With this many cells there are enough pixels for two samples a pixel along either vector.
 const CELLS_FOR_TWO: f64 = 16.0;
 /// Bands of rows that are folded each for itself, whatever the number of threads.
@@ -41,9 +41,9 @@ pub struct Rectangle {
 }
 
 /// Combinations of the vectors that are tried as sides of a rectangle, each way.
-const MOST_STEPS: isize = 8;
+const MAX_STEPS: isize = 8;
 /// Sides this far from a right angle still make a rectangle, radians.
-const MOST_SHEAR: f64 = 0.035;
+const MAX_SHEAR: f64 = 0.035;
 
 impl Tile {
     /// The mean of all cells of a picture.
@@ -185,7 +185,7 @@ fn cosine(a: Place, b: Place) -> f64 {
 
 /// The index vectors of the smallest rectangle, the one that is more level first.
 fn right_angle(basis: &Basis) -> Option<([isize; 2], [isize; 2])> {
-    let steps = || -MOST_STEPS..=MOST_STEPS;
+    let steps = || -MAX_STEPS..=MAX_STEPS;
     let all = steps().flat_map(|j| steps().map(move |i| [i, j]));
     let place = |[i, j]: [isize; 2]| basis.place([i as f64, j as f64]);
     // Half of them, the first pointing right; only those that are no multiple of another.
@@ -200,9 +200,9 @@ fn right_angle(basis: &Basis) -> Option<([isize; 2], [isize; 2])> {
         for j in steps() {
             for i in steps().filter(|&i| is_primitive([i, j])) {
                 let (a, b) = (place(first), place([i, j]));
-                let is_down = b[1] > 0.0 && cosine(a, b).abs() <= MOST_SHEAR;
+                let is_down = b[1] > 0.0 && cosine(a, b).abs() <= MAX_SHEAR;
                 let area = length(a) * length(b);
-                if is_down && best.is_none_or(|(least, ..)| area < least * (1.0 - 1e-9)) {
+                if is_down && best.is_none_or(|(min, ..)| area < min * (1.0 - 1e-9)) {
                     best = Some((area, first, [i, j]));
                 }
             }
@@ -224,7 +224,7 @@ fn samples(basis: &Basis, luminance: &Grid<f64>) -> [usize; 2] {
         1.0
     };
     let wanted = [basis.p1, basis.p2].map(|p| fine * length(p));
-    let scale = (MOST_SAMPLES / (wanted[0] * wanted[1]).max(1.0))
+    let scale = (MAX_SAMPLES / (wanted[0] * wanted[1]).max(1.0))
         .sqrt()
         .min(1.0);
     wanted.map(|n| whole((n * scale).ceil().clamp(4.0, 16384.0)).cast_unsigned())

@@ -4,12 +4,13 @@
 use std::path::Path;
 
 use crate::error::TextileError;
-use crate::metrology::{Asked, LengthUnit, Measured, open};
+use crate::metrology::{HeightOptions, Measured, open};
 use crate::recipe::{Checker, HeightsFile, Number, Recipe, keys};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
     WINDOW_LENGTH_MM,
 };
+use crate::unit::LengthUnit;
 use selvedge_foundation::files::{FileError, sha256_hex};
 use selvedge_foundation::numerics::{Grid, Random};
 
@@ -68,7 +69,7 @@ fn default_seed() -> u32 {
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
-    pub(crate) fn new(file: String, asked: &Asked) -> Self {
+    pub(crate) fn new(file: String, asked: &HeightOptions) -> Self {
         Self {
             kind: "heightmap".to_owned(),
             recipe_hash: None,
@@ -92,8 +93,8 @@ impl Heightmap {
         }
     }
 
-    fn asked(&self) -> Asked {
-        Asked {
+    fn asked(&self) -> HeightOptions {
+        HeightOptions {
             height_unit: self.height_unit,
             length_unit: self.length_unit,
             step_mm: self.step_mm,

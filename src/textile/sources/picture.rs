@@ -3,7 +3,7 @@
 
 use super::heightmap::Heightmap;
 use crate::error::TextileError;
-use crate::metrology::Asked;
+use crate::metrology::HeightOptions;
 use crate::picture::shading::{Light, Method};
 use crate::recipe::{Checker, HeightsFile, Number, Recipe, keys};
 use crate::surface::{Probe, Representation};
@@ -98,7 +98,7 @@ impl PictureSource {
 
     /// Its map as a file of heights that repeats: what reads and strokes it.
     pub fn map(&self) -> Heightmap {
-        let mut map = Heightmap::new(self.file.clone(), &Asked::default());
+        let mut map = Heightmap::new(self.file.clone(), &HeightOptions::default());
         map.sha256.clone_from(&self.sha256);
         map.representation = self.representation;
         map.place_mm = self.place_mm;

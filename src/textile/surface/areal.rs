@@ -20,7 +20,7 @@ use selvedge_foundation::numerics::Random;
 /// Width of the wire that areal spectra are read with, mm: the distance of points.
 pub const AREAL_WIRE_MM: f64 = 1.0;
 /// Points along a repeat of a periodic map at which looking for a better fit ends.
-const MOST_POINTS_OF_REPEATS: u32 = 64;
+const MAX_POINTS_OF_REPEATS: u32 = 64;
 /// How far the last point of a periodic map may miss the first, mm, without looking further.
 const SEAM_MM: f64 = 0.05;
 
@@ -143,10 +143,10 @@ fn starts_in_repeats(n_samples: usize, step_mm: f64) -> Vec<usize> {
         reason = "a map is at most 32 km long"
     )]
     let whole = |x: f64| (x + 0.5).floor() as u32;
-    let most = MOST_POINTS_OF_REPEATS.max(whole(repeat_mm));
+    let max = MAX_POINTS_OF_REPEATS.max(whole(repeat_mm));
     let closer = |best: u32, n: u32| if miss_mm(n) < miss_mm(best) { n } else { best };
-    let first_fit = (1..=most).find(|&n| miss_mm(n) <= SEAM_MM);
-    let n_points = first_fit.unwrap_or_else(|| (2..=most).fold(1, closer));
+    let first_fit = (1..=max).find(|&n| miss_mm(n) <= SEAM_MM);
+    let n_points = first_fit.unwrap_or_else(|| (2..=max).fold(1, closer));
     (0..n_points)
         .map(|j| whole(f64::from(j) / step_mm) as usize % n_samples)
         .collect()

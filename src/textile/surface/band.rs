@@ -51,7 +51,7 @@ mod tests {
         let left = without_long_waves(0.01, &wave);
         left[1000..3000]
             .iter()
-            .fold(0.0_f64, |most, value| most.max(value.abs()))
+            .fold(0.0_f64, |max, value| max.max(value.abs()))
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::{Direction, Probe, Profile, ProfileSet, SurfaceError};
 use selvedge_foundation::numerics::{Grid, Random};
 
 /// Most points of a map: 64 million, half a gigabyte of heights.
-pub(crate) const MOST_POINTS: usize = 64_000_000;
+pub(crate) const MAX_POINTS: usize = 64_000_000;
 
 /// Heights in µm over a grid with even steps; a missing height is NaN.
 #[derive(Debug, Clone, PartialEq)]
@@ -307,7 +307,7 @@ fn solve(mut matrix: [[f64; 3]; 3], mut right: [f64; 3]) -> Option<[f64; 3]> {
     let scale = matrix
         .iter()
         .flatten()
-        .fold(0.0_f64, |most, x| most.max(x.abs()));
+        .fold(0.0_f64, |max, x| max.max(x.abs()));
     for pivot in 0..3 {
         let best = (pivot..3).max_by(|&a, &b| {
             let [a, b] = [a, b].map(|row| matrix[row][pivot].abs());

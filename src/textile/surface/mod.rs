@@ -26,7 +26,7 @@ pub use error::SurfaceError;
 pub use friction::FrictionTrace;
 pub(crate) use friction::mean_deviation;
 pub use height_map::HeightMap;
-pub(crate) use height_map::MOST_POINTS;
+pub(crate) use height_map::MAX_POINTS;
 pub use probe::Probe;
 pub use profile::{Profile, ProfileSet};
 pub(crate) use spectra::SpectralPlan;

@@ -1,8 +1,8 @@
 //! Tests of the floor as a whole.
 
+mod adding;
 mod areal;
 mod brownian;
-mod keeping;
 mod models;
 mod seventy_four;
 mod shipped;

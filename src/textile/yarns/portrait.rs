@@ -21,7 +21,7 @@ const AMBIENT: f64 = 0.42;
 /// Steps that colours are rounded to: what the eye does not see, the file need not hold.
 const COLOUR_STEP: f64 = 7.0;
 /// Least range of heights that darkens its low places fully, µm: a thin textile hides no light.
-const LEAST_DEPTH_UM: f64 = 110.0;
+const MIN_DEPTH_UM: f64 = 110.0;
 /// Colour seen through the textile.
 const BENEATH: [f64; 3] = [0.16, 0.15, 0.14];
 
@@ -100,7 +100,7 @@ impl Depth {
         let low_um = quantile(&mut heights, 0.03);
         let high_um = quantile(&mut heights, 0.85);
         Self {
-            low_um: low_um.min(high_um - LEAST_DEPTH_UM),
+            low_um: low_um.min(high_um - MIN_DEPTH_UM),
             high_um,
         }
     }

@@ -148,7 +148,7 @@ fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppE
         .collect();
     let before = library.root();
     let (library, ids) =
-        unheard(|progress| library.keep(&textiles, &folder, n_threads(), progress))?;
+        unheard(|progress| library.add(&textiles, &folder, n_threads(), progress))?;
     Ok(Kept {
         shelf: crate::bench::library_view::items_of(&library),
         library: Arc::new(library),

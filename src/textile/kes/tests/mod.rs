@@ -314,7 +314,7 @@ fn what_files_do_not_say_is_asked_for() {
         assert!(error.contains(expected), "{error}");
     }
     let in_um_said = KesOptions {
-        x_unit: Some(PlaceUnit::Um),
+        x_unit: Some(LengthUnit::Micrometre),
         ..KesOptions::default()
     };
     assert!(

@@ -53,7 +53,7 @@ fn run_in_turn_round_and_outliers_are_marked_and_stay() {
         "{marks:?}"
     );
     let import = KesImport::new(reading, [None, None], false).unwrap();
-    let section = *import.section(ClothAxis::Warp).unwrap();
+    let section = *import.section(TextileAxis::Warp).unwrap();
     assert!(
         section.from_mm >= 1.0 && section.to_mm <= 28.05,
         "{section:?}"
@@ -73,7 +73,7 @@ fn the_suggested_section_is_where_the_cloth_is_steady() {
     let text = SPELLINGS[0].file(&["x", "height"], &[&places(), &z]);
     let reading = read(&[("a.txt", &text)], &KesOptions::default()).unwrap();
     let import = KesImport::new(reading, [None, None], false).unwrap();
-    let section = import.section(ClothAxis::Warp).unwrap();
+    let section = import.section(TextileAxis::Warp).unwrap();
     assert!(section.from_mm >= 6.9, "{section:?}");
     let [(_, smd_um)] = import.figures().smd_um[..] else {
         panic!("one stroke")

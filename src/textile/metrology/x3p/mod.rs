@@ -13,12 +13,12 @@ use std::path::Path;
 
 use super::reading::{Stated, UNEVEN_MEND, even_step};
 use super::{LengthUnit, Reading, n_points};
-use crate::surface::MOST_POINTS;
+use crate::surface::MAX_POINTS;
 use header::{Axis, Header};
 use selvedge_foundation::files::{Archive, FileError, Number, md5_hex};
 
 /// Largest `main.xml`, bytes: a list of about a million points.
-const MOST_XML: usize = 64 << 20;
+const MAX_XML: usize = 64 << 20;
 /// The checksum of the XML, where the XML names no other.
 const CHECKSUM: &str = "md5checksum.hex";
 
@@ -37,7 +37,7 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
         FileError::whole(path, "a ZIP archive without main.xml", mend)
     })?;
     let folder = main.strip_suffix("main.xml").unwrap_or_default().to_owned();
-    let xml = archive.member(&main, MOST_XML)?;
+    let xml = archive.member(&main, MAX_XML)?;
     let header = Header::read(&xml, &path.join("main.xml"))?;
     let mut warnings = Vec::new();
     check_xml(&mut archive, &folder, (&header, &xml), &mut warnings);
@@ -119,15 +119,15 @@ fn linked(
         if is_stored { axes[i].number.size() } else { 0 }
     });
     let record: usize = sizes.iter().sum();
-    if (sizes[0] > 0 || sizes[1] > 0) && n > MOST_POINTS / 3 {
+    if (sizes[0] > 0 || sizes[1] > 0) && n > MAX_POINTS / 3 {
         let what = format!("{n} points with places of their own are too many");
         let mend = "save with incremental axes";
         return Err(FileError::whole(archive.path(), what, mend));
     }
     // The layers of a stack lie one behind the other; the first is read.
     let n_bytes = n * record;
-    let most = n_bytes.saturating_mul(header.n_layers.max(1));
-    let data = archive.member(&format!("{folder}{}", header.link), most)?;
+    let max = n_bytes.saturating_mul(header.n_layers.max(1));
+    let data = archive.member(&format!("{folder}{}", header.link), max)?;
     if data.len() < n_bytes {
         let what = format!("{} holds {} bytes for {n} points", header.link, data.len());
         let mend = format!("{n_bytes} are needed; get an intact copy");
@@ -142,10 +142,10 @@ fn linked(
     let mut heights_m = z.unwrap_or_default();
     if !header.valid_link.is_empty() {
         let n_valid = n.div_ceil(8);
-        let most = n_valid
+        let max = n_valid
             .saturating_mul(header.n_layers.max(1))
             .saturating_add(8);
-        let valid = archive.member(&format!("{folder}{}", header.valid_link), most)?;
+        let valid = archive.member(&format!("{folder}{}", header.valid_link), max)?;
         if valid.len() < n_valid {
             let what = format!(
                 "{} holds {} bytes for {n} points",

@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 
 /// Tiles whose halves are shorter than this are not halved, px.
-const LEAST_SIDE: usize = 32;
+const MIN_SIDE: usize = 32;
 
 /// Sizes to solve a tile at, the coarsest first, its own last.
 pub(super) fn sizes(width: usize, height: usize) -> Vec<[usize; 2]> {
     let halved = |[width, height]: &[usize; 2]| {
         let half = [width.div_ceil(2), height.div_ceil(2)];
-        (half[0].min(half[1]) >= LEAST_SIDE).then_some(half)
+        (half[0].min(half[1]) >= MIN_SIDE).then_some(half)
     };
     let mut all: Vec<_> = std::iter::successors(Some([width, height]), halved).collect();
     all.reverse();

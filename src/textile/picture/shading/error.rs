@@ -3,7 +3,7 @@
 use selvedge_foundation::progress::Cancelled;
 
 /// Most points of a tile: 4096 × 4096.
-pub(super) const MOST_POINTS: usize = 1 << 24;
+pub(super) const MAX_POINTS: usize = 1 << 24;
 
 /// Why no shape was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -12,7 +12,7 @@ pub enum ShadingError {
     #[error("the tile has no pixel; give one of at least 1 × 1")]
     Empty,
     /// Too many.
-    #[error("{width} × {height} pixels are more than {MOST_POINTS}; scale the picture down")]
+    #[error("{width} × {height} pixels are more than {MAX_POINTS}; scale the picture down")]
     TooLarge {
         /// Columns.
         width: usize,

@@ -31,10 +31,10 @@ pub use light::{Light, LightEstimate, estimate_light};
 pub use reflectance::picture_of;
 pub use shape::{Edges, Method, ShadingOptions, Shape};
 
-use error::MOST_POINTS;
+use error::MAX_POINTS;
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
-use shape::{MOST_ITERATIONS, mean};
+use shape::{MAX_ITERATIONS, mean};
 
 /// Heights from brightness 0…1 under a light; row 0 is the lowest y.
 ///
@@ -83,7 +83,7 @@ fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), Shading
     if brightness.values().is_empty() {
         return Err(ShadingError::Empty);
     }
-    if width.saturating_mul(height) > MOST_POINTS {
+    if width.saturating_mul(height) > MAX_POINTS {
         return Err(ShadingError::TooLarge { width, height });
     }
     let values = brightness.values();
@@ -112,7 +112,7 @@ fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), Shading
         }
     }
     let n = options.n_iterations();
-    if (1..=MOST_ITERATIONS).contains(&n) {
+    if (1..=MAX_ITERATIONS).contains(&n) {
         return Ok(());
     }
     Err(ShadingError::Option {

@@ -55,7 +55,7 @@ impl Method {
 pub struct ShadingOptions {
     /// The method.
     pub method: Method,
-    /// Iterations, 1 to [`MOST_ITERATIONS`]; the method's own number unless stated. The linear
+    /// Iterations, 1 to [`MAX_ITERATIONS`]; the method's own number unless stated. The linear
     /// inversion takes one; the variational method ends sooner where more would not help.
     pub iterations: Option<usize>,
     /// What Tsai & Shah's differences do at the first row and column; the others always repeat.
@@ -71,7 +71,7 @@ pub struct ShadingOptions {
 }
 
 /// Most iterations.
-pub(crate) const MOST_ITERATIONS: usize = 10_000;
+pub(crate) const MAX_ITERATIONS: usize = 10_000;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]

@@ -17,12 +17,12 @@ use selvedge_foundation::progress::Progress;
 const W: f64 = 1e-8;
 const S0: f64 = 0.01;
 /// Lights nearer to Ps + Qs = 0 than the (0.01, 0.01) that ports take for frontal light.
-const LEAST_LEAN: f64 = 0.02;
+const MIN_LEAN: f64 = 0.02;
 
 /// Whether the derivative is 0 on a flat surface, so that nothing ever moves.
 pub(super) fn is_singular(light: Light) -> bool {
     let [ps, qs] = light.lean();
-    (ps + qs).abs() < LEAST_LEAN
+    (ps + qs).abs() < MIN_LEAN
 }
 
 /// Depth and variance of every point.

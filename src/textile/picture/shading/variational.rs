@@ -25,7 +25,7 @@ const NEXT_SMOOTHNESS: f64 = 0.1;
 /// Iterations over which the weight falls, first and where a coarser tile was solved before.
 const FALLING: [usize; 2] = [11, 3];
 /// A step that lowers the sum by less than this share is the last one.
-const LEAST_GAIN: f64 = 0.03;
+const MIN_GAIN: f64 = 0.03;
 /// Weight of squared heights: keeps what the light does not show near 0.
 const TIKHONOV: f64 = 1e-7;
 /// Damping of a step, at first, and its limits.
@@ -180,7 +180,7 @@ impl Fit<'_> {
             let before = self.cost(&self.z);
             let after = self.step(before, progress, share)?;
             residuals.push(residual(self.brightness, self.albedo, &self.z, self.matt));
-            let is_settled = after >= before * (1.0 - LEAST_GAIN);
+            let is_settled = after >= before * (1.0 - MIN_GAIN);
             if done > falling.n && is_settled {
                 break;
             }

@@ -24,7 +24,7 @@ use crate::surface::{HeightMap, Probe, ProfileSet};
 use selvedge_foundation::numerics::{Grid, Random};
 
 /// Most points along a side: the embedding of 1000 takes half a gigabyte.
-const MOST_POINTS: f64 = 1000.0;
+const MAX_POINTS: f64 = 1000.0;
 /// Rounds that bring a wire's reading to the SMD asked for.
 const N_ROUNDS: usize = 8;
 
@@ -132,7 +132,7 @@ impl Brownian {
         )]
         let n = (self.length_mm / self.step_mm)
             .round()
-            .clamp(2.0, MOST_POINTS) as usize;
+            .clamp(2.0, MAX_POINTS) as usize;
         n
     }
 
@@ -141,14 +141,14 @@ impl Brownian {
             ("shortest_mm", self.shortest_mm, 2.0 * self.step_mm),
             ("longest_mm", self.longest_mm, 4.0 * self.step_mm),
         ];
-        for (key, value, least) in cut_offs {
+        for (key, value, min) in cut_offs {
             let Some(value) = value else { continue };
             if self.generator == Generator::Exact {
                 let what = format!("{key} with generator = \"exact\", which cuts nothing off");
                 let mend = "take generator = \"periodic\" or leave the cut-off out";
                 return Err(checker.wrong("source", key, what, mend));
             }
-            checker.within("source", key, value, least..=self.length_mm)?;
+            checker.within("source", key, value, min..=self.length_mm)?;
         }
         match (self.shortest_mm, self.longest_mm) {
             (Some(shortest), Some(longest)) if shortest >= longest => {
@@ -255,7 +255,7 @@ impl Recipe for Brownian {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         Number::check(Self::NUMBERS, self, (checker, "source"))?;
         let n = self.length_mm / self.step_mm;
-        if n > MOST_POINTS + 0.5 {
+        if n > MAX_POINTS + 0.5 {
             let what = format!("length_mm / step_mm is {n:.0} points");
             let mend = "1000 are the most: take a larger step or a shorter side";
             return Err(checker.wrong("source", "step_mm", what, mend));

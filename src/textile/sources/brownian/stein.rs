@@ -150,8 +150,8 @@ mod tests {
             let n_embedded = embedding.n_embedded(n);
             let powers = PlaneTransform::new(n_embedded, n_embedded).forward(&embedding.grid(n));
             let real = powers.values().iter().map(|x| x.re);
-            let (least, most) = real.fold((f64::MAX, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-            assert!(least > -1e-9 * most, "H {hurst}: {least} of {most}");
+            let (min, max) = real.fold((f64::MAX, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+            assert!(min > -1e-9 * max, "H {hurst}: {min} of {max}");
         }
     }
 

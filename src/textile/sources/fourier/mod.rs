@@ -11,7 +11,7 @@ mod template;
 #[cfg(test)]
 mod tests;
 
-pub use readings::Imported;
+pub use readings::ImportedProfile;
 pub use readings::{Readings, import};
 pub use series::FourierSeries;
 pub use template::FourierTemplate;
@@ -171,10 +171,10 @@ impl Recipe for Fourier {
         let within = |key, value, range| checker.within("source", key, value, range);
         Number::check(Self::NUMBERS, self, (checker, "source"))?;
         within("highest_per_m", self.highest_per_m, self.lowest_per_m..=1e5)?;
-        let most_per_m = 500.0 / self.step_mm;
-        if self.highest_per_m > most_per_m {
+        let max_per_m = 500.0 / self.step_mm;
+        if self.highest_per_m > max_per_m {
             let what = format!("highest_per_m is {}", self.highest_per_m);
-            let mend = format!("samples step_mm apart show {most_per_m:.0} at most");
+            let mend = format!("samples step_mm apart show {max_per_m:.0} at most");
             return Err(checker.wrong("source", "highest_per_m", what, mend));
         }
         for (template, table) in self

@@ -30,7 +30,7 @@ pub struct Readings {
 
 /// A profile from readings, and how coarse they were.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Imported {
+pub struct ImportedProfile {
     /// 101 heights 0.5 mm apart, µm, without their line.
     pub profile: Profile,
     /// The largest distance between neighbouring places that were read, mm.
@@ -74,7 +74,7 @@ impl Readings {
 ///
 /// # Errors
 /// Readings that overlap in time for less than two intervals or cover less than 50 mm.
-pub fn import(probe: &Readings, tracker: &Readings) -> Result<Imported, TextileError> {
+pub fn import(probe: &Readings, tracker: &Readings) -> Result<ImportedProfile, TextileError> {
     let wrong = |what: String| TextileError::Model(what);
     let ends = |r: &Readings| Some([*r.t_s.first()?, *r.t_s.last()?]);
     let (Some(p), Some(t)) = (ends(probe), ends(tracker)) else {
@@ -118,7 +118,7 @@ pub fn import(probe: &Readings, tracker: &Readings) -> Result<Imported, TextileE
         let path = "the readings".into();
         TextileError::Surface { path, source }
     })?;
-    Ok(Imported {
+    Ok(ImportedProfile {
         profile,
         worst_step_mm,
         n_not_rising: n_pairs - places.len(),

@@ -16,7 +16,7 @@ use crate::surface::Profile;
 use selvedge_foundation::numerics::RealTransform;
 
 /// Most harmonics of a template.
-pub(super) const MOST_HARMONICS: usize = 2000;
+pub(super) const MAX_HARMONICS: usize = 2000;
 
 keys! {
     /// Mean and standard deviation of the coefficients of harmonics 1, 2, 3 …
@@ -67,7 +67,7 @@ impl FourierTemplate {
             }
         }
         let transform = RealTransform::new(n);
-        let n_harmonics = n_harmonics.clamp(1, MOST_HARMONICS).min((n - 1) / 2);
+        let n_harmonics = n_harmonics.clamp(1, MAX_HARMONICS).min((n - 1) / 2);
         let spectra: Vec<_> = profiles
             .iter()
             .map(|profile| transform.forward(profile.heights_um()))
@@ -97,16 +97,16 @@ impl FourierTemplate {
     pub fn fault(&self) -> Option<(&'static str, String, String)> {
         let n = self.mean_cos_um.len();
         for number in Self::NUMBERS {
-            let (key, least, most) = (number.key, number.min, number.max);
-            let value = (number.get)(self).unwrap_or(least);
-            if !(least..=most).contains(&value) {
+            let (key, min, max) = (number.key, number.min, number.max);
+            let value = (number.get)(self).unwrap_or(min);
+            if !(min..=max).contains(&value) {
                 let what = format!("{key} is {value}");
-                return Some((key, what, format!("give {least} to {most}")));
+                return Some((key, what, format!("give {min} to {max}")));
             }
         }
-        if n == 0 || n > MOST_HARMONICS {
+        if n == 0 || n > MAX_HARMONICS {
             let what = format!("{n} harmonics");
-            return Some(("mean_cos_um", what, format!("give 1 to {MOST_HARMONICS}")));
+            return Some(("mean_cos_um", what, format!("give 1 to {MAX_HARMONICS}")));
         }
         for (key, values, is_sd) in [
             ("mean_cos_um", &self.mean_cos_um, false),
@@ -118,10 +118,10 @@ impl FourierTemplate {
                 let what = format!("{key} has {} values, mean_cos_um {n}", values.len());
                 return Some((key, what, "give one a harmonic".to_owned()));
             }
-            let least = if is_sd { 0.0 } else { -1e6 };
-            let is_wrong = |value: &&f64| !(least..=1e6).contains(*value);
+            let min = if is_sd { 0.0 } else { -1e6 };
+            let is_wrong = |value: &&f64| !(min..=1e6).contains(*value);
             if let Some(value) = values.iter().find(is_wrong) {
-                let mend = format!("give numbers from {least} to 1000000");
+                let mend = format!("give numbers from {min} to 1000000");
                 return Some((key, format!("{key} holds {value}"), mend));
             }
         }

@@ -8,7 +8,7 @@ use crate::yarns::{Drift, Field, Node, YarnPath, YarnRun, count};
 use selvedge_foundation::numerics::Random;
 
 /// The patch is at least this large, mm: the stroke of 20 mm and what the probe touches around it.
-const LEAST_SIZE_MM: f64 = 22.0;
+const MIN_SIZE_MM: f64 = 22.0;
 /// Straight pieces a loop is drawn with.
 const PIECES: u8 = 24;
 /// Straight pieces a loop of pile is drawn with.
@@ -32,7 +32,7 @@ impl<'a> Bed<'a> {
     pub(super) fn new(knit: &'a Knit, random: &Random) -> Self {
         let repeat = knit.structure.repeat();
         let whole = |per_cm: f64, repeat: usize| {
-            count((LEAST_SIZE_MM * per_cm / 10.0 / repeat as f64).ceil()) * repeat
+            count((MIN_SIZE_MM * per_cm / 10.0 / repeat as f64).ceil()) * repeat
         };
         let n = [
             whole(knit.wales_per_cm, repeat[0]),

@@ -13,9 +13,9 @@ const BANDS_PER_OCTAVE: f64 = 3.0;
 /// A harmonic is kept if its power exceeds that between the harmonics this many times.
 const OVER_NOISE: f64 = 4.0;
 /// Most harmonics that are looked at.
-const MOST_HARMONICS: u32 = 100;
+const MAX_HARMONICS: u32 = 100;
 /// Fewest samples of a profile.
-const LEAST_SAMPLES: usize = 64;
+const MIN_SAMPLES: usize = 64;
 
 keys! {
     /// What is kept of a profile: a few dozen numbers for thousands of samples.
@@ -51,9 +51,9 @@ impl Reduced {
     /// Fewer than 64 samples.
     pub fn of(profile: &Profile, n_harmonics: usize) -> Result<Self, TextileError> {
         let n = profile.heights_um().len();
-        if n < LEAST_SAMPLES {
+        if n < MIN_SAMPLES {
             return Err(TextileError::Model(format!(
-                "{n} samples are no profile to restore; give {LEAST_SAMPLES} or more"
+                "{n} samples are no profile to restore; give {MIN_SAMPLES} or more"
             )));
         }
         let step_mm = profile.step_mm();
@@ -133,7 +133,7 @@ impl Reduced {
         let n_whole = ((heights.len() as f64 / period).floor() * period).round() as usize;
         let whole = &heights[..n_whole.min(heights.len())];
         let at = |k: f64| line(whole, k / period);
-        let harmonics = 1..=MOST_HARMONICS;
+        let harmonics = 1..=MAX_HARMONICS;
         let all: Vec<u32> = harmonics
             .take_while(|&k| 2.0 * f64::from(k) < period)
             .collect();

@@ -6,7 +6,7 @@ use crate::yarns::{Drift, Field, Yarn, YarnPath, YarnRun, count};
 use selvedge_foundation::numerics::{Grid, Random};
 
 /// The patch is at least this large, mm: the stroke of 20 mm and what the probe touches around it.
-const LEAST_SIZE_MM: f64 = 22.0;
+const MIN_SIZE_MM: f64 = 22.0;
 /// Straight pieces between two crossings.
 const PIECES: u8 = 6;
 
@@ -35,7 +35,7 @@ pub(super) fn paths(
     random: &Random,
 ) -> ([f64; 2], Vec<YarnPath>, Vec<YarnPath>) {
     let whole = |per_cm: f64, repeat: usize| {
-        let repeats = (LEAST_SIZE_MM * per_cm / 10.0 / repeat as f64).ceil();
+        let repeats = (MIN_SIZE_MM * per_cm / 10.0 / repeat as f64).ceil();
         count(repeats) * repeat
     };
     let n_ends = whole(weave.warp_per_cm, repeat.n_ends());

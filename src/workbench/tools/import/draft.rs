@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use crate::tools::import::failure::{Failure, Step};
-use selvedge_textile::metrology::{Asked, LengthUnit};
+use selvedge_textile::LengthUnit;
+use selvedge_textile::metrology::HeightOptions;
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
-    ColumnRole, Construction, DecimalSign, Description, HeightUnit, ImportOptions, KesOptions,
-    KesPlace, Measurement, PlaceUnit, ReturnOrder, id_of, known_figures, read_measurement,
+    ColumnRole, Construction, DecimalSign, Description, ImportOptions, KesOptions, KesPlace,
+    Measurement, ReturnOrder, Unit, id_of, known_figures, read_measurement,
 };
 
 /// A file that was chosen, read once.
@@ -83,9 +84,9 @@ pub(crate) struct StrokesDraft {
     /// The decimal sign.
     pub decimal: Option<DecimalSign>,
     /// The unit of places.
-    pub x_unit: Option<PlaceUnit>,
+    pub x_unit: Option<LengthUnit>,
     /// The unit of heights.
-    pub height_unit: Option<HeightUnit>,
+    pub height_unit: Option<Unit>,
     /// How return strokes are stored.
     pub return_order: Option<ReturnOrder>,
     /// µm for a volt, as typed.
@@ -222,7 +223,7 @@ impl Told {
         };
         let column = typed.column.trim();
         Ok(ImportOptions {
-            asked: Asked {
+            asked: HeightOptions {
                 height_unit: typed.height_unit,
                 length_unit: typed.length_unit,
                 step_mm: number(&typed.step_mm, "the distance of points in mm")?,

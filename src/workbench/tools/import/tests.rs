@@ -159,7 +159,7 @@ fn a_map_becomes_a_textile_for_every_place() {
     let asked = failure(&importing).clone();
     assert_eq!(asked.step, Step::Meaning);
     assert!(asked.line.contains("--height-unit"), "{asked:?}");
-    let unit = selvedge_textile::metrology::LengthUnit::Micrometre;
+    let unit = selvedge_textile::LengthUnit::Micrometre;
     importing.draft.told.heights.height_unit = Some(unit);
     importing.draft.told.heights.step_mm = "0.05".to_owned();
     importing.draft.looked.places = vec![[5.0, 4.0], [9.0, 6.0]];
@@ -196,7 +196,7 @@ fn a_map_that_is_felt_at_every_point_brings_its_file_along() {
     let path = folder.write("cloth.txt", matrix());
     let mut importing = importing(std::slice::from_ref(&path));
     let heights = &mut importing.draft.told.heights;
-    heights.height_unit = Some(selvedge_textile::metrology::LengthUnit::Micrometre);
+    heights.height_unit = Some(selvedge_textile::LengthUnit::Micrometre);
     heights.step_mm = "0.05".to_owned();
     heights.representation = Representation::Areal;
     read(&mut importing);

@@ -117,7 +117,7 @@ impl Family {
         let recipe = |value: f64| {
             let mut own = draft.clone();
             own.set(plan.place, Some(key_value(value, is_whole)));
-            own.read().map_err(|fault| fault.words)
+            own.read().map_err(|fault| fault.message)
         };
         let values = plan.values();
         // What is wrong with the last one is said before the first is made.

@@ -166,7 +166,10 @@ impl Lab {
     /// What is wrong with the recipe or with how it is called, in one line.
     pub(crate) fn to_keep(&self, library: &Library) -> Result<(String, Manifest), String> {
         let steps = self.steps.as_ref().ok_or("there is no recipe yet")?;
-        let manifest = steps.read().as_ref().map_err(|fault| fault.words.clone())?;
+        let manifest = steps
+            .read()
+            .as_ref()
+            .map_err(|fault| fault.message.clone())?;
         let id = self.fields.id.trim();
         if let Some(words) = self.fields.refusal(library.ids()) {
             return Err(words);

@@ -8,7 +8,7 @@ use selvedge_foundation::quantity;
 use selvedge_render::array::{PointSpread, TextileResponse};
 use selvedge_textile::surface::{Direction, HeightMap, Surface};
 use selvedge_textile::tactile::{Band, Filters, Levels};
-use selvedge_textile::{Manifest, Textile, Trial};
+use selvedge_textile::{Manifest, RecipePreview, Textile};
 
 /// Least and largest speed of the curves, mm/s.
 pub(crate) const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 1000.0];
@@ -182,7 +182,7 @@ impl Preview {
         filters: &Filters,
         progress: &mut Progress<'_>,
     ) -> Result<Self, String> {
-        let trial = Trial::of(&manifest, progress).map_err(|error| error.to_string())?;
+        let trial = RecipePreview::of(&manifest, progress).map_err(|error| error.to_string())?;
         let felt = Felt::of(&trial.surface, filters, progress).map_err(|stop| stop.to_string())?;
         let found = |key| {
             let mut measured = trial.measured.iter();

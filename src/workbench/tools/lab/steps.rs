@@ -161,7 +161,7 @@ mod tests {
         steps.set(HURST, Some(7.0.into()), false);
         let fault = steps.fault().unwrap();
         assert_eq!(fault.place, Some(HURST));
-        assert_eq!(fault.words, "hurst is 7; give a number from 0.01 to 0.99");
+        assert_eq!(fault.message, "hurst is 7; give a number from 0.01 to 0.99");
         steps.undo();
         assert!(steps.fault().is_none() && steps.read().is_ok());
     }

@@ -7,7 +7,7 @@ use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::images::Image;
 use selvedge_foundation::numerics::Grid;
-use selvedge_textile::picture::felt::Brightness;
+use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, LightEstimate, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, Directions, Found as Tiled, Maxima, Picture, SignificantMaxima,

@@ -12,7 +12,7 @@ use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shape
 use crate::tools::picture::images;
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_textile::picture::felt::{Brightness, brightness_of, shape_of};
+use selvedge_textile::picture::brightness::{Brightness, brightness_of, shape_of};
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,

@@ -34,7 +34,7 @@ fn black_empty_and_impossible_brightness_is_refused() {
         tile.row_mut(2)[1] = wrong;
         assert!(refused(&tile).contains("row 3, column 2"), "{wrong}");
     }
-    let wide = Grid::filled(MOST_POINTS + 1, 1, 0.5);
+    let wide = Grid::filled(MAX_POINTS + 1, 1, 0.5);
     assert!(refused(&wide).contains("scale"));
     assert_eq!(
         estimate_light(&Grid::filled(3, 3, 0.0)),

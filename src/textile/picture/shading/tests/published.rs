@@ -93,12 +93,12 @@ fn the_light_is_where_it_is_said_to_be() {
             let found = shape(&e, light(45.0, tilt), method).unwrap();
             let r = correlation(&found.height_px, &bump.height_px());
             // The published iteration is a sketch: right way round, and little more.
-            let least = if method == Method::TsaiShah {
+            let min = if method == Method::TsaiShah {
                 0.01
             } else {
                 0.7
             };
-            assert!(r > least, "{method:?} at {tilt}°: {r}: a bump, not a dent");
+            assert!(r > min, "{method:?} at {tilt}°: {r}: a bump, not a dent");
         }
     }
 }

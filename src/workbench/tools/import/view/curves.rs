@@ -17,7 +17,7 @@ use crate::tools::import::view::section::{Ends, Wish};
 use crate::tools::import::work::{Heights, Strokes};
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::surface::Direction;
-use selvedge_textile::{ClothAxis, KesImport, KesReading, KesStroke, MarkKind};
+use selvedge_textile::{KesImport, KesReading, KesStroke, MarkKind, TextileAxis};
 
 /// Height of the row of sections, points.
 const LINE: f32 = 22.0;
@@ -86,9 +86,9 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
         return;
     };
     let import = strokes.import.as_ref();
-    let axes = [ClothAxis::Warp, ClothAxis::Weft].map(|axis| {
+    let axes = [TextileAxis::Warp, TextileAxis::Weft].map(|axis| {
         let covered_mm = reading.covered_mm(axis)?;
-        let said = draft.looked.sections[usize::from(axis == ClothAxis::Weft)];
+        let said = draft.looked.sections[usize::from(axis == TextileAxis::Weft)];
         let section = import.and_then(|import| import.section(axis));
         let at_mm = said.or_else(|| section.map(|section| [section.from_mm, section.to_mm]));
         let at_mm = at_mm.unwrap_or(covered_mm);
@@ -115,7 +115,7 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
                     1.0
                 },
         };
-        let axis = usize::from(stroke.axis() == ClothAxis::Weft);
+        let axis = usize::from(stroke.axis() == TextileAxis::Weft);
         paint_frame(ui, &plot, nth + 1 == n, "µm");
         paint_marks(ui, &plot, stroke);
         plot.paint_line(ui.painter(), axes[axis].map(|ends| ends.at_mm));
@@ -173,7 +173,7 @@ fn show_sections(
         ui.spacing_mut().interact_size.y = LINE - 2.0;
         let dim = Palette::in_ui(ui).dim;
         let quiet = |words: &str| RichText::new(words).font(theme::small()).color(dim);
-        for (index, (axis, name)) in [(ClothAxis::Warp, "warp"), (ClothAxis::Weft, "weft")]
+        for (index, (axis, name)) in [(TextileAxis::Warp, "warp"), (TextileAxis::Weft, "weft")]
             .into_iter()
             .enumerate()
         {

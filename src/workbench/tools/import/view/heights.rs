@@ -10,7 +10,7 @@ use crate::tools::import::failure::Failure;
 use crate::tools::import::view::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
 use crate::tools::import::work::{Found, Heights};
 use selvedge_foundation::quantity::fixed;
-use selvedge_textile::metrology::LengthUnit;
+use selvedge_textile::LengthUnit;
 use selvedge_textile::surface::Representation;
 
 /// Width of a field for a number, points.

@@ -10,7 +10,7 @@ use crate::tools::import::view::table;
 use crate::tools::import::work::{Found, Strokes};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::{
-    DecimalSign, HeightUnit, KesAsk, KesColumn, KesKnown, KesLook, PlaceUnit, ReturnOrder,
+    DecimalSign, KesAsk, KesColumn, KesKnown, KesLook, LengthUnit, ReturnOrder, Unit,
 };
 
 /// Width of a field for a number, points.
@@ -71,9 +71,9 @@ fn show_fields(
     };
     row(ui, "unit of places", "", |ui, _| {
         let units = [
-            (PlaceUnit::Mm, "mm"),
-            (PlaceUnit::Cm, "cm"),
-            (PlaceUnit::Um, "µm"),
+            (LengthUnit::Millimetre, "mm"),
+            (LengthUnit::Centimetre, "cm"),
+            (LengthUnit::Micrometre, "µm"),
         ];
         let by_file = unit(place, "mm");
         let name = "Unit of places";
@@ -86,9 +86,9 @@ fn show_fields(
     });
     row(ui, "unit of heights", "", |ui, _| {
         let units = [
-            (HeightUnit::Um, "µm"),
-            (HeightUnit::Mm, "mm"),
-            (HeightUnit::Volt, "V"),
+            (Unit::Length(LengthUnit::Micrometre), "µm"),
+            (Unit::Length(LengthUnit::Millimetre), "mm"),
+            (Unit::Volt, "V"),
         ];
         let by_file = unit(height, "µm");
         let need = need(&[KesAsk::HeightUnit]);

@@ -62,5 +62,5 @@ pub(crate) fn refusal(view: &LabView<'_>) -> Option<String> {
     if lab.share().is_some() {
         return Some("Wait until it is computed, or stop that".to_owned());
     }
-    lab.fault().map(|fault| fault.words.clone())
+    lab.fault().map(|fault| fault.message.clone())
 }

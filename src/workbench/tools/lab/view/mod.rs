@@ -138,7 +138,7 @@ fn show_standing(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
                 return;
             }
             let words = match (lab.fault(), &lab.refusal) {
-                (Some(fault), _) => fault.words.as_str(),
+                (Some(fault), _) => fault.message.as_str(),
                 (None, Some(words)) => words.as_str(),
                 (None, None) if lab.is_fresh() => "",
                 (None, None) => "to be computed",

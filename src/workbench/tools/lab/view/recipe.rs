@@ -16,7 +16,7 @@ pub(crate) fn show(ui: &mut Ui, steps: &Steps, wishes: &mut Wishes) {
     let draft = steps.now();
     let fault = steps.fault();
     if let Some(fault) = fault.filter(|fault| fault.place.is_none()) {
-        complaint(ui, &fault.words);
+        complaint(ui, &fault.message);
     }
     for group in groups(draft.kind()) {
         let is_faulty =
@@ -38,7 +38,7 @@ pub(crate) fn show(ui: &mut Ui, steps: &Steps, wishes: &mut Wishes) {
             for parameter in &group.parameters {
                 show_parameter(ui, steps, parameter, wishes);
                 if let Some(fault) = fault.filter(|fault| fault.place == Some(parameter.place)) {
-                    complaint(ui, &fault.words);
+                    complaint(ui, &fault.message);
                 }
             }
         });

@@ -21,7 +21,7 @@ use selvedge_foundation::progress::Progress;
 /// Windows that synthesized cloth holds, along and across, at least.
 const N_WINDOWS: f64 = 1.5;
 /// Samples a side of synthesized cloth at most.
-const MOST_SIDE: f64 = 1024.0;
+const MAX_SIDE: f64 = 1024.0;
 /// How much further across than needed a better seam is looked for.
 const LOOK_FURTHER: isize = 12;
 
@@ -82,12 +82,12 @@ fn upright(values: &Grid<f64>) -> Grid<f64> {
 /// Cloth along p1, whole periods wide, as high as closes best.
 fn synthesized(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
     let basis = tile.basis();
-    let least_px = N_WINDOWS * WINDOW_LENGTH_MM * px_per_mm.max(1.0);
+    let min_px = N_WINDOWS * WINDOW_LENGTH_MM * px_per_mm.max(1.0);
     let period = length(basis.p1);
-    let width_px = (least_px / period).ceil() * period;
-    let (height_px, seam_px) = best_height(&basis, least_px);
+    let width_px = (min_px / period).ceil() * period;
+    let (height_px, seam_px) = best_height(&basis, min_px);
     let angle_rad = basis.p1[1].atan2(basis.p1[0]);
-    let step_px = (width_px.max(height_px) / MOST_SIDE).max(1.0);
+    let step_px = (width_px.max(height_px) / MAX_SIDE).max(1.0);
     let n = [width_px, height_px].map(|side| whole(side / step_px).max(1).cast_unsigned());
     let patch = tile.patch(n[0], n[1], step_px, angle_rad, n_threads);
     Brightness {
@@ -99,10 +99,10 @@ fn synthesized(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
 }
 
 /// Height of a patch, and how far its upper edge is from continuing its lower one, px.
-fn best_height(basis: &Basis, least_px: f64) -> (f64, f64) {
+fn best_height(basis: &Basis, min_px: f64) -> (f64, f64) {
     let period = length(basis.p1);
     let (rise, lean) = (basis.area() / period, dot(basis.p1, basis.p2) / period);
-    let first = whole((least_px / rise).ceil()).max(1);
+    let first = whole((min_px / rise).ceil()).max(1);
     let candidates = (first..=first + LOOK_FURTHER).map(|n| {
         let n = n as f64;
         let turns = n * lean / period;
@@ -312,9 +312,9 @@ mod tests {
             panic!("{:?} at {:?}", cut.extent, tile.basis());
         };
         assert!(seam_px < 2.5, "seam {seam_px}");
-        let least_px = N_WINDOWS * WINDOW_LENGTH_MM * 8.0;
+        let min_px = N_WINDOWS * WINDOW_LENGTH_MM * 8.0;
         assert!(
-            cut.size_px.iter().all(|side| *side > 0.95 * least_px),
+            cut.size_px.iter().all(|side| *side > 0.95 * min_px),
             "{:?}",
             cut.size_px
         );

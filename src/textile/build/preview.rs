@@ -14,7 +14,7 @@ const PICTURE_STEP_MM: f64 = 0.05;
 
 /// What becomes of a recipe: the same surface that the built textile has when it is loaded.
 #[derive(Debug, Clone)]
-pub struct Trial {
+pub struct RecipePreview {
     /// Profiles and local spectra, noise floor taken off.
     pub surface: Arc<Surface>,
     /// The heights over an area: a cloth's relief, or a patch of a surface that was drawn.
@@ -23,7 +23,7 @@ pub struct Trial {
     pub measured: Vec<(&'static str, f64)>,
 }
 
-impl Trial {
+impl RecipePreview {
     /// Makes the surface of a recipe; takes a second or so.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ mod tests {
     fn a_trial_has_the_surface_of_the_textile_that_is_built_from_its_recipe() {
         for kind in ["weave", "fourier", "restoration"] {
             let recipe = example(kind).unwrap();
-            let trial = unheard(|progress| Trial::of(&recipe, progress)).unwrap();
+            let trial = unheard(|progress| RecipePreview::of(&recipe, progress)).unwrap();
             let files = build(&recipe, Path::new("recipe")).unwrap();
             let store = Store::Built(Arc::new(files), Path::new("here").to_owned());
             let textile = Textile::load(&store, "built").unwrap();
@@ -98,12 +98,12 @@ mod tests {
         let flag = CancelFlag::new();
         flag.cancel();
         let mut heard = |_: f64, _: &str| {};
-        let stopped = Trial::of(&recipe, &mut Progress::new(&mut heard, flag));
+        let stopped = RecipePreview::of(&recipe, &mut Progress::new(&mut heard, flag));
         assert!(matches!(stopped, Err(TextileError::Cancelled(_))));
         let text = "name = \"a\"\nconstruction = \"other\"\nfibre = \"b\"\n[source]\n\
                     kind = \"profiles\"\nwarp_forward = \"a.csv\"\n";
         let measured = Manifest::from_toml(text, Path::new("a")).unwrap();
-        let refused = unheard(|progress| Trial::of(&measured, progress)).unwrap_err();
+        let refused = unheard(|progress| RecipePreview::of(&measured, progress)).unwrap_err();
         assert!(refused.to_string().contains("is not a recipe"), "{refused}");
     }
 }

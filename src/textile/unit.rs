@@ -1,4 +1,4 @@
-//! Units of length, as measurement files spell them.
+//! Units as measurement files spell them: lengths, and what else a column may hold.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,7 +62,7 @@ impl LengthUnit {
     }
 
     /// The last unit among the words of a column's heading, such as `height_um` or `X [mm]`.
-    pub(super) fn in_heading(heading: &str) -> Option<Self> {
+    pub(crate) fn in_heading(heading: &str) -> Option<Self> {
         let is_break = |c: char| !c.is_alphanumeric() && !"µμ".contains(c);
         let words = heading.rsplit(is_break).filter(|word| *word != "A");
         words.filter(|word| !word.is_empty()).find_map(Self::of)
@@ -91,6 +91,45 @@ impl LengthUnit {
             Self::Nanometre => "nm",
             Self::Picometre => "pm",
             Self::Angstrom => "angstrom",
+        }
+    }
+}
+
+/// The unit of a column: a length, or what else a tester records. Places take lengths alone;
+/// heights take a voltage too, with a sensitivity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// A length.
+    Length(LengthUnit),
+    /// V
+    Volt,
+    /// mV
+    Millivolt,
+    /// s
+    Second,
+    /// A unit of something else.
+    Other,
+}
+
+impl Unit {
+    /// The length, if it is one.
+    pub(crate) fn length(self) -> Option<LengthUnit> {
+        match self {
+            Self::Length(unit) => Some(unit),
+            _ => None,
+        }
+    }
+
+    /// How people write it; empty for a unit of something else.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            Self::Length(LengthUnit::Micrometre) => "µm",
+            Self::Length(LengthUnit::Angstrom) => "Å",
+            Self::Length(unit) => unit.word(),
+            Self::Volt => "V",
+            Self::Millivolt => "mV",
+            Self::Second => "s",
+            Self::Other => "",
         }
     }
 }

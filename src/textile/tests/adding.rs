@@ -19,7 +19,7 @@ fn brownian(hurst: f64) -> Vec<BuiltFile> {
 
 fn keep(library: &Library, name: &str, to: &std::path::Path) -> (Library, Vec<String>) {
     let new = [(name.to_owned(), brownian(0.5))];
-    unheard(|progress| library.keep(&new, to, 2, progress)).unwrap()
+    unheard(|progress| library.add(&new, to, 2, progress)).unwrap()
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn what_is_no_textile_is_refused_before_anything_is_written() {
     let broken = [("x".to_owned(), files)];
     let unnamed = [("– ,".to_owned(), brownian(0.5))];
     for new in [&broken, &unnamed] {
-        let refused = unheard(|progress| shipped.keep(new, &to, 1, progress));
+        let refused = unheard(|progress| shipped.add(new, &to, 1, progress));
         let words = refused.unwrap_err().to_string();
         assert!(!words.is_empty() && !words.contains('\n'), "{words}");
     }
