@@ -2,15 +2,13 @@
 
 use super::frame::Frame;
 use super::legend::{self, LINE_PX};
-use super::look::{INK, Inks, looks};
-use super::marks::{hairline, haloed, text, upward_text};
+use super::look::{Inks, looks};
+use super::marks::{hairline, text, upward_text};
 use super::raster::{Placed, hex};
 use super::svg::{MARGIN_PX, WIDTH_PX, opening, paper};
 use super::text::{escaped, wrapped};
 use super::ticks::Ruler;
-use super::{
-    At, ColourBar, Extent, Figure, FigureError, Ink, Panel, Paper, Row, Rule, Tone, Upright, Words,
-};
+use super::{Chart, ColourBar, Figure, FigureError, Paper, Row, Upright};
 
 /// Above the first row: the title.
 const TITLE_PX: f64 = 40.0;
@@ -30,14 +28,12 @@ const RIGHT_PX: f64 = 24.0;
 const NOTE_CHARACTERS: usize = 140;
 /// The colour bar with its labels and its title.
 const BAR_PX: f64 = 84.0;
-/// What the name of a dot takes, about, px.
-const NAME_PX: [f64; 2] = [96.0, 13.0];
 /// The bar itself.
 const BAR_WIDTH_PX: f64 = 12.0;
 
 /// A panel and its frame.
 struct Laid<'a> {
-    panel: &'a Panel,
+    panel: &'a Chart,
     frame: Frame,
 }
 
@@ -147,7 +143,7 @@ impl<'a> Page<'a> {
 
 /// What stands above the frames of a row, px.
 fn head_px(row: &Row) -> f64 {
-    let is_named = |panel: &Panel| {
+    let is_named = |panel: &Chart| {
         let has_legend = panel.series.iter().any(|series| !series.name.is_empty());
         !panel.title.is_empty() || has_legend
     };
@@ -161,11 +157,11 @@ fn foot_px(row: &Row) -> f64 {
 
 impl<'a> LaidRow<'a> {
     fn of(row: &'a Row, top_px: f64, inks: &'static Inks) -> Self {
-        let before_px = |(index, panel): (usize, &Panel)| match panel.upright {
+        let before_px = |(index, panel): (usize, &Chart)| match panel.upright {
             Upright::Shared => SHARED_PX,
             Upright::Upward | Upright::Downward => LABELS_PX[index.min(1)],
         };
-        let share = |panel: &Panel| if panel.width > 0.0 { panel.width } else { 1.0 };
+        let share = |panel: &Chart| if panel.width > 0.0 { panel.width } else { 1.0 };
         let bar_px = if row.bar.is_some() { BAR_PX } else { 0.0 };
         let taken_px: f64 = row.panels.iter().enumerate().map(before_px).sum();
         let shares: f64 = row.panels.iter().map(share).sum();
@@ -231,14 +227,11 @@ fn draw_gradient(bar: &ColourBar, index: usize, frame: &Frame, body: &mut Vec<St
 }
 
 impl<'a> Laid<'a> {
-    fn of(panel: &'a Panel, corner_px: [f64; 2], size_px: [f64; 2], inks: &'static Inks) -> Self {
-        let values = |axis: usize| {
-            let points = panel.series.iter().flat_map(|series| &series.points);
-            points.map(move |point| point[axis])
-        };
+    fn of(panel: &'a Chart, corner_px: [f64; 2], size_px: [f64; 2], inks: &'static Inks) -> Self {
+        let [x, y] = panel.rulers();
         let frame = Frame {
-            x: Ruler::of(&panel.x, values(0)),
-            y: Ruler::of(&panel.y, values(1)),
+            x,
+            y,
             corner_px,
             size_px,
             is_downward: panel.upright == Upright::Downward,
@@ -267,8 +260,9 @@ impl<'a> Laid<'a> {
             }
             None => frame.draw_hairlines(body),
         }
+        frame.draw_areas(panel, clip, body);
         for rule in &panel.rules {
-            self.draw_rule(rule, body);
+            frame.draw_rule(rule, body);
         }
         let looks = looks(&panel.series, frame.inks);
         for (series, look) in panel.series.iter().zip(&looks) {
@@ -277,7 +271,7 @@ impl<'a> Laid<'a> {
         }
         frame.draw_edge(body);
         self.draw_axes(body);
-        self.draw_words(body);
+        frame.draw_words(panel, body);
         let [left_px, top_px] = frame.corner_px;
         let head = ("start", 12, panel.ink.letters(frame.inks));
         text(body, [left_px, top_px - 9.0], head, &panel.title);
@@ -300,96 +294,4 @@ impl<'a> Laid<'a> {
             upward_text(body, at, frame.inks.ink, &y_title);
         }
     }
-
-    fn draw_rule(&self, rule: &Rule, body: &mut Vec<String>) {
-        let frame = &self.frame;
-        let [left_px, top_px] = frame.corner_px;
-        let (right_px, bottom_px) = (frame.right_px(), frame.bottom_px());
-        let is_edge = rule.extent == Extent::Edge;
-        let (start, end, label) = match rule.at {
-            At::X(value) => {
-                let Some(x) = frame.x_px(value) else { return };
-                let end_px = if is_edge { top_px - 5.0 } else { bottom_px };
-                let is_crowded = x > right_px - 48.0;
-                let label = if is_crowded {
-                    ([x - 4.0, top_px + 14.0], "end")
-                } else {
-                    ([x + 4.0, top_px + 14.0], "start")
-                };
-                ([x, top_px], [x, end_px], label)
-            }
-            At::Y(value) => {
-                let Some(y) = frame.y_px(value) else { return };
-                let end_px = if is_edge { right_px + 5.0 } else { left_px };
-                (
-                    [right_px, y],
-                    [end_px, y],
-                    ([right_px - 6.0, y - 5.0], "end"),
-                )
-            }
-        };
-        if !frame.has(start) {
-            return;
-        }
-        body.push(line_of(rule, start, end, frame.inks));
-        let (at, anchor) = label;
-        text(
-            body,
-            at,
-            (anchor, 11, rule.ink.letters(frame.inks)),
-            &rule.label,
-        );
-    }
-
-    /// Words at their places; the names of dots below one another where they would touch.
-    fn draw_words(&self, body: &mut Vec<String>) {
-        let mut taken: Vec<[f64; 2]> = Vec::new();
-        let inks = self.frame.inks;
-        // The colours of a raster do not follow the paper.
-        let dark = if self.panel.raster.is_some() {
-            INK
-        } else {
-            inks.ink
-        };
-        for Words {
-            at,
-            text: words,
-            tone,
-        } in &self.panel.words
-        {
-            let Some([x, y]) = self.frame.place(*at) else {
-                continue;
-            };
-            match tone {
-                Tone::Dark => text(body, [x, y + 4.0], ("middle", 11, dark), words),
-                Tone::Light => text(body, [x, y + 4.0], ("middle", 11, "#ffffff"), words),
-                Tone::Aside => {
-                    let mut at = [x + 8.0, y + 14.0];
-                    let touches = |at: &[f64; 2], [x, y]: &[f64; 2]| {
-                        (at[0] - x).abs() < NAME_PX[0] && (at[1] - y).abs() < NAME_PX[1]
-                    };
-                    while taken.iter().any(|other| touches(&at, other)) {
-                        at[1] += NAME_PX[1];
-                    }
-                    taken.push(at);
-                    haloed(body, at, inks, words);
-                }
-            }
-        }
-    }
-}
-
-fn line_of(rule: &Rule, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2], inks: &Inks) -> String {
-    let dashes = match (rule.extent, rule.ink) {
-        // Two rules may coincide: each fills the other's gaps.
-        (Extent::Dashed, Ink::Cyan) => " stroke-dasharray=\"8 8\" stroke-dashoffset=\"8\"",
-        (Extent::Dashed, _) => " stroke-dasharray=\"8 8\"",
-        (Extent::Across | Extent::Edge, _) => "",
-    };
-    let width = if rule.extent == Extent::Edge { 2 } else { 1 };
-    let colour = rule.ink.colour(inks).unwrap_or(inks.grey);
-    format!(
-        "<path d=\"M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}\" stroke=\"{colour}\" \
-         stroke-width=\"{width}\"{dashes}/>\n"
-    )
 }

@@ -1,10 +1,10 @@
 //! The frame that values are drawn in: two rulers on a rectangle, its grid, labels and series.
 
 use super::label::Labels;
-use super::look::{Inks, Look};
+use super::look::{FILL, Inks, Look};
 use super::marks::{draw_dot, hairline, text};
 use super::ticks::Ruler;
-use super::{Series, Style};
+use super::{Band, Bars, Chart, Series, Style};
 
 /// What a character of a tick's label takes, about, px.
 const CHARACTER_PX: f64 = 6.0;
@@ -139,6 +139,39 @@ impl Frame {
         title
     }
 
+    /// Draws the areas and bars of a chart, cut off at the clip path of this name.
+    pub(super) fn draw_areas(&self, chart: &Chart, clip: &str, body: &mut Vec<String>) {
+        for Band { points, ink, .. } in &chart.bands {
+            let edge = |at: usize| {
+                let edge = points
+                    .iter()
+                    .filter(|point| point[1..].iter().all(|y| y.is_finite()));
+                let places = edge.filter_map(move |point| self.place([point[0], point[at]]));
+                places.collect::<Vec<_>>()
+            };
+            let upper = edge(2).into_iter().rev();
+            let corners: Vec<_> = edge(1).into_iter().chain(upper).collect();
+            self.fill(&corners, ink.colour(self.inks), clip, body);
+        }
+        for Bars { bins, ink, .. } in &chart.bars {
+            for &[from, to, height] in bins.iter().filter(|bin| bin[2] > 0.0) {
+                let places = [[from, 0.0], [from, height], [to, height], [to, 0.0]];
+                let corners: Vec<_> = places.into_iter().filter_map(|at| self.place(at)).collect();
+                self.fill(&corners, ink.colour(self.inks), clip, body);
+            }
+        }
+    }
+
+    fn fill(&self, corners: &[[f64; 2]], colour: Option<&str>, clip: &str, body: &mut Vec<String>) {
+        let corner = |[x, y]: &[f64; 2]| format!("{x:.2},{y:.2}");
+        let corners: Vec<String> = corners.iter().map(corner).collect();
+        let (corners, colour) = (corners.join(" "), colour.unwrap_or(self.inks.grey));
+        body.push(format!(
+            "<polygon points=\"{corners}\" fill=\"{colour}\" fill-opacity=\"{FILL}\" \
+             clip-path=\"url(#{clip})\"/>\n"
+        ));
+    }
+
     /// Draws a series, cut off at the clip path of this name, and tells how many of its points it
     /// left out.
     pub(super) fn draw_series(
@@ -152,9 +185,8 @@ impl Frame {
         if series.style == Style::Stems {
             self.draw_stems(&places.clone().collect::<Vec<_>>(), look, clip, body);
         } else if series.style != Style::Dots {
-            let is_dashed = series.style == Style::Dashed;
             let places: Vec<_> = places.clone().collect();
-            draw_line(&places, is_dashed, look, clip, body);
+            draw_line(&places, series, look, clip, body);
         }
         let has_dots = matches!(series.style, Style::Dots | Style::LineAndDots);
         let mut n_left_out = 0;
@@ -195,7 +227,7 @@ impl Frame {
 /// A line through the places in their order, broken where there is none.
 fn draw_line(
     places: &[Option<[f64; 2]>],
-    is_dashed: bool,
+    series: &Series,
     look: Look,
     clip: &str,
     body: &mut Vec<String>,
@@ -207,12 +239,15 @@ fn draw_line(
         place.map(|[x, y]| format!("{command}{x:.2} {y:.2}"))
     };
     let path: String = places.iter().filter_map(&mut step).collect();
-    let dashes = if is_dashed {
-        " stroke-dasharray=\"6 4\""
-    } else {
-        ""
-    };
-    push_path(body, &path, look, dashes, clip);
+    let mut manner = String::new();
+    if series.style == Style::Dashed {
+        manner += " stroke-dasharray=\"6 4\"";
+    }
+    if series.faintness > 0.0 {
+        let opacity = 1.0 - series.faintness;
+        manner.extend([" stroke-opacity=\"", &format!("{opacity:.2}"), "\""]);
+    }
+    push_path(body, &path, look, &manner, clip);
 }
 
 fn push_path(body: &mut Vec<String>, path: &str, look: Look, dashes: &str, clip: &str) {

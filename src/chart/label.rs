@@ -21,6 +21,43 @@ const PREFIXES: [(f64, &str); 9] = [
     (1e9, "G"),
 ];
 
+impl Ruler {
+    /// Its labels with their values, and the title of an axis of this name, which loses its unit
+    /// where the labels have it.
+    pub fn labels(&self, label: &str) -> (Vec<(f64, String)>, String) {
+        let Labels { title, ticks } = Labels::of(self, label);
+        (self.labelled.iter().copied().zip(ticks).collect(), title)
+    }
+
+    /// A value as it is read off an axis of this name: with its unit, finer than the labels.
+    pub fn reading(&self, label: &str, value: f64) -> String {
+        if !value.is_finite() {
+            return "–".to_owned();
+        }
+        let (_, unit) = label.rsplit_once(", ").unwrap_or((label, ""));
+        let largest = match self.scale() {
+            Scale::Log => value.abs(),
+            Scale::Linear | Scale::Whole => self.ends()[0].abs().max(self.ends()[1].abs()),
+        };
+        let fits = |(factor, _): &&(f64, &str)| largest >= *factor;
+        let prefix = PREFIXES
+            .iter()
+            .rev()
+            .find(fits)
+            .filter(|_| PREFIXED.contains(&unit));
+        let (factor, prefix) = prefix.copied().unwrap_or((1.0, ""));
+        let step = match self.scale() {
+            Scale::Log => 0.01 * (value / factor).abs(),
+            Scale::Linear => 0.01 * (self.ends()[1] - self.ends()[0]) / factor,
+            Scale::Whole => 1.0,
+        };
+        let decimals = if step > 0.0 { decimals_of(step) } else { 0 };
+        with_unit(value / factor, decimals, &format!("{prefix}{unit}"))
+            .trim_end()
+            .to_owned()
+    }
+}
+
 /// What an axis is called and how its ticks are labelled.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {

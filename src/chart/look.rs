@@ -8,6 +8,9 @@ use super::{Ink, Series, Style, Weight};
 /// Nearly black: texts on white, and on whatever is bright.
 pub(super) const INK: &str = "#222222";
 
+/// How opaque areas and bars are.
+pub(super) const FILL: f64 = 0.25;
+
 const AMBER: &str = "#e69f00";
 const CYAN: &str = "#56b4e9";
 

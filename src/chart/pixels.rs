@@ -1,4 +1,4 @@
-//! A plot as pixels: its SVG drawn, with a font that is part of the program.
+//! A chart as pixels: its SVG drawn, with a font that is part of the program.
 //!
 //! The one home of the SVG renderer, so that a picture shows what its SVG says.
 
@@ -10,7 +10,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 use super::compose::Page;
 use super::raster::Placed;
 use super::svg::{WIDTH_PX, paper};
-use super::{Figure, Paper, Plot, Raster};
+use super::{Chart, Figure, Paper, Raster};
 
 /// A picture of red, green, blue and alpha, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,8 +34,8 @@ pub enum FigureError {
     Drawing(String),
 }
 
-impl Plot {
-    /// The picture of [`Plot::to_svg`], `width` pixels wide.
+impl Chart {
+    /// The picture of [`Chart::to_svg`], `width` pixels wide.
     ///
     /// # Errors
     /// A width below 64 or above 8192.

@@ -1,14 +1,13 @@
-//! A plot as SVG text: frame, grid, series, legend, footnote.
+//! A chart of its own as SVG text: frame, grid, series, legend, footnote.
 //!
 //! Nothing but rectangles, paths and text, so that every viewer draws it alike.
 
-use super::Plot;
+use super::Chart;
 use super::frame::Frame;
 use super::legend::{self, LINE_PX};
 use super::look::{Inks, Paper, looks};
 use super::marks::text;
 use super::text::{escaped, wrapped};
-use super::ticks::Ruler;
 
 /// Width of every figure, px.
 pub(super) const WIDTH_PX: f64 = 860.0;
@@ -22,18 +21,15 @@ pub(super) const MARGIN_PX: f64 = 20.0;
 /// Characters of a footnote that fit in a line.
 const FOOTNOTE_CHARACTERS: usize = 130;
 
-impl Plot {
-    /// The picture as SVG text. The same plot gives the same bytes.
+impl Chart {
+    /// The picture as SVG text, without a raster, which only figures have. The same chart gives the same bytes.
     pub fn to_svg(&self) -> String {
         let inks = Paper::White.inks();
         let legend_px = legend::width_px(&self.series);
-        let values = |axis: usize| {
-            let points = self.series.iter().flat_map(|series| &series.points);
-            points.map(move |point| point[axis])
-        };
+        let [x, y] = self.rulers();
         let frame = Frame {
-            x: Ruler::of(&self.x, values(0)),
-            y: Ruler::of(&self.y, values(1)),
+            x,
+            y,
             corner_px: [LEFT_PX, TOP_PX],
             size_px: [WIDTH_PX - LEFT_PX - MARGIN_PX - legend_px, FRAME_HEIGHT_PX],
             is_downward: false,
@@ -42,10 +38,15 @@ impl Plot {
         let looks = looks(&self.series, inks);
         let mut body = Vec::new();
         self.draw_axes(&frame, &mut body);
+        frame.draw_areas(self, "frame", &mut body);
+        for rule in &self.rules {
+            frame.draw_rule(rule, &mut body);
+        }
         let mut n_left_out = 0;
         for (series, look) in self.series.iter().zip(&looks) {
             n_left_out += frame.draw_series(series, *look, "frame", &mut body);
         }
+        frame.draw_words(self, &mut body);
         let legend_at = [frame.right_px() + MARGIN_PX, TOP_PX + 8.0];
         let legend_height_px = legend::draw(&self.series, (&looks, inks), legend_at, &mut body);
         let below_px = TOP_PX + (FRAME_HEIGHT_PX + BELOW_PX).max(legend_height_px + MARGIN_PX);

@@ -2,7 +2,7 @@
 
 use super::*;
 
-fn sample() -> Plot {
+fn sample() -> Chart {
     let line = |name: &str, points: &[[f64; 2]], style| Series {
         name: name.to_owned(),
         points: points.to_vec(),
@@ -11,7 +11,7 @@ fn sample() -> Plot {
     };
     let mut table = line("table", &[[2e-7, 0.04], [4e-7, 0.005]], Style::LineAndDots);
     table.marked = vec![0];
-    Plot {
+    Chart {
         title: "Rendering: level error against time a tick".to_owned(),
         x: Axis::log("CPU time a tick, s"),
         y: Axis::log("level error, dB"),
@@ -21,6 +21,7 @@ fn sample() -> Plot {
             line("promised", &[[2e-7, 0.05], [9e-6, 0.05]], Style::Dashed),
         ],
         footnote: "Seed 1.".to_owned(),
+        ..Chart::default()
     }
 }
 
@@ -98,12 +99,12 @@ fn empty_and_senseless_plots_are_still_figures() {
         marked: vec![0, 99],
         ..Series::default()
     };
-    let senseless = Plot {
+    let senseless = Chart {
         title: "a < b & \"c\"".to_owned(),
         series: vec![nan],
-        ..Plot::default()
+        ..Chart::default()
     };
-    for plot in [Plot::default(), senseless] {
+    for plot in [Chart::default(), senseless] {
         let svg = plot.to_svg();
         assert!(!svg.contains("NaN") && !svg.contains("<script"), "{svg}");
         let pixels = plot.to_pixels(300).unwrap();

@@ -8,6 +8,10 @@ const LARGEST: f64 = 1e300;
 const DECADES_WITH_ALL_LABELS: f64 = 3.0;
 /// Up to this many decades each decade has a label.
 const DECADES_WITH_LABELS: f64 = 10.0;
+/// A view of a logarithmic axis with less than this many decades has even steps.
+const LEAST_DECADES: f64 = 0.7;
+/// What 1, 2 and 5 take of the room for labels in every decade of a view.
+const LABELS_A_DECADE: f64 = 3.4;
 /// Steps that a linear axis is divided into, about.
 const N_STEPS: f64 = 5.0;
 /// The same where every whole number ought to have a label.
@@ -15,7 +19,7 @@ const N_WHOLE_STEPS: f64 = 12.0;
 
 /// An axis with its ends and ticks.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Ruler {
+pub struct Ruler {
     scale: Scale,
     /// The ends, as values.
     ends: [f64; 2],
@@ -30,7 +34,7 @@ pub(super) struct Ruler {
 impl Ruler {
     /// The ruler of an axis on which these values are to be seen.
     pub(super) fn of(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
-        let has_place = |&value: &f64| position(axis.scale, value).is_some();
+        let has_place = |&value: &f64| axis.scale.place(value).is_some();
         let given = axis.range.filter(|[low, high]| {
             has_place(low) && has_place(high) && low < high && high.abs() <= LARGEST
         });
@@ -53,22 +57,92 @@ impl Ruler {
     /// How far along the axis a value stands, 0 at its low end and 1 at its high one; `None` where
     /// it has no place.
     pub(super) fn share(&self, value: f64) -> Option<f64> {
-        let at = position(self.scale, value)?;
-        let [low, high] = self
-            .ends
-            .map(|end| position(self.scale, end).unwrap_or(0.0));
+        let at = self.scale.place(value)?;
+        let [low, high] = self.ends.map(|end| self.scale.place(end).unwrap_or(0.0));
         let share = (at - low) / (high - low);
         share.is_finite().then_some(share)
     }
 
     /// The ends, as values.
-    pub(super) fn ends(&self) -> [f64; 2] {
+    pub fn ends(&self) -> [f64; 2] {
         self.ends
     }
 
     /// How its values are laid.
-    pub(super) fn scale(&self) -> Scale {
+    pub fn scale(&self) -> Scale {
         self.scale
+    }
+
+    /// The ruler of a part of an axis with room for about so many labels: 1, 2, 5 of each decade,
+    /// or whole decades, or every second decade …, on a logarithmic axis; even steps on an even
+    /// one, and where a logarithmic one shows less than a decade.
+    pub fn in_view(scale: Scale, ends: [f64; 2], room: f64) -> Self {
+        let room = room.clamp(2.0, 40.0);
+        let decades = (ends[1] / ends[0]).log10();
+        if scale == Scale::Log && decades >= LEAST_DECADES {
+            let ruler = Self::log_in_view(ends, decades, room);
+            if ruler.labelled.len() > 1 {
+                return ruler;
+            }
+        }
+        let finer = (0..5).map(|i| room * 1.6_f64.powi(i));
+        let mut rulers = finer.map(|room| Self::even_in_view(scale, ends, room));
+        let coarsest = rulers
+            .next()
+            .unwrap_or_else(|| Self::even(scale, None, ends));
+        if coarsest.labelled.len() > 1 || scale == Scale::Whole {
+            return coarsest;
+        }
+        let found = rulers.find(|ruler| ruler.labelled.len() > 1);
+        found.unwrap_or(coarsest)
+    }
+
+    fn log_in_view(ends: [f64; 2], decades: f64, room: f64) -> Self {
+        let steps = steps_within(ends);
+        let labelled = if LABELS_A_DECADE * decades <= room {
+            steps
+        } else {
+            let stride = (decades / room).ceil().max(1.0);
+            let is_in_stride = |value: &f64| {
+                is_power_of_ten(*value) && f64::from(decade_of(*value)).rem_euclid(stride) < 0.5
+            };
+            steps.into_iter().filter(is_in_stride).collect()
+        };
+        Self {
+            scale: Scale::Log,
+            ends,
+            hairlines: labelled.clone(),
+            labelled,
+            step: 0.0,
+        }
+    }
+
+    fn even_in_view(scale: Scale, ends: [f64; 2], room: f64) -> Self {
+        let step = step_near((ends[1] - ends[0]) / room);
+        let step = if scale == Scale::Whole {
+            step.max(1.0)
+        } else {
+            step
+        };
+        let (first, last) = (ends[0] / step - 1e-9, ends[1] / step + 1e-9);
+        Self::stepped(scale, ends, step, [first.ceil(), last.floor()])
+    }
+
+    /// Labels from the first to the last multiple of a step.
+    fn stepped(scale: Scale, ends: [f64; 2], step: f64, [first, last]: [f64; 2]) -> Self {
+        let mut labelled = Vec::new();
+        let mut at = first;
+        while at <= last && labelled.len() < 100 {
+            labelled.push(at * step);
+            at += 1.0;
+        }
+        Self {
+            scale,
+            ends,
+            hairlines: labelled.clone(),
+            labelled,
+            step,
+        }
     }
 
     fn log(given: Option<[f64; 2]>, [least, most]: [f64; 2]) -> Self {
@@ -118,28 +192,7 @@ impl Ruler {
             ends = [low.floor() * step, high.ceil() * step];
             (low.floor(), high.ceil())
         };
-        let mut labelled = Vec::new();
-        let mut at = first;
-        while at <= last && labelled.len() < 100 {
-            labelled.push(at * step);
-            at += 1.0;
-        }
-        Self {
-            scale,
-            ends,
-            hairlines: labelled.clone(),
-            labelled,
-            step,
-        }
-    }
-}
-
-/// Where a value stands before it is scaled to the axis.
-fn position(scale: Scale, value: f64) -> Option<f64> {
-    match scale {
-        _ if !value.is_finite() => None,
-        Scale::Linear | Scale::Whole => Some(value),
-        Scale::Log => (value >= f64::MIN_POSITIVE).then(|| value.log10()),
+        Self::stepped(scale, ends, step, [first, last])
     }
 }
 

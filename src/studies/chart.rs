@@ -3,13 +3,13 @@
 use super::pareto::error_and_cost;
 use super::readable;
 use super::{Findings, Row, Study, pareto};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 
 /// More promises than this are not drawn.
 const MOST_PROMISES: usize = 4;
 
 /// The plot of error against run time; `None` where no row has both.
-pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Option<Plot> {
+pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Option<Chart> {
     let on_front = pareto(&findings.rows);
     let mut series: Vec<Series> = Vec::new();
     let (mut soonest_s, mut latest_s) = (f64::INFINITY, 0.0_f64);
@@ -46,7 +46,7 @@ pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Opti
     } else {
         format!("{measure}, {unit}")
     };
-    Some(Plot {
+    Some(Chart {
         title: format!("{}: {measure} against run time", titled(study.name())),
         x: Axis::log(format!("CPU time a {}, s", study.cost_of())),
         y: Axis::log(y_label),
@@ -56,6 +56,7 @@ pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Opti
              exactly 0 has no place. Numbers: {}.csv.",
             study.name()
         ),
+        ..Chart::default()
     })
 }
 

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_device::ArrayProfile;
 use selvedge_engine::{ClipKind, ClipWriter, EngineError};
 use selvedge_foundation::numerics::{median, quantile};
@@ -212,13 +212,14 @@ fn note(file: &File, [first_s, middle_s, last_s]: &Rounds) -> String {
     )
 }
 
-fn plot(series: Vec<Series>) -> Plot {
-    Plot {
+fn plot(series: Vec<Series>) -> Chart {
+    Chart {
         title: "Cost of writing a clip over its length".to_owned(),
         x: Axis::log("length, s"),
         y: Axis::log("CPU time, s"),
         series,
         footnote: String::new(),
+        ..Chart::default()
     }
 }
 

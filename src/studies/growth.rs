@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::rendering::cloths::{self, WIDTH_MM, exeter, placed, scene_of};
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::geometry::{Displacement, Point, Velocity};
 use selvedge_foundation::quantity;
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
@@ -245,7 +245,7 @@ pub(super) fn exponent(points: &[[f64; 2]]) -> Option<f64> {
     (squares > 0.0).then(|| products / squares)
 }
 
-fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
+fn plot(grown: Grown, mut series: Vec<Series>) -> Chart {
     let first = series
         .last()
         .and_then(|series| series.points.first().copied());
@@ -260,12 +260,13 @@ fn plot(grown: Grown, mut series: Vec<Series>) -> Plot {
             ..Series::default()
         });
     }
-    Plot {
+    Chart {
         title: format!("Cost of a second of exploration over {}", grown.name()),
         x: Axis::log(grown.name()),
         y: Axis::log("CPU time for a second, s"),
         series,
         footnote: String::new(),
+        ..Chart::default()
     }
 }
 

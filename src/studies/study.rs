@@ -2,7 +2,7 @@
 //! it finds: rows of error and cost, plots, and sentences.
 
 use super::{Bench, ReportError, Timing};
-use selvedge_chart::Plot;
+use selvedge_chart::Chart;
 
 /// A question about error against run time, or about what holds in extreme cases.
 pub trait Study: Send + Sync {
@@ -39,7 +39,7 @@ pub struct Findings {
     /// One row a method, setting and case.
     pub rows: Vec<Row>,
     /// Plots beside that of error against cost, with the names of their files.
-    pub plots: Vec<(String, Plot)>,
+    pub plots: Vec<(String, Chart)>,
     /// What a reader should know, a sentence each.
     pub notes: Vec<String>,
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::pareto::tests::row;
 use super::*;
-use selvedge_chart::{Plot, Series};
+use selvedge_chart::{Chart, Series};
 use selvedge_foundation::files::Table;
 use selvedge_foundation::progress::{CancelFlag, unheard};
 use selvedge_scratch::ScratchFolder;
@@ -91,9 +91,9 @@ fn one_is_wrong(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         ],
         plots: vec![(
             "further".to_owned(),
-            Plot {
+            Chart {
                 series: vec![Series::default()],
-                ..Plot::default()
+                ..Chart::default()
             },
         )],
         notes: vec!["A note.".to_owned()],

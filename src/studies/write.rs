@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::chart::error_against_time;
 use super::{Findings, ReportError, Row, Study, pareto};
-use selvedge_chart::Plot;
+use selvedge_chart::Chart;
 use selvedge_foundation::files::{TableWriter, encode_png_rgba, write_atomic};
 
 /// Pixels across a PNG.
@@ -32,7 +32,7 @@ pub(super) fn findings(
 }
 
 /// Every plot of a study with the name of its files: error against run time first.
-pub(super) fn plots(study: &dyn Study, findings: &Findings) -> Vec<(String, Plot)> {
+pub(super) fn plots(study: &dyn Study, findings: &Findings) -> Vec<(String, Chart)> {
     let first = error_against_time(study, findings).map(|plot| (study.name().to_owned(), plot));
     let further = findings.plots.iter().map(|(name, plot)| {
         let begins_with_study = name.starts_with(study.name());

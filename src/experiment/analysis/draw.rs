@@ -2,7 +2,7 @@
 
 use super::model::{Cell, Drawn, Table};
 use selvedge_chart::{
-    At, Axis, ColourBar, Extent, Figure, Ink, Panel, Row, Rule, Scale, Series, Style, Tone,
+    At, Axis, Chart, ColourBar, Extent, Figure, Ink, Row, Rule, Scale, Series, Style, Tone,
     Upright, Words,
 };
 
@@ -47,7 +47,7 @@ pub(super) fn bars(
     };
     let series = bar_series(bars, &groups, &place);
     let ends = range.unwrap_or_else(|| span(bars));
-    let panel = Panel {
+    let panel = Chart {
         x: Axis {
             label: label.to_owned(),
             range: Some(ends),
@@ -61,7 +61,7 @@ pub(super) fn bars(
             .map(|(at, label)| dashed(At::X(*at), label))
             .collect(),
         width: 1.0,
-        ..Panel::default()
+        ..Chart::default()
     };
     let height_px = (90.0 + 26.0 * n * (1.0 + 0.3 * (groups.len() as f64 - 1.0))).max(160.0);
     Drawn {
@@ -101,7 +101,7 @@ fn bar_series(bars: &[Bar], groups: &[&str], place: &dyn Fn(&Bar) -> f64) -> Vec
 }
 
 /// A panel with names one under the other, beside a panel with their rows.
-pub(super) fn list(names: &[&str]) -> Panel {
+pub(super) fn list(names: &[&str]) -> Chart {
     let n = names.len() as f64;
     let longest = names
         .iter()
@@ -113,7 +113,7 @@ pub(super) fn list(names: &[&str]) -> Panel {
         text: (*name).to_owned(),
         tone: Tone::Aside,
     });
-    Panel {
+    Chart {
         // No whole number lies between, so that nothing stands below it.
         x: Axis {
             range: Some([0.1, 0.9]),
@@ -124,7 +124,7 @@ pub(super) fn list(names: &[&str]) -> Panel {
         upright: Upright::Shared,
         words: words.collect(),
         width: (0.06 + 0.012 * longest as f64).clamp(0.1, 0.5),
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 
@@ -190,7 +190,7 @@ fn dashed(at: At, label: &str) -> Rule {
 /// Panels side by side under a title.
 pub(super) fn figure(
     title: &str,
-    panels: Vec<Panel>,
+    panels: Vec<Chart>,
     height_px: f64,
     bar: Option<ColourBar>,
 ) -> Figure {
@@ -219,11 +219,11 @@ pub(crate) fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Serie
         }
     }
     let [x, y] = axes;
-    let panel = Panel {
+    let panel = Chart {
         x,
         y,
         series,
-        ..Panel::default()
+        ..Chart::default()
     };
     Drawn {
         key: key.to_owned(),

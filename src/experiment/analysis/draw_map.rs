@@ -3,7 +3,7 @@
 use super::draw::{figure, list};
 use super::model::{Cell, Column, Drawn, Table};
 use selvedge_chart::{
-    Axis, ColourBar, Ink, Panel, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
+    Axis, Chart, ColourBar, Ink, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
 };
 use selvedge_statistics::properties::Ellipse;
 
@@ -63,12 +63,12 @@ impl MapDrawing<'_> {
             range: Some([-reach, reach]),
             ..Axis::default()
         };
-        let panel = Panel {
+        let panel = Chart {
             x: axis(self.axes[0], wide),
             y: axis(self.axes[1], reach),
             series,
             words,
-            ..Panel::default()
+            ..Chart::default()
         };
         let mut figure = figure(title, vec![panel], height_px, None);
         figure.notes = notes;
@@ -177,7 +177,7 @@ pub(super) fn heat(
         .map(|(name, at)| format!("{at} {name}"))
         .collect();
     let numbered: Vec<&str> = numbered.iter().map(String::as_str).collect();
-    let square = Panel {
+    let square = Chart {
         x: Axis {
             label: "as in the list".to_owned(),
             ..of_names()
@@ -189,7 +189,7 @@ pub(super) fn heat(
             cells: values.iter().map(|v| v.map(colour)).collect(),
         }),
         width: 1.0,
-        ..Panel::default()
+        ..Chart::default()
     };
     let bar = ColourBar {
         axis: Axis {

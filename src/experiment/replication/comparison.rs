@@ -5,7 +5,7 @@ use crate::ExperimentError;
 use crate::analysis::Analysis;
 use crate::design::Design;
 use crate::observer::{Observer, Stimuli, Strategy, Weighting};
-use selvedge_chart::{Plot, Series, Style};
+use selvedge_chart::{Chart, Series, Style};
 use selvedge_foundation::numerics::quantile;
 use selvedge_foundation::progress::Progress;
 use selvedge_statistics::{Computed, Summary, mean};
@@ -72,7 +72,7 @@ pub struct Replication {
     /// Number by number.
     pub comparisons: Vec<Comparison>,
     /// What changes with what is assumed, and the names of the files.
-    pub sweeps: Vec<(String, Plot)>,
+    pub sweeps: Vec<(String, Chart)>,
     /// All of it, to be read.
     pub analysis: Analysis,
 }

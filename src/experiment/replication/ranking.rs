@@ -10,7 +10,7 @@ use super::studies::{Studies, Subjects, percent_right};
 use crate::ExperimentError;
 use crate::analysis::{Cell, Section, Table, scatter};
 use crate::observer::{Observer, Strategy, Weighting};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::{Computed, Summary};
@@ -314,7 +314,7 @@ fn table(key: &str, at: &str, swept: &[Swept]) -> Table {
     table
 }
 
-fn looks_plot(swept: &[Swept]) -> (String, Plot) {
+fn looks_plot(swept: &[Swept]) -> (String, Chart) {
     let ends = [1.0, f64::from(LOOKS[LOOKS.len() - 1])];
     let mut series = lines(swept);
     series.extend([
@@ -328,14 +328,14 @@ fn looks_plot(swept: &[Swept]) -> (String, Plot) {
     ]);
     let title = "A virtual target: identification over looks";
     let label = "looks that exploring is worth";
-    let plot = Plot {
+    let plot = Chart {
         x: Axis::log(label),
         ..plot(title, label, series)
     };
     ("looks".to_owned(), plot)
 }
 
-fn errors_plot(swept: &[Swept]) -> (String, Plot) {
+fn errors_plot(swept: &[Swept]) -> (String, Chart) {
     let ends = [0.0, ERRORS_DB[ERRORS_DB.len() - 1]];
     let mut series = lines(swept);
     series.extend([
@@ -347,13 +347,13 @@ fn errors_plot(swept: &[Swept]) -> (String, Plot) {
     ("model-error".to_owned(), plot(title, label, series))
 }
 
-fn plot(title: &str, label: &str, series: Vec<Series>) -> Plot {
-    Plot {
+fn plot(title: &str, label: &str, series: Vec<Series>) -> Chart {
+    Chart {
         title: title.to_owned(),
         x: Axis::linear(label),
         y: Axis::linear("target ranked first, %").within([0.0, 100.0]),
         series,
-        ..Plot::default()
+        ..Chart::default()
     }
 }
 
@@ -373,7 +373,7 @@ fn lines(swept: &[Swept]) -> Vec<Series> {
     names.into_iter().map(line).collect()
 }
 
-fn drawn_of(key: &str, plot: &Plot) -> crate::analysis::Drawn {
+fn drawn_of(key: &str, plot: &Chart) -> crate::analysis::Drawn {
     let axes = [plot.x.clone(), plot.y.clone()];
     scatter(key, &plot.title, axes, plot.series.clone())
 }

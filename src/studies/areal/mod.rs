@@ -11,7 +11,7 @@ use cases::Case;
 
 use super::rendering::cloths::{exeter, placed, poses_between, scene_of};
 use super::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series};
+use selvedge_chart::{Axis, Chart, Series};
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_foundation::quantity::{level_db, with_unit};
@@ -283,13 +283,14 @@ fn number(value: f64) -> String {
     format!("{value:.3}")
 }
 
-fn plot(series: Vec<Series>) -> Plot {
-    Plot {
+fn plot(series: Vec<Series>) -> Chart {
+    Chart {
         title: "One profile a direction beside every point".to_owned(),
         x: Axis::linear("level error of a contactor, dB"),
         y: Axis::linear("share of errors below, %").within([0.0, 100.0]),
         series,
         footnote: "Random places and strokes of 20 to 300 mm/s; the tester's wire of 5 mm."
             .to_owned(),
+        ..Chart::default()
     }
 }

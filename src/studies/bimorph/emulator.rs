@@ -4,7 +4,7 @@
 
 use super::cases::{CARRIERS_HZ, SAMPLE_S, held_response, propagator};
 use crate::{Bench, Findings, Row};
-use selvedge_chart::{Axis, Ink, Plot, Series, Style};
+use selvedge_chart::{Axis, Ink, Chart, Series, Style};
 use selvedge_device::{ActuatorModel, ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 
@@ -87,7 +87,7 @@ fn ticks(time_s: f64) -> u32 {
 }
 
 /// |H(f)| with several loads, and what the exact method makes of it.
-pub(super) fn responses() -> Plot {
+pub(super) fn responses() -> Chart {
     let frequency = |nth: u32| 10.0 * 400.0_f64.powf(f64::from(nth) / 240.0);
     let mut series = Vec::new();
     let mut stepped = Vec::new();
@@ -120,11 +120,12 @@ pub(super) fn responses() -> Plot {
         ink: Ink::Grey,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: "Displacement of the pin for a volt, by load".to_owned(),
         x: Axis::log("frequency, Hz"),
         y: Axis::log("displacement, µm/V"),
         series,
         footnote: "A model of 25 × 1.5 × 0.6 mm from design-sheet values, Q 40.".to_owned(),
+        ..Chart::default()
     }
 }

@@ -3,7 +3,7 @@
 use super::cases::{SAMPLE_S, propagator};
 use crate::Bench;
 use crate::{Findings, Row};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_device::{ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 use selvedge_foundation::quantity::time_span;
@@ -60,8 +60,8 @@ fn line(name: &str, points: Vec<[f64; 2]>) -> Series {
     }
 }
 
-fn plot(series: Vec<Series>) -> Plot {
-    Plot {
+fn plot(series: Vec<Series>) -> Chart {
+    Chart {
         title: "Longest stable step".to_owned(),
         x: Axis::log("stiffness of the skin, N/m"),
         y: Axis::log("step, s"),
@@ -70,6 +70,7 @@ fn plot(series: Vec<Series>) -> Plot {
             "Skin without damping. Steps up to {} were looked at.",
             time_span(STEPS_S[1])
         ),
+        ..Chart::default()
     }
 }
 

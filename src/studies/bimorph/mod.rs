@@ -11,7 +11,7 @@ mod limits;
 
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use cases::{CARRIERS_HZ, Case, SAMPLE_S, Step, held_response, propagator};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_device::{ContactorModel, MAX_QUALITY};
 use selvedge_foundation::numerics::ode::StepMethod;
 
@@ -140,7 +140,7 @@ fn error_of(case: &Case, method: StepMethod, step: &Step) -> Option<f64> {
 }
 
 /// Error against step for the usual contactor and the hardest.
-fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
+fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Chart)> {
     let ends = [("usual", cases.first()), ("hardest", cases.last())];
     let plots = ends.into_iter().filter_map(|(name, case)| {
         let case = case?;
@@ -154,7 +154,7 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
             style: Style::LineAndDots,
             ..Series::default()
         });
-        let plot = Plot {
+        let plot = Chart {
             title: format!("Error against step: {}", case.name),
             x: Axis::log("step, s"),
             y: Axis::log("error of the displacement, of it"),
@@ -162,6 +162,7 @@ fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Plot)> {
             footnote: "The worse of 40 and 320 Hz; no dot where a method grows without end. \
                        Steps above 125 µs hold their input as long as they last."
                 .to_owned(),
+            ..Chart::default()
         };
         Some((format!("bimorph-{name}"), plot))
     });

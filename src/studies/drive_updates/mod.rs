@@ -8,7 +8,7 @@ mod amplitudes;
 mod spectrum;
 mod writer;
 
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_foundation::quantity::with_unit;
 use selvedge_render::RenderError;
@@ -242,19 +242,20 @@ fn decibels(power_ratio: f64) -> f64 {
     10.0 * power_ratio.log10()
 }
 
-fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Plot {
+fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Chart {
     let series = lines.iter().map(|(switching, spectrum)| Series {
         name: [switching.label(), &switching.setting()].join(" "),
         points: spectrum.cells_db(),
         style: Style::Line,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: format!("Spectrum of the drive waveform, {case}"),
         x: Axis::log("frequency, Hz").within([5.0, 20_000.0]),
         y: Axis::linear("level of a twelfth of an octave, dB re the loudest").within([-120.0, 0.0]),
         series: series.collect(),
         footnote: "one channel at 48 kHz, Blackman window over the whole".to_owned(),
+        ..Chart::default()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Known configurations under noise: how much of the map is lost.
 
 use super::{Bench, Dissimilarities, Findings, Mds, ReportError, Row, made};
-use selvedge_chart::{Axis, Plot, Series};
+use selvedge_chart::{Axis, Chart, Series};
 use selvedge_foundation::numerics::{Random, median};
 use selvedge_statistics::procrustes::Procrustes;
 
@@ -36,12 +36,13 @@ pub(super) fn add(bench: &mut Bench<'_>, findings: &mut Findings) -> Result<(), 
             ..Series::default()
         });
     }
-    let plot = Plot {
+    let plot = Chart {
         title: "Mds: what noise takes from a known map".to_owned(),
         x: Axis::linear("noise, standard deviation of the logarithm"),
         y: Axis::linear("m² left over after Procrustes"),
         series,
         footnote: "Medians over random configurations in a plane. Numbers: mds.csv.".to_owned(),
+        ..Chart::default()
     };
     findings.plots.push(("mds-recovery".to_owned(), plot));
     Ok(())

@@ -2,7 +2,7 @@
 //! original (as in figure 7 of Wall & Harwin 1999).
 
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, without_line};
 use selvedge_textile::surface::{Direction, Profile};
 use selvedge_textile::{FourierSeries, FourierTemplate, Library, Reading};
@@ -133,7 +133,7 @@ fn row(method: &str, id: &str, n: usize, (error, cost): (f64, crate::Timing)) ->
     }
 }
 
-fn plot(id: &str, original: &[f64], drawn: &[f64]) -> Plot {
+fn plot(id: &str, original: &[f64], drawn: &[f64]) -> Chart {
     let line = |name: &str, heights: &[f64]| Series {
         name: name.to_owned(),
         points: heights
@@ -144,7 +144,7 @@ fn plot(id: &str, original: &[f64], drawn: &[f64]) -> Plot {
         style: Style::Line,
         ..Series::default()
     };
-    Plot {
+    Chart {
         title: format!("A drawn profile beside the original: {id}"),
         x: Axis::linear("place, mm"),
         y: Axis::linear("height, µm"),
@@ -153,5 +153,6 @@ fn plot(id: &str, original: &[f64], drawn: &[f64]) -> Plot {
             line("drawn", drawn),
         ],
         footnote: "As rough, not the same: only the strengths of harmonics are learnt.".to_owned(),
+        ..Chart::default()
     }
 }

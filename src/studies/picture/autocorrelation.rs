@@ -4,7 +4,7 @@
 use super::spoilt::Spoilt;
 use crate::growth::exponent;
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Grid, PlaneTransform, Random};
 use selvedge_textile::picture::Autocorrelation;
 
@@ -243,19 +243,20 @@ fn notes(rows: &[Row], most_by_definition: usize) -> Vec<String> {
     notes
 }
 
-fn plot(rows: &[Row]) -> Plot {
+fn plot(rows: &[Row]) -> Chart {
     let series = Way::ALL.map(|way| Series {
         name: way.name().to_owned(),
         points: times(rows, way),
         style: Style::LineAndDots,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: "Autocorrelation: run time by the side of the picture".to_owned(),
         x: Axis::log("side of the picture, px"),
         y: Axis::log("CPU time a picture, s"),
         series: series.into(),
         footnote: "One thread; all shifts up to half the side.".to_owned(),
+        ..Chart::default()
     }
 }
 

@@ -5,7 +5,7 @@ use super::spoilt::Spoilt;
 use super::sweeps::{Sweep, sweeps};
 use super::{RIGHT, analysed, share_off};
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, median};
 use selvedge_textile::picture::{Analysis, Basis, SignificantMaxima};
 
@@ -231,7 +231,7 @@ impl Tally {
     }
 }
 
-fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
+fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Chart {
     let of_sweep = format!("{} ", sweep.name);
     let series = estimates.iter().map(|estimate| Series {
         name: estimate.name.to_owned(),
@@ -248,7 +248,7 @@ fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
         style: Style::LineAndDots,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: format!(
             "Lattice: share of pictures that are right, by {}",
             sweep.name
@@ -265,6 +265,7 @@ fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Plot {
              blur 0.7 px, bend 0.3 px, light 1.5 to 1.",
             100.0 * RIGHT
         ),
+        ..Chart::default()
     }
 }
 

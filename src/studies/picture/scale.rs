@@ -4,7 +4,7 @@ use super::drawings::{BINDINGS, Binding};
 use super::spoilt::Spoilt;
 use super::{RIGHT, analysed, share_off};
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::Random;
 
 /// Periods that a side of the picture holds, however small it is.
@@ -138,8 +138,8 @@ fn least(name: &str, points: &[[f64; 2]]) -> String {
     )
 }
 
-fn plot(series: Vec<Series>) -> Plot {
-    Plot {
+fn plot(series: Vec<Series>) -> Chart {
+    Chart {
         title: "Pictures reduced: share whose lattice is right".to_owned(),
         x: Axis::log("shorter lattice vector, px"),
         y: Axis::linear("right, %").within([0.0, 100.0]),
@@ -149,5 +149,6 @@ fn plot(series: Vec<Series>) -> Plot {
              shorter vector.",
             100.0 * RIGHT
         ),
+        ..Chart::default()
     }
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::files::Number;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::LengthUnit;
@@ -155,19 +155,19 @@ fn map(side: usize, seed: u64) -> Result<Measured, ReportError> {
     })
 }
 
-fn plot(lines: Vec<Vec<[f64; 2]>>) -> Plot {
+fn plot(lines: Vec<Vec<[f64; 2]>>) -> Chart {
     let series = WRITTEN.iter().zip(lines).map(|(written, points)| Series {
         name: written.name.to_owned(),
         points,
         style: Style::LineAndDots,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: "Reading measured heights".to_owned(),
         x: Axis::log("points"),
         y: Axis::log("CPU time, s"),
         series: series.collect(),
-        ..Plot::default()
+        ..Chart::default()
     }
 }
 

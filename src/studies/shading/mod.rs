@@ -7,7 +7,7 @@ mod tests;
 
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use reliefs::{Relief, Truth};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_foundation::progress::unheard;
 use selvedge_textile::picture::shading::{
@@ -289,14 +289,14 @@ fn of_sweep(
     curves
 }
 
-fn plot(name: &str, label: &str, curves: Vec<(Method, Vec<[f64; 2]>)>) -> Plot {
+fn plot(name: &str, label: &str, curves: Vec<(Method, Vec<[f64; 2]>)>) -> Chart {
     let series = curves.into_iter().map(|(method, points)| Series {
         name: method.label().to_owned(),
         points,
         style: Style::Line,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: format!("Shading: correlation with the weave by {name}"),
         x: Axis::linear(label),
         y: Axis::linear("correlation of heights"),
@@ -305,6 +305,7 @@ fn plot(name: &str, label: &str, curves: Vec<(Method, Vec<[f64; 2]>)>) -> Plot {
             "A plain weave whose yarns touch; light from {}°, tilt {}°, where it is not varied.",
             LIGHT.slant_deg, LIGHT.tilt_deg
         ),
+        ..Chart::default()
     }
 }
 

@@ -2,7 +2,7 @@
 //! a sum of waves and against the whole profile of a textile.
 
 use crate::{Bench, Row, Timing};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_foundation::quantity::with_unit;
 use selvedge_textile::tactile::Filters;
@@ -185,7 +185,7 @@ fn deviation(values: &[f64]) -> f64 {
 }
 
 /// Level of A40 of the wave that sounds at 40 Hz over its amplitude, by speed and window length.
-pub(super) fn plot() -> Plot {
+pub(super) fn plot() -> Chart {
     let lengths = [2.0, 3.79, PRODUCT[0], 8.0, 16.0];
     let series = lengths.map(|window_mm| {
         let is_product = window_mm.to_bits() == PRODUCT[0].to_bits();
@@ -204,12 +204,13 @@ pub(super) fn plot() -> Plot {
             ..Series::default()
         }
     });
-    Plot {
+    Chart {
         title: "What the window costs a wave that sounds at 40 Hz".to_owned(),
         x: Axis::log("speed, mm/s"),
         y: Axis::linear("level of A40 re the wave, dB"),
         series: series.to_vec(),
         footnote: "mean power over points; bins one over the window's length apart".to_owned(),
+        ..Chart::default()
     }
 }
 

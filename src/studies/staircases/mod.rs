@@ -4,7 +4,7 @@
 mod tests;
 mod ways;
 
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::quantity;
 
@@ -219,12 +219,13 @@ fn plots(findings: &mut Findings, observers: &[Observer]) {
             ("bias", Axis::linear("mean error, dB"), bias_db),
         ];
         for (kind, axis, value) in kinds {
-            let plot = Plot {
+            let plot = Chart {
                 title: format!("Staircases: {kind} of the threshold over trials"),
                 x: Axis::log("trials"),
                 y: axis,
                 series: series(&findings.rows, observer, value),
                 footnote: format!("{}. Numbers: staircases.csv.", observer.name),
+                ..Chart::default()
             };
             let name = format!("staircases-{kind}-{file}");
             findings.plots.push((name, plot));

@@ -1,6 +1,6 @@
 //! What follows from the velocity study: error against delay, and which method to begin with.
 
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_engine::VelocityMethod;
 use selvedge_foundation::quantity::{fixed, time_span, with_unit};
 
@@ -24,7 +24,7 @@ const STEADY_DB: f64 = 1.0;
 const DRAWN_MM_PER_S: f64 = 1000.0;
 
 /// Error against delay, over all pointers and for each.
-pub(super) fn plots(results: &[Outcome], pointers: &[Pointer]) -> Vec<(String, Plot)> {
+pub(super) fn plots(results: &[Outcome], pointers: &[Pointer]) -> Vec<(String, Chart)> {
     let overall = overall(results);
     let dots = overall
         .iter()
@@ -41,7 +41,7 @@ pub(super) fn plots(results: &[Outcome], pointers: &[Pointer]) -> Vec<(String, P
     plots
 }
 
-fn plot(what: &str, dots: Vec<(&Candidate, &Tally)>) -> Plot {
+fn plot(what: &str, dots: Vec<(&Candidate, &Tally)>) -> Chart {
     let mut series: Vec<Series> = Vec::new();
     let is_drawn = |tally: &Tally| tally.rms_mm_per_s() <= DRAWN_MM_PER_S;
     for (candidate, tally) in dots.into_iter().filter(|dot| is_drawn(dot.1)) {
@@ -63,13 +63,14 @@ fn plot(what: &str, dots: Vec<(&Candidate, &Tally)>) -> Plot {
             .points
             .push([1e3 * tally.delay_s(), tally.rms_mm_per_s()]);
     }
-    Plot {
+    Chart {
         title: format!("Velocity error against delay, {what}"),
         x: Axis::linear("delay on strokes that vary, ms"),
         y: Axis::log("rms velocity error, mm/s"),
         series,
         footnote: "one dot a setting; marked: the default; settings beyond 1000 mm/s left out"
             .to_owned(),
+        ..Chart::default()
     }
 }
 

@@ -6,7 +6,7 @@ use crate::surface::{BIN_SPACING_PER_MM, Direction};
 use crate::tactile::{Band, Filters, SpeedResponse};
 use crate::{Source, Textile, TextileError, measured_figures};
 use selvedge_chart::{
-    Axis, ColourBar, Figure, Ink, Panel, Raster, Row, Series, Style, Upright, Weight, Words,
+    Axis, Chart, ColourBar, Figure, Ink, Raster, Row, Series, Style, Upright, Weight, Words,
 };
 use selvedge_foundation::quantity::level_db;
 
@@ -49,14 +49,14 @@ pub(super) fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
 }
 
 /// The cloth from its lower left corner, tiled as on a display.
-fn picture(textile: &Textile) -> Result<Panel, TextileError> {
+fn picture(textile: &Textile) -> Result<Chart, TextileError> {
     let side = |label| Axis::linear(label).within([0.0, PICTURE_MM]);
-    let mut panel = Panel {
+    let mut panel = Chart {
         title: "appearance".to_owned(),
         width: 250.0,
         x: side("along the warp, mm"),
         y: side("along the weft, mm"),
-        ..Panel::default()
+        ..Chart::default()
     };
     let Some(appearance) = textile.appearance()? else {
         panel.words.push(Words {
@@ -95,7 +95,7 @@ fn picture(textile: &Textile) -> Result<Panel, TextileError> {
 }
 
 /// Both amplitudes against speed along one axis: the mean of all directions, and each thin.
-fn amplitudes(textile: &Textile) -> Panel {
+fn amplitudes(textile: &Textile) -> Chart {
     let [slow, fast] = SPEEDS_MM_PER_S;
     let share = |i: u8| f64::from(i) / f64::from(N_SPEEDS - 1);
     let speeds: Vec<f64> = (0..N_SPEEDS)
@@ -140,13 +140,13 @@ fn amplitudes(textile: &Textile) -> Panel {
         series.extend(curves.map(|values| line(values, String::new(), Weight::Thin)));
         series.push(line(mean, format!("A{}", band.carrier_hz()), Weight::Bold));
     }
-    Panel {
+    Chart {
         title: "amplitude against speed".to_owned(),
         width: 430.0,
         x: Axis::log("speed along one axis, mm/s").within(SPEEDS_MM_PER_S),
         y: Axis::log("peak amplitude, µm").within(AMPLITUDES_UM),
         series,
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 
@@ -165,7 +165,7 @@ fn profiles(textile: &Textile) -> Vec<Row> {
         .fold(0.1, f64::max);
     let heights_um = Axis::linear("height, µm").within([-1.05 * largest_um, 1.05 * largest_um]);
     let panel = |direction: Direction| {
-        let mut panel = Panel {
+        let mut panel = Chart {
             title: direction.label().to_owned(),
             x: Axis::linear("distance travelled, mm").within([0.0, PICTURE_MM]),
             y: heights_um.clone(),
@@ -175,7 +175,7 @@ fn profiles(textile: &Textile) -> Vec<Row> {
                 Upright::Upward
             },
             is_x_shared: matches!(direction, Direction::WarpForward | Direction::WarpReverse),
-            ..Panel::default()
+            ..Chart::default()
         };
         let Some(profile) = surface.profile(direction) else {
             panel.title = format!("{}: not measured", direction.label());
@@ -234,7 +234,7 @@ fn spectra(textile: &Textile) -> Row {
             cells.extend((0..n_points).map(|point| cell(spectra.powers_um2(point)[bin])));
         }
         let highest_per_mm = BIN_SPACING_PER_MM * (N_BINS_SHOWN as f64 + 0.5);
-        Panel {
+        Chart {
             title: direction.label().to_owned(),
             x: Axis::linear("point, mm").within([-0.5, n_points as f64 - 0.5]),
             y: Axis::linear("cycles/mm").within([0.5 * BIN_SPACING_PER_MM, highest_per_mm]),
@@ -247,7 +247,7 @@ fn spectra(textile: &Textile) -> Row {
                 n_columns: n_points,
                 cells,
             }),
-            ..Panel::default()
+            ..Chart::default()
         }
     };
     Row {
@@ -265,7 +265,7 @@ fn friction(textile: &Textile) -> Result<Option<Row>, TextileError> {
     let Some(trace) = textile.friction()? else {
         return Ok(None);
     };
-    let panel = Panel {
+    let panel = Chart {
         title: "friction along the warp".to_owned(),
         x: Axis::linear("distance travelled, mm"),
         y: Axis::linear("coefficient"),
@@ -276,7 +276,7 @@ fn friction(textile: &Textile) -> Result<Option<Row>, TextileError> {
             weight: Weight::Thin,
             ..Series::default()
         }],
-        ..Panel::default()
+        ..Chart::default()
     };
     Ok(Some(Row {
         panels: vec![panel],

@@ -3,7 +3,7 @@
 use super::kes::KesImport;
 use crate::curve::corners;
 use crate::kes::{KesStroke, MarkKind};
-use selvedge_chart::{At, Axis, Extent, Figure, Ink, Panel, Row, Rule, Series, Style, Weight};
+use selvedge_chart::{At, Axis, Extent, Figure, Ink, Chart, Row, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity::fixed;
 
 /// The height of a panel, px.
@@ -103,7 +103,7 @@ impl KesImport {
         let ends = [samples.start, samples.end.saturating_sub(1)];
         let mut rules: Vec<Rule> = ends.map(|end| edge(stroke.place_mm(end), "")).to_vec();
         rules.extend(marked_ends(stroke));
-        panel_row(Panel {
+        panel_row(Chart {
             title,
             y: Axis {
                 range: self.height_range_um(),
@@ -115,7 +115,7 @@ impl KesImport {
                 spikes,
             ],
             rules,
-            ..Panel::default()
+            ..Chart::default()
         })
     }
 
@@ -138,7 +138,7 @@ impl KesImport {
         let part = corners(|i| place(first + i), &friction.mu[first..=last]);
         let figure = |value: Option<f64>| fixed(value.unwrap_or(f64::NAN), 4);
         let (miu, mmd) = (figure(self.figures().miu), figure(self.figures().mmd));
-        Some(panel_row(Panel {
+        Some(panel_row(Chart {
             title: format!("friction: MIU {miu}, MMD {mmd}"),
             y: Axis::linear("coefficient"),
             series: vec![
@@ -146,12 +146,12 @@ impl KesImport {
                 line(part, Ink::Black, Weight::Normal),
             ],
             rules: vec![edge(section.from_mm, ""), edge(section.to_mm, "")],
-            ..Panel::default()
+            ..Chart::default()
         }))
     }
 }
 
-fn panel_row(panel: Panel) -> Row {
+fn panel_row(panel: Chart) -> Row {
     Row {
         panels: vec![panel],
         height_px: HEIGHT_PX,

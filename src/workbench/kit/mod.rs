@@ -2,6 +2,7 @@
 //!
 //! Knows nothing of scenes, engines or tools.
 
+pub(crate) mod plot;
 pub(crate) mod spectrogram;
 pub(crate) mod swatch;
 pub(crate) mod theme;

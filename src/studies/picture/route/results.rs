@@ -3,7 +3,7 @@
 use super::felt::{Felt, rank_correlation};
 use super::ways::{Subject, Way};
 use crate::{Bench, Findings, Row, Timing};
-use selvedge_chart::{Axis, Plot, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::median;
 use selvedge_textile::surface::BIN_SPACING_PER_MM;
 
@@ -293,7 +293,7 @@ fn claim(results: &[Tried]) -> String {
     )
 }
 
-fn levels(results: &[Tried], band: usize, name: &str) -> Plot {
+fn levels(results: &[Tried], band: usize, name: &str) -> Chart {
     let truth = |tried: &Tried| tried.truth.levels_db[band];
     let of_way = |way: Way| Series {
         name: way.name(),
@@ -316,7 +316,7 @@ fn levels(results: &[Tried], band: usize, name: &str) -> Plot {
         style: Style::Dashed,
         ..Series::default()
     });
-    Plot {
+    Chart {
         title: format!("Level at {name} Hz by every route against the relief's own"),
         x: Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
         y: Axis::linear(format!("A{name} by the route, dB re 1 µm")),
@@ -324,10 +324,11 @@ fn levels(results: &[Tried], band: usize, name: &str) -> Plot {
         footnote: "100 mm/s; a dot a cloth and route. Above the line a cloth feels stronger than \
                    it is."
             .to_owned(),
+        ..Chart::default()
     }
 }
 
-fn spectra(fine: &Tried) -> Plot {
+fn spectra(fine: &Tried) -> Chart {
     let points = |felt: &Felt| -> Vec<[f64; 2]> {
         let half = felt.spectrum_um.len() / 2;
         let bins = felt.spectrum_um.iter().take(half).enumerate();
@@ -352,12 +353,13 @@ fn spectra(fine: &Tried) -> Plot {
                 .map(|felt| series(way.name(), felt, Style::Line)),
         );
     }
-    Plot {
+    Chart {
         title: format!("Spectrum along the warp of {}", fine.name),
         x: Axis::linear("wavenumber, cycles/mm"),
         y: Axis::log("amplitude a bin, µm"),
         series: all,
         footnote: "Rms over all places of the stroke.".to_owned(),
+        ..Chart::default()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Numbers of all contactors as cells of one band: rows and columns as they stand.
 
 use crate::tools::spectra::export_spectrograms::ink;
-use selvedge_chart::{Axis, Panel, Raster, Upright, Words};
+use selvedge_chart::{Axis, Chart, Raster, Upright, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -12,9 +12,9 @@ pub(crate) fn panel(
     (n_rows, n_columns): (usize, usize),
     colour: impl Fn(usize) -> Option<[u8; 3]>,
     words: Vec<Words>,
-) -> Panel {
+) -> Chart {
     let ends = |n: usize| [-0.5, n.max(1) as f64 - 0.5];
-    Panel {
+    Chart {
         title: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
         ink: ink(band),
         x: Axis::whole("column").within(ends(n_columns)),
@@ -25,6 +25,6 @@ pub(crate) fn panel(
             cells: (0..n_rows * n_columns).map(colour).collect(),
         }),
         words,
-        ..Panel::default()
+        ..Chart::default()
     }
 }

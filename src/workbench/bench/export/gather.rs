@@ -174,7 +174,7 @@ impl Bench {
         let origin = self.rendered_origin();
         let (view, tick) = (self.drive_wave_view(), self.transient.live.tick);
         let scale = self.transient.wave_scale;
-        Ok(crate::tools::spectra::export_wave::waveform(
+        Ok(crate::tools::spectra::wave::exported(
             &view, scale, contactor, tick, origin,
         ))
     }
@@ -207,7 +207,7 @@ impl Bench {
             "There is nothing to export yet: levels are being computed, or the library has no \
              textile with a level",
         )?;
-        Ok(crate::tools::tuning::export::curve(
+        Ok(crate::tools::tuning::curve::exported(
             &scene,
             reference_db,
             self.origin(),
@@ -253,7 +253,7 @@ impl Bench {
         if view.curves.around().is_empty() {
             return Err("There is nothing to export yet: the curves are being computed");
         }
-        Ok(crate::tools::response::export::curves(&view, origin))
+        Ok(crate::tools::response::chart::exported(&view, origin))
     }
 
     fn gather_lab(&mut self) -> Result<Exported, &'static str> {
@@ -277,7 +277,7 @@ impl Bench {
         if view.found.n_ticks == 0 && view.measured.is_none() {
             return Err(NOTHING_FELT);
         }
-        Ok(crate::tools::accuracy::export::histograms(&view, origin))
+        Ok(crate::tools::accuracy::view::chart::exported(&view, origin))
     }
 
     fn gather_link(&mut self) -> Result<Exported, &'static str> {

@@ -25,7 +25,6 @@ pub(crate) mod button;
 pub(crate) mod cells;
 pub(crate) mod gather;
 pub(crate) mod origin;
-pub(crate) mod sheet;
 #[cfg(test)]
 mod tests;
 pub(crate) mod write;
@@ -33,14 +32,15 @@ pub(crate) mod write;
 #[cfg(test)]
 pub(crate) use crate::bench::export::gather::is_exportable;
 pub(crate) use crate::bench::export::origin::Origin;
-pub(crate) use crate::bench::export::sheet::Sheet;
 pub(crate) use crate::bench::export::write::Kind;
 #[cfg(test)]
 pub(crate) use crate::tools::import::export::measurement;
+pub(crate) use crate::tools::spectra::export_spectrograms::ink;
+pub(crate) use selvedge_chart::Columns as Sheet;
 
 use crate::bench::pane::Pane;
 use crate::kit::theme::colour_map::ColourMap;
-use selvedge_chart::{Axis, ColourBar, Figure, Row};
+use selvedge_chart::{Axis, Chart, ColourBar, Figure, Row};
 
 /// Colours of a bar: more than the eye tells apart.
 pub(crate) const N_COLOURS: u8 = 33;
@@ -109,6 +109,25 @@ impl Exported {
             figure,
             origin,
         }
+    }
+}
+
+impl Exported {
+    /// A chart with its numbers. `note` says what is drawn how.
+    pub(crate) fn of_chart(
+        title: &str,
+        chart: Chart,
+        height_px: f64,
+        note: &str,
+        origin: Origin,
+    ) -> Self {
+        let sheet = chart.columns.clone();
+        let row = Row {
+            panels: vec![chart],
+            height_px,
+            bar: None,
+        };
+        Self::new(title.to_owned(), sheet, vec![row], note, origin)
     }
 }
 

@@ -68,7 +68,7 @@ impl Exported {
     /// The figure cannot be drawn.
     pub(crate) fn bytes(&self, kind: Kind, path: &Path) -> Result<Vec<u8>, ExportError> {
         Ok(match kind {
-            Kind::Csv => self.sheet.to_csv(&self.origin, path)?,
+            Kind::Csv => self.sheet.to_csv(&self.origin.pairs(), path)?,
             Kind::Svg => self.figure.to_svg()?.into_bytes(),
             Kind::Png => {
                 let pixels = self.figure.to_pixels(WIDTH_PX)?;
@@ -91,7 +91,9 @@ impl Exported {
     /// # Errors
     /// None that a text in memory could have.
     pub(crate) fn to_csv(&self) -> Result<String, ExportError> {
-        let bytes = self.sheet.to_csv(&self.origin, Path::new("table"))?;
+        let bytes = self
+            .sheet
+            .to_csv(&self.origin.pairs(), Path::new("table"))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 }

@@ -10,7 +10,6 @@
 
 pub(crate) mod checker;
 pub(crate) mod dispatch;
-pub(crate) mod export;
 pub(crate) mod measuring;
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,7 @@
 //! A figure of an analysis with the numbers that it is drawn from.
 
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::tools::analysis::findings::Findings;
 use selvedge_experiment::analysis::{Cell, Drawn, Table};
 

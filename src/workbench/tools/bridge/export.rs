@@ -1,10 +1,9 @@
 //! How long things take on the link to the device.
 
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::bench::view::LinkTiming;
-use selvedge_chart::{Axis, Ink, Panel, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};
 use selvedge_device::{Distribution, DistributionBar};
 
 /// Both distributions of the pane; `None` where nothing was measured.
@@ -58,7 +57,7 @@ pub(crate) fn distributions(timing: &LinkTiming, origin: Origin) -> Option<Expor
     Some(Exported::new(title, sheet, vec![row], note, origin))
 }
 
-fn panel(name: &str, distribution: &Distribution) -> Panel {
+fn panel(name: &str, distribution: &Distribution) -> Chart {
     let heard = distribution.bars().filter(|bar| bar.count > 0);
     let points: Vec<[f64; 2]> = heard
         .map(|bar| {
@@ -67,7 +66,7 @@ fn panel(name: &str, distribution: &Distribution) -> Panel {
         })
         .collect();
     let most = points.iter().map(|[_, count]| *count).fold(1.0, f64::max);
-    Panel {
+    Chart {
         title: name.to_owned(),
         x: Axis::log("time, s").within([3e-5, 0.3]),
         y: Axis::linear("how often").within([0.0, 1.05 * most]),
@@ -77,7 +76,7 @@ fn panel(name: &str, distribution: &Distribution) -> Panel {
             ink: Ink::Black,
             ..Series::default()
         }],
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 
@@ -103,7 +102,10 @@ mod tests {
         };
         let exported = distributions(&timing, Origin::default()).unwrap();
         let path = std::path::Path::new("link.csv");
-        let csv = exported.sheet.to_csv(&exported.origin, path).unwrap();
+        let csv = exported
+            .sheet
+            .to_csv(&exported.origin.pairs(), path)
+            .unwrap();
         let csv = String::from_utf8(csv).unwrap();
         let counts: u32 = csv
             .lines()

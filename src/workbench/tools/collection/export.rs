@@ -1,12 +1,11 @@
 //! The library as the collection shows it: one row a textile, and the plot.
 
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::bench::view::ShelfItem;
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::{CollectionView, Entry};
-use selvedge_chart::{Axis, Ink, Panel, Row, Series, Style, Tone, Weight, Words};
+use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style, Tone, Weight, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -52,7 +51,7 @@ fn point(entry: &Entry<'_>, view: &CollectionView<'_>, is_tuned: bool) -> Option
     Some([entry.value(x, is_tuned)?, entry.value(y, is_tuned)?])
 }
 
-fn panel(view: &CollectionView<'_>) -> Panel {
+fn panel(view: &CollectionView<'_>) -> Chart {
     let is_tuned = view.choice.is_tuned;
     let at = |entry: &Entry<'_>| point(entry, view, is_tuned);
     let dots = |name: &str, ink, takes: &dyn Fn(&Entry<'_>) -> bool| Series {
@@ -96,12 +95,12 @@ fn panel(view: &CollectionView<'_>) -> Panel {
         .axes
         .each_ref()
         .map(|measure| axis_of(measure, view));
-    Panel {
+    Chart {
         x,
         y,
         series,
         words: words.collect(),
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 

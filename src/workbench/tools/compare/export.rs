@@ -1,13 +1,12 @@
 //! By how much two runs on the same path differ: by contactor and over time.
 
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
-use crate::bench::export::{Exported, N_COLOURS, cells};
+use crate::bench::export::{Exported, N_COLOURS, Sheet, cells};
 use crate::kit::theme::colour_map::Diverging;
 use crate::tools::compare::choice::Side;
 use crate::tools::compare::view::scale_db as scale_of_differences_db;
 use crate::tools::spectra::export_spectrograms::ink;
-use selvedge_chart::{Axis, ColourBar, Panel, Row, Series, Style, Weight};
+use selvedge_chart::{Axis, Chart, ColourBar, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::TICKS_PER_S;
@@ -153,7 +152,7 @@ fn map_panel(
     band: Band,
     grid: (usize, usize),
     (map, most_db): (Diverging, f64),
-) -> Panel {
+) -> Chart {
     let own: Vec<&Found> = found
         .iter()
         .filter(|one| one.of == "contactor" && one.band == band)
@@ -165,7 +164,7 @@ fn map_panel(
     cells::panel(band, grid, cell, Vec::new())
 }
 
-fn time_panel(found: &[Found], difference: &LevelDifference) -> Panel {
+fn time_panel(found: &[Found], difference: &LevelDifference) -> Chart {
     let own = |band: Band| {
         let of_time = found.iter().filter(|one| one.of == "time");
         of_time.filter(move |one| one.band == band && one.ends_db[0].is_finite())
@@ -196,10 +195,10 @@ fn time_panel(found: &[Found], difference: &LevelDifference) -> Panel {
     let series = ends
         .iter()
         .flat_map(|&end| Band::ALL.map(|band| line(band, end)));
-    Panel {
+    Chart {
         x: Axis::linear("time along the path, s").within([0.0, end_s]),
         y: Axis::linear("B − A, dB").within([-most_db, most_db]),
         series: series.collect(),
-        ..Panel::default()
+        ..Chart::default()
     }
 }

@@ -1,12 +1,11 @@
 //! Both bands of every contactor as two tables of cells.
 
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
-use crate::bench::export::{Exported, bar, cells, rgb};
+use crate::bench::export::{Exported, Sheet, bar, cells, rgb};
 use crate::bench::view::{Dot, Live, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::contactors::{HeatmapStyle, digits as cell_digits};
-use selvedge_chart::{Axis, Panel, Row, Tone, Words};
+use selvedge_chart::{Axis, Chart, Row, Tone, Words};
 use selvedge_textile::tactile::Band;
 
 /// Height of a row of cells, px.
@@ -65,7 +64,7 @@ fn sheet(scene: &SceneView, dots: &[Dot], n_columns: usize) -> Sheet {
         .with("is_muted", yes(&|dot| dot.is_muted))
 }
 
-fn panel(dots: &[Dot], band: Band, style: HeatmapStyle, grid: (usize, usize)) -> Panel {
+fn panel(dots: &[Dot], band: Band, style: HeatmapStyle, grid: (usize, usize)) -> Chart {
     let (_, n_columns) = grid;
     let share = |dot: &Dot| style.scale.share(dot.amplitude_um[band.index()]);
     let is_shown = |dot: &Dot| dot.cloth.is_some() && !dot.is_muted;

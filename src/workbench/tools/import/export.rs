@@ -2,11 +2,10 @@
 //! relief of a map with the strokes over it.
 
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
-use crate::bench::export::{Exported, bar};
+use crate::bench::export::{Exported, Sheet, bar};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::import::work::{Body, Found, Heights};
-use selvedge_chart::{Axis, Ink, Panel, Raster, Row, Series, Style, Weight};
+use selvedge_chart::{Axis, Chart, Ink, Raster, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_textile::{KesImport, MarkKind};
 
@@ -183,7 +182,7 @@ fn relief_row(
         weight: Weight::Thin,
         ..Series::default()
     });
-    let panel = Panel {
+    let panel = Chart {
         x: Axis::linear("along the warp, mm").within([0.0, size_mm[0]]),
         y: Axis::linear("along the weft, mm").within([0.0, size_mm[1]]),
         raster: Some(Raster {
@@ -191,7 +190,7 @@ fn relief_row(
             cells,
         }),
         series: series.collect(),
-        ..Panel::default()
+        ..Chart::default()
     };
     Row {
         panels: vec![panel],
@@ -214,14 +213,14 @@ fn profile_of(found: &Heights) -> (Sheet, Row) {
         .flat_map(crate::tools::import::envelope::Envelope::points);
     let points = points.map(|(sample, height_um)| [sample * step_mm, height_um]);
     let [low, high] = envelope.map_or([0.0, 1.0], crate::tools::import::envelope::Envelope::range);
-    let panel = Panel {
+    let panel = Chart {
         x: Axis::linear("place, mm").within([0.0, map.size_mm()[0]]),
         y: Axis::linear("height, µm").within([low, high]),
         series: vec![Series {
             points: points.collect(),
             ..Series::default()
         }],
-        ..Panel::default()
+        ..Chart::default()
     };
     let row = Row {
         panels: vec![panel],

@@ -1,16 +1,12 @@
 //! The textile lab: the profile that is looked at and the amplitudes over speed along it.
 
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::tools::lab::Lab;
-use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
-use crate::tools::response::ends_db as response_ends_db;
-use crate::tools::spectra::export_spectrograms::ink;
-use selvedge_chart::{Axis, Panel, Row, Series, Style, Weight};
-use selvedge_foundation::quantity;
-use selvedge_textile::tactile::Band;
+use crate::tools::lab::preview::{Felt, Preview, speeds_mm_per_s};
+use crate::tools::lab::view::curves::chart as lab_chart;
+use selvedge_chart::{Axis, Chart, Row, Series, Style, Weight};
 
 /// A row of the table: a place of the profile, or a speed.
 struct Line {
@@ -39,7 +35,7 @@ pub(crate) fn curves(
             bar: None,
         },
         Row {
-            panels: vec![curve_panel(&lines, scale)],
+            panels: vec![lab_chart(lab, preview, scale)],
             height_px: 360.0,
             bar: None,
         },
@@ -52,8 +48,8 @@ pub(crate) fn curves(
     if let Some(compared) = &lab.compared {
         origin = origin.and("compared_with", &compared.id, &compared.name);
     }
-    let note = "Without gains. Root mean square over all points along the stroke; thin and dashed: \
-                what is compared.";
+    let note = "Without gains. Root mean square over all points along the stroke, shaded from the \
+                least to the largest; thin and dashed: what is compared.";
     let title = format!("{}, {direction}", preview.manifest.name);
     Exported::new(title, sheet(&lines), rows, note, origin)
 }
@@ -124,7 +120,7 @@ fn sheet(lines: &[Line]) -> Sheet {
         .with("compared_a320_um", number(&|line| line.amplitudes_um[1][1]))
 }
 
-fn profile_panel(lab: &Lab, lines: &[Line]) -> Panel {
+fn profile_panel(lab: &Lab, lines: &[Line]) -> Chart {
     let look = lab.look;
     let ends = [look.from_mm, look.from_mm + look.span_mm];
     let series = |of: &dyn Fn(&Line) -> f64, weight, name: &str| Series {
@@ -139,47 +135,13 @@ fn profile_panel(lab: &Lab, lines: &[Line]) -> Panel {
         weight,
         ..Series::default()
     };
-    Panel {
+    Chart {
         x: Axis::linear("place along the stroke, mm").within(ends),
         y: Axis::linear("height, µm"),
         series: vec![
             series(&|line| line.compared_um, Weight::Thin, "compared"),
             series(&|line| line.height_um, Weight::Normal, "recipe"),
         ],
-        ..Panel::default()
-    }
-}
-
-fn curve_panel(lines: &[Line], scale: AmplitudeScale) -> Panel {
-    let mut series = Vec::new();
-    for band in Band::ALL {
-        let line = |which: usize| -> Vec<[f64; 2]> {
-            let speeds = lines.iter().filter(|line| line.over == "speed");
-            let at = |line: &Line| {
-                let um = line.amplitudes_um[which][band.index()];
-                (um > 0.0).then(|| [line.x, quantity::level_db(um)])
-            };
-            speeds.filter_map(at).collect()
-        };
-        series.push(Series {
-            points: line(1),
-            style: Style::Dashed,
-            ink: ink(band),
-            weight: Weight::Thin,
-            ..Series::default()
-        });
-        series.push(Series {
-            name: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
-            points: line(0),
-            style: Style::Line,
-            ink: ink(band),
-            ..Series::default()
-        });
-    }
-    Panel {
-        x: Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S),
-        y: Axis::linear("level, dB re 1 µm").within(response_ends_db(scale)),
-        series,
-        ..Panel::default()
+        ..Chart::default()
     }
 }

@@ -1,10 +1,9 @@
 //! A picture's directions by both measures, and what was found of its lattice.
 
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::tools::picture::found::Found;
-use selvedge_chart::{Axis, Ink, Panel, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};
 use selvedge_foundation::quantity;
 
 /// The two curves over angle; nothing before they are there.
@@ -34,14 +33,14 @@ pub(crate) fn directions(found: &Found) -> Option<Exported> {
         ink,
         ..Series::default()
     };
-    let panel = Panel {
+    let panel = Chart {
         x: Axis::linear("direction, degrees clockwise from x").within([0.0, 180.0]),
         y: Axis::linear("share of the highest").within([0.0, 1.05]),
         series: vec![
             line(0, "mean concentration", Ink::Black, Style::Line),
             line(1, "Hough transform", Ink::Grey, Style::Line),
         ],
-        ..Panel::default()
+        ..Chart::default()
     };
     let row = Row {
         panels: vec![panel],

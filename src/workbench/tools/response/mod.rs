@@ -4,12 +4,14 @@
 //! Both plots are also controls: a drag chooses the direction or the speed at which the other plot,
 //! and the maps over the cloth, are asked.
 
+pub(crate) mod chart;
 pub(crate) mod curves;
-pub(crate) mod export;
 pub(crate) mod over_speed;
 pub(crate) mod polar;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use crate::tools::response::chart::exported;
 
 use eframe::egui::{self, Align2, Color32, Painter, Rect, RichText, Ui, pos2, vec2};
 
@@ -189,11 +191,7 @@ fn fill_between(painter: &Painter, lower: &[egui::Pos2], upper: &[egui::Pos2], i
 }
 
 /// Fills between two rows of places with an ink.
-pub(crate) fn fill_range(
-    painter: &Painter,
-    (lower, upper): (&[egui::Pos2], &[egui::Pos2]),
-    ink: Color32,
-) {
+fn fill_range(painter: &Painter, (lower, upper): (&[egui::Pos2], &[egui::Pos2]), ink: Color32) {
     let mut mesh = egui::Mesh::default();
     for (low, high) in lower.iter().zip(upper) {
         mesh.colored_vertex(*low, ink);

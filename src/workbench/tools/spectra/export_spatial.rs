@@ -1,14 +1,13 @@
 //! The spatial spectra under a contactor: every bin of all four directions.
 
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::bench::signals::spatial::{SpatialCurve, SpatialView};
 use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::spectra::spatial::{
     LEVELS_DB as SPATIAL_LEVELS_DB, density_db, means_of, wavenumber_per_mm,
 };
-use selvedge_chart::{At, Axis, Extent, Ink, Panel, Row, Rule, Series, Style, Weight};
+use selvedge_chart::{At, Axis, Chart, Extent, Ink, Row, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{Direction, N_BINS};
 use selvedge_textile::tactile::Band;
@@ -22,13 +21,13 @@ pub(crate) fn spectra(view: &SpatialView, contactor: usize, tick: u64, origin: O
     for curve in view.curves.iter().rev() {
         series.extend(lines(view, curve));
     }
-    let panel = Panel {
+    let panel = Chart {
         x: Axis::log("wavenumber, cycles/mm")
             .within([wavenumber_per_mm(1), wavenumber_per_mm(N_BINS)]),
         y: Axis::linear("power density, dB re 1 µm² per cycle/mm").within(SPATIAL_LEVELS_DB),
         series,
         rules: carriers(view),
-        ..Panel::default()
+        ..Chart::default()
     };
     let row = Row {
         panels: vec![panel],

@@ -2,8 +2,7 @@
 
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
-use crate::bench::export::{Exported, bar, rgb};
+use crate::bench::export::{Exported, Sheet, bar, rgb};
 use crate::bench::signals::ring::N_COLUMNS;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_centre_hz};
 use crate::kit::spectrogram::ShownColumn;
@@ -11,7 +10,7 @@ use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::spectra::contact::{
     ContactSpectrumView, LEVELS_DB as CONTACT_LEVELS_DB, share_of as contact_share,
 };
-use selvedge_chart::{At, Axis, Extent, Ink, Panel, Raster, Row, Rule, Series, Style, Upright};
+use selvedge_chart::{At, Axis, Chart, Extent, Ink, Raster, Row, Rule, Series, Style, Upright};
 use selvedge_render::scene::TICKS_PER_S;
 use selvedge_textile::tactile::{Band, Filters};
 
@@ -28,7 +27,7 @@ pub(crate) fn contact(
 ) -> Exported {
     let map = view.map;
     let colour = |level_db: f32| rgb(map, contact_share(level_db));
-    let picture = Panel {
+    let picture = Chart {
         width: 9.0,
         ..picture(columns, colour)
     };
@@ -64,7 +63,7 @@ pub(crate) fn drive(
         extent: Extent::Edge,
         ..Rule::default()
     };
-    let picture = Panel {
+    let picture = Chart {
         rules: Band::ALL.map(carrier).to_vec(),
         ..picture(columns, colour)
     };
@@ -119,7 +118,7 @@ fn frequencies() -> Axis {
 }
 
 /// The picture with its axes, the newest column at its right edge.
-fn picture(columns: &[ShownColumn], colour: impl Fn(f32) -> [u8; 3]) -> Panel {
+fn picture(columns: &[ShownColumn], colour: impl Fn(f32) -> [u8; 3]) -> Chart {
     let mut cells = vec![None; N_COLUMNS * N_ROWS];
     for column in columns {
         let from_right = usize::try_from(column.ago).unwrap_or(usize::MAX);
@@ -132,19 +131,19 @@ fn picture(columns: &[ShownColumn], colour: impl Fn(f32) -> [u8; 3]) -> Panel {
     }
     let shown_s = N_COLUMNS as f64 / TICKS_PER_S;
     let felt = "felt time before the newest tick, s";
-    Panel {
+    Chart {
         x: Axis::linear(felt).within([-shown_s, 0.0]),
         y: frequencies(),
         raster: Some(Raster {
             n_columns: N_COLUMNS,
             cells,
         }),
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 
 /// Both filters upright on the frequency axis of the picture.
-fn filters(filters: &Filters) -> Panel {
+fn filters(filters: &Filters) -> Chart {
     let curve = |band: Band| {
         let point = |i: u8| {
             let share = f64::from(i) / f64::from(N_STEPS);
@@ -158,11 +157,11 @@ fn filters(filters: &Filters) -> Panel {
             ..Series::default()
         }
     };
-    Panel {
+    Chart {
         x: Axis::whole("gain").within([0.0, 1.0]),
         y: frequencies(),
         upright: Upright::Shared,
         series: Band::ALL.map(curve).to_vec(),
-        ..Panel::default()
+        ..Chart::default()
     }
 }

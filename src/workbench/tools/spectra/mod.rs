@@ -5,7 +5,6 @@ pub(crate) mod contact;
 pub(crate) mod drive;
 pub(crate) mod export_spatial;
 pub(crate) mod export_spectrograms;
-pub(crate) mod export_wave;
 pub(crate) mod spatial;
 #[cfg(test)]
 mod tests;

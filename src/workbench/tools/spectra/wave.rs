@@ -1,17 +1,23 @@
 //! The drive waveform: the last 50 ms, two ticks, of what drives the selected contactor.
 
-use eframe::egui::{
-    self, Align2, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
-};
+use eframe::egui::{Sense, Ui};
 
+use crate::bench::export::Exported;
+use crate::bench::export::origin::Origin;
 use crate::bench::signals::drive::wave_um;
-use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks, paint_unit, round_step};
+use crate::kit::plot;
+use crate::kit::plot::Setting;
+use crate::kit::widgets::axis::round_step;
+use selvedge_chart::{At, Axis, Chart, Columns, Extent, Ink, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity;
-use selvedge_textile::tactile::Band;
 
 /// A tick, ms.
 const TICK_MS: f64 = 25.0;
+/// Steps that a wave is drawn in: 24 in a cycle of 320 Hz, which misses its peaks by less than a
+/// hundredth.
+const N_SHOWN: u32 = 384;
+/// The same in a file: 20 a millisecond.
+const N_EXPORTED: u32 = 1000;
 /// The axis at the least, µm.
 const LEAST_TOP_UM: f64 = 0.1;
 /// How long a smaller axis must have sufficed before it is taken, s.
@@ -113,121 +119,103 @@ impl WaveScale {
     }
 }
 
+/// Both waves and their sum over the last two ticks, on the axis up to `most_um`.
+fn chart(view: &DriveWaveView, most_um: f64, n_steps: u32) -> Chart {
+    let samples: Vec<[f64; 3]> = (0..=n_steps)
+        .map(|step| {
+            let t_ms = 2.0 * TICK_MS * f64::from(step) / f64::from(n_steps);
+            let [low, high] = view.waves_um(t_ms);
+            [t_ms * 1e-3, low, high]
+        })
+        .collect();
+    let column = |of: &dyn Fn(&[f64; 3]) -> f64| -> Vec<f64> { samples.iter().map(of).collect() };
+    let columns = Columns::default()
+        .with("t_s", column(&|sample| sample[0]))
+        .with("wave_40_um", column(&|sample| sample[1]))
+        .with("wave_320_um", column(&|sample| sample[2]))
+        .with("sum_um", column(&|sample| sample[1] + sample[2]));
+    let line = |name: &str, column: &str, ink, weight| Series {
+        name: name.to_owned(),
+        points: columns.points("t_s", column),
+        style: Style::Line,
+        ink,
+        weight,
+        ..Series::default()
+    };
+    Chart {
+        x: Axis::linear("time, s").within([0.0, 2e-3 * TICK_MS]),
+        y: Axis::linear("displacement, µm").within([-most_um, most_um]),
+        series: vec![
+            line("40 Hz", "wave_40_um", Ink::Amber, Weight::Normal),
+            line("320 Hz", "wave_320_um", Ink::Cyan, Weight::Normal),
+            line("sum", "sum_um", Ink::Black, Weight::Thin),
+        ],
+        rules: limits(view.limit_um, most_um),
+        columns,
+        ..Chart::default()
+    }
+}
+
+/// The output limits that lie on the axis.
+fn limits(limit_um: [f64; 2], most_um: f64) -> Vec<Rule> {
+    let of = |(um, ink): (f64, Ink)| {
+        let rule = |um| Rule {
+            at: At::Y(um),
+            ink,
+            extent: Extent::Dashed,
+            ..Rule::default()
+        };
+        (um > 0.0 && um <= most_um).then(|| [rule(-um), rule(um)])
+    };
+    let limits = limit_um.into_iter().zip([Ink::Amber, Ink::Cyan]);
+    limits.filter_map(of).flatten().collect()
+}
+
+/// The waveform with its numbers, on the axis that the pane has.
+pub(crate) fn exported(
+    view: &DriveWaveView,
+    scale: WaveScale,
+    contactor: usize,
+    tick: u64,
+    origin: Origin,
+) -> Exported {
+    let view = view.finite();
+    let chart = chart(&view, scale.most_um().max(view.reach_um()), N_EXPORTED);
+    let [low, high] = view.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
+    let note = format!(
+        "The last two ticks of the drive, after gains and before output limits ({low} at 40 Hz, \
+         {high} at 320 Hz, dashed where they lie on the axis); amplitudes change at ticks, where \
+         both waves cross zero."
+    );
+    let pair = |[low, high]: [f64; 2]| format!("{low} and {high}");
+    let origin = origin
+        .of_contactor(contactor)
+        .and("amplitudes_before_um", &pair(view.before_um), "")
+        .and("amplitudes_now_um", &pair(view.now_um), "")
+        .and("limits_um", &pair(view.limit_um), "")
+        .in_ticks([tick.saturating_sub(1), tick].into_iter());
+    let title = format!("Waveform that drives contactor {contactor}");
+    Exported::of_chart(&title, chart, 300.0, &note, origin)
+}
+
 /// Shows the waveform in the space that is left.
 pub(crate) fn show(ui: &mut Ui, scale: &mut WaveScale, view: &DriveWaveView) {
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    let name = "Drive waveform of the selected contactor, the last 50 ms";
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
-    let plot = Rect::from_min_max(
-        pos2(rect.left() + 34.0, rect.top() + 18.0),
-        pos2(rect.right() - 8.0, rect.bottom() - 18.0),
-    );
-    if plot.width() < 24.0 || plot.height() < 16.0 {
-        return;
-    }
+    let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let view = view.finite();
     *scale = scale.following(view.reach_um(), ui.input(|input| input.time));
-    let axes = Axes::new(scale.most_um());
-    axes.paint(ui.painter(), plot);
-    axes.paint_limits(ui.painter(), plot, view.limit_um);
-    axes.paint_waves(ui.painter(), plot, &view);
-    let [low, high] = view.now_um.map(|um| quantity::with_unit(um, 2, "µm"));
-    response.on_hover_text(format!(
-        "The last two ticks of the drive, after gains and before output limits\n40 Hz  \
-         {low}\n320 Hz  {high}\namplitudes change at ticks, where both waves cross zero"
-    ));
-}
-
-struct Axes {
-    t_ms: Axis,
-    height_um: Axis,
-}
-
-impl Axes {
-    fn new(most_um: f64) -> Self {
-        Self {
-            t_ms: Axis::linear(0.0, 2.0 * TICK_MS),
-            height_um: Axis::linear(-most_um, most_um),
-        }
-    }
-
-    fn paint(&self, painter: &Painter, plot: Rect) {
-        let most_um = self.height_um.most();
-        let share = if plot.height() > 100.0 { 0.5 } else { 1.0 };
-        let heights = [
-            self.height_um.least(),
-            -share * most_um,
-            0.0,
-            share * most_um,
-            most_um,
-        ];
-        let mut heights: Vec<Tick> = heights.map(Tick::number).to_vec();
-        heights.dedup();
-        paint_ticks(painter, plot, (&self.height_um, Side::Left), &heights);
-        let end = Tick::named(2.0 * TICK_MS, "50 ms");
-        let times = [Tick::number(0.0), Tick::number(TICK_MS), end];
-        paint_ticks(painter, plot, (&self.t_ms, Side::Bottom), &times);
-        let unit_at = pos2(plot.left() - 5.0, plot.top() - 6.0);
-        paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, "µm");
-    }
-
-    fn paint_limits(&self, painter: &Painter, plot: Rect, limit_um: [f64; 2]) {
-        let palette = Palette::of(painter.ctx().theme());
-        let is_in_range = |um: f64| um > 0.0 && um <= self.height_um.most();
-        for band in Band::ALL {
-            let um = limit_um[band.index()];
-            if is_in_range(um) {
-                for um in [-um, um] {
-                    let y = self.height_um.y(plot.y_range(), um);
-                    let y = painter.round_to_pixel_center(y);
-                    let ends = [pos2(plot.left(), y), pos2(plot.right(), y)];
-                    // The two lines may coincide: each fills the other's gaps.
-                    let shift = 5.0 * band.index() as f32;
-                    let stroke = Stroke::new(1.0, palette.band(band));
-                    painter.add(Shape::Vec(Shape::dashed_line_with_offset(
-                        &ends,
-                        stroke,
-                        &[5.0],
-                        &[5.0],
-                        shift,
-                    )));
-                }
-            }
-        }
-    }
-
-    fn paint_waves(&self, painter: &Painter, plot: Rect, view: &DriveWaveView) {
-        let palette = Palette::of(painter.ctx().theme());
-        let inks = Band::ALL.map(|band| palette.band(band).gamma_multiply(0.55));
-        let clip = painter.with_clip_rect(plot.expand(1.0));
-        let line = |pick: &dyn Fn([f64; 2]) -> f64, fastest: Band, ink: Color32, width: f32| {
-            let points = sample_times_ms(fastest).map(|t_ms| {
-                let y = self.height_um.y(plot.y_range(), pick(view.waves_um(t_ms)));
-                pos2(self.t_ms.x(plot.x_range(), t_ms), y)
-            });
-            clip.add(Shape::line(points.collect(), Stroke::new(width, ink)));
-        };
-        line(&|waves| waves[0], Band::Low, inks[0], 1.0);
-        line(&|waves| waves[1], Band::High, inks[1], 1.0);
-        let sum = |waves: [f64; 2]| waves[0] + waves[1];
-        line(&sum, Band::High, palette.text, 1.25);
-    }
-}
-
-/// Times at which a wave is drawn: 24 in a cycle of the fastest band in it, which misses its peaks
-/// by less than a hundredth.
-fn sample_times_ms(fastest: Band) -> impl Iterator<Item = f64> {
-    let n_cycles: u32 = match fastest {
-        Band::Low => 2,
-        Band::High => 16,
+    let setting = Setting {
+        name: "Drive waveform of the selected contactor, the last 50 ms",
+        note: "The last two ticks of the drive, after gains and before output limits; amplitudes \
+               change at ticks, where both waves cross zero",
+        ..Setting::default()
     };
-    let n_steps = 24 * n_cycles;
-    (0..=n_steps).map(move |i| 2.0 * TICK_MS * f64::from(i) / f64::from(n_steps))
+    plot::show(ui, rect, &chart(&view, scale.most_um(), N_SHOWN), &setting);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use selvedge_textile::tactile::Band;
 
     #[test]
     fn each_tick_has_its_own_amplitudes_and_the_waves_meet_at_zero() {
@@ -261,10 +249,11 @@ mod tests {
                 now_um,
                 ..DriveWaveView::default()
             };
-            let waves = |fastest| sample_times_ms(fastest).map(|t_ms| view.waves_um(t_ms));
-            let most = waves(band).map(|um| um[band.index()]).fold(0.0, f64::max);
+            let chart = chart(&view, 2.0, N_SHOWN);
+            let heights = |band: Band| chart.series[band.index()].points.iter().map(|at| at[1]);
+            let most = heights(band).fold(0.0, f64::max);
             assert!(most > 0.99 && most <= 1.0, "{band:?}: {most}");
-            assert!(waves(band).all(|um| um[other.index()] == 0.0));
+            assert!(heights(other).all(|um| um == 0.0));
         }
     }
 

@@ -1,12 +1,11 @@
 //! The strips of the timeline: speed and mean levels, tick for tick.
 
-use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::{Exported, Sheet};
 use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::timeline::plot::LEVELS_DB as TIMELINE_LEVELS_DB;
 use crate::tools::timeline::strip::{StripTick, Timeline};
-use selvedge_chart::{Axis, Ink, Panel, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -19,7 +18,7 @@ const GAP: [f64; 2] = [f64::NAN; 2];
 pub(crate) fn strips(timeline: &Timeline, origin: Origin) -> Exported {
     let x = Axis::linear(timeline.time_label).within(timeline.range_s);
     let speed = |tick: &StripTick| Some(tick.felt.speed_mm_per_s);
-    let speeds = Panel {
+    let speeds = Chart {
         x: x.clone(),
         is_x_shared: timeline.has_levels,
         y: Axis::linear("speed, mm/s").within([0.0, timeline.top_mm_per_s]),
@@ -29,7 +28,7 @@ pub(crate) fn strips(timeline: &Timeline, origin: Origin) -> Exported {
             ink: Ink::Grey,
             ..Series::default()
         }],
-        ..Panel::default()
+        ..Chart::default()
     };
     let row = |panel, height_px| Row {
         panels: vec![panel],
@@ -55,7 +54,7 @@ pub(crate) fn strips(timeline: &Timeline, origin: Origin) -> Exported {
     Exported::new(title, sheet(timeline), rows, &note, origin)
 }
 
-fn levels(ticks: &[StripTick], x: Axis) -> Panel {
+fn levels(ticks: &[StripTick], x: Axis) -> Chart {
     let series = |band: Band| Series {
         name: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
         points: line(ticks, |tick| level_db(tick, band)),
@@ -63,11 +62,11 @@ fn levels(ticks: &[StripTick], x: Axis) -> Panel {
         ink: ink(band),
         ..Series::default()
     };
-    Panel {
+    Chart {
         x,
         y: Axis::linear("mean level, dB re 1 µm").within(TIMELINE_LEVELS_DB),
         series: Band::ALL.map(series).to_vec(),
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 

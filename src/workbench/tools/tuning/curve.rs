@@ -1,11 +1,15 @@
 //! What compression does: level in, level out, and the library's textiles as dots on the curve.
 
-use eframe::egui::{self, Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{Margin, Pos2, Sense, Ui, vec2};
 
 use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::export::Exported;
+use crate::bench::export::origin::Origin;
 use crate::bench::view::{LibraryDot, SceneView};
-use crate::kit::theme;
-use crate::kit::theme::Palette;
+use crate::kit::plot;
+use crate::kit::plot::Setting;
+use crate::kit::spectrogram::paint_sentence;
+use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Tone, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Tuning};
 
@@ -30,7 +34,7 @@ pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f
 }
 
 /// The ends of both axes: whole tens of decibels around every level.
-pub(crate) fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
+fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
     let levels = library.iter().map(|dot| dot.level_db).chain([reference_db]);
     let (least, most) = levels.fold(
         (f64::INFINITY, f64::NEG_INFINITY),
@@ -42,174 +46,148 @@ pub(crate) fn ends_db(library: &[LibraryDot], reference_db: f64) -> [f64; 2] {
     ]
 }
 
+/// The curve with the library's textiles as dots on it, those outside the scene first.
+fn chart(scene: &SceneView, reference_db: f64) -> Chart {
+    let library = &scene.library;
+    let out = |level_db: f64| out_db(&scene.tuning, reference_db, level_db);
+    let ends = ends_db(library, reference_db);
+    let line = |name: &str, of: &dyn Fn(f64) -> f64, ink, style| Series {
+        name: name.to_owned(),
+        points: ends.map(|level_db| [level_db, of(level_db)]).to_vec(),
+        style,
+        ink,
+        ..Series::default()
+    };
+    let dots = |name: &str, is_placed: bool, ink| {
+        let own = library.iter().filter(|dot| dot.is_placed == is_placed);
+        Series {
+            name: name.to_owned(),
+            points: own.map(|dot| [dot.level_db, out(dot.level_db)]).collect(),
+            ink,
+            ..Series::default()
+        }
+    };
+    let named = |dot: &LibraryDot| Words {
+        at: [dot.level_db, out(dot.level_db)],
+        text: dot.name.clone(),
+        tone: Tone::Aside,
+    };
+    let percent = quantity::with_unit(100.0 * scene.tuning.compression, 0, "%");
+    let placed = library.iter().filter(|dot| dot.is_placed);
+    Chart {
+        x: Axis::linear("level in, dB re 1 µm").within(ends),
+        y: Axis::linear("level out, dB re 1 µm").within(ends),
+        series: vec![
+            line("uncompressed", &|db| db, Ink::Grey, Style::Dashed),
+            line(
+                &format!("compression {percent}"),
+                &out,
+                Ink::Black,
+                Style::Line,
+            ),
+            dots("library", false, Ink::Grey),
+            dots("in the scene", true, Ink::Black),
+        ],
+        words: placed.map(named).collect(),
+        columns: columns(library, |level_db| {
+            let tuning = &scene.tuning;
+            tuning.compression_gain_db(Some(level_db), reference_db)
+        }),
+        ..Chart::default()
+    }
+}
+
+fn columns(library: &[LibraryDot], gain_db: impl Fn(f64) -> f64) -> Columns {
+    let number = |of: &dyn Fn(&LibraryDot) -> f64| -> Vec<f64> { library.iter().map(of).collect() };
+    let names: Vec<String> = library.iter().map(|dot| dot.name.clone()).collect();
+    let is_placed = library.iter().map(|dot| u64::from(dot.is_placed));
+    Columns::default()
+        .with("textile", names)
+        .with("mean_a40_um", number(&|dot| dot.mean_um[0]))
+        .with("mean_a320_um", number(&|dot| dot.mean_um[1]))
+        .with("level_in_db", number(&|dot| dot.level_db))
+        .with("compression_gain_db", number(&|dot| gain_db(dot.level_db)))
+        .with(
+            "level_out_db",
+            number(&|dot| dot.level_db + gain_db(dot.level_db)),
+        )
+        .with("is_in_scene", is_placed.collect::<Vec<u64>>())
+}
+
+fn out_db(tuning: &Tuning, reference_db: f64, level_db: f64) -> f64 {
+    level_db + tuning.compression_gain_db(Some(level_db), reference_db)
+}
+
+/// The curve with its numbers.
+pub(crate) fn exported(scene: &SceneView, reference_db: f64, origin: Origin) -> Exported {
+    let note = "Level of a textile: mean over both bands of its mean amplitudes at 100 mm/s, \
+                without other gains.";
+    let chart = chart(scene, reference_db);
+    Exported::of_chart("Compression of the library", chart, 420.0, note, origin)
+}
+
 /// Shows the curve, or what it waits for; a click on a dot chooses its textile, if it is placed.
 pub(crate) fn show(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
-    let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Compression curve"));
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let Some(reference_db) = scene.reference_db.filter(|_| !scene.library.is_empty()) else {
-        let words = "Levels are being computed: compression is pending";
-        ui.painter().text(
-            rect.center(),
-            Align2::CENTER_CENTER,
-            words,
-            theme::small(),
-            palette.dim,
+        paint_sentence(
+            ui.painter(),
+            rect,
+            "Levels are being computed: compression is pending",
         );
         return;
     };
-    let plot = Plot::new(rect, &scene.library, reference_db);
-    plot.paint_axes(ui.painter());
-    plot.paint_curve(ui.painter(), &scene.tuning);
-    for dot in &scene.library {
-        plot.paint_dot(ui.painter(), dot, &scene.tuning);
-        if scene.is_marked_id(&dot.id) {
-            plot.paint_mark(ui.painter(), dot, &scene.tuning);
-        }
+    let mut chart = chart(scene, reference_db);
+    // Hovering names the dots: there is no room for words among them.
+    chart.words.clear();
+    for (series, is_placed) in chart.series[2..].iter_mut().zip([false, true]) {
+        let own = scene
+            .library
+            .iter()
+            .filter(|dot| dot.is_placed == is_placed);
+        let marked = own
+            .enumerate()
+            .filter(|(_, dot)| scene.is_marked_id(&dot.id));
+        series.marked = marked.map(|(nth, _)| nth).collect();
     }
-    let pointer = response.hover_pos();
-    if let Some(dot) = pointer.and_then(|at| plot.dot_near(at, &scene.library, &scene.tuning)) {
+    let setting = Setting {
+        name: "Compression curve",
+        margin: Margin {
+            left: 30,
+            right: 6,
+            top: 6,
+            bottom: 18,
+        },
+        wheel: false,
+        hover: false,
+        has_legend: false,
+        ..Setting::default()
+    };
+    let Some(shown) = plot::show(ui, rect, &chart, &setting) else {
+        return;
+    };
+    let out = |dot: &LibraryDot| out_db(&scene.tuning, reference_db, dot.level_db);
+    let pointer = shown.response.hover_pos();
+    let distance = |dot: &&LibraryDot, at: Pos2| shown.at([dot.level_db, out(dot)]).distance(at);
+    let near = pointer.and_then(|at| {
+        let near = scene.library.iter().filter(|dot| distance(dot, at) < 8.0);
+        near.min_by(|a, b| distance(a, at).total_cmp(&distance(b, at)))
+    });
+    if let Some(dot) = near {
         if let Some(index) = scene.placed(&dot.id) {
             wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
-            if response.clicked() {
+            if shown.response.clicked() {
                 wishes.push(ShowCommand::SelectCloth(Some(index)).into());
             }
         }
-        let out_db = plot.out_db(&scene.tuning, dot.level_db);
         let words = format!(
             "{}\nlevel {} → {}\nmean of both bands at 100 mm/s, re 1 µm, without other gains",
             dot.name,
             quantity::with_unit(dot.level_db, 1, "dB"),
-            quantity::with_unit(out_db, 1, "dB"),
+            quantity::with_unit(out(dot), 1, "dB"),
         );
-        response.on_hover_text_at_pointer(words);
-    }
-}
-
-struct Plot {
-    area: Rect,
-    least_db: f64,
-    most_db: f64,
-    reference_db: f64,
-}
-
-impl Plot {
-    fn new(rect: Rect, library: &[LibraryDot], reference_db: f64) -> Self {
-        let [least_db, most_db] = ends_db(library, reference_db);
-        Self {
-            area: Rect::from_min_max(rect.min + vec2(30.0, 6.0), rect.max - vec2(6.0, 18.0)),
-            least_db,
-            most_db,
-            reference_db,
-        }
-    }
-
-    fn out_db(&self, tuning: &Tuning, level_db: f64) -> f64 {
-        level_db + tuning.compression_gain_db(Some(level_db), self.reference_db)
-    }
-
-    fn at(&self, in_db: f64, out_db: f64) -> Pos2 {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = |db: f64| ((db - self.least_db) / (self.most_db - self.least_db)) as f32;
-        pos2(
-            self.area.left() + share(in_db) * self.area.width(),
-            self.area.bottom() - share(out_db) * self.area.height(),
-        )
-    }
-
-    fn paint_axes(&self, painter: &Painter) {
-        let palette = Palette::of(painter.ctx().theme());
-        let hairline = Stroke::new(1.0, palette.hairline);
-        let n_steps = ((self.most_db - self.least_db) / 10.0)
-            .round()
-            .clamp(1.0, 20.0);
-        for i in (0..=20_u8).take_while(|i| f64::from(*i) <= n_steps) {
-            let level_db = self.least_db + 10.0 * f64::from(i);
-            let at = self.at(level_db, level_db);
-            let (x, y) = (
-                painter.round_to_pixel_center(at.x),
-                painter.round_to_pixel_center(at.y),
-            );
-            painter.hline(self.area.x_range(), y, hairline);
-            painter.vline(x, self.area.y_range(), hairline);
-            let digits = quantity::fixed(level_db, 0);
-            let below = pos2(x, self.area.bottom() + 3.0);
-            let font = theme::small_number();
-            painter.text(
-                below,
-                Align2::CENTER_TOP,
-                &digits,
-                font.clone(),
-                palette.dim,
-            );
-            let before = pos2(self.area.left() - 5.0, y);
-            painter.text(before, Align2::RIGHT_CENTER, &digits, font, palette.dim);
-        }
-        let corner = self.area.left_top() + vec2(6.0, 4.0);
-        painter.text(
-            corner,
-            Align2::LEFT_TOP,
-            "dB out",
-            theme::small(),
-            palette.dim,
-        );
-        let corner = self.area.right_bottom() - vec2(6.0, 4.0);
-        painter.text(
-            corner,
-            Align2::RIGHT_BOTTOM,
-            "dB in",
-            theme::small(),
-            palette.dim,
-        );
-    }
-
-    fn paint_curve(&self, painter: &Painter, tuning: &Tuning) {
-        let palette = Palette::of(painter.ctx().theme());
-        let ends = [self.least_db, self.most_db];
-        let unchanged = ends.map(|level_db| self.at(level_db, level_db));
-        painter.add(egui::Shape::dashed_line(
-            &unchanged,
-            Stroke::new(1.0, palette.line),
-            3.0,
-            4.0,
-        ));
-        let curve = ends.map(|level_db| self.at(level_db, self.out_db(tuning, level_db)));
-        painter.line_segment(curve, Stroke::new(1.5, palette.text));
-    }
-
-    fn paint_dot(&self, painter: &Painter, dot: &LibraryDot, tuning: &Tuning) {
-        let palette = Palette::of(painter.ctx().theme());
-        let at = self.at(dot.level_db, self.out_db(tuning, dot.level_db));
-        if dot.is_placed {
-            painter.circle_filled(at, 4.5, palette.panel);
-            painter.circle_filled(at, 3.5, palette.selection);
-        } else {
-            painter.circle(at, 2.5, palette.panel, Stroke::new(1.0, palette.line));
-        }
-    }
-
-    /// The ring around a textile that is chosen or pointed at.
-    fn paint_mark(&self, painter: &Painter, dot: &LibraryDot, tuning: &Tuning) {
-        let palette = Palette::of(painter.ctx().theme());
-        let at = self.at(dot.level_db, self.out_db(tuning, dot.level_db));
-        painter.circle_stroke(at, 7.0, Stroke::new(1.5, palette.selection));
-    }
-
-    fn dot_near<'a>(
-        &self,
-        pointer: Pos2,
-        library: &'a [LibraryDot],
-        tuning: &Tuning,
-    ) -> Option<&'a LibraryDot> {
-        let distance = |dot: &LibraryDot| {
-            self.at(dot.level_db, self.out_db(tuning, dot.level_db))
-                .distance(pointer)
-        };
-        library
-            .iter()
-            .filter(|dot| distance(dot) < 8.0)
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        shown.response.on_hover_text_at_pointer(words);
     }
 }
 

@@ -1,7 +1,6 @@
 //! Gains, compression and what it does to the library, and the filters in force.
 
 pub(crate) mod curve;
-pub(crate) mod export;
 
 use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 

@@ -5,7 +5,7 @@ use crate::bench::export::origin::Origin;
 use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::why::Why;
 use crate::tools::why::text::sheet;
-use selvedge_chart::{Axis, Panel, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Row, Series, Style};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
 
@@ -41,18 +41,18 @@ pub(crate) fn explanation(why: &Why, filters: &Filters, origin: Origin) -> Expor
         ..Series::default()
     };
     let frequency = || Axis::log("frequency, Hz").within(FREQUENCIES_HZ);
-    let energy = Panel {
+    let energy = Chart {
         x: frequency(),
         is_x_shared: true,
         y: Axis::linear("energy of a bin, µm²").within([0.0, most_um2]),
         series: Band::ALL.map(stems).to_vec(),
-        ..Panel::default()
+        ..Chart::default()
     };
-    let gains = Panel {
+    let gains = Chart {
         x: frequency(),
         y: Axis::linear("filter gain").within([0.0, 1.0]),
         series: Band::ALL.map(|band| curve(filters, band)).to_vec(),
-        ..Panel::default()
+        ..Chart::default()
     };
     let row = |panel, height_px| Row {
         panels: vec![panel],

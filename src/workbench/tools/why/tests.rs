@@ -147,7 +147,7 @@ fn outside_at_rest_and_silent_are_said() {
 fn csv_of(explained: &Why) -> String {
     let path = std::path::Path::new("why.csv");
     let origin = crate::bench::export::origin::Origin::default();
-    String::from_utf8(sheet(explained).to_csv(&origin, path).unwrap()).unwrap()
+    String::from_utf8(sheet(explained).to_csv(&origin.pairs(), path).unwrap()).unwrap()
 }
 
 #[test]

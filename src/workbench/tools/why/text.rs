@@ -1,6 +1,6 @@
 //! The explanation as text to be copied, and as a table to be saved.
 
-use crate::bench::export::sheet::Sheet;
+use crate::bench::export::Sheet;
 use crate::bench::perceptual_level::felt_words;
 use crate::tools::why::{FULL_CODE, Why};
 use selvedge_device::Calibration;

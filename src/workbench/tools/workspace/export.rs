@@ -1,13 +1,12 @@
 //! Maps over the cloth: what every textile of the scene would give all over at one velocity.
 
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
-use crate::bench::export::{Exported, bar, rgb};
+use crate::bench::export::{Exported, Sheet, bar, rgb};
 use crate::bench::probe::Probe;
 use crate::bench::view::Cloth;
 use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::workspace::maps::ShownMap;
-use selvedge_chart::{Axis, Panel, Raster, Row};
+use selvedge_chart::{Axis, Chart, Raster, Row};
 use selvedge_foundation::quantity;
 
 /// Most panels side by side.
@@ -115,7 +114,7 @@ fn height_px(row: &[Mapped<'_>]) -> f64 {
         .round()
 }
 
-fn panel(one: &Mapped<'_>) -> Panel {
+fn panel(one: &Mapped<'_>) -> Chart {
     let wanted = &one.shown.wanted;
     let [n_warp, n_weft] = one.n_cells;
     // Rows of a raster come from the top, the weft runs upward.
@@ -127,7 +126,7 @@ fn panel(one: &Mapped<'_>) -> Panel {
         Some(rgb(wanted.colours, share))
     };
     let ends = |n: usize| [-0.5, n as f64 - 0.5];
-    Panel {
+    Chart {
         title: format!("{} {}", one.cloth.label, one.cloth.name)
             .trim()
             .to_owned(),
@@ -139,7 +138,7 @@ fn panel(one: &Mapped<'_>) -> Panel {
             n_columns: n_warp,
             cells: places.map(colour).collect(),
         }),
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 

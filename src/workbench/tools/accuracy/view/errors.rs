@@ -1,34 +1,19 @@
 //! The errors found: now, largest, 99th percentile, and how they are distributed, with the bound
 //! that the method promises and the budget that it was given.
 
-use eframe::egui::{
-    self, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{Color32, Sense, Ui, vec2};
 
+use crate::kit::plot;
+use crate::kit::plot::Setting;
 use crate::kit::spectrogram::paint_sentence;
-use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};
-use crate::tools::accuracy::checker::{ERRORS_DB, ErrorView, ROUNDING_DB, edges_db};
+use crate::tools::accuracy::checker::{ErrorView, ROUNDING_DB, edges_db};
 use crate::tools::accuracy::view::numbers::LINE;
-use crate::tools::accuracy::view::{numbers, quiet_line};
+use crate::tools::accuracy::view::{HISTOGRAM, chart, numbers, quiet_line};
 use crate::tools::accuracy::{AccuracyView, Tally};
 use selvedge_foundation::quantity;
 use selvedge_render::array::Method;
 use selvedge_textile::tactile::Band;
-
-/// Between the names of two lines, points.
-const NAME_GAP: f32 = 5.0;
-/// How a distribution is filled.
-const FILL: f32 = 0.28;
-
-/// A level error that is drawn as a line.
-struct Mark {
-    db: f64,
-    name: &'static str,
-    ink: Color32,
-    is_dashed: bool,
-}
 
 /// Shows errors and their distribution in the space that is left.
 pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
@@ -41,30 +26,20 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
     quiet_line(ui, title, &tally_words(view.found, view.tally));
     let height = (ui.available_height() - 3.0 * LINE).max(40.0);
     let size = vec2(ui.available_width(), height);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| {
-        WidgetInfo::labeled(egui::Role::Canvas, true, "Distribution of level errors")
-    });
-    let plot = Rect::from_min_max(rect.min + vec2(2.0, LINE), rect.max - vec2(2.0, LINE + 2.0));
-    let axis = Axis::log(ERRORS_DB[0], ERRORS_DB[1]);
-    let ticks = [1e-6, 1e-4, 1e-2, 1.0].map(|db| Tick::named(db, &decade(db)));
-    paint_ticks(ui.painter(), plot, (&axis, Side::Bottom), &ticks);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let setting = Setting {
+        name: "Distribution of level errors",
+        ..HISTOGRAM
+    };
+    let shown = plot::show(ui, rect, &chart::error_chart(view), &setting);
     if view.found.n_ticks == 0 {
         let words = "Move the display over a textile: its ticks are checked against reference";
-        paint_sentence(ui.painter(), plot, words);
-    } else {
-        let counts = &view.found.counts;
-        let most = counts.iter().flatten().copied().max().unwrap_or(0);
-        for band in Band::ALL {
-            let counts = &counts[band.index()];
-            paint_distribution(ui.painter(), plot, &axis, (counts, most), band);
-        }
-        paint_marks(ui, plot, &axis, view);
+        paint_sentence(ui.painter(), rect - setting.margin, words);
     }
-    let pointer = response.hover_pos().filter(|at| plot.contains(*at));
-    if let Some(at) = pointer {
-        let words = words_at(view.found, axis.value_at_x(plot.x_range(), at.x));
-        response.on_hover_text_at_pointer(words);
+    let pointed = shown.and_then(|shown| Some((shown.pointer()?, shown)));
+    if let Some((at, shown)) = pointed {
+        let words = words_at(view.found, shown.values_at(at)[0]);
+        shown.response.on_hover_text_at_pointer(words);
     }
     show_numbers(ui, view.found);
 }
@@ -86,81 +61,6 @@ fn show_numbers(ui: &mut Ui, found: &ErrorView) {
     numbers::line(ui, "99 %", &p99, "dB");
     let largest = of_bands(&|b| heard(b).map(|error| error.max_db));
     numbers::line(ui, "largest", &largest, "dB");
-}
-
-/// `1`, `0.01`, `10⁻⁶`.
-fn decade(db: f64) -> String {
-    if db >= 0.009 {
-        return quantity::fixed(db, if db < 1.0 { 2 } else { 0 });
-    }
-    format!("1e{}", quantity::fixed(db.log10(), 0))
-}
-
-fn paint_distribution(
-    painter: &Painter,
-    plot: Rect,
-    axis: &Axis,
-    (counts, most): (&[u64], u64),
-    band: Band,
-) {
-    if most == 0 {
-        return;
-    }
-    let ink = Palette::of(painter.ctx().theme()).band(band);
-    let is_any = |count: &u64| *count > 0;
-    let first = counts.iter().position(is_any).unwrap_or(counts.len());
-    let end = counts.iter().rposition(is_any).map_or(0, |last| last + 1);
-    let edges = edges_db();
-    let mut outline: Vec<Pos2> = Vec::new();
-    for (edge_db, count) in edges.windows(2).zip(counts).take(end).skip(first) {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = (*count as f64 / most as f64) as f32;
-        let y = plot.bottom() - share * (plot.height() - 2.0);
-        let [left, right] = [edge_db[0], edge_db[1]].map(|db| axis.x(plot.x_range(), db));
-        if *count > 0 {
-            let bar = Rect::from_min_max(pos2(left, y), pos2(right, plot.bottom()));
-            painter.rect_filled(bar, 0, ink.gamma_multiply(FILL));
-        }
-        outline.extend([pos2(left, y), pos2(right, y)]);
-    }
-    painter.add(Shape::line(outline, Stroke::new(1.0, ink)));
-}
-
-fn paint_marks(ui: &Ui, plot: Rect, axis: &Axis, view: &AccuracyView<'_>) {
-    let palette = Palette::in_ui(ui);
-    let painter = ui.painter();
-    let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
-    let mark = |db, name, ink, is_dashed| Mark {
-        db,
-        name,
-        ink,
-        is_dashed,
-    };
-    let mut marks = vec![mark(ROUNDING_DB, "rounding", palette.dim, true)];
-    if view.bound_db > ROUNDING_DB {
-        marks.push(mark(view.bound_db, "bound", palette.text, false));
-    }
-    if has_budget && view.rendering.budget_db > 0.0 {
-        let budget_db = view.rendering.budget_db;
-        marks.push(mark(budget_db, "budget", palette.selection, true));
-    }
-    marks.sort_by(|a, b| b.db.total_cmp(&a.db));
-    // From the right on, names give way to those before them.
-    let mut most_right = plot.right() + 2.0;
-    for mark in marks {
-        let x = painter.round_to_pixel_center(axis.x(plot.x_range(), mark.db));
-        let ends = [pos2(x, plot.top()), pos2(x, plot.bottom())];
-        let stroke = Stroke::new(1.0, mark.ink);
-        if mark.is_dashed {
-            painter.add(Shape::Vec(Shape::dashed_line(&ends, stroke, 3.0, 3.0)));
-        } else {
-            painter.line_segment(ends, stroke);
-        }
-        let name = painter.layout_no_wrap(mark.name.to_owned(), theme::small(), mark.ink);
-        let left = (x - 0.5 * name.size().x).min(most_right - name.size().x);
-        painter.galley(pos2(left, plot.top() - LINE), name, mark.ink);
-        most_right = left - NAME_GAP;
-    }
 }
 
 fn tally_words(found: &ErrorView, tally: Tally) -> String {

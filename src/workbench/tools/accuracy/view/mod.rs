@@ -1,15 +1,21 @@
 //! How accurate the running method is and what it costs: method and error budget, errors found,
 //! cost of the ticks, and every method measured on this scene.
 
+pub(crate) mod chart;
 pub(crate) mod costs;
 pub(crate) mod errors;
 pub(crate) mod numbers;
 pub(crate) mod pareto;
 
-use eframe::egui::{self, ComboBox, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+pub(crate) use crate::tools::accuracy::view::chart::exported;
+
+use eframe::egui::{
+    self, ComboBox, Layout, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2,
+};
 
 use crate::bench::command::Wishes;
 use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
+use crate::kit::plot::{Drag, Setting};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::scale::{Curve, Scale};
@@ -29,6 +35,23 @@ const GAP: f32 = 3.0 * STEP;
 /// Decades of the budget's slider: down to 0.0001 dB, then 0.
 const DECADES: f64 = 4.0;
 
+/// How both histograms stand in the pane, which may scroll.
+const HISTOGRAM: Setting<'_> = Setting {
+    name: "",
+    margin: Margin {
+        left: 2,
+        right: 2,
+        top: 14,
+        bottom: 16,
+    },
+    wheel: false,
+    drag: Drag::Pans,
+    link: None,
+    hover: false,
+    note: "",
+    has_legend: false,
+};
+
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
     let size = ui.available_size();
@@ -37,7 +60,7 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
         let rect = ui.available_rect_before_wrap();
         let [errors, costs, methods] = thirds(rect);
         within(ui, errors, |ui| errors::show(ui, view));
-        within(ui, costs, |ui| costs::show(ui, &view.cost));
+        within(ui, costs, |ui| costs::show(ui, view));
         within(ui, methods, |ui| pareto::show(ui, view, wishes));
         ui.advance_cursor_after_rect(rect);
         return;
@@ -69,7 +92,7 @@ fn show_histograms(ui: &mut Ui, rect: Rect, view: &AccuracyView<'_>) {
     let left = left.with_max_x(left.right() - 0.5 * GAP);
     within(ui, left, |ui| errors::show(ui, view));
     let right = right.with_min_x(right.left() + 0.5 * GAP);
-    within(ui, right, |ui| costs::show(ui, &view.cost));
+    within(ui, right, |ui| costs::show(ui, view));
 }
 
 /// What stands beside the title: begin anew, and which plots there are where there is no room for

@@ -1,29 +1,27 @@
 //! Amplitudes over speed along one stroke: amber at 40 Hz, cyan at 320 Hz; what is compared is
-//! thin and grey, a family is drawn from faint (its first) to full (its last).
+//! thin and dashed, a family is drawn from faint (its first) to full (its last).
 
-use eframe::egui::{
-    self, Align2, Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
-    pos2, vec2,
-};
+use eframe::egui::{Margin, Rect, Ui};
 
-use crate::kit::theme;
-use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks, paint_unit};
+use crate::bench::amplitude::AmplitudeScale;
+use crate::kit::plot;
+use crate::kit::plot::{Setting, Shown};
+use crate::kit::widgets::axis::Tick;
+use crate::tools::lab::Lab;
 use crate::tools::lab::command::Page;
+use crate::tools::lab::family::Family;
 use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
 use crate::tools::lab::view::{LabView, title};
 use crate::tools::response::ends_db as response_ends_db;
+use crate::tools::spectra::export_spectrograms::ink;
+use selvedge_chart::{Axis, Band as Area, Chart, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
 use selvedge_textile::surface::Direction;
 use selvedge_textile::tactile::Band;
 
-/// Speeds that are named, mm/s.
-const NAMED_MM_PER_S: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
-/// How opaque the range over all points is drawn.
-const RANGE: f32 = 0.14;
-/// How opaque the first of a family is drawn.
-const FAINTEST: f32 = 0.3;
+/// How much of its ink the first of a family lacks.
+const FAINTEST: f32 = 0.7;
 
 /// Shows the plot.
 pub(crate) fn show(ui: &Ui, rect: Rect, view: &LabView<'_>, preview: &Preview) {
@@ -41,46 +39,117 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &LabView<'_>, preview: &Preview) {
         None => format!("amplitudes over speed, {}", direction.label()),
     };
     let below = title(ui, rect, &words);
-    let id = ui.scope_id().with("lab curves");
-    let response = ui.interact(below, id, Sense::hover());
     let name = format!("Amplitudes over speed, {}", direction.label());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
-    let plot = Plot::new(below, response_ends_db(view.scale));
-    if plot.area.width() < 40.0 || plot.area.height() < 24.0 {
-        return;
+    let setting = Setting {
+        name: &name,
+        margin: Margin {
+            left: 34,
+            right: 8,
+            top: 12,
+            bottom: 16,
+        },
+        link: Some("speed, mm/s"),
+        hover: false,
+        ..Setting::default()
+    };
+    let chart = match family {
+        Some(family) => family_chart(view, family),
+        None => chart(view.lab, preview, view.scale),
+    };
+    if let Some(shown) = plot::show(ui, below, &chart, &setting) {
+        describe(&shown, view, preview);
     }
-    let painter = ui.painter();
-    let palette = Palette::in_ui(ui);
-    plot.paint_axes(painter);
-    if let Some(compared) = &view.lab.compared {
-        for band in Band::ALL {
-            let grey = Stroke::new(1.0, palette.line);
-            plot.paint_line(painter, &compared.felt, (direction, band), grey);
-        }
-    }
-    if let Some(family) = family {
-        let last = family.members.len().saturating_sub(1).max(1) as f32;
-        for (nth, member) in family.members.iter().enumerate() {
-            let strength = FAINTEST + (1.0 - FAINTEST) * nth as f32 / last;
-            for band in Band::ALL {
-                let ink = palette.band(band).gamma_multiply(strength);
-                let line = Stroke::new(1.5, ink);
-                plot.paint_line(painter, &member.felt, (direction, band), line);
-            }
-        }
-    } else {
-        for band in Band::ALL {
-            let ink = palette.band(band);
-            plot.paint_range(painter, &preview.felt, (direction, band), ink);
-            let line = Stroke::new(1.75, ink);
-            plot.paint_line(painter, &preview.felt, (direction, band), line);
-        }
-    }
-    plot.paint_legend(painter);
-    tell(response, &plot, view, preview);
 }
 
-fn ends_of(family: &crate::tools::lab::family::Family) -> [String; 2] {
+/// Amplitudes over speed of a recipe with the range over all points, and of what it is compared
+/// with.
+pub(crate) fn chart(lab: &Lab, preview: &Preview, scale: AmplitudeScale) -> Chart {
+    let direction = lab.look.direction;
+    let band = |band: Band| {
+        let ends = [
+            levels(&preview.felt, direction, |spread| {
+                spread.least_um[band.index()]
+            }),
+            levels(&preview.felt, direction, |spread| {
+                spread.most_um[band.index()]
+            }),
+        ];
+        Area {
+            points: std::iter::zip(&ends[0], &ends[1])
+                .map(|(least, most)| [least[0], least[1], most[1]])
+                .collect(),
+            ink: ink(band),
+            ..Area::default()
+        }
+    };
+    let lines = Band::ALL.map(|band| line(&preview.felt, direction, band));
+    Chart {
+        bands: Band::ALL.map(band).to_vec(),
+        series: compared(lab).into_iter().chain(lines).collect(),
+        ..axes(scale)
+    }
+}
+
+/// The same of a family, from faint (its first) to full (its last).
+fn family_chart(view: &LabView<'_>, family: &Family) -> Chart {
+    let direction = view.lab.look.direction;
+    let last = family.members.len().saturating_sub(1).max(1) as f32;
+    let members = family.members.iter().enumerate().flat_map(|(nth, member)| {
+        let is_last = nth + 1 == family.members.len();
+        Band::ALL.map(|band| {
+            let line = line(&member.felt, direction, band);
+            Series {
+                name: if is_last { line.name } else { String::new() },
+                faintness: FAINTEST * (1.0 - nth as f32 / last),
+                ..line
+            }
+        })
+    });
+    Chart {
+        series: compared(view.lab).into_iter().chain(members).collect(),
+        ..axes(view.scale)
+    }
+}
+
+fn axes(scale: AmplitudeScale) -> Chart {
+    Chart {
+        x: Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S),
+        y: Axis::linear("level, dB re 1 µm").within(response_ends_db(scale)),
+        ..Chart::default()
+    }
+}
+
+/// What is compared, thin and dashed behind the rest.
+fn compared(lab: &Lab) -> Vec<Series> {
+    let compared = lab.compared.iter();
+    let lines = compared
+        .flat_map(|compared| Band::ALL.map(|band| line(&compared.felt, lab.look.direction, band)));
+    let behind = |line: Series| Series {
+        name: String::new(),
+        style: Style::Dashed,
+        weight: Weight::Thin,
+        ..line
+    };
+    lines.map(behind).collect()
+}
+
+fn line(felt: &Felt, direction: Direction, band: Band) -> Series {
+    Series {
+        name: format!("{} Hz", quantity::fixed(band.carrier_hz(), 0)),
+        points: levels(felt, direction, |spread| spread.rms_um[band.index()]),
+        style: Style::Line,
+        ink: ink(band),
+        ..Series::default()
+    }
+}
+
+fn levels(felt: &Felt, direction: Direction, um: impl Fn(&PointSpread) -> f64) -> Vec<[f64; 2]> {
+    let curve = speeds_mm_per_s().zip(&felt.over_speed[direction.index()]);
+    let level = |(speed, spread)| [speed, quantity::level_db(um(spread))];
+    curve.map(level).collect()
+}
+
+fn ends_of(family: &Family) -> [String; 2] {
     let ends = [family.members.first(), family.members.last()];
     let unit = family.parameter[1];
     ends.map(|end| {
@@ -91,12 +160,13 @@ fn ends_of(family: &crate::tools::lab::family::Family) -> [String; 2] {
     })
 }
 
-fn tell(response: Response, plot: &Plot, view: &LabView<'_>, preview: &Preview) {
-    let Some(at) = response.hover_pos().filter(|at| plot.area.contains(*at)) else {
+fn describe(shown: &Shown, view: &LabView<'_>, preview: &Preview) {
+    let Some(at) = shown.pointer().filter(|_| !shown.response.dragged()) else {
         return;
     };
+    let [pointed_mm_per_s, _] = shown.values_at(at);
     let direction = view.lab.look.direction;
-    let distance = |speed: f64| (plot.speeds.x(plot.area.x_range(), speed) - at.x).abs();
+    let distance = |speed: f64| (speed / pointed_mm_per_s).ln().abs();
     let all = speeds_mm_per_s().enumerate();
     let nearest = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
     let Some((nth, speed_mm_per_s)) = nearest else {
@@ -120,103 +190,10 @@ fn tell(response: Response, plot: &Plot, view: &LabView<'_>, preview: &Preview) 
             format!("\n{}: {}", compared.name, words_of(&compared.felt))
         });
     let decimals = usize::from(speed_mm_per_s < 9.95);
-    response.on_hover_text_at_pointer(format!(
+    shown.response.clone().on_hover_text_at_pointer(format!(
         "{}\n{}{compared}\nRoot mean square over all points, re 1 µm peak, before gains; the \
          shade is from the least to the largest",
         quantity::with_unit(speed_mm_per_s, decimals, "mm/s"),
         words_of(&preview.felt)
     ));
-}
-
-struct Plot {
-    area: Rect,
-    speeds: Axis,
-    levels_db: Axis,
-}
-
-impl Plot {
-    fn new(rect: Rect, [least_db, most_db]: [f64; 2]) -> Self {
-        Self {
-            area: Rect::from_min_max(
-                pos2(rect.left() + 34.0, rect.top() + 6.0),
-                pos2(rect.right() - 8.0, rect.bottom() - 16.0),
-            ),
-            speeds: Axis::log(SPEEDS_MM_PER_S[0], SPEEDS_MM_PER_S[1]),
-            levels_db: Axis::linear(least_db, most_db),
-        }
-    }
-
-    fn paint_axes(&self, painter: &Painter) {
-        let levels = self.levels_db.ticks(self.area.height(), 22.0);
-        paint_ticks(painter, self.area, (&self.levels_db, Side::Left), &levels);
-        let speeds = NAMED_MM_PER_S.map(Tick::number);
-        paint_ticks(painter, self.area, (&self.speeds, Side::Bottom), &speeds);
-        let corner = self.area.right_bottom() + vec2(-4.0, -1.0);
-        paint_unit(painter, corner, Align2::RIGHT_BOTTOM, "mm/s");
-        let corner = self.area.left_top() + vec2(4.0, 1.0);
-        paint_unit(painter, corner, Align2::LEFT_TOP, "dB re 1 µm");
-    }
-
-    fn paint_legend(&self, painter: &Painter) {
-        let palette = Palette::of(painter.ctx().theme());
-        let mut right = self.area.right() - 4.0;
-        for band in [Band::High, Band::Low] {
-            let words = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-            let at = pos2(right, self.area.top() + 1.0);
-            let ink = palette.band(band);
-            let text = painter.text(at, Align2::RIGHT_TOP, words, theme::small(), ink);
-            right = text.left() - 8.0;
-        }
-    }
-
-    fn at(&self, speed_mm_per_s: f64, um: f64) -> Pos2 {
-        let y = self
-            .levels_db
-            .y(self.area.y_range(), quantity::level_db(um));
-        let y = y.clamp(self.area.top() - 2.0, self.area.bottom() + 2.0);
-        pos2(self.speeds.x(self.area.x_range(), speed_mm_per_s), y)
-    }
-
-    fn points(
-        &self,
-        felt: &Felt,
-        direction: Direction,
-        um: impl Fn(&PointSpread) -> f64,
-    ) -> Vec<Pos2> {
-        let curve = speeds_mm_per_s().zip(&felt.over_speed[direction.index()]);
-        curve
-            .map(|(speed, spread)| self.at(speed, um(spread)))
-            .collect()
-    }
-
-    fn paint_line(
-        &self,
-        painter: &Painter,
-        felt: &Felt,
-        (direction, band): (Direction, Band),
-        stroke: Stroke,
-    ) {
-        let b = band.index();
-        let points = self.points(felt, direction, |spread| spread.rms_um[b]);
-        painter
-            .with_clip_rect(self.area)
-            .add(Shape::line(points, stroke));
-    }
-
-    fn paint_range(
-        &self,
-        painter: &Painter,
-        felt: &Felt,
-        (direction, band): (Direction, Band),
-        ink: Color32,
-    ) {
-        let b = band.index();
-        let lower = self.points(felt, direction, |spread| spread.min_um[b]);
-        let upper = self.points(felt, direction, |spread| spread.max_um[b]);
-        crate::tools::response::fill_range(
-            &painter.with_clip_rect(self.area),
-            (&lower, &upper),
-            ink.gamma_multiply(RANGE),
-        );
-    }
 }

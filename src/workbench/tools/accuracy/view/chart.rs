@@ -1,13 +1,14 @@
-//! How accurate rendering was found to be, what ticks cost, and every method on the scene.
+//! The charts of the pane and their numbers: how accurate rendering was found to be, what ticks
+//! cost, and every method on the scene.
 
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::sheet::Sheet;
 use crate::tools::accuracy::AccuracyView;
-use crate::tools::accuracy::checker::{ERRORS_DB, edges_db};
+use crate::tools::accuracy::checker::{ERRORS_DB, ROUNDING_DB, edges_db};
 use crate::tools::spectra::export_spectrograms::ink;
-use selvedge_chart::{At, Axis, Extent, Ink, Panel, Row, Rule, Series, Style};
+use selvedge_chart::{At, Axis, Bars, Chart, Columns, Extent, Ink, Row, Rule, Series};
 use selvedge_foundation::quantity;
+use selvedge_render::array::Method;
 use selvedge_textile::tactile::Band;
 
 /// One bin of a histogram, or one method.
@@ -23,14 +24,14 @@ struct Found {
 }
 
 /// Both histograms of the pane, and the methods if they were measured.
-pub(crate) fn histograms(view: &AccuracyView<'_>, origin: Origin) -> Exported {
+pub(crate) fn exported(view: &AccuracyView<'_>, origin: Origin) -> Exported {
     let found: Vec<Found> = errors(view)
         .chain(costs(view))
         .chain(methods(view))
         .collect();
-    let mut panels = vec![error_panel(&found, view), cost_panel(&found)];
+    let mut panels = vec![error_chart(view), cost_chart(view)];
     if found.iter().any(|one| one.of == "method") {
-        panels.push(method_panel(&found));
+        panels.push(method_chart(&found));
     }
     let row = Row {
         panels,
@@ -45,7 +46,7 @@ pub(crate) fn histograms(view: &AccuracyView<'_>, origin: Origin) -> Exported {
     let note = "Level errors against reference (f64, every bin) in the normative measure; wall \
                 time of every tick; methods by CPU time.";
     let title = "Accuracy and cost of rendering".to_owned();
-    Exported::new(title, sheet(&found), vec![row], note, origin)
+    Exported::new(title, columns(&found), vec![row], note, origin)
 }
 
 fn errors<'a>(view: &'a AccuracyView<'_>) -> impl Iterator<Item = Found> + 'a {
@@ -100,12 +101,12 @@ fn name_of(band: Band) -> String {
     format!("{} Hz", quantity::fixed(band.carrier_hz(), 0))
 }
 
-fn sheet(found: &[Found]) -> Sheet {
+fn columns(found: &[Found]) -> Columns {
     let words = |of: &dyn Fn(&Found) -> String| -> Vec<String> { found.iter().map(of).collect() };
     let number = |of: &dyn Fn(&Found) -> f64| -> Vec<f64> { found.iter().map(of).collect() };
     let is_method = |one: &Found| one.of == "method";
     let measured = |one: &Found, value: f64| if is_method(one) { value } else { f64::NAN };
-    Sheet::default()
+    Columns::default()
         .with("of", words(&|one| one.of.to_owned()))
         .with("name", words(&|one| one.name.clone()))
         .with("from", number(&|one| one.ends[0]))
@@ -116,86 +117,95 @@ fn sheet(found: &[Found]) -> Sheet {
         .with("level_error_db", number(&|one| measured(one, one.error_db)))
 }
 
-/// Bins as stems at their geometric middle.
-fn stems(found: &[Found], of: &str, name: &str, ink: Ink) -> Series {
-    let bins = found.iter().filter(|one| one.of == of && one.name == name);
-    let heard = bins.filter(|one| one.count > 0.0);
-    Series {
+fn bars<'a>(name: &str, found: impl Iterator<Item = &'a Found>, ink: Ink) -> Bars {
+    Bars {
         name: name.to_owned(),
-        points: heard
-            .map(|one| [(one.ends[0] * one.ends[1]).sqrt(), one.count])
+        bins: found
+            .map(|one| [one.ends[0], one.ends[1], one.count])
             .collect(),
-        style: Style::Stems,
         ink,
-        ..Series::default()
     }
 }
 
-fn most(series: &[Series]) -> f64 {
-    let counts = series.iter().flat_map(|one| &one.points);
-    counts.map(|[_, count]| *count).fold(1.0, f64::max)
+/// An axis of counts with a little room above the highest bar.
+fn counts(what: &str, bars: &[Bars]) -> Axis {
+    let bins = bars.iter().flat_map(|bars| &bars.bins);
+    let most = bins.map(|bin| bin[2]).fold(1.0, f64::max);
+    Axis::linear(what).within([0.0, 1.05 * most])
 }
 
-fn error_panel(found: &[Found], view: &AccuracyView<'_>) -> Panel {
-    let series = Band::ALL.map(|band| stems(found, "level error", &name_of(band), ink(band)));
-    let rule = |db: f64, label: &str| Rule {
-        at: At::X(db),
-        label: label.to_owned(),
-        ink: Ink::Black,
-        extent: Extent::Dashed,
-    };
-    let is_on = |db: f64| (ERRORS_DB[0]..=ERRORS_DB[1]).contains(&db);
-    let (bound_db, budget_db) = (view.bound_db, view.rendering.budget_db);
-    // Tables are made to fill the budget: both names would lie over each other.
-    let rules = if (bound_db / budget_db - 1.0).abs() < 0.5 {
-        vec![(bound_db, "bound, budget")]
-    } else {
-        vec![(bound_db, "bound"), (budget_db, "budget")]
-    };
-    Panel {
+/// How level errors are distributed, with what the method promises and what it was given.
+pub(crate) fn error_chart(view: &AccuracyView<'_>) -> Chart {
+    let found: Vec<Found> = errors(view).collect();
+    let bars = Band::ALL.map(|band| {
+        let name = name_of(band);
+        let own = found.iter().filter(|one| one.name == name);
+        bars(&name, own, ink(band))
+    });
+    Chart {
         title: "Level error".to_owned(),
         x: Axis::log("level error, dB").within(ERRORS_DB),
-        y: Axis::linear("amplitudes").within([0.0, 1.05 * most(&series)]),
-        series: series.to_vec(),
-        rules: rules
-            .into_iter()
-            .filter(|(db, _)| is_on(*db))
-            .map(|(db, label)| rule(db, label))
-            .collect(),
-        ..Panel::default()
+        y: counts("amplitudes", &bars),
+        bars: bars.to_vec(),
+        rules: error_rules(view),
+        ..Chart::default()
     }
 }
 
-fn cost_panel(found: &[Found]) -> Panel {
-    let series = stems(found, "time a tick", "", Ink::Grey);
-    let top = most(std::slice::from_ref(&series));
-    Panel {
+fn error_rules(view: &AccuracyView<'_>) -> Vec<Rule> {
+    let rule = |db: f64, label: &str, ink, extent| Rule {
+        at: At::X(db),
+        label: label.to_owned(),
+        ink,
+        extent,
+    };
+    let mut rules = vec![rule(ROUNDING_DB, "rounding", Ink::Grey, Extent::Dashed)];
+    let (bound_db, budget_db) = (view.bound_db, view.rendering.budget_db);
+    let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
+    // Tables are made to fill the budget: both names would lie over each other.
+    let is_full = has_budget && (bound_db / budget_db - 1.0).abs() < 0.5;
+    if bound_db > ROUNDING_DB {
+        let name = if is_full { "bound, budget" } else { "bound" };
+        rules.push(rule(bound_db, name, Ink::Black, Extent::Across));
+    }
+    if has_budget && budget_db > 0.0 {
+        let name = if is_full { "" } else { "budget" };
+        rules.push(rule(budget_db, name, Ink::Black, Extent::Dashed));
+    }
+    rules
+}
+
+/// How the times of ticks are distributed, with the time that a tick has.
+pub(crate) fn cost_chart(view: &AccuracyView<'_>) -> Chart {
+    let found: Vec<Found> = costs(view).collect();
+    let bars = [bars("", found.iter(), Ink::Grey)];
+    Chart {
         title: "Time a tick".to_owned(),
         x: Axis::log("wall time, s").within([1e-7, 0.1]),
-        y: Axis::linear("ticks").within([0.0, 1.05 * top]),
-        series: vec![series],
+        y: counts("ticks", &bars),
+        bars: bars.to_vec(),
         rules: vec![Rule {
             at: At::X(0.025),
             label: "deadline".to_owned(),
             ink: Ink::Black,
             extent: Extent::Dashed,
         }],
-        ..Panel::default()
+        ..Chart::default()
     }
 }
 
-fn method_panel(found: &[Found]) -> Panel {
+fn method_chart(found: &[Found]) -> Chart {
     let methods = found.iter().filter(|one| one.of == "method");
     let series = methods.map(|one| Series {
         name: one.name.clone(),
         points: vec![[one.cost_s, one.error_db.max(ERRORS_DB[0])]],
         ..Series::default()
     });
-    Panel {
+    Chart {
         title: "Methods on this scene".to_owned(),
         x: Axis::log("CPU time a tick, s"),
         y: Axis::log("level error, dB").within(ERRORS_DB),
         series: series.collect(),
-        ..Panel::default()
+        ..Chart::default()
     }
 }

@@ -16,7 +16,7 @@ fn stripes(n_columns: usize, n_rows: usize) -> Raster {
 }
 
 fn sample(raster: Raster) -> Figure {
-    let picture = Panel {
+    let picture = Chart {
         x: Axis::linear("time, s").within([-8.0, 0.0]),
         y: Axis::log("frequency, Hz").within([10.0, 1000.0]),
         width: 6.0,
@@ -27,9 +27,9 @@ fn sample(raster: Raster) -> Figure {
             ink: Ink::Cyan,
             extent: Extent::Edge,
         }],
-        ..Panel::default()
+        ..Chart::default()
     };
-    let strip = Panel {
+    let strip = Chart {
         x: Axis::linear("gain").within([0.0, 1.0]),
         y: Axis::log("frequency, Hz").within([10.0, 1000.0]),
         upright: Upright::Shared,
@@ -39,7 +39,7 @@ fn sample(raster: Raster) -> Figure {
             style: Style::Line,
             ..Series::default()
         }],
-        ..Panel::default()
+        ..Chart::default()
     };
     Figure {
         title: "Spectra <of> contactor 9".to_owned(),

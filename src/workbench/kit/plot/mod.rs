@@ -1,0 +1,196 @@
+//! A chart on the screen: the one place where plots are painted, zoomed, pointed at and linked.
+//!
+//! A pane makes a [`Chart`] in a pure function and calls [`show`]. Ticks come from the chart's own
+//! engine, since the toolkit's know no decades; the toolkit (`egui_plot`, named in this folder
+//! alone) places and cuts off what is drawn.
+//!
+//! # Navigation
+//! The wheel zooms about the pointer, or Ctrl with the wheel where the pane scrolls; dragging
+//! pans, with the secondary button where the primary one has another meaning; a double click or
+//! Backspace shows everything again; with the focus, arrows pan and + and − zoom. What is zoomed
+//! never leaves the ends that the chart has at rest.
+
+pub(crate) mod around;
+pub(crate) mod hover;
+pub(crate) mod layers;
+#[cfg(test)]
+mod tests;
+pub(crate) mod view;
+
+use eframe::egui::{Id, Margin, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2};
+use egui_plot::{Plot, PlotBounds, PlotPoint, PlotTransform};
+
+use crate::kit::plot::layers::Layers;
+use crate::kit::plot::view::View;
+use selvedge_chart::{Chart, Scale};
+
+/// A smaller frame shows nothing that can be read, points.
+const SMALLEST: [f32; 2] = [24.0, 16.0];
+
+/// What dragging over a chart does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Drag {
+    /// It moves the view; a double click shows everything again.
+    Pans,
+    /// It chooses a value for the pane, and so do the arrows.
+    Chooses,
+}
+
+/// How a chart stands in its pane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Setting<'a> {
+    /// What assistive tools call it; one name a window.
+    pub name: &'a str,
+    /// Room for labels around the frame.
+    pub margin: Margin,
+    /// Whether the wheel alone zooms: not where the pane scrolls.
+    pub wheel: bool,
+    /// What dragging with the primary button does.
+    pub drag: Drag,
+    /// Charts with the same horizontal axis: they are zoomed together and share a cursor.
+    pub link: Option<&'static str>,
+    /// Whether hovering names what every series says there: not where the pane has own words.
+    pub hover: bool,
+    /// What hovering says of the whole chart, below that.
+    pub note: &'a str,
+    /// Whether the names of series stand above the frame.
+    pub has_legend: bool,
+}
+
+impl Default for Setting<'_> {
+    fn default() -> Self {
+        Self {
+            name: "Chart",
+            margin: Margin {
+                left: 34,
+                right: 8,
+                top: 18,
+                bottom: 18,
+            },
+            wheel: true,
+            drag: Drag::Pans,
+            link: None,
+            hover: true,
+            note: "",
+            has_legend: true,
+        }
+    }
+}
+
+/// A chart that is shown: where values lie.
+#[derive(Debug)]
+pub(crate) struct Shown {
+    /// What the pointer and the keys do over it.
+    pub response: Response,
+    transform: PlotTransform,
+    scales: [Scale; 2],
+}
+
+impl Shown {
+    /// Its frame.
+    pub(crate) fn area(&self) -> Rect {
+        *self.transform.frame()
+    }
+
+    /// Where a point lies; far below for what has no place.
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> Pos2 {
+        position(&self.transform, self.scales, [x, y]).unwrap_or_else(|| pos2(-1e6, -1e6))
+    }
+
+    /// The values at a place of the screen.
+    pub(crate) fn values_at(&self, at: Pos2) -> [f64; 2] {
+        let point = self.transform.value_from_position(at);
+        [self.scales[0].value(point.x), self.scales[1].value(point.y)]
+    }
+
+    /// Where the pointer is within the frame.
+    pub(crate) fn pointer(&self) -> Option<Pos2> {
+        let at = self.response.hover_pos()?;
+        self.area().contains(at).then_some(at)
+    }
+}
+
+/// Where a point of a chart lies on the screen.
+fn position(transform: &PlotTransform, scales: [Scale; 2], [x, y]: [f64; 2]) -> Option<Pos2> {
+    let point = PlotPoint::new(scales[0].place(x)?, scales[1].place(y)?);
+    let at = transform.position_from_point(&point);
+    let near = |at: f32, low: f32, high: f32| at.clamp(low - 1e4, high + 1e4);
+    let frame = transform.frame();
+    Some(pos2(
+        near(at.x, frame.left(), frame.right()),
+        near(at.y, frame.top(), frame.bottom()),
+    ))
+}
+
+/// Shows a chart in a rectangle; `None` where there is no room.
+pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) -> Option<Shown> {
+    let id = Id::unique(("chart", setting.name));
+    let response = ui.interact(rect, id, Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, setting.name));
+    let area = rect - setting.margin;
+    if area.width() < SMALLEST[0] || area.height() < SMALLEST[1] {
+        return None;
+    }
+    let rulers = chart.rulers();
+    let scales = [rulers[0].scale(), rulers[1].scale()];
+    let rest = [0, 1].map(|axis| {
+        let place = |end| scales[axis].place(end).unwrap_or(0.0);
+        rulers[axis].ends().map(place)
+    });
+    let view = View::load(ui, id, setting.link);
+    let moved = view.after(&view::gesture(ui, &response, area, setting), rest);
+    if moved != view {
+        moved.store(ui, id, setting.link);
+    }
+    let ends = moved.ends(rest);
+    let bounds = PlotBounds::from_min_max([ends[0][0], ends[1][0]], [ends[0][1], ends[1][1]]);
+    let transform = PlotTransform::new(area, bounds, false);
+    around::paint_ticks(ui.painter(), chart, &transform, (scales, setting.margin));
+    paint(ui, chart, (area, bounds, scales), id);
+    around::paint_marks(ui.painter(), chart, &transform, scales[0]);
+    if setting.has_legend {
+        around::paint_legend(ui.painter(), chart, area);
+    }
+    around::paint_focus(ui, &response, area);
+    let shown = Shown {
+        response,
+        transform,
+        scales,
+    };
+    hover::show(ui, chart, &shown, setting);
+    Some(shown)
+}
+
+/// What is within the frame, cut off at its edge.
+fn paint(ui: &Ui, chart: &Chart, (area, bounds, scales): (Rect, PlotBounds, [Scale; 2]), id: Id) {
+    let builder = eframe::egui::UiBuilder::new().max_rect(area).id_salt(id);
+    let mut within = Ui::new(
+        ui.ctx().clone(),
+        id.with("frame"),
+        builder.layer_id(ui.layer_id()),
+    );
+    within.set_clip_rect(area.expand(1.0).intersect(ui.clip_rect()));
+    let plot = Plot::new(id)
+        .id(id.with("plot"))
+        .sense(Sense::hover())
+        .width(area.width())
+        .height(area.height())
+        .min_size(area.size())
+        .show_axes(false)
+        .show_grid(false)
+        .show_background(false)
+        .show_x(false)
+        .show_y(false)
+        .show_crosshair(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_drag(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .allow_axis_zoom_drag(false);
+    let layers = Layers::new(chart, scales);
+    plot.show(&mut within, move |plot| {
+        plot.set_plot_bounds(bounds);
+        plot.add(layers);
+    });
+}
