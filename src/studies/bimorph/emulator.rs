@@ -4,7 +4,7 @@
 
 use super::cases::{CARRIERS_HZ, SAMPLE_S, held_response, propagator};
 use crate::{Bench, Findings, Row};
-use selvedge_chart::{Axis, Ink, Chart, Series, Style};
+use selvedge_chart::{Axis, Chart, Ink, Series, Style};
 use selvedge_device::{ActuatorModel, ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 

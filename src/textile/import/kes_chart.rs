@@ -3,7 +3,7 @@
 use super::kes::KesImport;
 use crate::curve::corners;
 use crate::kes::{KesStroke, MarkKind};
-use selvedge_chart::{At, Axis, Extent, Figure, Ink, Chart, Row, Rule, Series, Style, Weight};
+use selvedge_chart::{At, Axis, Chart, Extent, Figure, Ink, Row, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity::fixed;
 
 /// The height of a panel, px.

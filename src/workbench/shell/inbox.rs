@@ -5,12 +5,10 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use crate::bench::Bench;
-use crate::bench::FRAME;
 use crate::bench::command::{Command, FileCommand};
 use crate::bench::job::{Job, Polled};
 use crate::bench::opening::Opening;
-use crate::bench::query;
+use crate::bench::{Bench, FRAME, query};
 use crate::shell::dialogs::Answer;
 use selvedge_device::BridgeState;
 use selvedge_engine::{Notice, TICKS_PER_S};

@@ -69,7 +69,7 @@ fn pull_around(harness: &mut Harness<'_, Workbench>, name: &str) {
 fn a_frame_selects_and_what_is_selected_is_added_in_one_step_of_undo() {
     let folder = Bare::new("frame", "");
     let mut harness = in_front(&folder);
-    let plot = harness.get_by_label("Chart of A320 over A40").rect();
+    let plot = harness.get_by_label("Plot of A320 over A40").rect();
     pull(
         &mut harness,
         plot.min + vec2(44.0, 22.0),

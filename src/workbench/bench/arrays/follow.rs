@@ -5,9 +5,8 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use crate::bench::Bench;
-use crate::bench::query;
 use crate::bench::view::BridgePhase;
+use crate::bench::{Bench, query};
 use selvedge_device::{ArrayProfile, BridgeEvent, DeviceUid};
 use selvedge_engine::{Command, Notice};
 

@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use eframe::egui::Theme;
 
-use crate::bench::Bench;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
 use crate::bench::job::Job;
 use crate::bench::pane::Pane;
-use crate::bench::query;
+use crate::bench::{Bench, query};
 use crate::kit::theme::Palette;
 use crate::shell::frame;
 

@@ -99,9 +99,8 @@ fn name_of(file: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::Bench;
-    use crate::bench::Drive;
     use crate::bench::command::PlayCommand;
+    use crate::bench::{Bench, Drive};
     use selvedge_engine::Command;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::PathRow;

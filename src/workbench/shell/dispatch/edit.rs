@@ -2,12 +2,11 @@
 
 use eframe::egui;
 
-use crate::bench::Bench;
 use crate::bench::applied_gains::Felt;
 use crate::bench::command::edit::Edit;
 use crate::bench::document::Document;
 use crate::bench::preparing::Ready;
-use crate::bench::{editing, preparing};
+use crate::bench::{Bench, editing, preparing};
 use crate::shell::error::AppError;
 
 use selvedge_render::scene::Scene;

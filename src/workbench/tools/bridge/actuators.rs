@@ -7,7 +7,7 @@ use eframe::egui;
 use std::time::Duration;
 
 use crate::bench::Bench;
-use selvedge_device::{Bimorph, ContactorModel, FULL_CODE, ActuatorReading, Skin};
+use selvedge_device::{ActuatorReading, Bimorph, ContactorModel, FULL_CODE, Skin};
 
 /// How soon a first reading is looked for again.
 const SOON: Duration = Duration::from_millis(100);

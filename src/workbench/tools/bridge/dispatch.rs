@@ -2,9 +2,8 @@
 
 use eframe::egui;
 
-use crate::bench::Bench;
 use crate::bench::command::device::DeviceCommand;
-use crate::bench::query;
+use crate::bench::{Bench, query};
 use selvedge_device::{FaultWords, Target};
 
 impl Bench {

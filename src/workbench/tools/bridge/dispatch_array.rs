@@ -1,10 +1,9 @@
 //! Commands to array profiles.
 
-use crate::bench::Bench;
-use crate::bench::arrays;
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
+use crate::bench::{Bench, arrays};
 use selvedge_device::ArrayProfile;
 use selvedge_engine::Command;
 

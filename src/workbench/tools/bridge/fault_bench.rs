@@ -62,9 +62,8 @@ mod tests {
     use eframe::egui;
 
     use super::*;
-    use crate::bench::Bench;
-    use crate::bench::Drive;
     use crate::bench::command::device::DeviceCommand;
+    use crate::bench::{Bench, Drive};
 
     #[test]
     fn every_preset_is_read_whole_and_none_is_none() {

@@ -16,7 +16,7 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::bar::amplitude_bar;
-use crate::kit::widgets::limit_mark::{LIMIT_MARK, limits_band, limit_words, paint_limit_mark};
+use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, limits_band, paint_limit_mark};
 use crate::kit::widgets::text::toggle;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;

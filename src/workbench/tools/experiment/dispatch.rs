@@ -4,13 +4,12 @@ use std::time::SystemTime;
 
 use eframe::egui;
 
-use crate::bench::Bench;
-use crate::bench::FRAME;
 use crate::bench::command::ShowCommand;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::task::taken;
 use crate::bench::view::Source;
+use crate::bench::{Bench, FRAME};
 use crate::shell::arrangement;
 use crate::tools::experiment::Begun;
 use crate::tools::experiment::command::ExperimentCommand;

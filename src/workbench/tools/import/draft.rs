@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use crate::tools::import::failure::{Failure, Step};
-use selvedge_textile::LengthUnit;
 use selvedge_textile::metrology::HeightOptions;
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     ColumnRole, Construction, DecimalSign, Description, ImportOptions, KesOptions, KesPlace,
-    Measurement, ReturnOrder, Unit, id_of, known_figures, read_measurement,
+    LengthUnit, Measurement, ReturnOrder, Unit, id_of, known_figures, read_measurement,
 };
 
 /// A file that was chosen, read once.

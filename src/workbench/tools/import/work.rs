@@ -12,9 +12,9 @@ use crate::tools::import::envelope::Envelope;
 use crate::tools::import::failure::{Failure, Step};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::with_unit;
-use selvedge_textile::{HeightImport, HeightPlace};
 use selvedge_textile::{
-    KesFile, KesImport, KesLook, KesOptions, KesReading, Measurement, TextileError,
+    HeightImport, HeightPlace, KesFile, KesImport, KesLook, KesOptions, KesReading, Measurement,
+    TextileError,
 };
 
 /// Everything that a reading depends on.

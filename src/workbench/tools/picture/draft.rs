@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use crate::tools::import::draft::SourceFile;
-use selvedge_textile::HeightScale;
-use selvedge_textile::id_of;
 use selvedge_textile::picture::shading::{Light, Method};
 use selvedge_textile::surface::Representation;
+use selvedge_textile::{HeightScale, id_of};
 
 /// Millimetres to an inch.
 const MM_PER_INCH: f64 = 25.4;

@@ -19,8 +19,10 @@ use selvedge_textile::picture::{
     SignificantMaxima, even_light, load,
 };
 use selvedge_textile::surface::{Direction, HeightMap};
-use selvedge_textile::{Construction, Manifest, Source, TextileError, n_threads, read_profile};
-use selvedge_textile::{PictureTextile, textile_of};
+use selvedge_textile::{
+    Construction, Manifest, PictureTextile, Source, TextileError, n_threads, read_profile,
+    textile_of,
+};
 
 /// Why a run ended early.
 enum End {

@@ -12,7 +12,7 @@ use crate::tools::import::draft::DraftFile;
 use crate::tools::import::view::fields::{LINE, Need, choose, step_title};
 use crate::tools::import::work::Found;
 use crate::tools::import::{ImportCommand, Importing};
-use selvedge_textile::{TextileAxis, KesPlace, Measurement, StrokeSide};
+use selvedge_textile::{KesPlace, Measurement, StrokeSide, TextileAxis};
 
 /// What is said before anything was chosen.
 const EMPTY: [&str; 3] = [
@@ -25,8 +25,8 @@ const EMPTY: [&str; 3] = [
 ];
 /// What a file of the tester may hold.
 const HOLDS: [(Option<KesPlace>, &str); 7] = {
-    use TextileAxis::{Warp, Weft};
     use StrokeSide::{Forward, Return};
+    use TextileAxis::{Warp, Weft};
 
     const fn place(axis: TextileAxis, side: Option<StrokeSide>) -> KesPlace {
         KesPlace { axis, side }

@@ -6,7 +6,7 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use selvedge_textile::{TextileAxis, ColumnRole, KesKnown, KesLook, StrokeSide};
+use selvedge_textile::{ColumnRole, KesKnown, KesLook, StrokeSide, TextileAxis};
 
 /// Height of a line, points.
 const LINE: f32 = 14.0;
@@ -19,9 +19,9 @@ const LEAST: f32 = 84.0;
 
 /// What a column may be said to hold.
 pub(crate) const ROLES_OFFERED: [ColumnRole; 14] = {
-    use TextileAxis::{Warp, Weft};
     use ColumnRole::{Distance, Friction, Height, Skip, Time};
     use StrokeSide::{Forward, Return};
+    use TextileAxis::{Warp, Weft};
     [
         Distance,
         Time,
