@@ -103,10 +103,10 @@ fn columns(asked: &[Asked]) -> Columns {
         .with("a320_here_um", here(1))
         .with("a40_rms_um", number(&|one| one.given.rms_um[0]))
         .with("a320_rms_um", number(&|one| one.given.rms_um[1]))
-        .with("a40_least_um", number(&|one| one.given.least_um[0]))
-        .with("a320_least_um", number(&|one| one.given.least_um[1]))
-        .with("a40_most_um", number(&|one| one.given.most_um[0]))
-        .with("a320_most_um", number(&|one| one.given.most_um[1]))
+        .with("a40_least_um", number(&|one| one.given.min_um[0]))
+        .with("a320_least_um", number(&|one| one.given.min_um[1]))
+        .with("a40_most_um", number(&|one| one.given.max_um[0]))
+        .with("a320_most_um", number(&|one| one.given.max_um[1]))
 }
 
 fn chart(asked: &[Asked], (x, y): (Axis, Axis), at: &dyn Fn(&Asked) -> f64) -> Chart {
@@ -128,7 +128,7 @@ fn chart(asked: &[Asked], (x, y): (Axis, Axis), at: &dyn Fn(&Asked) -> f64) -> C
             points: asked
                 .iter()
                 .map(|one| {
-                    let range_um = [one.given.least_um[b], one.given.most_um[b]];
+                    let range_um = [one.given.min_um[b], one.given.max_um[b]];
                     let [least, most] = range_um.map(quantity::level_db);
                     [at(one), least, most]
                 })

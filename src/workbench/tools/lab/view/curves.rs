@@ -68,10 +68,10 @@ pub(crate) fn chart(lab: &Lab, preview: &Preview, scale: AmplitudeScale) -> Char
     let band = |band: Band| {
         let ends = [
             levels(&preview.felt, direction, |spread| {
-                spread.least_um[band.index()]
+                spread.min_um[band.index()]
             }),
             levels(&preview.felt, direction, |spread| {
-                spread.most_um[band.index()]
+                spread.max_um[band.index()]
             }),
         ];
         Area {
