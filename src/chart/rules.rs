@@ -49,7 +49,8 @@ impl Frame {
         );
     }
 
-    /// The words of a chart at their places; the names of dots below one another where they would touch.
+    /// The words of a chart at their places; the names of dots below one another where they would
+    /// touch.
     pub(super) fn draw_words(&self, chart: &Chart, body: &mut Vec<String>) {
         let mut taken: Vec<[f64; 2]> = Vec::new();
         let inks = self.inks;

@@ -22,7 +22,8 @@ pub(super) const MARGIN_PX: f64 = 20.0;
 const FOOTNOTE_CHARACTERS: usize = 130;
 
 impl Chart {
-    /// The picture as SVG text, without a raster, which only figures have. The same chart gives the same bytes.
+    /// The picture as SVG text, without a raster, which only figures have. The same chart gives
+    /// the same bytes.
     pub fn to_svg(&self) -> String {
         let inks = Paper::White.inks();
         let legend_px = legend::width_px(&self.series);

@@ -94,7 +94,8 @@ pub enum Command {
     /// Whether somebody takes [samples of ticks](super::Engine::next_tick_sample); nobody does at
     /// first.
     SampleTicks(bool),
-    /// The contactor of the first display whose amplitudes samples of ticks hold, the first one at first.
+    /// The contactor of the first display whose amplitudes samples of ticks hold, the first one at
+    /// first.
     Watch(usize),
     /// Tell other programs what is felt at every tick, or no longer.
     SetTap(Option<Box<Tap>>),

@@ -207,7 +207,8 @@ impl Recording {
         &self.samples
     }
 
-    /// Amplitudes [A40, A320] of every contactor at one of the collected ticks, displays in command,
+    /// Amplitudes [A40, A320] of every contactor at one of the collected ticks, displays in
+    /// command,
     /// after gains and before output limits, µm.
     pub fn amplitudes_um(&self, index: usize) -> &[[f32; 2]] {
         let start = index * self.n_contactors;

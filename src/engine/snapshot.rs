@@ -18,7 +18,8 @@ use selvedge_textile::tactile::Tuning;
 /// The engine after a tick.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
-    /// Serial number of the scene that this shows, given by [`PreparedScene`](super::PreparedScene).
+    /// Serial number of the scene that this shows, given by
+    /// [`PreparedScene`](super::PreparedScene).
     pub scene_serial: u64,
     /// Changes of gains, levels and the contactor mask so far: a display that stands still may
     /// show other amplitudes after one.

@@ -1,4 +1,5 @@
-//! Samples of ticks: what histories of the last seconds need of every tick, however seldom they are drawn.
+//! Samples of ticks: what histories of the last seconds need of every tick, however seldom they
+//! are drawn.
 //!
 //! A snapshot shows only the latest tick; a spectrogram or a timeline needs all of them. Each tick
 //! that moved or sounded, and the first that did not, leaves one sample in a bounded ring, if

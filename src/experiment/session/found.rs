@@ -33,7 +33,8 @@ pub struct Unread {
     pub error: ExperimentError,
 }
 
-/// Every session in a folder, by name, and the logs that cannot be read: what a later version wrote,
+/// Every session in a folder, by name, and the logs that cannot be read: what a later version
+/// wrote,
 /// or what was damaged, does not keep the others from being read. Tables without a sidecar are no
 /// sessions.
 ///

@@ -272,7 +272,8 @@ proptest! {
             host.on_time(now);
             prop_assert!(!host.state().takes_frames());
             prop_assert!(host.frame(now, &[[50.0, 50.0]; 24]).is_none());
-            prop_assert!(host.events.len() <= MAX_EVENTS && host.outbox.packets.len() <= MAX_PACKETS);
+            prop_assert!(host.events.len() <= MAX_EVENTS);
+            prop_assert!(host.outbox.packets.len() <= MAX_PACKETS);
         }
     }
 }

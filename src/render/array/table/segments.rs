@@ -119,7 +119,8 @@ fn n_parts(octaves: f64, per_octave: u32) -> u32 {
     (octaves * f64::from(per_octave) - 1e-9).ceil().max(1.0) as u32
 }
 
-/// How many bins sound at a speed that is felt: [`selvedge_textile::tactile::n_audible_bins`] without a loop.
+/// How many bins sound at a speed that is felt: [`selvedge_textile::tactile::n_audible_bins`]
+/// without a loop.
 #[inline]
 fn n_audible(speed_mm_per_s: f64) -> usize {
     let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;

@@ -96,7 +96,8 @@ proptest! {
         for method in METHODS {
             let expected = felt(&mut renderer(&scene, method), &path);
             let found = felt(&mut renderer(&lean, method), &path);
-            let named = found.into_iter().map(|(a, b, textile)| (a, b, textile.map(|at| touched[at])));
+            let name = |(a, b, textile): (_, _, Option<_>)| (a, b, textile.map(|at| touched[at]));
+            let named = found.into_iter().map(name);
             prop_assert!(named.eq(expected), "{:?}", method);
         }
     }
