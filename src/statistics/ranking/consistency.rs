@@ -30,7 +30,7 @@ pub struct Consistency {
 ///
 /// # Errors
 /// Fewer than three items; pairs compared never or more than once (with their list).
-pub fn consistency(answers: &Preferences) -> Computed<Consistency> {
+pub(super) fn consistency(answers: &Preferences) -> Computed<Consistency> {
     let k = answers.n_items();
     if k < 3 {
         let reason = format!("{k} items make no triad");
