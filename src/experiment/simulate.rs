@@ -41,7 +41,7 @@ pub struct Simulation<'a> {
 }
 
 /// The `nth` simulated subject of a study, from 0, in a session from 1.
-pub fn simulated_subject(nth: usize, session: u32) -> Subject {
+pub(crate) fn simulated_subject(nth: usize, session: u32) -> Subject {
     Subject {
         pseudonym: format!("o{:02}", nth + 1),
         nth,

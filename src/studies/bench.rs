@@ -112,7 +112,7 @@ impl<'a> Bench<'a> {
 
     /// The same with so many repeats: for work that takes long and so varies little.
     pub(crate) fn time_repeated<T>(
-        &mut self,
+        &self,
         n_repeats: usize,
         n_units: usize,
         work: impl FnMut() -> T,
@@ -128,12 +128,12 @@ impl<'a> Bench<'a> {
     /// changes its pace meanwhile changes it for all. Beside each timing stands its CPU time as a
     /// multiple of the first's, in the median over the repeats.
     pub(crate) fn time_in_turn<T>(
-        &mut self,
+        &self,
         n_units: usize,
         works: Vec<impl FnMut() -> T>,
     ) -> Vec<(Timing, f64)> {
         let rounds = (self.effort.pick(5, 15), self.least_s());
-        let all = self.time_rounds(rounds, n_units, works);
+        let all = Self::time_rounds(rounds, n_units, works);
         let first_s = all.first().map(|(_, cpu_s)| cpu_s.clone());
         let first_s = first_s.unwrap_or_default();
         let with_multiple = |(timing, cpu_s): (Timing, Vec<f64>)| {
@@ -147,7 +147,6 @@ impl<'a> Bench<'a> {
     /// The same in so many rounds, each of which repeats every work until it took `least_s`. Beside
     /// each timing stand its CPU times, round by round, s.
     pub(crate) fn time_rounds<T>(
-        &mut self,
         (n_rounds, least_s): (usize, f64),
         n_units: usize,
         works: Vec<impl FnMut() -> T>,
@@ -248,7 +247,7 @@ mod tests {
     fn works_measured_in_turn_are_compared_with_the_first() {
         let mut report = |_: f64, _: &str| {};
         let mut progress = Progress::new(&mut report, CancelFlag::new());
-        let mut bench = Bench::new(Effort::Quick, 1, &mut progress);
+        let bench = Bench::new(Effort::Quick, 1, &mut progress);
         let work = |n: u64| move || (0..n).fold(0, |sum: u64, i| black_box(sum ^ i));
         let found = bench.time_in_turn(1, vec![work(100), work(10_000)]);
         let [(first, of_itself), (second, of_first)] = found[..] else {

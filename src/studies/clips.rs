@@ -117,7 +117,7 @@ impl File {
 type Rounds = [Vec<f64>; 3];
 
 /// The cost of one file in all lengths, measured in turn.
-fn measure(bench: &mut Bench<'_>, file: &File) -> Result<(Vec<Row>, Rounds), ReportError> {
+fn measure(bench: &Bench<'_>, file: &File) -> Result<(Vec<Row>, Rounds), ReportError> {
     let place = file.place();
     let failed = RefCell::new(None);
     let work = |length_s| {
@@ -129,7 +129,7 @@ fn measure(bench: &mut Bench<'_>, file: &File) -> Result<(Vec<Row>, Rounds), Rep
         }
     };
     let rounds = (bench.effort.pick(1, 9), bench.effort.pick(0.01, 0.1));
-    let timed = bench.time_rounds(rounds, 1, LENGTHS_S.map(work).into());
+    let timed = Bench::time_rounds(rounds, 1, LENGTHS_S.map(work).into());
     let mut rows = Vec::new();
     for (length_s, (cost, _)) in LENGTHS_S.into_iter().zip(&timed) {
         rows.push(measured(

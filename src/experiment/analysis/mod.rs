@@ -131,7 +131,7 @@ fn left_out(unread: &[Unread]) -> Section {
 ///
 /// # Errors
 /// It was cancelled. What cannot be computed is said in the analysis.
-pub fn analyse(
+pub(crate) fn analyse(
     found: &[Found],
     options: &Options,
     progress: &mut Progress<'_>,

@@ -18,7 +18,7 @@ pub(crate) struct Reply {
 
 /// An observer as a subject of a session.
 #[derive(Debug, Clone)]
-pub struct Participant<'a> {
+pub(crate) struct Participant<'a> {
     pub(super) design: &'a Design,
     pub(super) stimuli: &'a Stimuli,
     pub(super) observer: &'a Observer,
@@ -40,7 +40,7 @@ pub struct Participant<'a> {
 
 impl<'a> Participant<'a> {
     /// The subject that this observer is. Subjects of one seed share the errors of the model.
-    pub fn new(
+    pub(crate) fn new(
         (design, stimuli): (&'a Design, &'a Stimuli),
         observer: &'a Observer,
         seed: u64,

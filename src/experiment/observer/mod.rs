@@ -21,7 +21,7 @@ mod percept;
 mod scale;
 mod strength;
 
-pub use answer::Participant;
+pub(crate) use answer::Participant;
 pub use measure::Stimuli;
 pub use percept::{Strategy, Weighting};
 pub use scale::Jnd;

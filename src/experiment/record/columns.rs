@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::row::{Row, flag, id, number, number_at, position, right, text, value};
 use super::{Outcome, Record, SCHEMA_VERSION};
-use crate::design::{Design, JudgingProtocol, Method, Subject};
+use crate::design::{Adjusting, Design, JudgingProtocol, Method, Subject};
 use crate::trial::Grade;
 
 /// What the cells of a column hold.
@@ -164,22 +164,7 @@ fn before() -> Vec<Column> {
 /// Columns of each method: what was presented, and answers of several numbers.
 fn of_method(method: &Method) -> Vec<Column> {
     match method {
-        Method::Ranking(_) => {
-            let mut all = columns! {
-                target: Stimulus, "the target" => |row, _| row.id_of(row.presented.target);
-            };
-            all.extend((0..4).map(|nth| Column::stimulus("alt", "alternative", nth)));
-            all.extend(columns! {
-                position_correct: Count, "where the target was, from 1" => right;
-            });
-            all.extend((0..4).map(|nth| {
-                let (name, number) = (format!("rank{}", nth + 1), nth + 1);
-                let meaning = format!("rank of alternative {number}, 1 most alike");
-                let cell = |row: &Row<'_>, nth| text(row.answered.ranks.get(nth));
-                Column::nth(nth, (name, Kind::Rank), meaning, cell)
-            }));
-            all
-        }
+        Method::Ranking(_) => of_ranking(),
         Method::OddOneOut(_) => {
             let items = (0..3).map(|nth| Column::stimulus("item", "stimulus", nth));
             let mut all: Vec<Column> = items.collect();
@@ -190,22 +175,7 @@ fn of_method(method: &Method) -> Vec<Column> {
             });
             all
         }
-        Method::Adjustment(adjusting) => {
-            let mut all = item_and_condition();
-            for (nth, parameter) in adjusting.parameters.iter().enumerate() {
-                let key = parameter.what.name();
-                let (name, meaning) = (format!("start_{key}"), format!("{key} at the beginning"));
-                let cell = |row: &Row<'_>, nth| number_at(row.presented.starts, nth);
-                all.push(Column::nth(nth, (name, Kind::Number), meaning, cell));
-                let (name, meaning) = (format!("value_{key}"), format!("{key} as it was left"));
-                all.push(Column::nth(nth, (name, Kind::Number), meaning, value));
-            }
-            all.extend(columns! {
-                steps: Text, "every change: ms since the beginning:key=value; …" =>
-                    |row, _| row.steps();
-            });
-            all
-        }
+        Method::Adjustment(adjusting) => of_adjustment(adjusting),
         Method::Judgement(judging) if judging.protocol == JudgingProtocol::Pair => {
             let items = (0..2).map(|nth| Column::stimulus("item", "stimulus", nth));
             let mut all: Vec<Column> = items.collect();
@@ -241,6 +211,42 @@ fn of_method(method: &Method) -> Vec<Column> {
             all
         }
     }
+}
+
+/// A target, its alternatives and their ranks.
+fn of_ranking() -> Vec<Column> {
+    let mut all = columns! {
+        target: Stimulus, "the target" => |row, _| row.id_of(row.presented.target);
+    };
+    all.extend((0..4).map(|nth| Column::stimulus("alt", "alternative", nth)));
+    all.extend(columns! {
+        position_correct: Count, "where the target was, from 1" => right;
+    });
+    all.extend((0..4).map(|nth| {
+        let (name, number) = (format!("rank{}", nth + 1), nth + 1);
+        let meaning = format!("rank of alternative {number}, 1 most alike");
+        let cell = |row: &Row<'_>, nth| text(row.answered.ranks.get(nth));
+        Column::nth(nth, (name, Kind::Rank), meaning, cell)
+    }));
+    all
+}
+
+/// Where each parameter began and was left, then every change.
+fn of_adjustment(adjusting: &Adjusting) -> Vec<Column> {
+    let mut all = item_and_condition();
+    for (nth, parameter) in adjusting.parameters.iter().enumerate() {
+        let key = parameter.what.name();
+        let (name, meaning) = (format!("start_{key}"), format!("{key} at the beginning"));
+        let cell = |row: &Row<'_>, nth| number_at(row.presented.starts, nth);
+        all.push(Column::nth(nth, (name, Kind::Number), meaning, cell));
+        let (name, meaning) = (format!("value_{key}"), format!("{key} as it was left"));
+        all.push(Column::nth(nth, (name, Kind::Number), meaning, value));
+    }
+    all.extend(columns! {
+        steps: Text, "every change: ms since the beginning:key=value; …" =>
+            |row, _| row.steps();
+    });
+    all
 }
 
 /// The only stimulus of a trial.

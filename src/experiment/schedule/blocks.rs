@@ -103,7 +103,7 @@ fn place(
 
 #[cfg(test)]
 mod tests {
-    use super::super::Lines;
+    use super::super::plane::Lines;
     use super::*;
 
     #[test]

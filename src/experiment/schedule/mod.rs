@@ -8,10 +8,9 @@ mod plane;
 mod ranking;
 mod triads;
 
-pub use plane::Lines;
 pub use ranking::ScheduleError;
 pub(crate) use ranking::{RankingSchedule, is_ranked};
-pub use triads::{Triad, triads};
+pub(crate) use triads::{Triad, triads};
 
 use selvedge_foundation::numerics::Random;
 
@@ -21,7 +20,7 @@ pub(crate) fn subject_random(study_seed: u64, experiment: &str, subject: &str) -
 }
 
 /// `n_rounds` orders of 0…n−1. No stimulus comes twice in a row where there are two or more.
-pub fn rounds(n: usize, n_rounds: usize, random: &mut Random) -> Vec<Vec<usize>> {
+pub(crate) fn rounds(n: usize, n_rounds: usize, random: &mut Random) -> Vec<Vec<usize>> {
     let mut last = None;
     let one = |_| {
         let mut order: Vec<usize> = (0..n).collect();

@@ -6,7 +6,7 @@ pub(crate) const LINE_POINTS: usize = 4;
 
 /// Points numbered from 0, and lines of four of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Lines {
+pub(crate) struct Lines {
     /// Points in all.
     pub n_points: usize,
     /// The lines, each with its points in rising order.
@@ -26,7 +26,7 @@ pub(super) fn product(a: usize, b: usize) -> usize {
 
 impl Lines {
     /// The lines over so many points; `None` where no such plane is known here.
-    pub fn over(n_points: usize) -> Option<Self> {
+    pub(crate) fn over(n_points: usize) -> Option<Self> {
         let lines = match n_points {
             16 => affine(),
             13 => projective(),
@@ -36,7 +36,7 @@ impl Lines {
     }
 
     /// Numbers of the lines through a point.
-    pub fn through(&self, point: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn through(&self, point: usize) -> impl Iterator<Item = usize> + '_ {
         let lines = self.lines.iter().enumerate();
         lines
             .filter(move |(_, line)| line.contains(&point))

@@ -5,7 +5,7 @@ use selvedge_foundation::numerics::Random;
 
 /// One trial: which two stimuli, which of them is odd, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Triad {
+pub(crate) struct Triad {
     /// The stimulus that stands twice.
     pub twice: usize,
     /// The odd one.
@@ -16,7 +16,7 @@ pub struct Triad {
 
 impl Triad {
     /// The stimuli by position.
-    pub fn items(&self) -> [usize; 3] {
+    pub(crate) fn items(&self) -> [usize; 3] {
         [0, 1, 2].map(|position| {
             if position == self.position {
                 self.odd
@@ -32,7 +32,7 @@ impl Triad {
 /// The odd one stands in every position equally often, or once more. Which of a pair is odd changes
 /// from one subject to the next; `nth_subject` counts them from 0. Two trials in a row have other
 /// odd ones where that can be.
-pub fn triads(n_stimuli: usize, nth_subject: usize, subject: &Random) -> Vec<Triad> {
+pub(crate) fn triads(n_stimuli: usize, nth_subject: usize, subject: &Random) -> Vec<Triad> {
     let mut pairs = Vec::with_capacity(n_stimuli * n_stimuli.saturating_sub(1) / 2);
     for a in 0..n_stimuli {
         for b in a + 1..n_stimuli {

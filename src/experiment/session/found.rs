@@ -33,10 +33,10 @@ pub struct Unread {
     pub error: ExperimentError,
 }
 
-/// Every session in a folder, by name, and the logs that cannot be read: what a later version
-/// wrote,
-/// or what was damaged, does not keep the others from being read. Tables without a sidecar are no
-/// sessions.
+/// Every session in a folder, by name, and the logs that cannot be read.
+///
+/// What a later version wrote, or what was damaged, does not keep the others from being read. Tables
+/// without a sidecar are no sessions.
 ///
 /// # Errors
 /// The folder cannot be read.

@@ -30,7 +30,7 @@ pub struct Consistency {
 ///
 /// # Errors
 /// Fewer than three items; pairs compared never or more than once (with their list).
-pub fn consistency(answers: &Preferences) -> Computed<Consistency> {
+pub(super) fn consistency(answers: &Preferences) -> Computed<Consistency> {
     let k = answers.n_items();
     if k < 3 {
         let reason = format!("{k} items make no triad");
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn answers_that_are_not_one_a_pair_are_refused_with_their_list() -> Computed<()> {
+    fn answers_that_are_not_one_a_pair_are_refused_with_their_list() {
         let mut some = Preferences::new(3);
         some.prefer(0, 1);
         some.prefer(0, 1);
@@ -273,6 +273,5 @@ mod tests {
         let reason = consistency(&some).map_err(|e| e.reason).unwrap_err();
         assert_eq!(reason, "not compared exactly once: 1 and 2, 1 and 3");
         assert!(consistency(&Preferences::new(2)).is_err(), "no triad");
-        Ok(())
     }
 }

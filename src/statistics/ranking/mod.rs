@@ -8,7 +8,7 @@
 //!
 //! How well rankings agree between subjects, Kendall's W, is the effect of
 //! [`friedman`](super::variance::friedman); how consistent one subject's pairs are is
-//! [`consistency()`].
+//! [`Consistency`].
 //!
 //! Items are indices from 0 in code and numbers from 1 in words.
 
@@ -31,7 +31,7 @@ pub use bradley_terry::{BradleyTerry, bradley_terry};
 pub use choices::Prior;
 pub use connection::Connection;
 pub use consistency::Consistency;
-pub use consistency::{Majority, consistency};
+pub use consistency::Majority;
 pub use deviance::Deviance;
 pub use mean_ranks::{Asymmetry, MeanRanks, RankTrial};
 pub use odd_one_out::ItemErrors;

@@ -76,7 +76,7 @@ impl Study for MdsStudy {
 }
 
 /// Every way on one case; rows by loss against the lowest of that loss.
-fn of_case(bench: &mut Bench<'_>, data: &Dissimilarities, k: usize, ties: Ties) -> Vec<Row> {
+fn of_case(bench: &Bench<'_>, data: &Dissimilarities, k: usize, ties: Ties) -> Vec<Row> {
     let mut rows = Vec::new();
     for loss in Loss::ALL {
         let ways = ways(k, loss);

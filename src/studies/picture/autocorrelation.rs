@@ -161,7 +161,7 @@ fn row(
     way: Way,
     picture: &Grid<f64>,
     (shifts, truth): (&[[isize; 2]], &[f64]),
-    bench: &mut Bench<'_>,
+    bench: &Bench<'_>,
 ) -> Row {
     let n = picture.width();
     let found = way.at(picture, shifts);

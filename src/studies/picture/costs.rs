@@ -13,7 +13,7 @@ use selvedge_textile::picture::{
 };
 
 /// What estimates and steps cost on one usual picture.
-pub(super) fn of_costs(usual: &Spoilt, rows: &mut Vec<Row>, bench: &mut Bench<'_>) {
+pub(super) fn of_costs(usual: &Spoilt, rows: &mut Vec<Row>, bench: &Bench<'_>) {
     let picture = usual.picture(0, &Random::new(bench.seed)).luminance;
     let options = DirectionOptions::default();
     let significant = |light: &Grid<f64>| {
@@ -40,7 +40,7 @@ pub(super) fn of_costs(usual: &Spoilt, rows: &mut Vec<Row>, bench: &mut Bench<'_
 }
 
 /// A row without an error for every step of the pipeline.
-fn steps(picture: &Grid<f64>, n: usize, bench: &mut Bench<'_>) -> Vec<Row> {
+fn steps(picture: &Grid<f64>, n: usize, bench: &Bench<'_>) -> Vec<Row> {
     let (light, _) = even_light(picture, EvenLight::Auto);
     let rho = Autocorrelation::of(&light, 1);
     let maxima = Maxima::of(&rho);

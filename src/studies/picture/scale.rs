@@ -73,7 +73,7 @@ impl Study for PictureScaleStudy {
     }
 }
 
-fn row(weave: Binding, period_px: f64, bench: &mut Bench<'_>, points: &mut Vec<[f64; 2]>) -> Row {
+fn row(weave: Binding, period_px: f64, bench: &Bench<'_>, points: &mut Vec<[f64; 2]>) -> Row {
     let n_trials: u8 = bench.effort.pick(2, 4);
     let pitch_px = period_px / weave.period_threads();
     #[expect(

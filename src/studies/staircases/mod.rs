@@ -166,7 +166,7 @@ struct Cost {
 }
 
 /// Eighty trials of one observer, and the threshold that they come to.
-fn cost(bench: &mut Bench<'_>, way: Way) -> Result<Cost, ReportError> {
+fn cost(bench: &Bench<'_>, way: Way) -> Result<Cost, ReportError> {
     let observer = &Observer::all()[0];
     let n_trials = 80;
     let failed = |reason: selvedge_statistics::Undefined| ReportError::Study(reason.to_string());
@@ -192,7 +192,7 @@ fn cost(bench: &mut Bench<'_>, way: Way) -> Result<Cost, ReportError> {
 }
 
 /// QUEST+ on as large a grid as anybody asks for: cost alone.
-fn large_grid(bench: &mut Bench<'_>) -> Result<Row, ReportError> {
+fn large_grid(bench: &Bench<'_>) -> Result<Row, ReportError> {
     let failed = |reason: selvedge_statistics::Undefined| ReportError::Study(reason.to_string());
     let fresh = large_quest().map_err(failed)?;
     let observer = &Observer::all()[0];

@@ -22,7 +22,7 @@ pub(super) struct Tried {
 
 impl Tried {
     /// Tries every route on a cloth.
-    pub(super) fn of(subject: &Subject, is_timed: bool, bench: &mut Bench<'_>) -> Self {
+    pub(super) fn of(subject: &Subject, is_timed: bool, bench: &Bench<'_>) -> Self {
         let by_way = Way::ALL.map(|way| {
             let felt = subject.felt_by(way);
             let cost = (is_timed && felt.is_ok()).then(|| {
