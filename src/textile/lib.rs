@@ -1,7 +1,7 @@
 //! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
 //!
 //! A textile is a folder with a manifest; its source is measured profiles, a measured height map, a
-//! seeded model of a woven or knitted cloth that a virtual probe was drawn over, or of a surface
+//! seeded model of a woven or knitted textile that a virtual probe was drawn over, or of a surface
 //! known by its harmonics, its Hurst exponent or what repeats in it. Knows nothing of scenes or of
 //! rendering.
 //!

@@ -47,7 +47,7 @@ keys! {
         /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) place_mm: Option<[f64; 2]>,
-        /// Whether the map is one repeat of the cloth.
+        /// Whether the map is one repeat of the textile.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         pub(crate) periodic: bool,
         #[serde(default = "default_noise")]

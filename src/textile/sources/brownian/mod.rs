@@ -1,4 +1,4 @@
-//! Brownian surfaces: roughness without a scale of its own, told by a Hurst exponent H.
+//! Brownian surfaces: roughness without a scale of its own, described by a Hurst exponent H.
 //!
 //! A fractional Brownian surface rises by `E[(z(x + d) − z(x))²] ∝ |d|^{2H}` in every direction;
 //! its fractal dimension is 3 − H; a profile's power falls as `ν^{−(2H+1)}`. Low H is jagged, high
