@@ -54,8 +54,8 @@ impl HeightImport {
     /// Reads a file's bytes. `path` names it in errors and, by its last part, in the textile.
     ///
     /// # Errors
-    /// As [`crate::metrology::open`]; a map or profile shorter than one window; a profile that is to be felt
-    /// at every point.
+    /// As [`crate::metrology::open`]; a map or profile shorter than one window; a profile that is
+    /// to be felt at every point.
     pub fn of(bytes: &[u8], path: &Path, options: &ImportOptions) -> Result<Self, TextileError> {
         let file = path.file_name().unwrap_or_default();
         let mut keys = Heightmap::new(file.to_string_lossy().into_owned(), &options.asked);

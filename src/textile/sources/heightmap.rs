@@ -33,7 +33,8 @@ keys! {
         pub(crate) length_unit: Option<LengthUnit>,
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) step_mm: Option<f64>
-            => "Step" 0.0005 ..= 0.5 "mm" "The distance of points, where the file does not state it",
+            => "Step" 0.0005 ..= 0.5 "mm"
+            "The distance of points, where the file does not state it",
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) range_um: Option<f64>
             => "Range" 1e-6 ..= 1e6 "µm"

@@ -15,7 +15,8 @@ keys! {
         #[serde(default, skip_serializing_if = "Representation::is_default")]
         pub(crate) representation: Representation,
         /// The map of one repeat: a file of heights that states its scale, a 16-bit PNG as this
-        /// program writes it. It lies beside the manifest unless the profile files are named and felt.
+        /// program writes it. It lies beside the manifest unless the profile files are named and
+        /// felt.
         pub(crate) file: String,
         /// SHA-256 of the map; another file is refused.
         #[serde(skip_serializing_if = "Option::is_none")]

@@ -63,7 +63,8 @@ keys! {
         /// Amplitude: the mean roughness SMD of the four strokes, µm. This or `rise_um`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub smd_um: Option<f64>
-            => "Roughness SMD" 0.0 ..= 1000.0 "µm" "Amplitude: the mean roughness of the four strokes",
+            => "Roughness SMD" 0.0 ..= 1000.0 "µm"
+            "Amplitude: the mean roughness of the four strokes",
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub rise_um: Option<f64>
             => "Rise over 1 mm" 0.0 ..= 1000.0 "µm"

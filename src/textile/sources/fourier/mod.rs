@@ -41,7 +41,8 @@ choice! {
         /// A coefficient of its own for every pair of harmonics: no preferred lines.
         #[default]
         Independent = "independent",
-        /// The product of two profiles, divided by the root of their rms: as the paper describes it.
+        /// The product of two profiles, divided by the root of their rms: as the paper describes
+        /// it.
         Product = "product",
     }
 }
