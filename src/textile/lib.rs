@@ -1,7 +1,7 @@
 //! Textiles: their manifests, the sources that surfaces come from, and libraries of them.
 //!
 //! A textile is a folder with a manifest; its source is measured profiles, a measured height map, a
-//! seeded model of a woven or knitted cloth that a virtual probe was drawn over, or of a surface
+//! seeded model of a woven or knitted textile that a virtual probe was drawn over, or of a surface
 //! known by its harmonics, its Hurst exponent or what repeats in it. Knows nothing of scenes or of
 //! rendering.
 //!
@@ -39,40 +39,35 @@ pub use catalogue::{write_catalogue, write_figure};
 pub use draft::{Draft, Fault, example, restored};
 pub use error::{KesAsk, TextileError};
 pub use import::{
-    Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesImport, Measurement,
-    PictureTextile, read_measurement, relief_um_of, scaled, smd_um, textile_of,
+    Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures, KesImport,
+    Measurement, PictureTextile, ScaledRelief, read_measurement, relief_um_of, scaled, smd_um,
+    textile_of,
 };
-pub use import::{KesFigures, ScaledRelief};
 pub use kes::{
-    ColumnRole, DecimalSign, KesColumn, KesFile, KesKnown, KesLook, KesOptions, KesPlace,
-    KesReading, KesSection, KesStroke, MarkKind, ReturnOrder, StrokeSide, TextileAxis,
+    ColumnRole, DecimalSign, KesColumn, KesFile, KesFriction, KesKnown, KesLine, KesLook,
+    KesOptions, KesPlace, KesReading, KesSection, KesStroke, Mark, MarkKind, ReturnOrder,
+    StrokeSide, TextileAxis,
 };
-pub use kes::{KesFriction, KesLine, Mark};
 pub use library::{
-    Appearance, BuildCache, Library, Textile, build_library, id_of, is_of_the_program, kind_of,
-    most_typical, n_threads, nth_id,
+    Appearance, BuildCache, Index, IndexEntry, Library, Textile, build_library, id_of,
+    is_of_the_program, kind_of, most_typical, n_threads, nth_id,
 };
-pub use library::{Index, IndexEntry};
-pub use manifest::{AppearanceKeys, KnownFigure};
 pub use manifest::{
-    Construction, Figure as MeasuredFigure, Manifest, Parent, Provenance,
-    all_known as known_figures, figures as measured_figures,
+    AppearanceKeys, Construction, Figure as MeasuredFigure, KnownFigure, Manifest, Parent,
+    Provenance, all_known as known_figures, figures as measured_figures,
 };
 pub use profile_file::read as read_profile;
 pub use recipe::{Group, Parameter, ParameterKind, Place, lit};
 pub use sources::brownian::{Brownian, Generator, Hurst};
-pub use sources::fourier::{Fourier, ImportedProfile};
 pub use sources::fourier::{
-    FourierSeries, FourierTemplate, Reading, Readings, example_templates, import,
-    templates_from_toml, templates_to_toml,
+    Fourier, FourierSeries, FourierTemplate, ImportedProfile, Reading, Readings, example_templates,
+    import, templates_from_toml, templates_to_toml,
 };
 pub use sources::heightmap::Heightmap;
 pub use sources::knit::Knit;
 pub use sources::picture::PictureSource;
 pub use sources::profiles::Profiles;
-pub use sources::restoration::Restoration;
-
-pub use sources::restoration::Reduced;
+pub use sources::restoration::{Reduced, Restoration};
 pub use sources::weave::{NAMES as INTERLACINGS, Weave};
 pub use sources::{RECIPES, Source, groups};
 pub use unit::{LengthUnit, Unit};

@@ -9,7 +9,7 @@ use crate::recipe::profiles_of_files;
 use crate::surface::{HeightMap, Representation, Surface, SurfaceError};
 use selvedge_foundation::progress::Progress;
 
-/// Distance of the points of a cloth's relief where only a picture is wanted, mm.
+/// Distance of the points of a textile's relief where only a picture is wanted, mm.
 const PICTURE_STEP_MM: f64 = 0.05;
 
 /// What becomes of a recipe: the same surface that the built textile has when it is loaded.
@@ -17,7 +17,7 @@ const PICTURE_STEP_MM: f64 = 0.05;
 pub struct RecipePreview {
     /// Profiles and local spectra, noise floor taken off.
     pub surface: Arc<Surface>,
-    /// The heights over an area: a cloth's relief, or a patch of a surface that was drawn.
+    /// The heights over an area: a textile's relief, or a patch of a surface that was drawn.
     pub relief: HeightMap,
     /// Figures that the model found on its own surface.
     pub measured: Vec<(&'static str, f64)>,

@@ -3,7 +3,6 @@
 //!
 //! The same library gives the same bytes.
 
-mod index;
 mod sheet;
 
 use sheet::sheet;
@@ -11,16 +10,19 @@ use sheet::sheet;
 use std::fs;
 use std::path::Path;
 
-use super::{Library, TextileError};
+use crate::error::TextileError;
+use crate::tactile::{Filters, Levels};
+use crate::{Library, Textile};
 use selvedge_chart::Figure;
 use selvedge_foundation::files::{FileError, encode_png_rgba, write_atomic};
 use selvedge_foundation::progress::Progress;
+use selvedge_foundation::quantity::fixed;
 
 /// Pixels across a PNG.
 const PNG_WIDTH: u32 = 1720;
 
 /// Writes `ID.svg` and `ID.png` for every textile of a library into a folder, and `index.md` last;
-/// tells how many textiles there are.
+/// returns how many textiles there are.
 ///
 /// # Errors
 /// A textile that cannot be loaded, a folder that cannot be written, the work was stopped.
@@ -39,9 +41,9 @@ pub fn write_catalogue(
         progress.step(done as f64 / n.max(1) as f64, id)?;
         let textile = library.load(id)?;
         write_figure(&sheet(&textile)?, out, id)?;
-        lines.push(index::line(&textile));
+        lines.push(index_line(&textile));
     }
-    let text = index::text(library, &lines);
+    let text = index_text(library, &lines);
     write_atomic(&out.join("index.md"), text.as_bytes())?;
     progress.step(1.0, "index.md")?;
     Ok(n)
@@ -55,6 +57,57 @@ pub fn write_figure(figure: &Figure, out: &Path, name: &str) -> Result<(), Texti
     let path = out.join(format!("{name}.png"));
     let png = encode_png_rgba(&pixels.rgba, pixels.width, pixels.height, &path)?;
     Ok(write_atomic(&path, &png)?)
+}
+
+/// The head of the index: a line a textile, each with its sheet.
+const HEADER: &str = "| textile | name | construction | fibre | source | SMD, µm | A40, µm | \
+    A320, µm | level, dB |\n|---|---|---|---|---|---:|---:|---:|---:|\n";
+
+/// The line of a textile.
+fn index_line(textile: &Textile) -> String {
+    let manifest = textile.manifest();
+    let levels = Levels::of(textile.surface(), &Filters::default());
+    let [a40, a320] = levels.mean_um.map(|um| fixed(um, 2));
+    let level = levels
+        .level_db()
+        .map_or_else(|| "none".to_owned(), |db| fixed(db, 1));
+    let cells = [
+        format!("[{0}]({0}.svg)", textile.id()),
+        cell(&manifest.name),
+        manifest.construction.word().to_owned(),
+        cell(&manifest.fibre),
+        manifest.source.kind().to_owned(),
+        fixed(textile.surface().smd_um(), 2),
+        a40,
+        a320,
+        level,
+    ];
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// A text within a table.
+fn cell(text: &str) -> String {
+    text.split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+        .replace('|', "\\|")
+}
+
+/// The whole index.
+fn index_text(library: &Library, lines: &[String]) -> String {
+    let n = lines.len();
+    let root = library.root();
+    // The last part alone: where a library lies is no part of what it is.
+    let root = root
+        .file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let table = lines.concat();
+    format!(
+        "# Catalogue of {}\n\n{n} textiles. SMD: mean absolute deviation of height. A40 and A320: \
+         mean amplitudes over all points and the four directions at 100 mm/s, default filters, no \
+         gain; level: the mean of both in dB re 1 µm.\n\n{HEADER}{table}",
+        cell(&root)
+    )
 }
 
 #[cfg(test)]

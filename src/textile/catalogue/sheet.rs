@@ -10,7 +10,7 @@ use selvedge_chart::{
 };
 use selvedge_foundation::quantity::level_db;
 
-/// The side of the cloth that is shown, mm.
+/// The side of the textile that is shown, mm.
 const PICTURE_MM: f64 = 20.0;
 /// Cells along that side.
 const N_CELLS: u16 = 240;
@@ -48,7 +48,7 @@ pub(super) fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
     })
 }
 
-/// The cloth from its lower left corner, tiled as on a display.
+/// The textile from its lower left corner, tiled as on a display.
 fn picture(textile: &Textile) -> Result<Chart, TextileError> {
     let side = |label| Axis::linear(label).within([0.0, PICTURE_MM]);
     let mut panel = Chart {

@@ -14,7 +14,7 @@ use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
 use crate::metrology::{HeightOptions, Measured};
-use crate::recipe::{ProfileFiles, SourceKeys};
+use crate::recipe::{ProfileFiles, SourceKeys as _};
 use crate::sources::Source;
 use crate::sources::heightmap::{Heightmap, Laid};
 use crate::surface::{Direction, HeightMap, ProfileSet, Representation};
@@ -26,7 +26,7 @@ use selvedge_foundation::files::{encode_png_small, sha256_hex};
 pub struct ImportOptions {
     /// What the file leaves open.
     pub asked: HeightOptions,
-    /// Whether the map is one repeat of the cloth.
+    /// Whether the map is one repeat of the textile.
     pub is_periodic: bool,
     /// Whether textiles are felt along four strokes, or at every point of the map.
     pub representation: Representation,
@@ -55,8 +55,7 @@ impl HeightImport {
     ///
     /// # Errors
     /// As [`crate::metrology::open`]; a map or profile shorter than one window; a profile that is
-    /// to be felt
-    /// at every point.
+    /// to be felt at every point.
     pub fn of(bytes: &[u8], path: &Path, options: &ImportOptions) -> Result<Self, TextileError> {
         let file = path.file_name().unwrap_or_default();
         let mut keys = Heightmap::new(file.to_string_lossy().into_owned(), &options.asked);

@@ -13,7 +13,7 @@ use crate::metrology::{self, HeightOptions, Measured};
 use crate::picture::Tile;
 use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
-use crate::recipe::{ProfileFiles, SourceKeys};
+use crate::recipe::{ProfileFiles, SourceKeys as _};
 use crate::sources::Source;
 use crate::sources::picture::PictureSource;
 use crate::surface::{HeightMap, Probe, Representation};
@@ -28,7 +28,7 @@ const MAP: &str = "heights.png";
 pub struct PictureTextile {
     /// What people call it.
     pub name: String,
-    /// How the cloth is made.
+    /// How the textile is made.
     pub construction: Construction,
     /// What it is made of.
     pub fibre: String,

@@ -3,7 +3,7 @@
 use super::dialect::RawTable;
 use crate::unit::{LengthUnit, Unit};
 
-/// One of the two axes of a cloth.
+/// One of the two axes of a textile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextileAxis {
     /// Along the warp.

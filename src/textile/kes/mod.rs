@@ -86,7 +86,7 @@ pub struct KesPlace {
 pub enum ReturnOrder {
     /// As they were measured, from the turn back.
     Travel,
-    /// Mirrored: by their places on the cloth, like the way out.
+    /// Mirrored: by their places on the textile, like the way out.
     Mirrored,
 }
 

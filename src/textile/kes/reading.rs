@@ -1,4 +1,4 @@
-//! What the files hold: strokes in the order of travel, each with its place on the cloth.
+//! What the files hold: strokes in the order of travel, each with its place on the textile.
 
 use std::path::Path;
 
@@ -177,7 +177,7 @@ fn assembled(
         let forward = strokes.iter().find(|other| other.direction == opposite);
         let mut heights_um = stroke.values.clone();
         let mut tilt_um_per_mm = remove_tilt(&mut heights_um, &[], stroke.step_mm);
-        // What is marked does not look like the cloth: it has no say in how the cloth lies.
+        // What is marked does not look like the textile: it has no say in how the textile lies.
         let marks = marks_of(&heights_um, stroke.step_mm, direction);
         tilt_um_per_mm += remove_tilt(&mut heights_um, &marks, stroke.step_mm);
         check_span(&heights_um, (path, stroke.line), notes)?;
@@ -285,7 +285,7 @@ fn check_span(
     Ok(())
 }
 
-/// The order of a stroke's rows; for a way back whose places rise the cloth tells.
+/// The order of a stroke's rows; for a way back whose places rise the textile tells.
 fn order_of(
     (stroke, heights_um): (&RawStroke, &[f64]),
     forward: Option<&KesStroke>,
@@ -320,7 +320,7 @@ fn order_of(
     Ok(order)
 }
 
-/// Takes a straight line off the whole stroke and tells its slope a mm: that of least squares
+/// Takes a straight line off the whole stroke and returns its slope a mm: that of least squares
 /// through the samples that are not marked, if these are most of them.
 pub(super) fn remove_tilt(heights_um: &mut [f64], marks: &[Mark], step_mm: f64) -> f64 {
     let mut is_used = vec![true; heights_um.len()];

@@ -2,7 +2,7 @@
 //!
 //! Both readings are laid over the way out and shifted against it by up to 2 mm (the stage has
 //! play). The better one is taken if it correlates well and leaves clearly less unexplained than
-//! the other; cloth that looks alike both ways, such as a pure sine, does not tell.
+//! the other; textile that looks alike both ways, such as a pure sine, does not tell.
 
 use super::ReturnOrder;
 

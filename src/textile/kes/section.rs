@@ -4,7 +4,7 @@
 //! Suggested is the most stationary 20 mm: of all sections 0.1 mm apart those with the fewest
 //! marked samples, and of these the one whose ten pieces of 2 mm differ least, by
 //! `Σ (σ² of the pieces' mean heights + σ² of their roughnesses)` over the strokes of the axis;
-//! of equals the one nearest to the middle. Both strokes of an axis get the same piece of cloth.
+//! of equals the one nearest to the middle. Both strokes of an axis get the same piece of textile.
 
 use super::marks::n_samples;
 use super::{KesStroke, TextileAxis};
@@ -17,7 +17,7 @@ const N_PIECES: usize = 10;
 /// How far apart the sections lie that are tried, mm.
 const STRIDE_MM: f64 = 0.1;
 
-/// A section of the cloth, along the forward axis.
+/// A section of the textile, along the forward axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KesSection {
     /// Where it begins, mm.

@@ -2,7 +2,7 @@
 //!
 //! Every `[[textile]]` is a manifest without a `[source]` of files. `like = "ID"` begins with the
 //! keys of a textile further up and changes what is stated; `sides = ["face", "back"]` makes two
-//! surfaces of one cloth, the second with `-back` after its id.
+//! surfaces of one textile, the second with `-back` after its id.
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ use selvedge_foundation::files::{
 
 /// What the library of all textiles is called where a folder or a file is.
 pub(crate) const SEVENTY_FOUR: &str = "seventy-four";
-/// What stands after the id of a cloth's other side.
+/// What stands after the id of a textile's other side.
 const BACK: &str = "-back";
 
 /// What the bytes of a built textile follow from besides its recipe: this program. Raise it when a
@@ -171,7 +171,7 @@ impl Recipe {
     }
 }
 
-/// A cloth's id, sides and all its keys, with those of the cloth that it is like.
+/// A textile's id, sides and all its keys, with those of the textile that it is like.
 fn cloth(
     mut keys: Keys,
     known: &[(String, Keys)],

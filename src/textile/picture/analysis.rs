@@ -17,7 +17,7 @@ use super::tile::Tile;
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 
-/// What an analysis may be told.
+/// What an analysis takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnalysisOptions {
     /// Whether uneven light is divided out.

@@ -18,9 +18,9 @@ use crate::surface::WINDOW_LENGTH_MM;
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
 
-/// Windows that synthesized cloth holds, along and across, at least.
+/// Windows that synthesized textile holds, along and across, at least.
 const N_WINDOWS: f64 = 1.5;
-/// Samples a side of synthesized cloth at most.
+/// Samples a side of synthesized textile at most.
 const MAX_SIDE: f64 = 1024.0;
 /// How much further across than needed a better seam is looked for.
 const LOOK_FURTHER: isize = 12;
@@ -33,7 +33,7 @@ pub enum Extent {
         /// The shear.
         shear_rad: f64,
     },
-    /// Synthesized cloth, for the lattice has no rectangle: it repeats along its rows, and at its
+    /// Synthesized textile, for the lattice has no rectangle: it repeats along its rows, and at its
     /// upper edge jumps sideways by this, px of the picture.
     Patch {
         /// The jump.
@@ -41,7 +41,7 @@ pub enum Extent {
     },
 }
 
-/// Brightness of cloth that repeats, cut from a lattice.
+/// Brightness of textile that repeats, cut from a lattice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Brightness {
     /// Samples, 0…1; **row 0 is the lowest y**.
@@ -55,7 +55,7 @@ pub struct Brightness {
 }
 
 /// Cuts from a tile the rectangle that repeats, sampled at 1 px; where the lattice has none,
-/// synthesizes cloth that holds a window of the finger or more at this scale.
+/// synthesizes textile that holds a window of the finger or more at this scale.
 pub fn brightness_of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
     match tile.rectangle(1.0, n_threads) {
         Some(rectangle) => Brightness {
@@ -79,7 +79,7 @@ fn upright(values: &Grid<f64>) -> Grid<f64> {
     values
 }
 
-/// Cloth along p1, whole periods wide, as high as closes best.
+/// Textile along p1, whole periods wide, as high as closes best.
 fn synthesized(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
     let basis = tile.basis();
     let min_px = N_WINDOWS * WINDOW_LENGTH_MM * px_per_mm.max(1.0);
@@ -180,7 +180,7 @@ mod tests {
         tilt_deg: 60.0,
     };
 
-    /// Waves of a cloth: orders along its vectors, amplitude (px) and phase. None of its mirror
+    /// Waves of a textile: orders along its vectors, amplitude (px) and phase. None of its mirror
     /// images or turns is like it.
     const WAVES: [([f64; 2], f64, f64); 5] = [
         ([1.0, 0.0], 1.0, 0.3),
@@ -204,7 +204,7 @@ mod tests {
         sum
     }
 
-    /// The cloth under the light, with the noise of a camera.
+    /// The textile under the light, with the noise of a camera.
     fn picture(basis: &Basis) -> Picture {
         let mut random = Random::new(4);
         let lean = LIGHT.lean();
@@ -230,7 +230,7 @@ mod tests {
         found.found.unwrap().tile
     }
 
-    /// Correlation of heights with those of the cloth, where `place` says a sample lies in what
+    /// Correlation of heights with those of the textile, where `place` says a sample lies in what
     /// was cut (along, down; px).
     fn agreement(
         basis: &Basis,
@@ -283,7 +283,7 @@ mod tests {
         let shape = shape(&cut);
         let [width, height] = cut.size_px;
         let right = agreement(&basis, (&cut, &shape), |x, y| [x, y]);
-        // More than 0.999 when this was written: no wave of this cloth lies across the light.
+        // More than 0.999 when this was written: no wave of this textile lies across the light.
         assert!(right > 0.98, "{right}");
         for (name, wrong) in [
             (

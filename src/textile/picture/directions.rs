@@ -19,7 +19,7 @@ const N_NEAREST: usize = 150;
 /// Two directions of a basis differ by at least this, radians.
 const MIN_APART: f64 = 0.2;
 
-/// What [`Directions::of`] may be told.
+/// What [`Directions::of`] takes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct DirectionOptions {
     /// λ of the mean concentration, 1/px; chosen from the maxima if not said.

@@ -16,13 +16,13 @@ use super::significant::SignificantMaxima;
 
 /// Below this score the maxima are not those of a lattice.
 const MIN_SCORE: f64 = 0.6;
-/// Below this mean correlation at its points a lattice is not told from chance.
+/// Below this mean correlation at its points a lattice is not distinguished from chance.
 const MIN_LEVEL: f64 = 0.05;
 /// Between lattice points the correlation must fall by at least this share of its mean there.
 const MIN_CONTRAST: f64 = 0.12;
 /// A picture must hold this many cells.
 const MIN_CELLS: f64 = 5.0;
-/// A picture smaller than this on one side cannot hold two repeats that are told apart.
+/// A picture smaller than this on one side cannot hold two repeats that are distinguished.
 const MIN_SIDE: usize = 12;
 /// A variance below this (of luminance 0…1) is that of one colour.
 const MIN_VARIANCE: f64 = 1e-7;

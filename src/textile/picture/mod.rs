@@ -1,4 +1,4 @@
-//! Cloth from a picture: the lattice of its repeats and the cell that repeats (Allerkamp et al.,
+//! Textile from a picture: the lattice of its repeats and the cell that repeats (Allerkamp et al.,
 //! "Generating tactile textures using periodicity analysis").
 //!
 //! A pipeline of stages: [`load`] a picture, perhaps a [`Picture::part`] of it or
@@ -52,7 +52,7 @@ pub use tile::{Rectangle, Tile};
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::progress::Cancelled;
 
-/// What can be wrong with a picture of a cloth, or with what is asked of it.
+/// What can be wrong with a picture of a textile, or with what is asked of it.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The file.

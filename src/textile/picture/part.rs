@@ -1,4 +1,4 @@
-//! The part of a bent cloth that lies flat enough for its cells to be averaged.
+//! The part of a bent textile that lies flat enough for its cells to be averaged.
 
 use super::basis::Basis;
 use super::refine::refine;

@@ -1,4 +1,4 @@
-//! Heights of a picture's cell: found, told and drawn.
+//! Heights of a picture's cell: found, described and drawn.
 
 use std::path::Path;
 
@@ -63,7 +63,7 @@ pub(crate) struct ReliefReport {
     pub angle_deg: f64,
     /// What the rectangle was sheared by to close, degrees.
     pub(crate) shear_deg: Option<f64>,
-    /// The sideways jump at the upper edge of cloth that has no rectangle, px.
+    /// The sideways jump at the upper edge of textile that has no rectangle, px.
     pub(crate) seam_px: Option<f64>,
     /// From the lowest to the highest height and rms, samples' widths.
     pub height_px: Span,

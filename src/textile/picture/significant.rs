@@ -1,6 +1,6 @@
 //! The maxima that count: those about as high as the highest that are as far out.
 //!
-//! A cloth that is bent or irregular agrees with itself less and less with distance. So a maximum
+//! A textile that is bent or irregular agrees with itself less and less with distance. So a maximum
 //! is measured by the highest one at its distance or beyond, not by a fixed height.
 
 use super::autocorrelation::Autocorrelation;

@@ -1,4 +1,4 @@
-//! Pictures of cloth: luminance and colour, a part of one, one seen straight from the front.
+//! Pictures of textile: luminance and colour, a part of one, one seen straight from the front.
 
 use std::path::Path;
 

@@ -77,7 +77,7 @@ impl Cloth {
     }
 }
 
-/// A cloth in uneven light, slightly bent, with as much noise as signal, in 8 bits.
+/// A textile in uneven light, slightly bent, with as much noise as signal, in 8 bits.
 fn spoiled(cloth: &Cloth, random: &mut Random) -> Grid<f64> {
     let spread = cloth.variance().sqrt();
     let [bend, phase] = [random.uniform_in(0.2, 0.5), random.uniform_in(0.0, TAU)];

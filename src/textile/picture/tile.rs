@@ -1,4 +1,4 @@
-//! The primitive tile: the mean of all cells of a picture, and cloth made of it again.
+//! The primitive tile: the mean of all cells of a picture, and textile made of it again.
 //!
 //! Averaging modulo the lattice leaves what repeats; the noise of single threads falls with the
 //! square root of the number of cells.
@@ -26,7 +26,7 @@ pub struct Tile {
     pub p2_px: Place,
 }
 
-/// A rectangle of cloth, periodic in both directions, its first axis turned in the picture.
+/// A rectangle of textile, periodic in both directions, its first axis turned in the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rectangle {
     /// Samples, rows along the first axis.
@@ -74,7 +74,7 @@ impl Tile {
         top + t * (bottom - top)
     }
 
-    /// Cloth of any size made of it: sample (x, y) of the patch lies at
+    /// Textile of any size made of it: sample (x, y) of the patch lies at
     /// `step_px·(x along, y across)` from the picture's first pixel, along turned by `angle_rad`
     /// clockwise from x to the right.
     pub fn patch(

@@ -34,7 +34,7 @@ keys! {
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) step_mm: Option<f64>
             => "Step" 0.0005 ..= 0.5 "mm"
-                "The distance of points, where the file does not state it",
+            "The distance of points, where the file does not state it",
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) range_um: Option<f64>
             => "Range" 1e-6 ..= 1e6 "µm"
@@ -48,7 +48,7 @@ keys! {
         /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) place_mm: Option<[f64; 2]>,
-        /// Whether the map is one repeat of the cloth.
+        /// Whether the map is one repeat of the textile.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         pub(crate) periodic: bool,
         #[serde(default = "default_noise")]

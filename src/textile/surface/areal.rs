@@ -4,7 +4,7 @@
 //! instead, repeated across: then moving along a row changes no column. Here the spectra of a
 //! direction are those of the profiles through the points, 1 mm apart both ways, so they vary in
 //! both. The wire that a profile is read with has the tester's radius, 0.25 mm, but rides on 1 mm
-//! of cloth instead of 5: each point stands for its own millimetre, the size of a contactor.
+//! of textile instead of 5: each point stands for its own millimetre, the size of a contactor.
 //! Heights are read without friction or noise, so both ways along an axis feel the same.
 
 use std::sync::Arc;

@@ -71,6 +71,7 @@ impl Representation {
     pub(crate) const WORDS: &'static [&'static str] = &["economical", "areal"];
 
     /// Whether files need not say it.
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
     pub(crate) fn is_default(&self) -> bool {
         *self == Self::default()
     }

@@ -1,4 +1,4 @@
-//! A height map: heights over a rectangle of cloth, some of which may be missing.
+//! A height map: heights over a rectangle of textile, some of which may be missing.
 //!
 //! Columns run along u (the warp), rows along w (the weft); row 0 is at the lowest w. What is
 //! missing stays marked as missing when it is filled for analysis.
@@ -190,7 +190,7 @@ impl HeightMap {
         }
     }
 
-    /// Heights along a strip of cloth, µm: a row for every track across it, columns along the
+    /// Heights along a strip of textile, µm: a row for every track across it, columns along the
     /// stroke. `is_weft`: the stroke runs along w. A strip that leaves a periodic map goes on at
     /// its other side; one that leaves another map ends at its edge. Missing points are filled.
     pub fn strip(

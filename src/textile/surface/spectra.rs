@@ -117,7 +117,7 @@ pub struct LocalSpectra {
 
 impl LocalSpectra {
     /// The spectra of a profile. Points are numbered along the forward axis: point j of a reverse
-    /// profile covers the same cloth as point j of the forward one.
+    /// profile covers the same textile as point j of the forward one.
     ///
     /// # Errors
     /// A profile shorter than one window.

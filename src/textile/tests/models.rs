@@ -9,7 +9,7 @@ use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_scratch::ScratchFolder;
 
-/// A cloth with little irregularity; `keys` go to the source, `yarn` to every yarn.
+/// A textile with little irregularity; `keys` go to the source, `yarn` to every yarn.
 fn weave(interlacing: &str, per_cm: [f64; 2], keys: &str, yarn: &str) -> String {
     let [warp, weft] = per_cm;
     let yarn = format!(

@@ -7,7 +7,6 @@ mod model;
 mod path;
 mod portrait;
 mod relief;
-mod stroke;
 mod variation;
 mod yarn;
 

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use super::path::YarnGeometry;
 use super::portrait::{PX_PER_MM, portrait};
-use super::relief::relief_map;
-use super::stroke::{STEP_MM, profiles};
+use super::relief::{Axis, Relief, Window, relief_map};
 use crate::error::TextileError;
 use crate::profile_file;
 use crate::recipe::{Model, Side};
@@ -15,6 +14,13 @@ use selvedge_foundation::numerics::Random;
 
 /// Distance of the points of a model's relief, about, mm: finer than the wire can follow.
 const RELIEF_STEP_MM: f64 = 0.02;
+
+/// Samples of a stroke: 20 mm at 230 a millimetre.
+const N_SAMPLES: usize = 4600;
+/// Distance of samples, mm.
+const STEP_MM: f64 = 1.0 / 230.0;
+/// Tracks that stand for the width of the probe's wire.
+const N_TRACKS: usize = 80;
 
 /// Yarns, and the probe that is drawn over them.
 struct StrokedYarns {
@@ -65,4 +71,37 @@ impl Model for StrokedYarns {
     fn picture(&self) -> (Rgb8Image, f64) {
         (portrait(&self.geometry), PX_PER_MM)
     }
+}
+
+/// Heights of four strokes over the textile, µm, by [`Direction::index`], each in travel order.
+///
+/// Forward and reverse run over the same strip, as the instrument's do; the instrument is zeroed at
+/// the mean height of the strip.
+fn profiles(geometry: &YarnGeometry, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
+    let mut heights: [Vec<f64>; 4] = Default::default();
+    for (axis, pair) in [
+        (Axis::Warp, [Direction::WarpForward, Direction::WarpReverse]),
+        (Axis::Weft, [Direction::WeftForward, Direction::WeftReverse]),
+    ] {
+        let margin = probe.margin_samples(STEP_MM);
+        let track_mm = probe.width_mm / N_TRACKS as f64;
+        let window = Window {
+            axis,
+            start_mm: [-(margin as f64) * STEP_MM, 0.5 * track_mm],
+            step_mm: [STEP_MM, track_mm],
+            n: [N_SAMPLES + 2 * margin, N_TRACKS],
+        };
+        let relief = Relief::of(geometry, &window);
+        let mut lift = probe.lift_um(&relief.height_um, STEP_MM);
+        let mean = lift.iter().sum::<f64>() / lift.len().max(1) as f64;
+        for height in &mut lift {
+            *height -= mean;
+        }
+        for direction in pair {
+            let mut noise = random.branch(direction.key());
+            heights[direction.index()] =
+                probe.stroke(&lift, STEP_MM, direction.is_reverse(), &mut noise);
+        }
+    }
+    heights
 }

@@ -32,7 +32,7 @@ keys! {
         #[serde(default)]
         pub(crate) slub_gain: f64
             => "Gain of slubs" 0.0 ..= 4.0 ""
-                "How much thicker a slub is: 0.5 is half as thick again",
+            "How much thicker a slub is: 0.5 is half as thick again",
         #[serde(default = "default_slub_mm")]
         pub(crate) slub_mm: f64
             => "Length of slubs" 0.5 ..= 100.0 "mm" "Length of a slub",

@@ -1,4 +1,4 @@
-//! Every layout holds the same cloth; what files do not say is asked for.
+//! Every layout holds the same textile; what files do not say is asked for.
 
 mod sections;
 
@@ -16,7 +16,7 @@ const STEP_MM: f64 = 0.02;
 /// Samples of a stroke of 30 mm.
 const N: usize = 1500;
 
-/// A cloth that is not alike both ways: yarns of uneven height.
+/// A textile that is not alike both ways: yarns of uneven height.
 fn cloth(seed: u64) -> Vec<f64> {
     let mut random = Random::new(seed);
     let mut drift = 0.0;
@@ -125,7 +125,7 @@ fn expect_alike(found: &[f64], expected: &[f64]) {
     }
 }
 
-/// What a stroke must be: the cloth without its tilt, in the order of travel.
+/// What a stroke must be: the textile without its tilt, in the order of travel.
 fn expect(reading: &KesReading, direction: Direction, cloth: &[f64]) {
     let stroke = reading.stroke(direction);
     let stroke = stroke.unwrap_or_else(|| panic!("no {direction:?}"));

@@ -4,7 +4,7 @@ use selvedge_foundation::numerics::{LineFit, structure_function};
 
 /// Lags, in samples, that the exponent is taken from.
 const LAGS: [usize; 5] = [1, 2, 4, 8, 16];
-/// Parts that a line is cut into to tell the error.
+/// Parts that a line is cut into to estimate the error.
 const N_PARTS: usize = 8;
 
 /// An exponent with its standard error.

@@ -1,4 +1,4 @@
-//! Brownian surfaces: roughness without a scale of its own, told by a Hurst exponent H.
+//! Brownian surfaces: roughness without a scale of its own, described by a Hurst exponent H.
 //!
 //! A fractional Brownian surface rises by `E[(z(x + d) − z(x))²] ∝ |d|^{2H}` in every direction;
 //! its fractal dimension is 3 − H; a profile's power falls as `ν^{−(2H+1)}`. Low H is jagged, high
@@ -64,7 +64,7 @@ keys! {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub smd_um: Option<f64>
             => "Roughness SMD" 0.0 ..= 1000.0 "µm"
-                "Amplitude: the mean roughness of the four strokes",
+            "Amplitude: the mean roughness of the four strokes",
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub rise_um: Option<f64>
             => "Rise over 1 mm" 0.0 ..= 1000.0 "µm"

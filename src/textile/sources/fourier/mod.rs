@@ -1,4 +1,4 @@
-//! Fourier templates: cloth by the statistics of its harmonics [Wall & Harwin 1999].
+//! Fourier templates: textile by the statistics of its harmonics [Wall & Harwin 1999].
 //!
 //! Several profiles of a material give mean and standard deviation of the coefficients of each
 //! harmonic; new profiles are drawn from them, so no two patches are alike and none is a copy.
@@ -282,7 +282,7 @@ pub fn templates_to_toml(
 }
 
 /// The five templates that are part of the program. They are invented: smooth spectra with a peak,
-/// scaled to the range of standard deviations that Wall & Harwin print, not measured on cloth.
+/// scaled to the range of standard deviations that Wall & Harwin print, not measured on textile.
 pub fn example_templates() -> Result<Vec<FourierTemplate>, TextileError> {
     templates_from_toml(EXAMPLES, Path::new("the example templates"))
 }

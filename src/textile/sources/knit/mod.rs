@@ -58,8 +58,7 @@ keys! {
             => "Bulge" 0.0 ..= 0.3 ""
             "How much the loop bulges at head and feet, share of the wale pitch",
         /// How far the legs of a loop stand apart beyond half a wale, share of the wale pitch: the
-        /// legs
-        /// of neighbouring loops touch before those of one loop do.
+        /// legs of neighbouring loops touch before those of one loop do.
         #[serde(default = "default_leg_spread")]
         pub(crate) leg_spread: f64
             => "Spread of legs" 0.0 ..= 0.15 ""

@@ -1,4 +1,4 @@
-//! Correlation and restoration: a cloth from one warp and one weft profile, by what repeats in
+//! Correlation and restoration: a textile from one warp and one weft profile, by what repeats in
 //! them [after Huang, Metaxas & Govindaraj 2003; the steps are ours, theirs are not published in
 //! what could be read].
 //!

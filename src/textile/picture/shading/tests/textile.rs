@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::*;
 use crate::import::to_textile;
-use crate::recipe::{HeightsFile, ProfileFiles, SourceKeys};
+use crate::recipe::{HeightsFile as _, ProfileFiles, SourceKeys as _};
 use crate::sources::picture::PictureSource;
 use crate::surface::{Direction, Representation};
 use crate::{
