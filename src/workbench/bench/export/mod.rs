@@ -6,9 +6,10 @@
 //!      is asked for ─▶ .csv, .svg or .png by the name's ending, written whole by a job
 //! ```
 //!
-//! To export another pane: write a function from its view to an [`Exported`] in a file here, and
-//! give `gather_of` (gather.rs) an arm that fetches the view and calls it. Button, menu, dialog,
-//! notices, kinds of files and provenance come with that.
+//! A pane that shows a chart exports that chart: `exported` in the pane's own files joins it with a
+//! note and its origin. What a pane paints by hand is described in a file here. To export another
+//! pane, give `gather_of` (gather.rs) an arm that fetches its view and calls such a function.
+//! Button, menu, dialog, notices, kinds of files and provenance come with that.
 //!
 //! # Tables
 //! UTF-8, comma, decimal point, one header line with units in the names, one row an observation,

@@ -163,7 +163,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) ->
 
 /// What is within the frame, cut off at its edge.
 fn paint(ui: &Ui, chart: &Chart, (area, bounds, scales): (Rect, PlotBounds, [Scale; 2]), id: Id) {
-    let builder = eframe::egui::UiBuilder::new().max_rect(area).id_salt(id);
+    let builder = eframe::egui::UiBuilder::new().max_rect(area);
     let mut within = Ui::new(
         ui.ctx().clone(),
         id.with("frame"),

@@ -28,32 +28,36 @@ fn chart() -> Chart {
 /// Two linked charts; the state is the ends of the first one's horizontal axis and of the second's.
 fn window<'a>(size: Vec2) -> Harness<'a, [[f64; 2]; 2]> {
     let mut is_styled = false;
-    Harness::builder().with_size(size).build_ui_state(
-        move |ui, ends: &mut [[f64; 2]; 2]| {
-            if !is_styled {
-                theme::install(ui.ctx());
-                is_styled = true;
-            }
-            let (upper, lower) = ui.max_rect().split_top_bottom_at_fraction(0.5);
-            for (nth, (rect, name)) in [(upper, "Upper"), (lower, "Lower")].into_iter().enumerate()
-            {
-                let setting = Setting {
-                    name,
-                    link: Some("speed"),
-                    ..Setting::default()
-                };
-                if let Some(shown) = show(ui, rect, &chart(), &setting) {
-                    let area = shown.area();
-                    let corners = [area.left_bottom(), area.right_bottom()];
-                    ends[nth] = corners.map(|at| shown.values_at(at)[0]);
-                    let [x, y] = shown.values_at(shown.at([87.0, -12.5]));
-                    let undone = [x / 87.0 - 1.0, y / -12.5 - 1.0];
-                    assert!(undone.iter().all(|off| off.abs() < 1e-3), "{x} {y}");
+    Harness::builder()
+        .with_size(size)
+        .with_max_steps(60)
+        .build_ui_state(
+            move |ui, ends: &mut [[f64; 2]; 2]| {
+                if !is_styled {
+                    theme::install(ui.ctx());
+                    is_styled = true;
                 }
-            }
-        },
-        [[0.0; 2]; 2],
-    )
+                let (upper, lower) = ui.max_rect().split_top_bottom_at_fraction(0.5);
+                for (nth, (rect, name)) in
+                    [(upper, "Upper"), (lower, "Lower")].into_iter().enumerate()
+                {
+                    let setting = Setting {
+                        name,
+                        link: Some("speed"),
+                        ..Setting::default()
+                    };
+                    if let Some(shown) = show(ui, rect, &chart(), &setting) {
+                        let area = shown.area();
+                        let corners = [area.left_bottom(), area.right_bottom()];
+                        ends[nth] = corners.map(|at| shown.values_at(at)[0]);
+                        let [x, y] = shown.values_at(shown.at([87.0, -12.5]));
+                        let undone = [x / 87.0 - 1.0, y / -12.5 - 1.0];
+                        assert!(undone.iter().all(|off| off.abs() < 1e-3), "{x} {y}");
+                    }
+                }
+            },
+            [[0.0; 2]; 2],
+        )
 }
 
 fn close(found: [f64; 2], wanted: [f64; 2]) -> bool {
