@@ -227,7 +227,7 @@ impl Runner {
                 ReadyCommand::Array(array) => self.set_array(array),
                 ReadyCommand::Identify(is_begun) => self.link.identify(is_begun),
                 ReadyCommand::IdentifyChannel { channel, how } => {
-                    self.identify_channel(channel, how)
+                    self.identify_channel(channel, how);
                 }
                 ReadyCommand::Arm { presses } => self.arm(presses),
                 ReadyCommand::Disarm => self.link.stop(StopHow::Ramp),

@@ -27,7 +27,9 @@ pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
 }
 
 /// Does `act` whenever SIGINT or SIGTERM arrives, on a thread of its own that ends with the
-/// process. Where signals cannot be listened to they end the program as they always did, and the
+/// process.
+///
+/// Where signals cannot be listened to they end the program as they always did, and the
 /// device falls silent by its own rule.
 #[cfg(unix)]
 pub fn on_signal(act: impl Fn() + Send + 'static) {

@@ -40,7 +40,7 @@ impl Modules {
     /// The modules below the `lib.rs` of a crate's folder.
     pub(crate) fn of_crate(folder: &Path) -> Self {
         let mut modules = Self::default();
-        modules.read(Vec::new(), &folder.join("lib.rs"));
+        modules.read(&[], &folder.join("lib.rs"));
         modules
     }
 
@@ -49,7 +49,7 @@ impl Modules {
         &self.0[path].file
     }
 
-    fn read(&mut self, path: ModulePath, file: &Path) {
+    fn read(&mut self, path: &[String], file: &Path) {
         let text = fs::read_to_string(file).expect("sources are text");
         let code = without_tests(&without_comments(&text));
         let mut module = Module {
@@ -77,7 +77,7 @@ impl Modules {
         }
         module.code = code;
         let children = module.children.clone();
-        self.0.insert(path.clone(), module);
+        self.0.insert(path.to_vec(), module);
         for child in children {
             let places = [format!("{child}.rs"), format!("{child}/mod.rs")];
             let found = places
@@ -85,9 +85,9 @@ impl Modules {
                 .map(|place| folder.join(place))
                 .find(|p| p.exists());
             if let Some(file) = found {
-                let mut below = path.clone();
+                let mut below = path.to_vec();
                 below.push(child);
-                self.read(below, &file);
+                self.read(&below, &file);
             }
         }
     }
@@ -243,7 +243,7 @@ fn without_visibility(line: &str) -> &str {
 
 /// The name of what a line at the left margin defines.
 fn defined(line: &str) -> Option<String> {
-    let mut words = line.split(|c: char| c == ' ' || c == '!').peekable();
+    let mut words = line.split([' ', '!']).peekable();
     let qualifiers = ["const", "async", "unsafe"];
     while words.peek().is_some_and(|word| qualifiers.contains(word)) {
         let is_constant = words.next() == Some("const") && words.peek() != Some(&"fn");

@@ -172,7 +172,7 @@ impl ActuatorFeed {
             None => {
                 self.actuators = ActuatorModel::new(&model, self.n_contactors)
                     .map(Box::new)
-                    .ok()
+                    .ok();
             }
         }
     }

@@ -109,7 +109,7 @@ impl WireSink for SimulationLog {
 impl Simulation {
     /// A host that has just opened the port of a device without faults.
     #[cfg(test)]
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::of(DeviceModel::default(), &Faults::default())
     }
 

@@ -12,7 +12,7 @@ use selvedge_engine::{Command, Notice};
 
 impl Bench {
     /// The profile that ought to be in force.
-    pub fn array(&self) -> ArrayProfile {
+    pub(crate) fn array(&self) -> ArrayProfile {
         let chosen = self.settings.kept.array.as_deref();
         let display = self.document.scene().displays.first();
         display.map_or_else(ArrayProfile::default, |display| {

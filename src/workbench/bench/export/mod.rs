@@ -34,9 +34,6 @@ pub(crate) mod write;
 pub(crate) use crate::bench::export::gather::is_exportable;
 pub(crate) use crate::bench::export::origin::Origin;
 pub(crate) use crate::bench::export::write::Kind;
-#[cfg(test)]
-pub(crate) use crate::tools::import::export::measurement;
-pub(crate) use crate::tools::spectra::export_spectrograms::ink;
 pub(crate) use selvedge_chart::Columns as Sheet;
 
 use crate::bench::pane::Pane;

@@ -222,4 +222,4 @@ fn free_name(path: &Path) -> PathBuf {
         .unwrap_or_else(|| name(""))
 }
 
-pub use crate::bench::settings::kept::Kept;
+pub(crate) use crate::bench::settings::kept::Kept;

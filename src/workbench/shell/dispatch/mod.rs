@@ -75,7 +75,7 @@ impl Bench {
         self.transient.is_help_shown = false;
     }
 
-    pub fn send(&mut self, command: selvedge_engine::Command) {
+    pub(crate) fn send(&mut self, command: selvedge_engine::Command) {
         if let Err(error) = self.engine.send(command) {
             self.transient.notices.give(error.to_string());
         }

@@ -90,7 +90,7 @@ impl Bench {
     }
 
     /// Takes a recording that has ended: it can be replayed and saved.
-    pub fn take_recording(&mut self) {
+    pub(crate) fn take_recording(&mut self) {
         let Some(recording) = self.engine.take_recording() else {
             return;
         };

@@ -134,7 +134,7 @@ impl Analysing {
 
     /// Runs of drawing that were begun.
     #[cfg(test)]
-    pub fn n_drawn(&self) -> u64 {
+    pub(crate) fn n_drawn(&self) -> u64 {
         self.pictures.n_begun()
     }
 

@@ -15,7 +15,7 @@ use selvedge_textile::{
 };
 
 /// Both ways over 30 mm, by place, with a decimal comma.
-pub fn export() -> String {
+pub(crate) fn export() -> String {
     let mut text = String::from("KES-FB4\r\n\r\nWeg mm;forward um;return um;mu\r\n");
     for i in 0..1500_u16 {
         let x_mm = f64::from(i) * 0.02;
@@ -143,7 +143,7 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
     read(&mut importing);
     assert_eq!(importing.found().unwrap().failure, None);
     let bare = folder.write("bare.txt", "1.5\n2.5\n1.0\n".repeat(500));
-    let mut importing = crate::tools::import::tests::importing(&[bare]);
+    let mut importing = super::tests::importing(&[bare]);
     assert_eq!(failure(&importing).ask, Some(KesAsk::Step));
     importing.draft.told.strokes.step_mm = "0.02".to_owned();
     read(&mut importing);
@@ -341,7 +341,7 @@ fn what_the_pane_shows_is_exported_with_where_it_comes_from() {
     let importing = importing(std::slice::from_ref(&path));
     let found = importing.found().unwrap();
     let strokes = found.strokes().unwrap().import.as_ref().unwrap();
-    let exported = crate::tools::import::export::measurement(found, ColourMap::default()).unwrap();
+    let exported = export::measurement(found, ColourMap::default()).unwrap();
     assert_eq!(exported.sheet.n_rows(), 3 * 1500);
     let [file, sha256] = &strokes.reading().files[0];
     let pairs = exported.origin.pairs();
@@ -355,9 +355,8 @@ fn what_the_pane_shows_is_exported_with_where_it_comes_from() {
         "two strokes and the friction"
     );
     let map = folder.write("map.gsf", gsf());
-    let importing = crate::tools::import::tests::importing(&[map]);
-    let exported =
-        crate::tools::import::export::measurement(importing.found().unwrap(), ColourMap::default());
+    let importing = super::tests::importing(&[map]);
+    let exported = export::measurement(importing.found().unwrap(), ColourMap::default());
     let exported = exported.unwrap();
     assert_eq!(exported.sheet.n_rows(), 120 * 100);
     let raster = exported.figure.rows[0].panels[0].raster.as_ref().unwrap();

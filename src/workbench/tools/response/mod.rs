@@ -11,8 +11,6 @@ pub(crate) mod polar;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use crate::tools::response::chart::exported;
-
 use eframe::egui::{self, Align2, Color32, Painter, Rect, RichText, Ui, pos2, vec2};
 
 use crate::bench::amplitude::AmplitudeScale;

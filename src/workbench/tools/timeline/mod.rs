@@ -12,10 +12,10 @@ pub(crate) mod live;
 pub(crate) mod picture;
 pub(crate) mod plot;
 pub(crate) mod strip;
+pub(crate) mod strips_view;
 #[cfg(test)]
 #[cfg(test)]
 mod tests;
-pub(crate) mod timeline;
 
 use std::fmt;
 
@@ -129,7 +129,7 @@ pub(crate) fn show(
         pos2(middle.left() + 3.0 * STEP, middle.top()),
         pos2(middle.right() - 4.0 * STEP, middle.bottom()),
     );
-    timeline::show(ui, timeline, view, state, wishes);
+    strips_view::show(ui, timeline, view, state, wishes);
     // It stands a little above the bar's content, which must not grow by it.
     let export = UiBuilder::new().max_rect(place_in(timeline));
     show_export(&mut ui.new_child(export), Exportable::Timeline, wishes);

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use super::*;
 use crate::bench::command::{Command, PlayCommand};
 use crate::bench::recording::strips::Felt;
-use crate::tools::timeline::timeline::{share_of, tick_at, told};
+use crate::tools::timeline::strips_view::{share_of, tick_at, told};
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow};
@@ -225,7 +225,7 @@ fn strips_are_drawn_anew_only_when_they_change() {
     let first = window.state.picture.as_ref().map(Picture::address);
     window.frame(&TransportView { tick: 7, ..replay }, Vec::new());
     assert_eq!(window.state.picture.as_ref().map(Picture::address), first);
-    let other = crate::tools::timeline::tests::take();
+    let other = super::tests::take();
     let other = TransportView {
         take: Some(&other),
         ..replay

@@ -139,7 +139,7 @@ impl Why {
 
 impl Bench {
     /// The limits of the chosen contactor, or of one that nothing is known of.
-    pub fn limits(&self) -> [Limit; 2] {
+    pub(crate) fn limits(&self) -> [Limit; 2] {
         let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
         let bridge = self.transient.live.bridge.as_ref();
         let mut coder = Coder::of_contactor(self.engine.profile(), contactor);
@@ -148,7 +148,7 @@ impl Bench {
     }
 
     /// Explains the chosen contactor as it is now, unless the explanation is held.
-    pub fn explain(&mut self) {
+    pub(crate) fn explain(&mut self) {
         if self.transient.why.1 && self.transient.why.0.is_some() {
             return;
         }

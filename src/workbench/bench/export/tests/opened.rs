@@ -7,7 +7,7 @@ use crate::tools::picture::PictureCommand;
 
 impl Headless {
     /// Reads strokes of the tester.
-    pub fn import(&mut self) {
+    pub(crate) fn import(&mut self) {
         let folder = ScratchFolder::made("strokes");
         let path = folder.write("twill.txt", export());
         self.dispatch(ImportCommand::Add(vec![path]));

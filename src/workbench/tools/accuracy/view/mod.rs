@@ -7,8 +7,6 @@ pub(crate) mod errors;
 pub(crate) mod numbers;
 pub(crate) mod pareto;
 
-pub(crate) use crate::tools::accuracy::view::chart::exported;
-
 use eframe::egui::{
     self, ComboBox, Layout, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2,
 };

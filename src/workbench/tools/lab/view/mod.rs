@@ -14,8 +14,6 @@ pub(crate) mod recipe;
 pub(crate) mod rows;
 pub(crate) mod weave;
 
-pub(crate) use crate::tools::lab::view::curves::chart;
-
 pub(crate) use crate::tools::lab::view::pictures::LabPictures;
 
 use eframe::egui::{
