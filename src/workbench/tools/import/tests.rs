@@ -44,7 +44,7 @@ fn matrix() -> String {
     text
 }
 
-fn importing(paths: &[PathBuf]) -> Importing {
+fn import_of(paths: &[PathBuf]) -> Importing {
     let mut importing = Importing::default();
     importing.add(paths.to_vec()).unwrap();
     read(&mut importing);
@@ -79,7 +79,7 @@ fn kept(importing: &Importing) -> Vec<NewTextile> {
 fn strokes_become_the_textile_that_the_command_line_makes() {
     let folder = ScratchFolder::made("strokes");
     let path = folder.write("twill.txt", export());
-    let mut importing = importing(std::slice::from_ref(&path));
+    let mut importing = import_of(std::slice::from_ref(&path));
     let strokes = importing.found().unwrap().strokes().unwrap();
     let suggested = strokes.import.as_ref().unwrap().figures().clone();
     importing.draft.looked.sections[0] = Some([5.0, 25.0]);
@@ -114,7 +114,7 @@ fn strokes_become_the_textile_that_the_command_line_makes() {
 fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
     let folder = ScratchFolder::made("asks");
     let volts = folder.write("volts.txt", export().replace("forward um", "forward V"));
-    let mut importing = importing(&[volts]);
+    let mut importing = import_of(&[volts]);
     let found = failure(&importing);
     assert_eq!(
         (found.step, found.ask),
@@ -143,7 +143,7 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
     read(&mut importing);
     assert_eq!(importing.found().unwrap().failure, None);
     let bare = folder.write("bare.txt", "1.5\n2.5\n1.0\n".repeat(500));
-    let mut importing = super::tests::importing(&[bare]);
+    let mut importing = import_of(&[bare]);
     assert_eq!(failure(&importing).ask, Some(KesAsk::Step));
     importing.draft.told.strokes.step_mm = "0.02".to_owned();
     read(&mut importing);
@@ -154,7 +154,7 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
 fn a_map_becomes_a_textile_for_every_place() {
     let folder = ScratchFolder::made("map");
     let path = folder.write("cloth.txt", matrix());
-    let mut importing = importing(std::slice::from_ref(&path));
+    let mut importing = import_of(std::slice::from_ref(&path));
     assert_eq!(importing.found().unwrap().kind, Measurement::Heights);
     let asked = failure(&importing).clone();
     assert_eq!(asked.step, Step::Meaning);
@@ -194,7 +194,7 @@ fn a_map_becomes_a_textile_for_every_place() {
 fn a_map_that_is_felt_at_every_point_brings_its_file_along() {
     let folder = ScratchFolder::made("areal");
     let path = folder.write("cloth.txt", matrix());
-    let mut importing = importing(std::slice::from_ref(&path));
+    let mut importing = import_of(std::slice::from_ref(&path));
     let heights = &mut importing.draft.told.heights;
     heights.height_unit = Some(selvedge_textile::LengthUnit::Micrometre);
     heights.step_mm = "0.05".to_owned();
@@ -218,7 +218,7 @@ fn nonsense_is_one_line_at_the_files() {
     let words = folder.write("words.txt", "there is nothing\nto measure here\n");
     let picture = folder.write("picture.bin", [0_u8; 400]);
     for path in [nothing, words, picture, folder.join("missing.txt")] {
-        let importing = importing(std::slice::from_ref(&path));
+        let importing = import_of(std::slice::from_ref(&path));
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let found = failure(&importing);
         assert_eq!(found.step, Step::Files, "{found:?}");
@@ -227,7 +227,7 @@ fn nonsense_is_one_line_at_the_files() {
     }
     let huge = fs::File::create(folder.join("huge.txt")).unwrap();
     huge.set_len(3 << 30).unwrap();
-    let importing = importing(&[folder.join("huge.txt")]);
+    let importing = import_of(&[folder.join("huge.txt")]);
     assert!(
         failure(&importing).line.contains("has 3072 MB"),
         "{:?}",
@@ -239,7 +239,7 @@ fn nonsense_is_one_line_at_the_files() {
 fn only_what_has_changed_is_read_anew() {
     let folder = ScratchFolder::made("again");
     let path = folder.write("twill.txt", export());
-    let mut importing = importing(std::slice::from_ref(&path));
+    let mut importing = import_of(std::slice::from_ref(&path));
     let reading = |importing: &Importing| {
         let strokes = importing.found().unwrap().strokes().unwrap();
         Arc::clone(strokes.reading.as_ref().unwrap())
@@ -289,7 +289,7 @@ fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
 fn an_id_that_the_library_has_is_said() {
     let folder = ScratchFolder::made("taken");
     let path = folder.write("twill.txt", export());
-    let importing = importing(std::slice::from_ref(&path));
+    let importing = import_of(std::slice::from_ref(&path));
     assert_eq!(
         (importing.refusal(), importing.taken(|_| false)),
         (None, None)
@@ -317,7 +317,7 @@ fn real_height_maps_are_read_when_they_are_there() {
             eprintln!("skipped: no {}", path.display());
             continue;
         }
-        let mut importing = importing(std::slice::from_ref(&path));
+        let mut importing = import_of(std::slice::from_ref(&path));
         let found = importing.found().unwrap();
         assert_eq!(found.kind, Measurement::Heights, "{name}");
         if found.failure.is_some() {
@@ -338,7 +338,7 @@ fn real_height_maps_are_read_when_they_are_there() {
 fn what_the_pane_shows_is_exported_with_where_it_comes_from() {
     let folder = ScratchFolder::made("export");
     let path = folder.write("twill.txt", export());
-    let importing = importing(std::slice::from_ref(&path));
+    let importing = import_of(std::slice::from_ref(&path));
     let found = importing.found().unwrap();
     let strokes = found.strokes().unwrap().import.as_ref().unwrap();
     let exported = export::measurement(found, ColourMap::default()).unwrap();
@@ -355,7 +355,7 @@ fn what_the_pane_shows_is_exported_with_where_it_comes_from() {
         "two strokes and the friction"
     );
     let map = folder.write("map.gsf", gsf());
-    let importing = super::tests::importing(&[map]);
+    let importing = import_of(&[map]);
     let exported = export::measurement(importing.found().unwrap(), ColourMap::default());
     let exported = exported.unwrap();
     assert_eq!(exported.sheet.n_rows(), 120 * 100);

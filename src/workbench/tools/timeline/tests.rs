@@ -12,7 +12,7 @@ use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow};
 
 /// A stroke of ten seconds: ticks 0…400.
-fn take() -> Take {
+fn recorded() -> Take {
     let row = |t_s: f64, x_mm| PathRow {
         t_s,
         position: Point::new(x_mm, 0.0),
@@ -116,7 +116,7 @@ fn every_tick_is_found_where_it_stands() {
 #[test]
 fn the_buttons_ask_for_what_they_show() {
     let mut window = Window::new();
-    let take = take();
+    let take = recorded();
     let replay = TransportView {
         source: PlaySource::Recording,
         ..view(Some(&take))
@@ -153,7 +153,7 @@ fn what_makes_no_sense_now_asks_for_nothing() {
     ] {
         assert_eq!(window.click(&stopped, at), [], "{at:?}");
     }
-    let take = take();
+    let take = recorded();
     let with_take = view(Some(&take));
     let wishes = window.click(&with_take, recording);
     assert_eq!(wishes, [PlayCommand::Source(PlaySource::Recording).into()]);
@@ -175,7 +175,7 @@ fn a_recording_can_be_ended_even_when_everything_is_off() {
 #[test]
 fn scrubbing_asks_once_for_each_tick() {
     let mut window = Window::new();
-    let take = take();
+    let take = recorded();
     let replay = TransportView {
         source: PlaySource::Recording,
         ..view(Some(&take))
@@ -198,7 +198,7 @@ fn scrubbing_asks_once_for_each_tick() {
 
 #[test]
 fn the_timeline_shows_the_take_only_while_it_moves_the_display() {
-    let take = take();
+    let take = recorded();
     let replay = TransportView {
         source: PlaySource::Recording,
         ..view(Some(&take))
@@ -216,7 +216,7 @@ fn the_timeline_shows_the_take_only_while_it_moves_the_display() {
 #[test]
 fn strips_are_drawn_anew_only_when_they_change() {
     let mut window = Window::new();
-    let take = take();
+    let take = recorded();
     let replay = TransportView {
         source: PlaySource::Recording,
         ..view(Some(&take))
@@ -225,7 +225,7 @@ fn strips_are_drawn_anew_only_when_they_change() {
     let first = window.state.picture.as_ref().map(Picture::address);
     window.frame(&TransportView { tick: 7, ..replay }, Vec::new());
     assert_eq!(window.state.picture.as_ref().map(Picture::address), first);
-    let other = super::tests::take();
+    let other = recorded();
     let other = TransportView {
         take: Some(&other),
         ..replay
@@ -263,7 +263,7 @@ fn hovering_reads_both_levels_or_says_why_there_are_none() {
 #[test]
 fn a_still_bar_asks_for_no_frame() {
     let mut window = Window::new();
-    let take = take();
+    let take = recorded();
     for source in [PlaySource::Pointer, PlaySource::Recording] {
         let still = TransportView {
             source,
@@ -280,7 +280,7 @@ fn a_still_bar_asks_for_no_frame() {
 #[test]
 fn no_width_is_too_small() {
     let mut window = Window::new();
-    let take = take();
+    let take = recorded();
     for width in [0.0, 40.0, 300.0, 430.0] {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(width, 100.0))),
