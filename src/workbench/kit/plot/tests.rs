@@ -108,6 +108,7 @@ fn the_wheel_zooms_linked_charts_and_a_double_click_shows_everything_again() {
             pressed,
             modifiers: Modifiers::NONE,
         });
+        harness.step();
     }
     harness.run();
     assert!(
