@@ -6,7 +6,7 @@
     clippy::unwrap_used,
     clippy::missing_panics_doc,
     dead_code,
-    reason = "a test that cannot write its own files says so by panicking; the folder is held to be dropped"
+    reason = "a test that cannot write its files panics; the folder is held to be dropped"
 )]
 
 use std::fs;

@@ -35,8 +35,8 @@ pub struct Unread {
 
 /// Every session in a folder, by name, and the logs that cannot be read.
 ///
-/// What a later version wrote, or what was damaged, does not keep the others from being read. Tables
-/// without a sidecar are no sessions.
+/// What a later version wrote, or what was damaged, does not keep the others from being read.
+/// Tables without a sidecar are no sessions.
 ///
 /// # Errors
 /// The folder cannot be read.

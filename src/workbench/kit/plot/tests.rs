@@ -30,7 +30,8 @@ fn window<'a>(size: Vec2) -> Harness<'a, [[f64; 2]; 2]> {
     let mut is_styled = false;
     Harness::builder()
         .with_size(size)
-        .with_max_steps(60)
+        .with_step_dt(0.05)
+        .with_max_steps(200)
         .build_ui_state(
             move |ui, ends: &mut [[f64; 2]; 2]| {
                 if !is_styled {
