@@ -136,7 +136,7 @@ pub(crate) fn dictionary(design: &Design) -> BTreeMap<String, String> {
     columns(design).iter().map(entry).collect()
 }
 
-/// The cells of a row, in the order of [`columns`].
+/// The cells of a row, in the order of [`columns()`].
 pub(super) fn cells(record: &Record, design: &Design, subject: &Subject) -> Vec<String> {
     let row = Row::of(record, design, subject);
     let all = columns(design).into_iter();

@@ -14,7 +14,7 @@ use crate::{Computed, Named, Outcome, Undefined};
 pub struct PlackettLuce {
     /// Natural logarithms of the worths, summing to zero, with errors from the observed
     /// information: those of rankings that know nothing of each other. Where subjects gave several
-    /// each, [`plackett_luce_over_subjects`] is the honest error.
+    /// each, the error over subjects is the honest one.
     pub scale: Scale,
     /// Rankings that entered.
     pub n_rankings: usize,
