@@ -4,8 +4,8 @@
 //! mm, rows in the order of rising w; what was not measured is NaN and stays so here. A unit that
 //! a file does not state is asked for, never guessed.
 //!
-//! Sizes are checked before anything of that size is held: against [`MAX_POINTS`](crate::surface::MAX_POINTS) and against the
-//! bytes that are there.
+//! Sizes are checked before anything of that size is held: against
+//! [`MAX_POINTS`](crate::surface::MAX_POINTS) and against the bytes that are there.
 
 mod field;
 mod frt;
@@ -85,8 +85,8 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 /// Reads measured heights. `path` only names the file in errors.
 ///
 /// # Errors
-/// One line: a format that is not read, a damaged file, a size beyond [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that
-/// are not even, a unit or step that must be given, no height at all.
+/// One line: a format that is not read, a damaged file, a size beyond
+/// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must be given, no height at all.
 pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
     let reading = match Format::of(bytes) {
         Some(Format::X3p) => x3p::read(bytes, path)?,
