@@ -86,7 +86,8 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// One line: a format that is not read, a damaged file, a size beyond
-/// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must be given, no height at all.
+/// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
+/// be given, no height at all.
 pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
     let reading = match Format::of(bytes) {
         Some(Format::X3p) => x3p::read(bytes, path)?,
