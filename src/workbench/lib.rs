@@ -29,14 +29,14 @@ pub(crate) mod shell;
 pub(crate) mod tools;
 
 pub use crate::bench::Drive;
-pub use crate::bench::applied_gains::Felt;
+pub use crate::bench::applied_gains::AppliedGains;
 pub use crate::bench::document::Document;
 pub use crate::bench::recording::Take;
 pub use crate::bench::rendering::Rendering;
 pub use crate::bench::settings::Settings;
 pub use crate::bench::settings::build_cache;
-pub use crate::bench::settings::kept::Kept;
 pub use crate::bench::settings::own_arrays;
+pub use crate::bench::settings::preferences::Preferences;
 pub use crate::shell::error::AppError;
 pub use crate::shell::native::EndSwitch;
 pub use crate::shell::native::run;

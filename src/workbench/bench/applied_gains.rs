@@ -2,7 +2,7 @@
 //!
 //! The gains that are felt are the document's with what is muted left out.
 
-use crate::bench::mute_solo::Audition;
+use crate::bench::mute_solo::MuteSolo;
 use selvedge_engine::Command;
 use selvedge_render::RenderScene;
 use selvedge_render::scene::Scene;
@@ -10,27 +10,27 @@ use selvedge_textile::tactile::Tuning;
 
 /// Gains in force.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Felt {
+pub struct AppliedGains {
     tuning: Tuning,
     cloth_gains_db: Vec<f64>,
     contactor_mask: Vec<bool>,
 }
 
-impl Felt {
+impl AppliedGains {
     /// What is to be felt of a scene with `n_contactors`.
     pub(crate) fn of(
         scene: &Scene,
         tuning: Tuning,
-        audition: &Audition,
+        mute_solo: &MuteSolo,
         n_contactors: usize,
     ) -> Self {
         let gains = scene.textiles.iter().enumerate();
         Self {
-            tuning: audition.tuning(tuning),
+            tuning: mute_solo.tuning(tuning),
             cloth_gains_db: gains
-                .map(|(index, cloth)| audition.cloth_gain_db(index, cloth.gain_db))
+                .map(|(index, cloth)| mute_solo.cloth_gain_db(index, cloth.gain_db))
                 .collect(),
-            contactor_mask: audition.contactor_mask(n_contactors),
+            contactor_mask: mute_solo.contactor_mask(n_contactors),
         }
     }
 
@@ -101,15 +101,16 @@ mod tests {
             let edit = Edit::AddCloth(id.to_owned(), Point::new(50.0, 50.0));
             editing::apply(&edit, &mut scene, Tuning::default());
         }
-        let felt =
-            |scene: &Scene, audition: &Audition| Felt::of(scene, Tuning::default(), audition, 24);
-        let mut audition = Audition::default();
-        let before = felt(&scene, &audition);
-        assert!(before.changes(&felt(&scene, &audition)).is_empty());
-        audition.toggle_mute(Part::Cloth(1));
-        audition.toggle_solo(Part::Band(Band::Low));
-        audition.toggle_mute(Part::Contactor(0));
-        let after = felt(&scene, &audition);
+        let felt = |scene: &Scene, mute_solo: &MuteSolo| {
+            AppliedGains::of(scene, Tuning::default(), mute_solo, 24)
+        };
+        let mut mute_solo = MuteSolo::default();
+        let before = felt(&scene, &mute_solo);
+        assert!(before.changes(&felt(&scene, &mute_solo)).is_empty());
+        mute_solo.toggle_mute(Part::Cloth(1));
+        mute_solo.toggle_solo(Part::Band(Band::Low));
+        mute_solo.toggle_mute(Part::Contactor(0));
+        let after = felt(&scene, &mute_solo);
         let words: Vec<String> = before
             .changes(&after)
             .iter()

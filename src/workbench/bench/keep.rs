@@ -40,7 +40,7 @@ pub(crate) struct Kept {
     /// The library that has them now.
     pub library: Arc<Library>,
     /// Its textiles.
-    pub(crate) shelf: Vec<ShelfItem>,
+    pub(crate) library_view: Vec<ShelfItem>,
     /// Its folder.
     pub folder: PathBuf,
     /// The library that the window had when this was asked for.
@@ -150,7 +150,7 @@ fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppE
     let (library, ids) =
         unheard(|progress| library.add(&textiles, &folder, n_threads(), progress))?;
     Ok(Kept {
-        shelf: crate::bench::library_view::items_of(&library),
+        library_view: crate::bench::library_view::items_of(&library),
         library: Arc::new(library),
         folder,
         before,
@@ -208,7 +208,7 @@ mod tests {
         let ids: Vec<&str> = bench.loaded.textiles().iter().map(|t| t.id()).collect();
         assert_eq!(ids.len(), 5, "four alternatives and the new one");
         assert_eq!(ids[4], "own");
-        assert!(bench.shelf.item("own").is_some() && bench.shelf.items().len() == 17);
+        assert!(bench.library_view.item("own").is_some() && bench.library_view.items().len() == 17);
         window.dispatch(Command::Undo);
         window.pass(1);
         let bench = &window.workbench.bench;

@@ -21,7 +21,7 @@ const AT_ONCE: usize = 8;
 type Read = (String, Result<Option<(ColorImage, Vec2)>, String>);
 
 /// A library in sight.
-pub(crate) struct Shelf {
+pub(crate) struct LibraryView {
     library: Arc<Library>,
     items: Arc<[ShelfItem]>,
     pictures: BTreeMap<String, (TextureHandle, ClothPicture)>,
@@ -31,7 +31,7 @@ pub(crate) struct Shelf {
     coming: Option<Job<Vec<Read>>>,
 }
 
-impl Shelf {
+impl LibraryView {
     /// The textiles of a library, without pictures yet.
     pub(crate) fn new(library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
         Self {
@@ -138,7 +138,7 @@ impl Shelf {
     }
 }
 
-impl std::fmt::Debug for Shelf {
+impl std::fmt::Debug for LibraryView {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Shelf")
             .field("items", &self.items.len())
@@ -233,27 +233,30 @@ fn image(appearance: &Appearance) -> (ColorImage, Vec2) {
 mod tests {
     use super::*;
 
-    fn shipped() -> Shelf {
+    fn shipped() -> LibraryView {
         let library = Arc::new(Library::shipped().unwrap());
         let items = items_of(&library);
-        Shelf::new(library, items)
+        LibraryView::new(library, items)
     }
 
     #[test]
     fn every_shipped_textile_stands_on_the_shelf() {
-        let shelf = shipped();
-        assert_eq!(shelf.items().len(), 16);
-        for item in shelf.items() {
+        let library_view = shipped();
+        assert_eq!(library_view.items().len(), 16);
+        for item in library_view.items() {
             assert_eq!(item.flaw, None, "{}", item.id);
             assert!(item.level_db.is_some() && !item.kind.is_empty(), "{item:?}");
         }
-        assert!(shelf.item("felt-hat").is_none(), "there is none of that id");
+        assert!(
+            library_view.item("felt-hat").is_none(),
+            "there is none of that id"
+        );
     }
 
     #[test]
     fn a_search_finds_words_in_any_order_in_name_kind_or_id() {
-        let shelf = shipped();
-        let silk = shelf.item("silk-crepe").unwrap();
+        let library_view = shipped();
+        let silk = library_view.item("silk-crepe").unwrap();
         for sought in ["", " Silk ", "woven crêpe", "chine wov", "silk-cr", "plain"] {
             assert!(silk.matches(sought), "{sought}");
         }
@@ -263,20 +266,20 @@ mod tests {
     #[test]
     fn only_wanted_pictures_are_read_and_each_once() {
         let ctx = egui::Context::default();
-        let mut shelf = shipped();
-        let id = shelf.items()[3].id.clone();
-        assert_eq!(shelf.work(&ctx, true), Vec::<String>::new());
-        assert!(shelf.pictures.is_empty(), "nobody asked");
-        shelf.want(&id);
-        shelf.want(&id);
-        shelf.want("no-such-textile");
-        assert_eq!(shelf.wanted.len(), 2);
-        let flaws = shelf.work(&ctx, true);
+        let mut library_view = shipped();
+        let id = library_view.items()[3].id.clone();
+        assert_eq!(library_view.work(&ctx, true), Vec::<String>::new());
+        assert!(library_view.pictures.is_empty(), "nobody asked");
+        library_view.want(&id);
+        library_view.want(&id);
+        library_view.want("no-such-textile");
+        assert_eq!(library_view.wanted.len(), 2);
+        let flaws = library_view.work(&ctx, true);
         assert_eq!(flaws.len(), 1, "{flaws:?}");
-        assert!(shelf.picture(&id).is_some() && shelf.pictures.len() == 1);
-        shelf.want("no-such-textile");
+        assert!(library_view.picture(&id).is_some() && library_view.pictures.len() == 1);
+        library_view.want("no-such-textile");
         assert!(
-            shelf.wanted.is_empty(),
+            library_view.wanted.is_empty(),
             "what failed is not tried at every frame"
         );
     }

@@ -35,10 +35,10 @@ pub(crate) mod sources;
 pub(crate) mod task;
 pub(crate) mod view;
 
-use crate::bench::applied_gains::Felt;
+use crate::bench::applied_gains::AppliedGains;
 use crate::bench::arrays::Arrays;
 use crate::bench::document::Document;
-use crate::bench::library_view::Shelf;
+use crate::bench::library_view::LibraryView;
 use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
@@ -112,16 +112,16 @@ pub(crate) struct Bench {
     /// How that scene is rendered; what the user chose may still be on its way.
     pub(crate) rendering: Rendering,
     pub(crate) preparing: Preparing,
-    pub(crate) felt: Felt,
-    pub(crate) shelf: Shelf,
+    pub(crate) felt: AppliedGains,
+    pub(crate) library_view: LibraryView,
     pub(crate) library: Vec<LibraryDot>,
-    pub(crate) eye: Eye,
+    pub(crate) inspection: InspectionCache,
     pub(crate) ctx: egui::Context,
     pub(crate) now: Instant,
 }
 
 /// What plots look at a contactor with.
-pub(crate) struct Eye {
+pub(crate) struct InspectionCache {
     /// The scene as rendering sees it.
     pub(crate) scene: RenderScene,
     /// What a contactor feels of it.
@@ -132,7 +132,7 @@ pub(crate) struct Eye {
     pub(crate) n_edits: u64,
 }
 
-impl Eye {
+impl InspectionCache {
     fn on(loaded: &LoadedScene, n_scenes: u64, n_edits: u64) -> Self {
         let scene = RenderScene::of(loaded);
         Self {
@@ -164,7 +164,7 @@ impl Bench {
         } else {
             Settings::of_user()
         };
-        let opened = open(origin, settings.kept.rendering)?;
+        let opened = open(origin, settings.preferences.rendering)?;
         let scene_serial = opened.prepared.serial();
         let config = EngineConfig {
             scene: opened.prepared,
@@ -191,10 +191,10 @@ impl Bench {
             scene_serial,
             rendering: opened.rendering,
             preparing: Preparing::new(opened.cache, opened.rendering),
-            felt: Felt::default(),
-            shelf: Shelf::new(Arc::clone(loaded.library()), opened.shelf),
+            felt: AppliedGains::default(),
+            library_view: LibraryView::new(Arc::clone(loaded.library()), opened.library_view),
             library: Vec::new(),
-            eye: Eye::on(&loaded, 0, 0),
+            inspection: InspectionCache::on(&loaded, 0, 0),
             settings,
             ctx: ctx.clone(),
             now,
@@ -215,7 +215,7 @@ impl Bench {
         if let Some(complaint) = complaint {
             self.transient.notices.give(complaint);
         }
-        let kept = &self.settings.kept;
+        let kept = &self.settings.preferences;
         self.ctx.set_zoom_factor(kept.zoom);
         if !self.is_stepped {
             self.ctx.set_theme(kept.theme);
@@ -257,17 +257,18 @@ impl Bench {
         self.rendering = opened.rendering;
         self.send(Command::SetScene(Box::new(opened.prepared)));
         self.document = document_of(&opened.loaded, opened.path.as_deref());
-        self.shelf = Shelf::new(Arc::clone(opened.loaded.library()), opened.shelf);
+        self.library_view =
+            LibraryView::new(Arc::clone(opened.loaded.library()), opened.library_view);
         self.preparing = Preparing::new(opened.cache, opened.rendering);
         self.loaded = opened.loaded;
-        self.transient.audition = mute_solo::Audition::default();
+        self.transient.mute_solo = mute_solo::MuteSolo::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
         self.transient.comparison.leave_scene();
         self.transient.collection.leave_library();
         self.transient.asked_textile = None;
         self.workspace.cloth = None;
-        self.eye.n_scenes += 1;
+        self.inspection.n_scenes += 1;
         self.workspace.camera = crate::tools::workspace::camera::Camera::default();
         self.show_document();
         self.render_as_chosen(&self.ctx.clone());
@@ -279,7 +280,7 @@ impl Bench {
         self.ctx
             .send_viewport_cmd(egui::ViewportCommand::Title(title));
         // A contactor mask outlasts a scene.
-        let mask_alone = Felt::default();
+        let mask_alone = AppliedGains::default();
         self.felt = mask_alone.after_scene(self.loaded.scene());
         self.send(Command::SetContactorMask(Vec::new()));
         self.scene_has_changed();
@@ -288,9 +289,9 @@ impl Bench {
 
     /// What depends on the textiles and where they lie is made anew.
     pub(crate) fn scene_has_changed(&mut self) {
-        self.library = query::library_dots(&self.loaded, &self.shelf);
-        let (n_scenes, n_edits) = (self.eye.n_scenes, self.eye.n_edits);
-        self.eye = Eye::on(&self.loaded, n_scenes, n_edits + 1);
+        self.library = query::library_dots(&self.loaded, &self.library_view);
+        let (n_scenes, n_edits) = (self.inspection.n_scenes, self.inspection.n_edits);
+        self.inspection = InspectionCache::on(&self.loaded, n_scenes, n_edits + 1);
     }
 
     /// Contactors of the first display.
@@ -312,16 +313,16 @@ impl Bench {
     pub(crate) fn scene_view(&mut self) -> SceneView {
         let placed = &self.document.scene().textiles;
         for cloth in placed {
-            self.shelf.want(&cloth.id);
+            self.library_view.want(&cloth.id);
         }
-        for flaw in self.shelf.work(&self.ctx, self.is_stepped) {
+        for flaw in self.library_view.work(&self.ctx, self.is_stepped) {
             self.transient.notices.give(flaw);
         }
         let mut view = query::scene_view(
             &self.document,
-            &self.shelf,
+            &self.library_view,
             &self.library,
-            &self.transient.audition,
+            &self.transient.mute_solo,
             self.transient.reference_db,
         );
         view.picked = Arc::clone(&self.transient.collection.selected);

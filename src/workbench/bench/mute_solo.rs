@@ -10,12 +10,12 @@ use selvedge_textile::tactile::{Band, Tuning};
 
 /// What is muted and what is felt alone.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Audition {
+pub(crate) struct MuteSolo {
     muted: Vec<Part>,
     solo: Vec<Part>,
 }
 
-impl Audition {
+impl MuteSolo {
     /// Mutes a part, or lets it be felt again.
     pub(crate) fn toggle_mute(&mut self, part: Part) {
         toggle(&mut self.muted, part);
@@ -108,35 +108,35 @@ mod tests {
 
     #[test]
     fn solo_silences_its_own_family_alone() {
-        let mut audition = Audition::default();
-        assert!(!audition.is_any());
-        audition.toggle_solo(Part::Cloth(1));
-        assert!(audition.is_felt(Part::Cloth(1)) && !audition.is_felt(Part::Cloth(0)));
-        assert!(audition.is_felt(Part::Band(Band::Low)), "another family");
-        audition.toggle_mute(Part::Cloth(1));
-        assert!(!audition.is_felt(Part::Cloth(1)), "mute goes before solo");
-        audition.toggle_mute(Part::Cloth(1));
-        audition.toggle_solo(Part::Cloth(1));
-        assert_eq!(audition, Audition::default());
+        let mut mute_solo = MuteSolo::default();
+        assert!(!mute_solo.is_any());
+        mute_solo.toggle_solo(Part::Cloth(1));
+        assert!(mute_solo.is_felt(Part::Cloth(1)) && !mute_solo.is_felt(Part::Cloth(0)));
+        assert!(mute_solo.is_felt(Part::Band(Band::Low)), "another family");
+        mute_solo.toggle_mute(Part::Cloth(1));
+        assert!(!mute_solo.is_felt(Part::Cloth(1)), "mute goes before solo");
+        mute_solo.toggle_mute(Part::Cloth(1));
+        mute_solo.toggle_solo(Part::Cloth(1));
+        assert_eq!(mute_solo, MuteSolo::default());
     }
 
     #[test]
     fn what_is_not_felt_has_no_gain_and_nothing_else_changes() {
-        let mut audition = Audition::default();
+        let mut mute_solo = MuteSolo::default();
         let tuning = Tuning {
             gain_db: -3.0,
             gain_40_db: 2.0,
             ..Tuning::default()
         };
-        assert_eq!(audition.tuning(tuning), tuning);
-        assert!(audition.contactor_mask(24).is_empty());
-        audition.toggle_solo(Part::Band(Band::High));
-        audition.toggle_mute(Part::Contactor(2));
-        let silenced = audition.tuning(tuning);
+        assert_eq!(mute_solo.tuning(tuning), tuning);
+        assert!(mute_solo.contactor_mask(24).is_empty());
+        mute_solo.toggle_solo(Part::Band(Band::High));
+        mute_solo.toggle_mute(Part::Contactor(2));
+        let silenced = mute_solo.tuning(tuning);
         assert_eq!(silenced.gain_40_db, f64::NEG_INFINITY);
         assert_eq!((silenced.gain_db, silenced.gain_320_db), (-3.0, 0.0));
-        assert_eq!(audition.contactor_mask(4), [true, true, false, true]);
-        assert_eq!(audition.cloth_gain_db(0, 1.5), 1.5);
+        assert_eq!(mute_solo.contactor_mask(4), [true, true, false, true]);
+        assert_eq!(mute_solo.cloth_gain_db(0, 1.5), 1.5);
     }
 
     #[test]
@@ -149,15 +149,15 @@ mod tests {
             let edit = Edit::AddCloth(id.to_owned(), Point::new(50.0, 50.0));
             editing::apply(&edit, &mut scene, Tuning::default());
         }
-        let mut audition = Audition::default();
-        audition.toggle_mute(Part::Cloth(1));
+        let mut mute_solo = MuteSolo::default();
+        mute_solo.toggle_mute(Part::Cloth(1));
         let before = scene.clone();
         editing::apply(&Edit::RemoveCloth(0), &mut scene, Tuning::default());
-        audition.follow(&before, &scene);
-        assert!(audition.is_muted(Part::Cloth(0)));
+        mute_solo.follow(&before, &scene);
+        assert!(mute_solo.is_muted(Part::Cloth(0)));
         let before = scene.clone();
         editing::apply(&Edit::RemoveCloth(0), &mut scene, Tuning::default());
-        audition.follow(&before, &scene);
-        assert!(!audition.is_any(), "it is gone");
+        mute_solo.follow(&before, &scene);
+        assert!(!mute_solo.is_any(), "it is gone");
     }
 }

@@ -5,7 +5,7 @@ use eframe::egui::{
     WidgetInfo, vec2,
 };
 
-use crate::bench::command::{Command, Wishes};
+use crate::bench::command::{Command, Commands};
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::text::mark;
 
@@ -60,7 +60,7 @@ impl Notices {
 }
 
 /// Shows the notices at the lower edge of `over`.
-pub(crate) fn show(ui: &Ui, over: Rect, notices: &Notices, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, notices: &Notices, commands: &mut Commands) {
     if notices.shown.is_empty() {
         return;
     }
@@ -78,18 +78,18 @@ pub(crate) fn show(ui: &Ui, over: Rect, notices: &Notices, wishes: &mut Wishes) 
                     .stroke(Stroke::new(1.0, palette.line))
                     .corner_radius(6)
                     .inner_margin(Margin::symmetric(12, 8));
-                card.show(ui, |ui| show_one(ui, notice, wishes));
+                card.show(ui, |ui| show_one(ui, notice, commands));
             }
         });
 }
 
-fn show_one(ui: &mut Ui, notice: &Notice, wishes: &mut Wishes) {
+fn show_one(ui: &mut Ui, notice: &Notice, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
         let close = ui.add(Button::new("Close").min_size(vec2(0.0, ROW)));
         close.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "Close the notice"));
         if close.clicked() {
-            wishes.push(Command::DismissNotice(notice.number));
+            commands.push(Command::DismissNotice(notice.number));
         }
         ui.with_layout(Layout::left_to_right(Align::Min), |ui| {
             mark(ui, palette.selection, "Notice");

@@ -45,7 +45,7 @@ pub(crate) struct Opened {
     /// The tables that were made for it.
     pub cache: TableCache,
     /// The textiles of its library.
-    pub(crate) shelf: Vec<ShelfItem>,
+    pub(crate) library_view: Vec<ShelfItem>,
 }
 
 /// A scene on its way.
@@ -104,7 +104,7 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
         prepared,
         rendering,
         cache,
-        shelf: crate::bench::library_view::items_of(loaded.library()),
+        library_view: crate::bench::library_view::items_of(loaded.library()),
         loaded,
     })
 }
@@ -117,7 +117,7 @@ mod tests {
     fn a_new_scene_has_the_shipped_library_and_nothing_in_it() {
         let opened = open(Origin::New, Rendering::default()).unwrap();
         assert!(opened.loaded.scene().textiles.is_empty() && opened.path.is_none());
-        assert_eq!(opened.shelf.len(), 16);
+        assert_eq!(opened.library_view.len(), 16);
         assert_eq!(opened.prepared.n_contactors(), 24);
     }
 }

@@ -17,7 +17,7 @@ pub(crate) const SOURCE: &str = "dB SL: above the threshold of detection. A mode
 
 /// What a display feels like at one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Sensation {
+pub(crate) struct PerceptualLevel {
     /// Contactors that vibrate: the more, the lower the threshold at 320 Hz.
     pub n_vibrating: usize,
     /// Thresholds of detection of both bands, dB re 1 µm peak.
@@ -26,14 +26,14 @@ pub(crate) struct Sensation {
     pub whole: Perception,
 }
 
-impl Default for Sensation {
+impl Default for PerceptualLevel {
     /// Of a display that is silent.
     fn default() -> Self {
         Self::of(std::iter::empty())
     }
 }
 
-impl Sensation {
+impl PerceptualLevel {
     /// Of a display with these amplitudes [A40, A320], µm.
     pub(crate) fn of(amplitudes_um: impl Iterator<Item = [f64; 2]>) -> Self {
         let (n_vibrating, mean_um) = vibrating_mean_um(amplitudes_um);
@@ -131,20 +131,20 @@ mod tests {
     #[test]
     fn a_contactor_is_below_threshold_where_its_level_is() {
         // Alone at 40 Hz the threshold is 8 dB re 1 µm: 2.51 µm.
-        let sensation = Sensation::of([[2.6, 0.0], [2.4, 0.0]].into_iter());
-        assert_eq!(sensation.n_vibrating, 2);
-        assert_eq!(sensation.is_below([2.6, 0.0]), [false, true]);
-        assert_eq!(sensation.is_below([2.4, 1.7]), [true, false]);
-        assert_eq!(sensation.is_below([f64::NAN, 0.0]), [true, true]);
-        let lines = sensation.band_lines([10.0, 0.0]);
+        let perceptual_level = PerceptualLevel::of([[2.6, 0.0], [2.4, 0.0]].into_iter());
+        assert_eq!(perceptual_level.n_vibrating, 2);
+        assert_eq!(perceptual_level.is_below([2.6, 0.0]), [false, true]);
+        assert_eq!(perceptual_level.is_below([2.4, 1.7]), [true, false]);
+        assert_eq!(perceptual_level.is_below([f64::NAN, 0.0]), [true, true]);
+        let lines = perceptual_level.band_lines([10.0, 0.0]);
         let expected = "40 Hz  10.00 µm, 12.0 dB SL\n320 Hz  0.00 µm, silent\n(SL: a model)";
         assert_eq!(lines, expected);
     }
 
     #[test]
     fn the_more_contactors_vibrate_the_less_each_needs_at_320_hz() {
-        let few = Sensation::of(std::iter::repeat_n([1.0, 1.0], 3));
-        let many = Sensation::of(std::iter::repeat_n([1.0, 1.0], 24));
+        let few = PerceptualLevel::of(std::iter::repeat_n([1.0, 1.0], 3));
+        let many = PerceptualLevel::of(std::iter::repeat_n([1.0, 1.0], 24));
         assert_eq!(few.threshold_db[0], many.threshold_db[0]);
         let fell_db = few.threshold_db[1] - many.threshold_db[1];
         assert!(
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn silence_is_told_in_words() {
-        let silent = Sensation::default();
+        let silent = PerceptualLevel::default();
         assert_eq!(felt_words(&silent.whole), "nothing is felt");
         assert_eq!(noticed_db(&silent.whole, None), None);
         assert_eq!(above_words(f64::NEG_INFINITY), "silent");

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use crate::bench::command::Part;
 use crate::bench::document::Document;
-use crate::bench::library_view::Shelf;
-use crate::bench::mute_solo::Audition;
-use crate::bench::perceptual_level::Sensation;
+use crate::bench::library_view::LibraryView;
+use crate::bench::mute_solo::MuteSolo;
+use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{
     BridgePhase, BridgeView, Cloth, Dot, InputView, LibraryDot, LinkTiming, Live, Marks, PlayView,
     SceneView, ShelfItem, Source, Status,
@@ -20,9 +20,9 @@ use selvedge_textile::tactile::{Filters, Levels};
 /// The scene as panes draw it. A textile that is not ready yet is drawn already.
 pub(crate) fn scene_view(
     document: &Document,
-    shelf: &Shelf,
+    library_view: &LibraryView,
     library: &[LibraryDot],
-    audition: &Audition,
+    mute_solo: &MuteSolo,
     reference_db: Option<f64>,
 ) -> SceneView {
     let scene = document.scene();
@@ -30,15 +30,15 @@ pub(crate) fn scene_view(
     let cloths = placed.map(|(index, placed)| Cloth {
         id: placed.id.clone(),
         label: placed.label.clone(),
-        name: shelf
+        name: library_view
             .item(&placed.id)
             .map_or_else(|| placed.id.clone(), |item| item.name.clone()),
         workspace_from_textile: placed.workspace_from_textile(),
         size_mm: placed.size_mm,
         rotation_deg: placed.rotation_deg,
-        is_muted: !audition.is_felt(Part::Cloth(index)),
+        is_muted: !mute_solo.is_felt(Part::Cloth(index)),
         gain_db: placed.gain_db,
-        picture: shelf.picture(&placed.id),
+        picture: library_view.picture(&placed.id),
     });
     let display = scene.displays.first();
     SceneView {
@@ -62,7 +62,7 @@ pub(crate) fn scene_view(
 
 /// The textiles of the scene's library that have a level: from the library's index where the
 /// scene's filters are those that the index was made with, else the placed ones alone.
-pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDot> {
+pub(crate) fn library_dots(loaded: &LoadedScene, library_view: &LibraryView) -> Vec<LibraryDot> {
     let scene = loaded.scene();
     let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
     let has_index = loaded.library().index().is_some();
@@ -77,7 +77,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDo
                 is_placed: is_placed(&item.id),
             })
         };
-        return shelf.items().iter().filter_map(dot).collect();
+        return library_view.items().iter().filter_map(dot).collect();
     }
     let mut seen = Vec::new();
     let mut dots = Vec::new();
@@ -103,7 +103,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, shelf: &Shelf) -> Vec<LibraryDo
 pub(crate) fn live_view(
     snapshot: &Snapshot,
     frame_interval_s: Option<f64>,
-    audition: &Audition,
+    mute_solo: &MuteSolo,
 ) -> Live {
     let contactors = snapshot
         .displays
@@ -114,7 +114,7 @@ pub(crate) fn live_view(
     // All off silences a display that goes on moving; one that is held stands still.
     let goes_on = snapshot.source == SourceKind::Pointer || play.is_playing;
     let dots = contactors.iter().enumerate().map(|(index, contactor)| {
-        let is_muted = !audition.is_felt(Part::Contactor(index));
+        let is_muted = !mute_solo.is_felt(Part::Contactor(index));
         dot(contactor, is_muted)
     });
     let dots: Vec<Dot> = dots.collect();
@@ -128,7 +128,7 @@ pub(crate) fn live_view(
         } else {
             snapshot.pose.velocity.speed_mm_per_s()
         },
-        sensation: Sensation::of(dots.iter().map(|dot| dot.amplitude_um)),
+        perceptual_level: PerceptualLevel::of(dots.iter().map(|dot| dot.amplitude_um)),
         dots,
         is_stopped: snapshot.is_stopped,
         is_silent: snapshot.is_silent,

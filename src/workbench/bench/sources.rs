@@ -163,7 +163,7 @@ impl Bench {
     pub(crate) fn sources_view(&self) -> SourcesView {
         let sources = &self.transient.sources;
         let surface = sources.chosen_device().map(|device| {
-            let own = self.settings.kept.tablet_areas.get(&device.name);
+            let own = self.settings.preferences.tablet_areas.get(&device.name);
             let usual = || Area::usual(device.axes, self.document.scene().size_mm);
             SurfaceView {
                 name: device.name.clone(),
@@ -180,7 +180,7 @@ impl Bench {
     /// Keeps where the surface of tablets of this name lies; one that is read now is read so from
     /// now on.
     fn place_surface(&mut self, ctx: &egui::Context, name: &str, area: Option<&str>) {
-        let areas = &mut self.settings.kept.tablet_areas;
+        let areas = &mut self.settings.preferences.tablet_areas;
         match area.map(str::parse).transpose() {
             Ok(Some(area)) => drop(areas.insert(name.to_owned(), area)),
             Ok(None) => drop(areas.remove(name)),
@@ -209,7 +209,7 @@ impl Bench {
         let size_mm = self.document.scene().size_mm;
         let device = path.to_owned();
         let name = self.transient.sources.listed(path).map(|found| &found.name);
-        let area = name.and_then(|name| self.settings.kept.tablet_areas.get(name));
+        let area = name.and_then(|name| self.settings.preferences.tablet_areas.get(name));
         let area = area.copied();
         let open = move || open_input_device(&device, area, size_mm);
         let chosen = SourceCommand::Device(path.to_owned());
@@ -233,7 +233,7 @@ impl Bench {
         let at = |port| ProgramLink::listen(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
         match at(PORT).or_else(|_taken| at(0)) {
             Ok(link) => {
-                let display = self.eye.scene.displays.first();
+                let display = self.inspection.scene.displays.first();
                 let n_contactors = display.map_or(0, |display| display.offsets.len());
                 let tap = link.tap(n_contactors).map(Box::new);
                 self.transient.sources.link = Some(link);
@@ -374,7 +374,7 @@ mod tests {
             SourceCommand::Area("Pen tablet".to_owned(), None).into(),
         );
         assert_eq!(bench.sources_view().surface, Some(usual));
-        assert!(bench.settings.kept.tablet_areas.is_empty());
+        assert!(bench.settings.preferences.tablet_areas.is_empty());
     }
 
     #[test]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use eframe::egui::{TextureId, Vec2};
 
 use crate::bench::command::Part;
-use crate::bench::perceptual_level::Sensation;
+use crate::bench::perceptual_level::PerceptualLevel;
 use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState};
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
@@ -198,7 +198,7 @@ pub(crate) struct Live {
     /// Contactors in index order.
     pub dots: Vec<Dot>,
     /// What they feel like, by a model.
-    pub(crate) sensation: Sensation,
+    pub(crate) perceptual_level: PerceptualLevel,
     /// Whether everything was switched off and nothing was armed since.
     pub is_stopped: bool,
     /// Whether the device plays silence, stopped or held; the screen keeps what it showed.

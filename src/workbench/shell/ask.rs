@@ -11,7 +11,7 @@ use eframe::egui::{
     ScrollArea, TextEdit, Ui, vec2,
 };
 
-use crate::bench::command::{Command, FileCommand, Purpose, Wishes};
+use crate::bench::command::{Command, Commands, FileCommand, Purpose};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
@@ -206,16 +206,22 @@ impl Ask {
 }
 
 /// Shows the question at the upper edge of `over`; `recent` are the scenes that were opened last.
-pub(crate) fn show(ui: &Ui, over: Rect, ask: &mut Ask, recent: &[PathBuf], wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &Ui,
+    over: Rect,
+    ask: &mut Ask,
+    recent: &[PathBuf],
+    commands: &mut Commands,
+) {
     let words = AskWords::of(ask.purpose);
     card(ui, over, 560.0, words.title, |ui, title| {
         let is_entered = show_field(ui, title, ask, words);
         ui.add_space(STEP);
-        show_buttons(ui, ask, words, is_entered, wishes);
+        show_buttons(ui, ask, words, is_entered, commands);
         if ask.purpose == Purpose::OpenScene && !recent.is_empty() {
             // Below title, field and buttons.
             let room = over.height() - CARD_DROP - 2.0 * CARD_MARGIN - 136.0;
-            show_recent(ui, room, recent, wishes);
+            show_recent(ui, room, recent, commands);
         }
     });
 }
@@ -268,7 +274,13 @@ fn is_tab(ui: &Ui) -> bool {
     is_tab
 }
 
-fn show_buttons(ui: &mut Ui, ask: &Ask, words: AskWords, is_entered: bool, wishes: &mut Wishes) {
+fn show_buttons(
+    ui: &mut Ui,
+    ask: &Ask,
+    words: AskWords,
+    is_entered: bool,
+    commands: &mut Commands,
+) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), ROW);
     let layout = Layout::right_to_left(Align::Center);
@@ -278,10 +290,10 @@ fn show_buttons(ui: &mut Ui, ask: &Ask, words: AskWords, is_entered: bool, wishe
         if (button(ui, words.verb, "", missing) || is_entered)
             && let Some(command) = answer
         {
-            wishes.push(command);
+            commands.push(command);
         }
         if button(ui, "Cancel", "", None) {
-            wishes.push(Command::Dismiss);
+            commands.push(Command::Dismiss);
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let hint = "Tab completes the path";
@@ -291,7 +303,7 @@ fn show_buttons(ui: &mut Ui, ask: &Ask, words: AskWords, is_entered: bool, wishe
 }
 
 /// The scenes that were opened last: a click opens one.
-fn show_recent(ui: &mut Ui, room: f32, recent: &[PathBuf], wishes: &mut Wishes) {
+fn show_recent(ui: &mut Ui, room: f32, recent: &[PathBuf], commands: &mut Commands) {
     section(ui, "Recent scenes");
     let list = ScrollArea::vertical().max_height(room.max(3.0 * ROW));
     list.show(ui, |ui| {
@@ -301,7 +313,7 @@ fn show_recent(ui: &mut Ui, room: f32, recent: &[PathBuf], wishes: &mut Wishes) 
             let folder = path.parent().unwrap_or(path).display().to_string();
             let tip = path.display().to_string();
             if choice(ui, RichText::new(name), &folder, &tip) {
-                wishes.push(FileCommand::Use(Purpose::OpenScene, path.clone()).into());
+                commands.push(FileCommand::Use(Purpose::OpenScene, path.clone()).into());
             }
         }
     });

@@ -8,7 +8,7 @@ use eframe::egui::{
 use egui_tiles::Tree;
 
 use crate::bench::Bench;
-use crate::bench::command::{Command, PlaySource, ShowCommand, Wishes};
+use crate::bench::command::{Command, Commands, PlaySource, ShowCommand};
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::recording::Take;
@@ -28,32 +28,32 @@ const ARMED_FRAME: f32 = 5.0;
 const HEADER: f32 = 44.0;
 
 /// Shows one frame; says what the user wants.
-pub(crate) fn show(bench: &mut Bench, ui: &mut Ui) -> Wishes {
-    let mut wishes = Wishes::new();
+pub(crate) fn show(bench: &mut Bench, ui: &mut Ui) -> Commands {
+    let mut commands = Commands::new();
     let scene = bench.scene_view();
-    show_header(bench, ui, &scene, &mut wishes);
+    show_header(bench, ui, &scene, &mut commands);
     if !bench.transient.experiment.is_held() {
         // What is felt is not to be seen.
-        show_transport(bench, ui, &mut wishes);
+        show_transport(bench, ui, &mut commands);
     }
     let central = CentralPanel::default().frame(Frame::new());
     let desk = central.show(ui, |ui| {
         let rect = ui.max_rect();
-        (show_desk(bench, ui, &scene, &mut wishes), rect)
+        (show_desk(bench, ui, &scene, &mut commands), rect)
     });
     let (shown, rect) = desk.inner;
-    let apart = bench.show_participants_window(ui.ctx(), &mut wishes);
+    let apart = bench.show_participants_window(ui.ctx(), &mut commands);
     bench.leave_plant();
     let over = shown.map_or(rect, |shown| shown.ground);
-    show_overlays(bench, ui, over, &mut wishes);
+    show_overlays(bench, ui, over, &mut commands);
     let here = shown.map(|shown| (shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
     bench.transient.ground = shown.map(|shown| shown.ground);
     feel(bench, ui.ctx(), &scene, apart.or(here));
-    mark_hovered(bench, ui.ctx(), &mut wishes);
+    mark_hovered(bench, ui.ctx(), &mut commands);
     if bench.transient.live.is_armed() {
         frame_as_armed(ui.ctx());
     }
-    wishes
+    commands
 }
 
 /// Frames the whole window in red while high voltage is on: to be seen from across the room,
@@ -67,9 +67,9 @@ pub(crate) fn frame_as_armed(ctx: &egui::Context) {
 }
 
 /// Lets every view mark what the pointer rests on, from the next frame on if that has changed.
-fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, wishes: &mut Wishes) {
+fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, commands: &mut Commands) {
     let mut hovered = Hovered::default();
-    wishes.retain(|command| {
+    commands.retain(|command| {
         if let Command::Show(ShowCommand::Hover(part)) = command {
             hovered.take(*part);
             return false;
@@ -82,7 +82,7 @@ fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, wishes: &mut Wishes) {
     }
 }
 
-fn show_header(bench: &Bench, ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+fn show_header(bench: &Bench, ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let header = Panel::top("header").exact_size(HEADER);
     header.frame(panel(ui, 16, 0)).show(ui, |ui| {
         crate::shell::header::show(
@@ -90,17 +90,17 @@ fn show_header(bench: &Bench, ui: &mut Ui, scene: &SceneView, wishes: &mut Wishe
             scene,
             &bench.transient.live,
             &bench.appearance(),
-            wishes,
+            commands,
         );
     });
 }
 
-fn show_transport(bench: &mut Bench, ui: &mut Ui, wishes: &mut Wishes) {
+fn show_transport(bench: &mut Bench, ui: &mut Ui, commands: &mut Commands) {
     let bottom = Panel::bottom("transport").resizable(false);
     bottom.frame(panel(ui, 12, 6)).show(ui, |ui| {
         let mut state = std::mem::take(&mut bench.transient.transport);
         let view = transport_view(&bench.transient, bench.take.as_ref());
-        crate::tools::timeline::show(ui, &view, &mut state, wishes);
+        crate::tools::timeline::show(ui, &view, &mut state, commands);
         bench.transient.transport = state;
     });
 }
@@ -135,14 +135,14 @@ fn show_desk(
     bench: &mut Bench,
     ui: &mut Ui,
     scene: &SceneView,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) -> Option<workspace::Shown> {
     bench.arrange(ui.max_rect().size());
     let mut tree = std::mem::replace(&mut bench.tree, Tree::empty(Id::NULL));
     let mut desk = Desk {
         bench,
         scene,
-        wishes,
+        commands,
         shown: None,
         is_rearranged: false,
         row: TabRow::default(),
@@ -157,20 +157,20 @@ fn show_desk(
 }
 
 /// Notices, questions and help over the panes.
-fn show_overlays(bench: &mut Bench, ui: &Ui, over: Rect, wishes: &mut Wishes) {
+fn show_overlays(bench: &mut Bench, ui: &Ui, over: Rect, commands: &mut Commands) {
     let whole = ui.ctx().content_rect();
-    crate::bench::notices::show(ui, over, &bench.transient.notices, wishes);
-    let recent = &bench.settings.kept.recent_scenes;
+    crate::bench::notices::show(ui, over, &bench.transient.notices, commands);
+    let recent = &bench.settings.preferences.recent_scenes;
     if let Some(ask) = &mut bench.transient.ask {
-        crate::shell::ask::show(ui, whole, ask, recent, wishes);
+        crate::shell::ask::show(ui, whole, ask, recent, commands);
     }
     if let Some(after) = &bench.transient.question {
         let name = &bench.document.scene().name;
         let is_closing = *after == After::Close;
-        crate::shell::question::show(ui, whole, name, is_closing, wishes);
+        crate::shell::question::show(ui, whole, name, is_closing, commands);
     }
     if bench.transient.is_help_shown {
-        crate::shell::help::show(ui, whole, wishes);
+        crate::shell::help::show(ui, whole, commands);
     }
 }
 
@@ -183,7 +183,7 @@ fn panel(ui: &Ui, across: i8, down: i8) -> Frame {
 impl Bench {
     /// What the menus tick.
     fn appearance(&self) -> crate::shell::menu::Appearance {
-        let kept = &self.settings.kept;
+        let kept = &self.settings.preferences;
         let shown = Pane::ALL.map(|pane| (pane, arrangement::is_shown(&self.tree, pane)));
         crate::shell::menu::Appearance {
             clips: self.clips_view(),
@@ -202,13 +202,13 @@ impl Bench {
     /// changes a lot; what was arranged by hand stays.
     fn arrange(&mut self, size: egui::Vec2) {
         let before = std::mem::replace(&mut self.transient.desk_size, size);
-        let perspective = self.settings.kept.perspective;
+        let perspective = self.settings.preferences.perspective;
         if before == egui::Vec2::ZERO {
             self.tree = self.arrangement_of(perspective);
             return;
         }
         if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
-            let kept = &self.settings.kept.arrangements;
+            let kept = &self.settings.preferences.arrangements;
             for (resting, kept) in self.resting.iter_mut().zip(kept) {
                 resting.take_if(|_| kept.is_none());
             }
@@ -220,7 +220,7 @@ impl Bench {
 
     /// The arrangement of a perspective that was kept, or its default one.
     fn arrangement_of(&mut self, perspective: Perspective) -> Tree<Pane> {
-        let kept = self.settings.kept.arrangements[perspective.index()].as_deref();
+        let kept = self.settings.preferences.arrangements[perspective.index()].as_deref();
         let tree = kept.map(|text| arrangement::from_text(text, perspective));
         if tree.as_ref().is_some_and(Option::is_none) {
             let words = "The arrangement that was kept could not be used: the default one is shown";
@@ -233,7 +233,7 @@ impl Bench {
 
     /// Arranges the window for something else; what was arranged before stays as it is.
     pub(crate) fn arrange_for(&mut self, perspective: Perspective) {
-        let before = std::mem::replace(&mut self.settings.kept.perspective, perspective);
+        let before = std::mem::replace(&mut self.settings.preferences.perspective, perspective);
         if before == perspective {
             return;
         }

@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Align, Align2, Button, Layout, RichText, Sense, Stroke, Ui, WidgetInfo, vec2,
 };
 
-use crate::bench::command::{Command, ShowCommand, Wishes};
+use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::perspective::Perspective;
 use crate::bench::view::{Live, SceneView, Status};
 use crate::kit::theme;
@@ -25,7 +25,7 @@ pub(crate) fn show(
     scene: &SceneView,
     live: &Live,
     appearance: &Appearance,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let width = ui.available_width();
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
@@ -33,14 +33,14 @@ pub(crate) fn show(
         let name = RichText::new("Selvedge").font(theme::title());
         ui.label(name.color(palette.dim));
         ui.add_space(STEP);
-        show_scene_menu(ui, scene, appearance, wishes);
-        show_view_menu(ui, appearance, wishes);
+        show_scene_menu(ui, scene, appearance, commands);
+        show_view_menu(ui, appearance, commands);
         ui.add_space(STEP);
-        show_history(ui, scene, wishes);
+        show_history(ui, scene, commands);
         ui.add_space(2.0 * STEP);
-        show_perspectives(ui, appearance.perspective, wishes);
+        show_perspectives(ui, appearance.perspective, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_all_off(ui, wishes);
+            show_all_off(ui, commands);
             show_armed(ui, live);
             ui.add_space(2.0 * STEP);
             if width > ROOM_FOR_STATUS {
@@ -55,7 +55,7 @@ pub(crate) fn show(
 }
 
 /// What the window is arranged for: quiet tabs.
-fn show_perspectives(ui: &mut Ui, shown: Perspective, wishes: &mut Wishes) {
+fn show_perspectives(ui: &mut Ui, shown: Perspective, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     for perspective in Perspective::ALL {
         let is_shown = perspective == shown;
@@ -76,7 +76,7 @@ fn show_perspectives(ui: &mut Ui, shown: Perspective, wishes: &mut Wishes) {
         let command: Command = ShowCommand::Perspective(perspective).into();
         let tip = format!("{} ({})", perspective.what(), hint(ui.ctx(), &command));
         if response.on_hover_text(tip).clicked() && !is_shown {
-            wishes.push(command);
+            commands.push(command);
         }
     }
 }
@@ -98,7 +98,7 @@ fn show_name(ui: &mut Ui, scene: &SceneView) {
     name.on_hover_text(place.unwrap_or_else(|| "Not in a file of yours yet".to_owned()));
 }
 
-fn show_history(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+fn show_history(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let steps = [
         ("Undo", scene.undo, Command::Undo),
         ("Redo", scene.redo, Command::Redo),
@@ -109,12 +109,12 @@ fn show_history(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
         let nothing = format!("Nothing to {}", label.to_lowercase());
         let refusal = tip.is_none().then_some(nothing.as_str());
         if button(ui, label, &tip.clone().unwrap_or_default(), refusal) {
-            wishes.push(command);
+            commands.push(command);
         }
     }
 }
 
-fn show_all_off(ui: &mut Ui, wishes: &mut Wishes) {
+fn show_all_off(ui: &mut Ui, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let text = RichText::new("Esc  all off").color(palette.on_danger);
     let red = Button::new(text)
@@ -125,7 +125,7 @@ fn show_all_off(ui: &mut Ui, wishes: &mut Wishes) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "All off"));
     let tip = "Every contactor off at once; works from anywhere, also while typing (Esc)";
     if response.on_hover_text(tip).clicked() {
-        wishes.push(Command::AllOff);
+        commands.push(Command::AllOff);
     }
 }
 

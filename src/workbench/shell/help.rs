@@ -4,7 +4,7 @@
 
 use eframe::egui::{self, Align, KeyboardShortcut, Layout, Rect, RichText, ScrollArea, Ui, vec2};
 
-use crate::bench::command::{Command, Wishes};
+use crate::bench::command::{Command, Commands};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
@@ -104,7 +104,7 @@ fn kind(command: &Command) -> &'static str {
 }
 
 /// Shows the list at the upper edge of `over`.
-pub(crate) fn show(ui: &Ui, over: Rect, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, commands: &mut Commands) {
     card(ui, over, WIDTH, "Keys and pointer", |ui, _| {
         // Above: the title and the card's edge. Below: the safety lines and the button.
         let room = over.height() - 2.0 * CARD_DROP - 2.0 * CARD_MARGIN - 112.0;
@@ -119,7 +119,7 @@ pub(crate) fn show(ui: &Ui, over: Rect, wishes: &mut Wishes) {
         let size = vec2(ui.available_width(), ROW);
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
             if button(ui, "Close", "", None) {
-                wishes.push(Command::Dismiss);
+                commands.push(Command::Dismiss);
             }
         });
     });

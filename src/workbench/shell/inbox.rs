@@ -132,7 +132,7 @@ impl Bench {
         }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
         transient.reference_db = snapshot.rendering.compression_reference_db;
-        let mut live = query::live_view(snapshot, interval_s, &transient.audition);
+        let mut live = query::live_view(snapshot, interval_s, &transient.mute_solo);
         if let Some(bridge) = &mut live.bridge
             && let Some(log) = self.engine.session_log()
         {
@@ -199,7 +199,8 @@ impl Bench {
             moment.is_down = input.pointer.any_down();
             moment.t_s = input.time;
         });
-        let is_watched = self.settings.kept.stops_on_focus_loss && self.transient.live.is_armed();
+        let is_watched =
+            self.settings.preferences.stops_on_focus_loss && self.transient.live.is_armed();
         if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(ctx, Command::AllOff);
         }
@@ -224,7 +225,7 @@ impl Bench {
 
     /// Keeps what the user chose.
     pub(crate) fn keep_settings(&mut self) {
-        let kept = &mut self.settings.kept;
+        let kept = &mut self.settings.preferences;
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
         kept.greys_below = self.workspace.greys_below;

@@ -96,7 +96,7 @@ impl Workbench {
 
     /// The level error that rendering may make, dB.
     pub fn error_budget_db(&self) -> f64 {
-        self.bench.settings.kept.rendering.budget_db
+        self.bench.settings.preferences.rendering.budget_db
     }
 
     /// Methods that were measured on this scene.

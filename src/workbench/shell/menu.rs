@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{self, Button, ThemePreference, Ui};
 
 use crate::bench::clips::{CLIPS, ClipsView};
-use crate::bench::command::{Command, DotStyle, FileCommand, Purpose, ShowCommand, Wishes};
+use crate::bench::command::{Command, Commands, DotStyle, FileCommand, Purpose, ShowCommand};
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::view::SceneView;
@@ -45,51 +45,51 @@ pub(crate) fn show_scene_menu(
     ui: &mut Ui,
     scene: &SceneView,
     appearance: &Appearance,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     ui.menu_button("Scene", |ui| {
         ui.set_min_width(220.0);
-        entry(ui, "New", FileCommand::New.into(), None, wishes);
+        entry(ui, "New", FileCommand::New.into(), None, commands);
         let open = FileCommand::Ask(Purpose::OpenScene);
-        entry(ui, "Open…", open.into(), None, wishes);
-        show_recent(ui, &appearance.recent, wishes);
+        entry(ui, "Open…", open.into(), None, commands);
+        show_recent(ui, &appearance.recent, commands);
         let shipped = FileCommand::OpenShipped;
-        entry(ui, "Open the shipped scene", shipped.into(), None, wishes);
+        entry(ui, "Open the shipped scene", shipped.into(), None, commands);
         ui.separator();
         let unchanged = !scene.is_edited && scene.path.is_some();
         let why = unchanged.then_some("Nothing has changed");
-        entry(ui, "Save", FileCommand::Save.into(), why, wishes);
+        entry(ui, "Save", FileCommand::Save.into(), why, commands);
         let save_as = FileCommand::Ask(Purpose::SaveScene);
-        entry(ui, "Save as…", save_as.into(), None, wishes);
+        entry(ui, "Save as…", save_as.into(), None, commands);
         ui.separator();
         let import = FileCommand::Ask(Purpose::ImportFiles);
-        entry(ui, "Import measurements…", import.into(), None, wishes);
+        entry(ui, "Import measurements…", import.into(), None, commands);
         let picture = FileCommand::Ask(Purpose::OpenPicture);
-        entry(ui, "Cloth from a picture…", picture.into(), None, wishes);
+        entry(ui, "Cloth from a picture…", picture.into(), None, commands);
         let experiment = ShowCommand::Perspective(Perspective::Experiment);
-        entry(ui, "Run an experiment…", experiment.into(), None, wishes);
+        entry(ui, "Run an experiment…", experiment.into(), None, commands);
         let analyse = FileCommand::Ask(Purpose::OpenLogs);
-        entry(ui, "Analyse sessions…", analyse.into(), None, wishes);
+        entry(ui, "Analyse sessions…", analyse.into(), None, commands);
         let open = FileCommand::Ask(Purpose::OpenRecording);
-        entry(ui, "Open a recording…", open.into(), None, wishes);
-        show_clips(ui, appearance.clips, wishes);
+        entry(ui, "Open a recording…", open.into(), None, commands);
+        show_clips(ui, appearance.clips, commands);
         ui.separator();
-        entry(ui, "Close", FileCommand::Close.into(), None, wishes);
+        entry(ui, "Close", FileCommand::Close.into(), None, commands);
     });
 }
 
 /// The recording for other programs; while one is written, how far it is.
-fn show_clips(ui: &mut Ui, clips: ClipsView, wishes: &mut Wishes) {
+fn show_clips(ui: &mut Ui, clips: ClipsView, commands: &mut Commands) {
     if let Some(share) = clips.share {
         let percent = quantity::with_unit(f64::from(share) * 100.0, 0, "%");
         let words = format!("Stop the export ({percent})");
-        return entry(ui, &words, FileCommand::StopClip.into(), None, wishes);
+        return entry(ui, &words, FileCommand::StopClip.into(), None, commands);
     }
     ui.add_enabled_ui(clips.has_take, |ui| {
         let menu = ui.menu_button("Export the recording", |ui| {
             for (kind, words) in CLIPS {
                 let ask = FileCommand::Ask(Purpose::Clip(kind));
-                entry(ui, words, ask.into(), None, wishes);
+                entry(ui, words, ask.into(), None, commands);
             }
         });
         menu.response
@@ -97,7 +97,7 @@ fn show_clips(ui: &mut Ui, clips: ClipsView, wishes: &mut Wishes) {
     });
 }
 
-fn show_recent(ui: &mut Ui, recent: &[PathBuf], wishes: &mut Wishes) {
+fn show_recent(ui: &mut Ui, recent: &[PathBuf], commands: &mut Commands) {
     ui.add_enabled_ui(!recent.is_empty(), |ui| {
         let menu = ui.menu_button("Open recent", |ui| {
             for path in recent {
@@ -105,7 +105,7 @@ fn show_recent(ui: &mut Ui, recent: &[PathBuf], wishes: &mut Wishes) {
                 let response = ui.button(name.to_string_lossy());
                 if response.on_hover_text(path.display().to_string()).clicked() {
                     let command = FileCommand::Use(Purpose::OpenScene, path.clone());
-                    wishes.push(command.into());
+                    commands.push(command.into());
                     ui.close();
                 }
             }
@@ -116,29 +116,29 @@ fn show_recent(ui: &mut Ui, recent: &[PathBuf], wishes: &mut Wishes) {
 }
 
 /// What is shown how.
-pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut Wishes) {
+pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, commands: &mut Commands) {
     ui.menu_button("View", |ui| {
         ui.set_min_width(220.0);
         for perspective in Perspective::ALL {
             let command = ShowCommand::Perspective(perspective);
             let is_shown = perspective == appearance.perspective;
-            choice(ui, perspective.title(), is_shown, command, wishes);
+            choice(ui, perspective.title(), is_shown, command, commands);
         }
         ui.separator();
         ui.menu_button("Panes", |ui| {
             for (pane, is_shown) in &appearance.panes {
                 let command = ShowCommand::Pane(*pane);
-                choice(ui, pane.title(), *is_shown, command, wishes);
+                choice(ui, pane.title(), *is_shown, command, commands);
             }
         });
         let default = ShowCommand::DefaultArrangement;
-        entry(ui, "Default arrangement", default.into(), None, wishes);
+        entry(ui, "Default arrangement", default.into(), None, commands);
         ui.separator();
-        ui.menu_button("Theme", |ui| show_themes(ui, wishes));
+        ui.menu_button("Theme", |ui| show_themes(ui, commands));
         ui.menu_button("Colours of numbers", |ui| {
             for map in ColourMap::ALL {
                 let command = ShowCommand::ColourMap(map);
-                choice(ui, map.label(), map == appearance.map, command, wishes);
+                choice(ui, map.label(), map == appearance.map, command, commands);
             }
         });
         ui.menu_button("Size of everything", |ui| {
@@ -146,20 +146,20 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut 
                 let zoom = f32::from(percent) / 100.0;
                 let is_chosen = (zoom - appearance.zoom).abs() < 0.01;
                 let label = quantity::with_unit(f64::from(percent), 0, "%");
-                choice(ui, &label, is_chosen, ShowCommand::Zoom(zoom), wishes);
+                choice(ui, &label, is_chosen, ShowCommand::Zoom(zoom), commands);
             }
         });
         ui.menu_button("Contactors", |ui| {
-            show_dot_styles(ui, appearance.dots, wishes);
+            show_dot_styles(ui, appearance.dots, commands);
         });
         let command = ShowCommand::ToggleThreshold;
         let label = "Grey below threshold (a model)";
-        choice(ui, label, appearance.greys_below, command, wishes);
+        choice(ui, label, appearance.greys_below, command, commands);
         ui.menu_button("Over the cloth", |ui| {
             for (overlay, label) in Overlays::ALL {
                 let command = ShowCommand::Overlay(overlay);
                 let is_shown = appearance.overlays.shows(overlay);
-                choice(ui, label, is_shown, command, wishes);
+                choice(ui, label, is_shown, command, commands);
             }
         });
         ui.separator();
@@ -169,13 +169,13 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, wishes: &mut 
             "Calibrate to true size…",
             calibrate.into(),
             None,
-            wishes,
+            commands,
         );
-        entry(ui, "Keys", ShowCommand::Help.into(), None, wishes);
+        entry(ui, "Keys", ShowCommand::Help.into(), None, commands);
     });
 }
 
-fn show_themes(ui: &mut Ui, wishes: &mut Wishes) {
+fn show_themes(ui: &mut Ui, commands: &mut Commands) {
     let theme = ui.ctx().options(|options| options.theme_preference);
     let themes = [
         (ThemePreference::System, "As the system"),
@@ -184,11 +184,11 @@ fn show_themes(ui: &mut Ui, wishes: &mut Wishes) {
     ];
     for (preference, label) in themes {
         let command = ShowCommand::Theme(preference);
-        choice(ui, label, theme == preference, command, wishes);
+        choice(ui, label, theme == preference, command, commands);
     }
 }
 
-fn show_dot_styles(ui: &mut Ui, chosen: DotStyle, wishes: &mut Wishes) {
+fn show_dot_styles(ui: &mut Ui, chosen: DotStyle, commands: &mut Commands) {
     let styles = [
         (DotStyle::SizeAndGlow, "40 Hz by size, 320 Hz by glow"),
         (DotStyle::Size, "Both by size"),
@@ -196,12 +196,18 @@ fn show_dot_styles(ui: &mut Ui, chosen: DotStyle, wishes: &mut Wishes) {
     ];
     for (style, label) in styles {
         let command = ShowCommand::DotStyle(style);
-        choice(ui, label, style == chosen, command, wishes);
+        choice(ui, label, style == chosen, command, commands);
     }
 }
 
 /// A line that does something, with its key; grey, with the reason, when it does nothing.
-fn entry(ui: &mut Ui, label: &str, command: Command, refusal: Option<&str>, wishes: &mut Wishes) {
+fn entry(
+    ui: &mut Ui,
+    label: &str,
+    command: Command,
+    refusal: Option<&str>,
+    commands: &mut Commands,
+) {
     let key = hint(ui.ctx(), &command);
     let button = Button::new(label).shortcut_text(key);
     let response = ui.add_enabled(refusal.is_none(), button);
@@ -210,7 +216,7 @@ fn entry(ui: &mut Ui, label: &str, command: Command, refusal: Option<&str>, wish
         None => response,
     };
     if response.clicked() {
-        wishes.push(command);
+        commands.push(command);
         ui.close();
     }
 }
@@ -221,14 +227,14 @@ pub(crate) fn choice(
     label: &str,
     is_chosen: bool,
     command: ShowCommand,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let key = hint(ui.ctx(), &command.clone().into());
     let mut is_ticked = is_chosen;
     ui.horizontal(|ui| {
         let response = ui.add(egui::Checkbox::new(&mut is_ticked, label));
         if response.clicked() {
-            wishes.push(command.into());
+            commands.push(command.into());
         }
         if !key.is_empty() {
             ui.weak(key);

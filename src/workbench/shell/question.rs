@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Button, Layout, Rect, Ui, vec2};
 
-use crate::bench::command::{Command, FileCommand, Wishes};
+use crate::bench::command::{Command, Commands, FileCommand};
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::text::button;
@@ -10,7 +10,7 @@ use crate::kit::widgets::text::button;
 /// Asks at the upper edge of `over` whether to save the scene called `name`.
 ///
 /// Whoever asks closes the window, or opens another scene, once this one is saved.
-pub(crate) fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, commands: &mut Commands) {
     let title = format!("Save changes to {name}?");
     card(ui, over, 440.0, &title, |ui, _| {
         let palette = Palette::in_ui(ui);
@@ -30,14 +30,14 @@ pub(crate) fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, wishes: &m
                 save.request_focus();
             }
             if save.clicked() {
-                wishes.push(FileCommand::Save.into());
+                commands.push(FileCommand::Save.into());
             }
             if button(ui, "Cancel", "Leave everything as it is", None) {
-                wishes.push(Command::Dismiss);
+                commands.push(Command::Dismiss);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 if button(ui, "Don’t save", "Go on and let the changes go", None) {
-                    wishes.push(FileCommand::LetGo.into());
+                    commands.push(FileCommand::LetGo.into());
                 }
             });
         });

@@ -8,7 +8,7 @@ use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
 use crate::bench::job::Job;
 use crate::bench::keep::Keeping;
-use crate::bench::mute_solo::Audition;
+use crate::bench::mute_solo::MuteSolo;
 use crate::bench::notices::Notices;
 use crate::bench::opening::{Opening, Origin};
 use crate::bench::query::IntervalMeter;
@@ -137,7 +137,7 @@ pub(crate) struct Transient {
     /// What the timeline remembers.
     pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.
-    pub(crate) audition: Audition,
+    pub(crate) mute_solo: MuteSolo,
     /// Whether recordings are replayed again and again.
     pub does_loop: bool,
     /// The gesture that edits belong to.

@@ -9,7 +9,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use crate::bench::command::device::DeviceCommand;
-use crate::bench::command::{Command, FileCommand, Purpose, Wishes};
+use crate::bench::command::{Command, Commands, FileCommand, Purpose};
 use crate::bench::sources::SourcesView;
 use crate::bench::view::Live;
 use crate::kit::theme;
@@ -23,23 +23,23 @@ use selvedge_device::{ArrayProfile, FaultWords, FoundPort, RecognisedBy};
 use selvedge_scratch::ScratchFolder;
 
 /// A window with nothing in it but `content`, and what is wished for in it.
-fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Wishes) + 'a) -> Harness<'a, Wishes> {
+fn window<'a>(mut content: impl FnMut(&mut Ui, &mut Commands) + 'a) -> Harness<'a, Commands> {
     let mut is_styled = false;
     Harness::builder()
         .with_size(vec2(700.0, 500.0))
         .build_ui_state(
-            move |ui, wishes| {
+            move |ui, commands| {
                 if !is_styled {
                     theme::install(ui.ctx());
                     is_styled = true;
                 }
-                content(ui, wishes);
+                content(ui, commands);
             },
-            Wishes::new(),
+            Commands::new(),
         )
 }
 
-fn click(harness: &mut Harness<'_, Wishes>, name: &str) -> Vec<Command> {
+fn click(harness: &mut Harness<'_, Commands>, name: &str) -> Vec<Command> {
     harness.state_mut().clear();
     harness.get_by_role_and_label(Role::Button, name).click();
     harness.run();
@@ -52,9 +52,9 @@ fn tab_completes_the_path_and_enter_opens_it() {
     let scene = folder.join("silk.scene.toml");
     fs::write(&scene, "").unwrap();
     let mut ask = Ask::new(Purpose::OpenScene, Some(&folder.join("si")));
-    let mut harness = window(|ui, wishes| {
+    let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_ask(ui, over, &mut ask, &[], wishes);
+        show_ask(ui, over, &mut ask, &[], commands);
     });
     harness.run();
     harness.key_press(Key::End);
@@ -80,9 +80,9 @@ fn tab_completes_the_path_and_enter_opens_it() {
 fn a_recent_scene_is_opened_by_a_click() {
     let recent = ["/a/silk.scene.toml", "/b/wool.scene.toml"].map(PathBuf::from);
     let mut ask = Ask::new(Purpose::OpenScene, None);
-    let mut harness = window(|ui, wishes| {
+    let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_ask(ui, over, &mut ask, &recent, wishes);
+        show_ask(ui, over, &mut ask, &recent, commands);
     });
     harness.run();
     let wool = harness.get_by_label_contains("wool.scene.toml");
@@ -94,9 +94,9 @@ fn a_recent_scene_is_opened_by_a_click() {
 
 #[test]
 fn the_question_on_closing_has_three_answers_and_enter_saves() {
-    let mut harness = window(|ui, wishes| {
+    let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_question(ui, over, "silk", true, wishes);
+        show_question(ui, over, "silk", true, commands);
     });
     harness.run();
     harness.get_by_label("Save changes to silk?");
@@ -111,9 +111,9 @@ fn the_question_on_closing_has_three_answers_and_enter_saves() {
 
 #[test]
 fn the_list_of_keys_names_a_key_and_can_be_put_away() {
-    let mut harness = window(|ui, wishes| {
+    let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_help(ui, over, wishes);
+        show_help(ui, over, commands);
     });
     harness.run();
     harness.get_by_label("Ctrl+O");
@@ -121,8 +121,8 @@ fn the_list_of_keys_names_a_key_and_can_be_put_away() {
 }
 
 /// The pane of the device, with nothing connected.
-fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, Wishes> {
-    window(|ui, wishes| {
+fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, Commands> {
+    window(|ui, commands| {
         let profile = ArrayProfile::default();
         let view = BridgePane {
             live: &Live::default(),
@@ -148,7 +148,7 @@ fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, 
             copy_name: &mut String::new(),
             faults: &mut FaultWords::default(),
         };
-        show_bridge(ui, &view, &mut typed, wishes);
+        show_bridge(ui, &view, &mut typed, commands);
     })
 }
 

@@ -41,13 +41,13 @@ impl eframe::App for Workbench {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        let wishes = frame::show(&mut self.bench, ui);
-        if !wishes.is_empty() {
+        let commands = frame::show(&mut self.bench, ui);
+        if !commands.is_empty() {
             // What was wished for shows in the next frame.
             ui.ctx().request_repaint();
         }
         let ctx = ui.ctx().clone();
-        for command in wishes {
+        for command in commands {
             self.dispatch(&ctx, command);
         }
     }

@@ -6,9 +6,9 @@ use eframe::egui::{
 };
 
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Command, Part, ShowCommand, Wishes};
-use crate::bench::library_view::Shelf;
-use crate::bench::mute_solo::Audition;
+use crate::bench::command::{Command, Commands, Part, ShowCommand};
+use crate::bench::library_view::LibraryView;
+use crate::bench::mute_solo::MuteSolo;
 use crate::bench::view::{Cloth, ClothPicture, SceneView, ShelfItem};
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{paint_line, row, toggle};
@@ -37,11 +37,11 @@ const SCENE_ROWS: usize = 6;
 /// Shows the pane. `search` is what is typed in its field.
 pub(crate) fn show(
     ui: &mut Ui,
-    shelf: &mut Shelf,
+    library_view: &mut LibraryView,
     scene: &SceneView,
-    (audition, selected): (&Audition, Option<usize>),
+    (mute_solo, selected): (&MuteSolo, Option<usize>),
     search: &mut String,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let n_rows = scene.cloths.len().clamp(2, SCENE_ROWS);
     let lower = n_rows as f32 * (theme::ROW + STEP) + 28.0;
@@ -51,29 +51,29 @@ pub(crate) fn show(
         .round();
     let (above, below) = whole.split_top_bottom_at_y(edge);
     ui.scope_builder(UiBuilder::new().max_rect(above), |ui| {
-        show_shelf(ui, shelf, scene, search, wishes);
+        show_shelf(ui, library_view, scene, search, commands);
     });
     let line = Stroke::new(1.0, Palette::in_ui(ui).hairline);
     ui.painter().hline(whole.x_range(), edge + 1.0, line);
     let below = below.with_min_y(edge + STEP);
     ui.scope_builder(UiBuilder::new().max_rect(below), |ui| {
-        show_placed(ui, scene, audition, selected, wishes);
+        show_placed(ui, scene, mute_solo, selected, commands);
     });
 }
 
 /// The library, as much of it as matches the search.
 fn show_shelf(
     ui: &mut Ui,
-    shelf: &mut Shelf,
+    library_view: &mut LibraryView,
     scene: &SceneView,
     search: &mut String,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     show_search(ui, search);
-    let items = shelf.shared_items();
+    let items = library_view.shared_items();
     let matching: Vec<&ShelfItem> = items.iter().filter(|item| item.matches(search)).collect();
     if matching.is_empty() {
-        let words = if shelf.items().is_empty() {
+        let words = if library_view.items().is_empty() {
             "This library holds no textiles: put some into its folder, then open the scene again"
         } else {
             "Nothing by that name: clear the field to see all"
@@ -87,9 +87,9 @@ fn show_shelf(
         matching.len(),
         |ui, range| {
             for item in &matching[range] {
-                shelf.want(&item.id);
-                let picture = shelf.picture(&item.id);
-                show_item(ui, item, picture, scene, wishes);
+                library_view.want(&item.id);
+                let picture = library_view.picture(&item.id);
+                show_item(ui, item, picture, scene, commands);
             }
         },
     );
@@ -111,7 +111,7 @@ fn show_item(
     item: &ShelfItem,
     picture: Option<ClothPicture>,
     scene: &SceneView,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), ROW - ui.spacing().item_spacing.y);
@@ -125,7 +125,7 @@ fn show_item(
         )
     });
     if let Some(index) = scene.placed(&item.id).filter(|_| response.hovered()) {
-        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+        commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
     }
     let is_lit = response.hovered() || response.has_focus() || scene.is_marked_id(&item.id);
     if is_usable && is_lit {
@@ -152,7 +152,7 @@ fn show_item(
         .font(theme::small())
         .color(palette.dim);
     paint_line(ui, pos2(left, rect.center().y + 8.0), room, second);
-    answer_item(ui, response, item, scene, wishes);
+    answer_item(ui, response, item, scene, commands);
 }
 
 fn answer_item(
@@ -160,7 +160,7 @@ fn answer_item(
     response: Response,
     item: &ShelfItem,
     scene: &SceneView,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     if let Some(flaw) = &item.flaw {
         response.on_hover_text(flaw);
@@ -168,16 +168,16 @@ fn answer_item(
     }
     let is_entered = response.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     if response.double_clicked() || is_entered {
-        wishes.push(added(item, scene));
+        commands.push(added(item, scene));
     } else if response.clicked() {
         let joining = if ui.input(|input| input.modifiers.command) {
             Joining::Toggled
         } else {
             Joining::Alone
         };
-        wishes.push(CollectionCommand::Select(vec![item.id.clone()], joining).into());
+        commands.push(CollectionCommand::Select(vec![item.id.clone()], joining).into());
     }
-    response.context_menu(|ui| show_item_menu(ui, item, scene, wishes));
+    response.context_menu(|ui| show_item_menu(ui, item, scene, commands));
     if response.drag_started() {
         let id = item.id.clone();
         DragAndDrop::set_payload(ui.ctx(), LibraryItem { id });
@@ -205,7 +205,7 @@ fn added(item: &ShelfItem, scene: &SceneView) -> Command {
 }
 
 /// What can be done with a textile of the library.
-fn show_item_menu(ui: &mut Ui, item: &ShelfItem, scene: &SceneView, wishes: &mut Wishes) {
+fn show_item_menu(ui: &mut Ui, item: &ShelfItem, scene: &SceneView, commands: &mut Commands) {
     let id = || item.id.clone();
     let acts = [
         ("Add to the scene", added(item, scene)),
@@ -220,7 +220,7 @@ fn show_item_menu(ui: &mut Ui, item: &ShelfItem, scene: &SceneView, wishes: &mut
     ];
     for (words, act) in acts {
         if ui.button(words).clicked() {
-            wishes.push(act);
+            commands.push(act);
             ui.close();
         }
     }
@@ -239,13 +239,13 @@ fn paint_focus(ui: &Ui, response: &Response) {
 fn show_placed(
     ui: &mut Ui,
     scene: &SceneView,
-    audition: &Audition,
+    mute_solo: &MuteSolo,
     selected: Option<usize>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     row(ui, "In the scene", |ui| {
-        if audition.is_any() && toggle(ui, "feel all", false, "End every mute and solo (H)") {
-            wishes.push(ShowCommand::HearAll.into());
+        if mute_solo.is_any() && toggle(ui, "feel all", false, "End every mute and solo (H)") {
+            commands.push(ShowCommand::HearAll.into());
         }
     });
     if scene.cloths.is_empty() {
@@ -259,7 +259,7 @@ fn show_placed(
         for index in range {
             if let Some(cloth) = scene.cloths.get(index) {
                 let marks = [selected == Some(index), scene.is_marked(index)];
-                show_cloth(ui, (index, cloth), audition, (marks, labels), wishes);
+                show_cloth(ui, (index, cloth), mute_solo, (marks, labels), commands);
             }
         }
     });
@@ -275,9 +275,9 @@ fn label_width(scene: &SceneView) -> f32 {
 fn show_cloth(
     ui: &mut Ui,
     (index, cloth): (usize, &Cloth),
-    audition: &Audition,
+    mute_solo: &MuteSolo,
     ([is_selected, is_marked], labels): ([bool; 2], f32),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let part = Part::Cloth(index);
@@ -289,19 +289,19 @@ fn show_cloth(
             ui.spacing_mut().item_spacing.x = STEP;
             let name = format!("{} {}", cloth.label, cloth.name);
             let solo = format!("Feel {name} alone");
-            if toggle(ui, "S", audition.is_solo(part), &solo) {
-                wishes.push(ShowCommand::Solo(part).into());
+            if toggle(ui, "S", mute_solo.is_solo(part), &solo) {
+                commands.push(ShowCommand::Solo(part).into());
             }
             let mute = format!("Mute {name}");
-            if toggle(ui, "M", audition.is_muted(part), &mute) {
-                wishes.push(ShowCommand::Mute(part).into());
+            if toggle(ui, "M", mute_solo.is_muted(part), &mute) {
+                commands.push(ShowCommand::Mute(part).into());
             }
             let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
             response.widget_info(|| {
                 WidgetInfo::selected(egui::Role::ListItem, true, is_selected, &name)
             });
             if response.hovered() {
-                wishes.push(ShowCommand::Hover(part).into());
+                commands.push(ShowCommand::Hover(part).into());
             }
             if is_selected {
                 ui.painter().rect_filled(rect, 4, palette.raised);
@@ -318,7 +318,7 @@ fn show_cloth(
             let (left, middle) = (rect.left() + 6.0, rect.center().y);
             if is_selected {
                 let place = rect.with_max_x(rect.left() + labels + 6.0);
-                show_label_field(ui, place, (index, cloth), wishes);
+                show_label_field(ui, place, (index, cloth), commands);
             } else {
                 let label = RichText::new(&cloth.label).font(theme::number());
                 paint_line(ui, pos2(left, middle), labels, label.color(palette.dim));
@@ -333,7 +333,7 @@ fn show_cloth(
             );
             if response.clicked() {
                 let choice = (!is_selected).then_some(index);
-                wishes.push(ShowCommand::SelectCloth(choice).into());
+                commands.push(ShowCommand::SelectCloth(choice).into());
             }
             let gain = quantity::with_unit(cloth.gain_db, 1, "dB");
             response.on_hover_text(format!("{name}\nscene gain {gain}\nClick to choose it"));
@@ -346,7 +346,7 @@ fn show_label_field(
     ui: &mut Ui,
     place: Rect,
     (index, cloth): (usize, &Cloth),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let mut label = cloth.label.clone();
     let place = place.shrink2(vec2(0.0, 2.0));
@@ -360,7 +360,7 @@ fn show_label_field(
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_label(name));
     if response.changed() {
-        wishes.push(Edit::Label(index, label).into());
+        commands.push(Edit::Label(index, label).into());
     }
     response.on_hover_text("What the scene calls it");
 }

@@ -13,7 +13,7 @@ use selvedge_engine::{Command, Notice};
 impl Bench {
     /// The profile that ought to be in force.
     pub(crate) fn array(&self) -> ArrayProfile {
-        let chosen = self.settings.kept.array.as_deref();
+        let chosen = self.settings.preferences.array.as_deref();
         let display = self.document.scene().displays.first();
         display.map_or_else(ArrayProfile::default, |display| {
             self.arrays.in_force(chosen, display)
@@ -124,7 +124,7 @@ mod tests {
         window.pass(2);
         assert_eq!(window.workbench.bench.engine.profile().name, "rig 2");
         assert_eq!(
-            window.workbench.bench.settings.kept.array.as_deref(),
+            window.workbench.bench.settings.preferences.array.as_deref(),
             Some("rig 2")
         );
         window.dispatch(ArrayCommand::Choose(Some("exeter-24".to_owned())));

@@ -36,7 +36,7 @@ use selvedge_foundation::geometry::Point;
 use selvedge_textile::tactile::Band;
 
 /// What the user wants, in the order in which it was said.
-pub(crate) type Wishes = Vec<Command>;
+pub(crate) type Commands = Vec<Command>;
 
 /// Something that the user wants.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 
 use eframe::egui::{self, Popup, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::bench::export::Exportable;
 use crate::kit::theme::Palette;
 
@@ -13,7 +13,7 @@ pub(crate) const SIZE: f32 = 18.0;
 const MENU: f32 = 196.0;
 
 /// Shows the button; its menu opens on a click.
-pub(crate) fn show(ui: &mut Ui, what: Exportable, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, what: Exportable, commands: &mut Commands) {
     let name = format!("Export {}", what.title());
     let (rect, response) = ui.allocate_exact_size(vec2(SIZE, SIZE), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &name));
@@ -30,15 +30,15 @@ pub(crate) fn show(ui: &mut Ui, what: Exportable, wishes: &mut Wishes) {
     menu.show(|ui| {
         ui.set_min_width(MENU);
         let ask = FileCommand::Ask(Purpose::Export(what));
-        entry(ui, "Save as PNG, SVG or CSV…", ask, wishes);
-        entry(ui, "Copy as CSV", FileCommand::CopyTable(what), wishes);
+        entry(ui, "Save as PNG, SVG or CSV…", ask, commands);
+        entry(ui, "Copy as CSV", FileCommand::CopyTable(what), commands);
     });
     response.on_hover_text(name);
 }
 
-fn entry(ui: &mut Ui, label: &str, command: FileCommand, wishes: &mut Wishes) {
+fn entry(ui: &mut Ui, label: &str, command: FileCommand, commands: &mut Commands) {
     if ui.button(label).clicked() {
-        wishes.push(command.into());
+        commands.push(command.into());
         ui.close();
     }
 }

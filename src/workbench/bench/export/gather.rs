@@ -81,7 +81,7 @@ impl Bench {
         let reference_db = self.transient.reference_db;
         let scene = self.document.scene();
         let origin = Origin::of(scene, &self.document.tuning(), reference_db);
-        if self.transient.audition.is_any() {
+        if self.transient.mute_solo.is_any() {
             let words = "parts are muted or felt alone";
             origin.and("audition", words, words)
         } else {
@@ -127,11 +127,11 @@ impl Bench {
             history: &self.transient.history,
             contactor,
             filters: &filters,
-            map: self.settings.kept.colour_map,
-            scene_serial: self.eye.n_scenes,
+            map: self.settings.preferences.colour_map,
+            scene_serial: self.inspection.n_scenes,
         };
         let state = &mut self.transient.contact_spectrogram;
-        let columns = state.shown(&self.ctx, &mut self.eye.inspector, &view);
+        let columns = state.shown(&self.ctx, &mut self.inspection.inspector, &view);
         let mut levels_db = columns.iter().flat_map(|column| column.rows);
         if !levels_db.any(f32::is_finite) {
             return Err(NOTHING_FELT);
@@ -147,7 +147,7 @@ impl Bench {
         let view = crate::tools::spectra::drive::DriveSpectrumView {
             history: &self.transient.history,
             scale: self.workspace.scale,
-            map: self.settings.kept.colour_map,
+            map: self.settings.preferences.colour_map,
         };
         let columns = self.transient.drive_spectrogram.shown(&self.ctx, &view);
         let mut amplitudes_um = columns.iter().flat_map(|column| column.rows);
@@ -182,15 +182,15 @@ impl Bench {
         let contactor = self.contactor()?;
         let (origin, tick) = (self.origin(), self.transient.live.tick);
         let source = crate::tools::spectra::spatial::SpatialSource {
-            scene: &self.eye.scene,
-            scene_serial: self.eye.n_edits,
+            scene: &self.inspection.scene,
+            scene_serial: self.inspection.n_edits,
             contactor,
             pose: self.transient.live.pose,
         };
         let view = self
             .transient
             .spatial
-            .shown(&mut self.eye.inspector, &source);
+            .shown(&mut self.inspection.inspector, &source);
         let view = view.ok_or(
             "There is nothing to export: the chosen contactor is off every textile; move over one",
         )?;
@@ -325,7 +325,7 @@ impl Bench {
 
     fn gather_collection(&mut self) -> Result<Exported, &'static str> {
         let (scene, origin) = (self.plain_scene_view(), self.origin());
-        let (items, shown) = (self.shelf.shared_items(), &self.transient.collection);
+        let (items, shown) = (self.library_view.shared_items(), &self.transient.collection);
         let view = shown.view(&items, &scene, &shown.search);
         if view.entries.iter().all(|one| one.figures.is_none()) {
             return Err(
@@ -337,7 +337,7 @@ impl Bench {
     }
 
     fn gather_import(&mut self) -> Result<Exported, &'static str> {
-        let map = self.settings.kept.colour_map;
+        let map = self.settings.preferences.colour_map;
         let found = self.transient.importing.found();
         let exported =
             found.and_then(|found| crate::tools::import::export::measurement(found, map));
@@ -362,9 +362,9 @@ impl Bench {
     fn plain_scene_view(&self) -> crate::bench::view::SceneView {
         query::scene_view(
             &self.document,
-            &self.shelf,
+            &self.library_view,
             &self.library,
-            &self.transient.audition,
+            &self.transient.mute_solo,
             self.transient.reference_db,
         )
     }

@@ -4,7 +4,7 @@
 //! file is set aside under another name, so that nothing is lost. Knows where the file is and when
 //! it is written; what is in it is in `kept.rs` and `text.rs`.
 
-pub(crate) mod kept;
+pub(crate) mod preferences;
 #[cfg(test)]
 mod tests;
 pub(crate) mod text;
@@ -25,7 +25,7 @@ const PAUSE_S: f64 = 1.0;
 #[derive(Debug, Default)]
 pub struct Settings {
     /// The values. Whoever changes them need do nothing else.
-    pub kept: Kept,
+    pub preferences: Preferences,
     file: Option<Keeper>,
 }
 
@@ -34,7 +34,7 @@ pub struct Settings {
 struct Keeper {
     path: PathBuf,
     /// What it holds, or will once the write under way is done; `None`: something else.
-    held: Option<Kept>,
+    held: Option<Preferences>,
     writing: Option<JoinHandle<Result<(), FileError>>>,
     /// Whether the last write that was asked about failed.
     has_failed: bool,
@@ -87,7 +87,10 @@ impl Settings {
         let text = match read_text(&path) {
             Ok(text) => text,
             Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-                return (Self::kept_at(path, Kept::default(), true), None);
+                return (
+                    Self::preferences_at(path, Preferences::default(), true),
+                    None,
+                );
             }
             // Whatever is there, it is not to be written over.
             Err(FileError::Read { source, .. }) => {
@@ -97,35 +100,35 @@ impl Settings {
                 );
                 return (Self::in_memory(), Some(words));
             }
-            Err(error) => return Self::set_aside(path, Kept::default(), &error.to_string()),
+            Err(error) => return Self::set_aside(path, Preferences::default(), &error.to_string()),
         };
         match text::read(&text, &path) {
-            Ok((kept, None)) => (Self::kept_at(path, kept, true), None),
-            Ok((kept, Some(line))) => {
+            Ok((preferences, None)) => (Self::preferences_at(path, preferences, true), None),
+            Ok((preferences, Some(line))) => {
                 let what = format!("{}:{line}: this value is not known", path.display());
-                Self::set_aside(path, kept, &what)
+                Self::set_aside(path, preferences, &what)
             }
-            Err(error) => Self::set_aside(path, Kept::default(), &error.to_string()),
+            Err(error) => Self::set_aside(path, Preferences::default(), &error.to_string()),
         }
     }
 
     /// Settings whose file is as `kept` when `is_held`, and otherwise to be written anew.
-    fn kept_at(path: PathBuf, kept: Kept, is_held: bool) -> Self {
+    fn preferences_at(path: PathBuf, preferences: Preferences, is_held: bool) -> Self {
         let file = Keeper {
             path,
-            held: is_held.then(|| kept.clone()),
+            held: is_held.then(|| preferences.clone()),
             writing: None,
             has_failed: false,
             written_s: f64::NEG_INFINITY,
         };
         Self {
-            kept,
+            preferences,
             file: Some(file),
         }
     }
 
     /// Sets a broken file aside and goes on with `kept`, what could be read of it.
-    fn set_aside(path: PathBuf, kept: Kept, what: &str) -> (Self, Option<String>) {
+    fn set_aside(path: PathBuf, preferences: Preferences, what: &str) -> (Self, Option<String>) {
         let aside = free_name(&path);
         match fs::rename(&path, &aside) {
             Ok(()) => {
@@ -134,14 +137,20 @@ impl Settings {
                      kept as {}",
                     aside.display()
                 );
-                (Self::kept_at(path, kept, false), Some(words))
+                (Self::preferences_at(path, preferences, false), Some(words))
             }
             Err(error) => {
                 let words = format!(
                     "{what}; the file could not be set aside ({error}), so settings will not be \
                      kept this time"
                 );
-                (Self { kept, file: None }, Some(words))
+                (
+                    Self {
+                        preferences,
+                        file: None,
+                    },
+                    Some(words),
+                )
             }
         }
     }
@@ -152,7 +161,7 @@ impl Settings {
     /// something left to write; a write that failed is told to [`Self::take_failure`].
     pub(crate) fn save_if_changed(&mut self, now_s: f64) -> Option<f64> {
         let file = self.file.as_mut()?;
-        if file.held.as_ref() == Some(&self.kept) {
+        if file.held.as_ref() == Some(&self.preferences) {
             return None;
         }
         let is_writing = file.writing.as_ref().is_some_and(|job| !job.is_finished());
@@ -161,11 +170,11 @@ impl Settings {
             return Some(left_s.clamp(0.05, PAUSE_S));
         }
         // A write that failed and was not asked about is forgotten: this one will say it again.
-        let kept = self.kept.clone();
+        let preferences = self.preferences.clone();
         let path = file.path.clone();
         let job = thread::Builder::new().name("selvedge-settings".to_owned());
-        file.writing = job.spawn(move || write(&kept, &path)).ok();
-        file.held = Some(self.kept.clone());
+        file.writing = job.spawn(move || write(&preferences, &path)).ok();
+        file.held = Some(self.preferences.clone());
         file.written_s = now_s;
         None
     }
@@ -191,18 +200,18 @@ impl Settings {
             // A thread that broke off wrote nothing.
             job.join().is_ok_and(|outcome| outcome.is_ok())
         });
-        if is_written && !file.has_failed && file.held.as_ref() == Some(&self.kept) {
+        if is_written && !file.has_failed && file.held.as_ref() == Some(&self.preferences) {
             return Ok(());
         }
-        write(&self.kept, &file.path)?;
-        file.held = Some(self.kept.clone());
+        write(&self.preferences, &file.path)?;
+        file.held = Some(self.preferences.clone());
         Ok(())
     }
 }
 
 /// Writes the file and, when need be, its folder.
-fn write(kept: &Kept, path: &Path) -> Result<(), FileError> {
-    let text = text::write(kept, path)?;
+fn write(preferences: &Preferences, path: &Path) -> Result<(), FileError> {
+    let text = text::write(preferences, path)?;
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(|source| FileError::Write {
             path: path.to_owned(),
@@ -222,4 +231,4 @@ fn free_name(path: &Path) -> PathBuf {
         .unwrap_or_else(|| name(""))
 }
 
-pub(crate) use crate::bench::settings::kept::Kept;
+pub(crate) use crate::bench::settings::preferences::Preferences;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::bench::settings::Settings;
-use crate::bench::settings::kept::Kept;
+use crate::bench::settings::preferences::Preferences;
 use selvedge_scratch::ScratchFolder;
 
 /// Waits for the write under way.
@@ -17,7 +17,10 @@ fn wait(settings: &mut Settings) -> Result<(), String> {
 fn a_missing_file_means_settings_as_at_first_and_makes_none() {
     let folder = ScratchFolder::made("missing");
     let (mut settings, notice) = Settings::in_folder(&folder.join("not/yet"));
-    assert_eq!((&settings.kept, notice), (&Kept::default(), None));
+    assert_eq!(
+        (&settings.preferences, notice),
+        (&Preferences::default(), None)
+    );
     assert_eq!(settings.save_if_changed(0.0), None);
     settings.save_now().unwrap();
     assert!(!folder.join("not").exists(), "nothing changed");
@@ -28,12 +31,14 @@ fn what_changed_is_there_in_the_next_run() {
     let folder = ScratchFolder::made("next");
     let home = folder.join("deep/inside");
     let (mut settings, _) = Settings::in_folder(&home);
-    settings.kept.zoom = 1.5;
-    settings.kept.remember_scene(Path::new("/a.scene.toml"));
+    settings.preferences.zoom = 1.5;
+    settings
+        .preferences
+        .remember_scene(Path::new("/a.scene.toml"));
     settings.save_if_changed(0.0);
     wait(&mut settings).unwrap();
     let (next, notice) = Settings::in_folder(&home);
-    assert_eq!((next.kept, notice), (settings.kept, None));
+    assert_eq!((next.preferences, notice), (settings.preferences, None));
     assert_eq!(fs::read_dir(&home).unwrap().count(), 1, "nothing beside it");
 }
 
@@ -41,10 +46,10 @@ fn what_changed_is_there_in_the_next_run() {
 fn changes_in_a_row_are_written_once_a_second_and_the_last_one_at_the_end() {
     let folder = ScratchFolder::made("row");
     let (mut settings, _) = Settings::in_folder(&folder);
-    settings.kept.zoom = 1.25;
+    settings.preferences.zoom = 1.25;
     assert_eq!(settings.save_if_changed(10.0), None, "at once");
     wait(&mut settings).unwrap();
-    settings.kept.zoom = 1.5;
+    settings.preferences.zoom = 1.5;
     assert_eq!(settings.save_if_changed(10.25), Some(0.75), "later");
     assert!(
         folder.read("settings.toml").contains("zoom_percent = 125"),
@@ -58,7 +63,7 @@ fn changes_in_a_row_are_written_once_a_second_and_the_last_one_at_the_end() {
         "{}",
         folder.read("settings.toml")
     );
-    settings.kept.zoom = 2.0;
+    settings.preferences.zoom = 2.0;
     settings.save_now().unwrap();
     assert!(
         folder.read("settings.toml").contains("zoom_percent = 200"),
@@ -74,15 +79,15 @@ fn a_broken_file_is_told_of_and_kept_under_another_name() {
         fs::write(folder.join("settings.toml"), text).unwrap();
         let (mut settings, notice) = Settings::in_folder(&folder);
         let notice = notice.unwrap();
-        assert_eq!(settings.kept, Kept::default());
+        assert_eq!(settings.preferences, Preferences::default());
         assert!(notice.contains("settings.toml:1: "), "{notice}");
         assert!(
             notice.ends_with(&format!("settings.toml.broken{aside}")),
             "{notice}"
         );
         assert_eq!(notice.lines().count(), 1, "{notice}");
-        let kept = fs::read_to_string(folder.join(format!("settings.toml.broken{aside}")));
-        assert_eq!(kept.unwrap(), text);
+        let preferences = fs::read_to_string(folder.join(format!("settings.toml.broken{aside}")));
+        assert_eq!(preferences.unwrap(), text);
         settings.save_now().unwrap();
         assert_eq!(Settings::in_folder(&folder).1, None, "whole again");
     }
@@ -93,7 +98,7 @@ fn bytes_that_are_no_text_are_a_broken_file_too() {
     let folder = ScratchFolder::made("bytes");
     fs::write(folder.join("settings.toml"), [0xff, 0xfe, 0x00]).unwrap();
     let (settings, notice) = Settings::in_folder(&folder);
-    assert_eq!(settings.kept, Kept::default());
+    assert_eq!(settings.preferences, Preferences::default());
     assert!(notice.unwrap().contains("UTF-8"));
     assert!(folder.join("settings.toml.broken").exists());
 }
@@ -107,12 +112,16 @@ fn one_value_that_is_not_known_is_told_of_and_the_others_stay() {
     )
     .unwrap();
     let (mut settings, notice) = Settings::in_folder(&folder);
-    assert_eq!(settings.kept.zoom, 1.5);
+    assert_eq!(settings.preferences.zoom, 1.5);
     assert!(notice.unwrap().contains("settings.toml:2: "));
     settings.save_if_changed(0.0);
     wait(&mut settings).unwrap();
     let (next, notice) = Settings::in_folder(&folder);
-    assert_eq!((next.kept.zoom, notice), (1.5, None), "it is written anew");
+    assert_eq!(
+        (next.preferences.zoom, notice),
+        (1.5, None),
+        "it is written anew"
+    );
 }
 
 #[test]
@@ -121,7 +130,7 @@ fn what_cannot_be_read_is_not_written_over() {
     fs::create_dir(folder.join("settings.toml")).unwrap();
     let (mut settings, notice) = Settings::in_folder(&folder);
     assert!(notice.unwrap().contains("settings.toml"));
-    settings.kept.zoom = 2.0;
+    settings.preferences.zoom = 2.0;
     settings.save_if_changed(0.0);
     settings.save_now().unwrap();
     assert!(folder.join("settings.toml").is_dir());
@@ -132,8 +141,8 @@ fn a_write_that_fails_is_told_of_once() {
     let folder = ScratchFolder::made("full");
     fs::write(folder.join("file"), "").unwrap();
     let below_a_file = folder.join("file").join("settings.toml");
-    let mut settings = Settings::kept_at(below_a_file, Kept::default(), true);
-    settings.kept.zoom = 2.0;
+    let mut settings = Settings::preferences_at(below_a_file, Preferences::default(), true);
+    settings.preferences.zoom = 2.0;
     settings.save_if_changed(0.0);
     while !settings
         .file
@@ -154,7 +163,7 @@ fn a_write_that_fails_is_told_of_once() {
 #[test]
 fn settings_in_memory_touch_no_file() {
     let mut settings = Settings::in_memory();
-    settings.kept.zoom = 2.0;
+    settings.preferences.zoom = 2.0;
     assert_eq!(settings.save_if_changed(0.0), None);
     assert!(settings.save_now().is_ok() && settings.file.is_none());
 }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::bench::command::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
-use crate::bench::settings::kept::Kept;
+use crate::bench::settings::preferences::Preferences;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::workspace::overlay::Overlays;
 use selvedge_engine::Area;
@@ -100,17 +100,17 @@ impl<T> Value<T> {
 ///
 /// # Errors
 /// This is not TOML at all.
-pub(crate) fn read(text: &str, path: &Path) -> Result<(Kept, Option<usize>), FileError> {
+pub(crate) fn read(text: &str, path: &Path) -> Result<(Preferences, Option<usize>), FileError> {
     let keys: Keys = keys_from_str(text, path)?;
     let mut odd = Vec::new();
-    let kept = kept(keys, &mut odd).in_bounds();
+    let preferences = preferences(keys, &mut odd).in_bounds();
     let lines = odd.into_iter().map(|key| line_of_key(text, "", 0, key));
-    Ok((kept, lines.min()))
+    Ok((preferences, lines.min()))
 }
 
 /// Gathers the settings; the names of keys whose values are not understood go to `odd`.
-fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
-    let first = Kept::default();
+fn preferences(keys: Keys, odd: &mut Vec<&'static str>) -> Preferences {
+    let first = Preferences::default();
     let theme = choice(taken("theme", keys.theme, odd), &THEMES);
     let map = choice(taken("colour_map", keys.colour_map, odd), &colour_maps());
     let dots = choice(taken("dots", keys.dots, odd), &DOTS);
@@ -136,7 +136,7 @@ fn kept(keys: Keys, odd: &mut Vec<&'static str>) -> Kept {
     let scale = top_um.map_or(first.amplitude, |um| first.amplitude.locked_at(um));
     let budget_db = taken("error_budget_db", keys.error_budget_db, odd);
     let recent = taken("recent_scenes", keys.recent_scenes, odd);
-    Kept {
+    Preferences {
         theme: theme.ok().flatten().unwrap_or(first.theme),
         colour_map: map.ok().flatten().unwrap_or(first.colour_map),
         zoom: zoom_percent.map_or(first.zoom, |percent| percent / 100.0),
@@ -234,32 +234,32 @@ fn methods() -> [(Method, &'static str); 4] {
 }
 
 /// The settings as the text of a file. Scenes whose paths are no text are left out.
-pub(crate) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
-    let recent = kept.recent_scenes.iter();
+pub(crate) fn write(preferences: &Preferences, path: &Path) -> Result<String, FileError> {
+    let recent = preferences.recent_scenes.iter();
     let is_text = |path: &&PathBuf| path.to_str().is_some();
     let keys = Keys {
-        theme: word(&kept.theme, &THEMES).into(),
-        zoom_percent: Value::Known((kept.zoom * 100.0).round()),
-        colour_map: word(&kept.colour_map, &colour_maps()).into(),
-        dots: word(&kept.dots, &DOTS).into(),
-        overlays: Value::Known(kept.overlays.words()),
-        numbers: Value::Known(kept.has_numbers),
-        grey_below_threshold: Value::Known(kept.greys_below),
-        all_off_on_focus_loss: Value::Known(kept.stops_on_focus_loss),
-        amplitude_top_um: Value::Known(kept.amplitude.most_um()),
-        amplitude_locked: Value::Known(kept.amplitude.is_locked()),
-        pixels_per_mm: kept.pixels_per_mm.into(),
-        rendering_method: word(&kept.rendering.method, &methods()).into(),
-        error_budget_db: Value::Known(kept.rendering.budget_db),
-        array: kept.array.clone().into(),
-        window_size: kept.window_size.into(),
-        sessions_folder: kept.sessions_folder.clone().into(),
-        experiment_design: kept.design.clone().into(),
+        theme: word(&preferences.theme, &THEMES).into(),
+        zoom_percent: Value::Known((preferences.zoom * 100.0).round()),
+        colour_map: word(&preferences.colour_map, &colour_maps()).into(),
+        dots: word(&preferences.dots, &DOTS).into(),
+        overlays: Value::Known(preferences.overlays.words()),
+        numbers: Value::Known(preferences.has_numbers),
+        grey_below_threshold: Value::Known(preferences.greys_below),
+        all_off_on_focus_loss: Value::Known(preferences.stops_on_focus_loss),
+        amplitude_top_um: Value::Known(preferences.amplitude.most_um()),
+        amplitude_locked: Value::Known(preferences.amplitude.is_locked()),
+        pixels_per_mm: preferences.pixels_per_mm.into(),
+        rendering_method: word(&preferences.rendering.method, &methods()).into(),
+        error_budget_db: Value::Known(preferences.rendering.budget_db),
+        array: preferences.array.clone().into(),
+        window_size: preferences.window_size.into(),
+        sessions_folder: preferences.sessions_folder.clone().into(),
+        experiment_design: preferences.design.clone().into(),
         recent_scenes: Value::Known(recent.filter(is_text).cloned().collect()),
-        perspective: word(&kept.perspective, &perspectives()).into(),
-        arrangement: kept.arrangements[0].clone().into(),
-        arrangement_cloth: kept.arrangements[1].clone().into(),
-        tablet_areas_mm: Some(&kept.tablet_areas)
+        perspective: word(&preferences.perspective, &perspectives()).into(),
+        arrangement: preferences.arrangements[0].clone().into(),
+        arrangement_cloth: preferences.arrangements[1].clone().into(),
+        tablet_areas_mm: Some(&preferences.tablet_areas)
             .filter(|areas| !areas.is_empty())
             .map(|areas| {
                 let areas = areas.iter();
@@ -268,7 +268,7 @@ pub(crate) fn write(kept: &Kept, path: &Path) -> Result<String, FileError> {
                     .collect()
             })
             .into(),
-        arrangement_experiment: kept.arrangements[2].clone().into(),
+        arrangement_experiment: preferences.arrangements[2].clone().into(),
     };
     keys_to_string(&keys, path)
 }
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn every_setting_survives_writing_and_reading() {
-        let kept = Kept {
+        let preferences = Preferences {
             theme: ThemePreference::Light,
             colour_map: ColourMap::Cividis,
             zoom: 1.5,
@@ -316,36 +316,43 @@ mod tests {
             window_size: Some([1600.0, 1000.5]),
             sessions_folder: Some("/lab/study 1".to_owned()),
             design: Some("odd-one-out".to_owned()),
-            ..Kept::default()
+            ..Preferences::default()
         };
         let scenes = ["/a/ä b.scene.toml", "/c.toml"].map(PathBuf::from);
-        let kept = kept.with_recent_scenes(scenes.to_vec());
-        let text = write(&kept, path()).unwrap();
-        assert_eq!(read(&text, path()).unwrap(), (kept, None), "{text}");
+        let preferences = preferences.with_recent_scenes(scenes.to_vec());
+        let text = write(&preferences, path()).unwrap();
+        assert_eq!(read(&text, path()).unwrap(), (preferences, None), "{text}");
         assert!(text.contains("zoom_percent = 150"), "{text}");
     }
 
     #[test]
     fn settings_as_at_first_survive_too_and_so_does_no_text_at_all() {
-        let text = write(&Kept::default(), path()).unwrap();
-        assert_eq!(read(&text, path()).unwrap(), (Kept::default(), None));
-        assert_eq!(read("", path()).unwrap(), (Kept::default(), None));
+        let text = write(&Preferences::default(), path()).unwrap();
+        assert_eq!(read(&text, path()).unwrap(), (Preferences::default(), None));
+        assert_eq!(read("", path()).unwrap(), (Preferences::default(), None));
     }
 
     #[test]
     fn a_file_from_before_perspectives_arranges_the_first_one() {
-        let (kept, odd) = read("arrangement = \"a tree\"\n", path()).unwrap();
-        assert_eq!((kept.perspective, odd), (Perspective::Explore, None));
-        assert_eq!(kept.arrangements, [Some("a tree".to_owned()), None, None]);
-        let (kept, odd) = read("theme = \"dark\"\nperspective = \"moon\"\n", path()).unwrap();
-        assert_eq!((kept.perspective, odd), (Perspective::Explore, Some(2)));
+        let (preferences, odd) = read("arrangement = \"a tree\"\n", path()).unwrap();
+        assert_eq!((preferences.perspective, odd), (Perspective::Explore, None));
+        assert_eq!(
+            preferences.arrangements,
+            [Some("a tree".to_owned()), None, None]
+        );
+        let (preferences, odd) =
+            read("theme = \"dark\"\nperspective = \"moon\"\n", path()).unwrap();
+        assert_eq!(
+            (preferences.perspective, odd),
+            (Perspective::Explore, Some(2))
+        );
     }
 
     #[test]
     fn keys_of_a_newer_version_are_passed_over() {
         let text = "theme = \"dark\"\n[sound]\nvolume = 3\n";
-        let (kept, odd) = read(text, path()).unwrap();
-        assert_eq!((kept.theme, odd), (ThemePreference::Dark, None));
+        let (preferences, odd) = read(text, path()).unwrap();
+        assert_eq!((preferences.theme, odd), (ThemePreference::Dark, None));
     }
 
     #[test]
@@ -353,19 +360,22 @@ mod tests {
         let text = "zoom_percent = 150\ntheme = \"sepia\"\nnumbers = 3\nwindow_size = [1400]\n\
                     rendering_method = \"magic\"\nerror_budget_db = \"none\"\n\
                     overlays = [\"points\", \"ghosts\"]\n";
-        let (kept, odd) = read(text, path()).unwrap();
-        assert_eq!((kept.zoom, odd), (1.5, Some(2)));
-        let others = Kept { zoom: 1.0, ..kept };
-        assert_eq!(others, Kept::default());
+        let (preferences, odd) = read(text, path()).unwrap();
+        assert_eq!((preferences.zoom, odd), (1.5, Some(2)));
+        let others = Preferences {
+            zoom: 1.0,
+            ..preferences
+        };
+        assert_eq!(others, Preferences::default());
     }
 
     #[test]
     fn odd_numbers_are_brought_within_bounds() {
         let text = "zoom_percent = 900\namplitude_top_um = nan\npixels_per_mm = inf\n";
-        let (kept, odd) = read(text, path()).unwrap();
-        assert_eq!((kept.zoom, odd), (2.0, None));
-        assert_eq!(kept.amplitude, AmplitudeScale::default());
-        assert_eq!(kept.pixels_per_mm, Some(60.0));
+        let (preferences, odd) = read(text, path()).unwrap();
+        assert_eq!((preferences.zoom, odd), (2.0, None));
+        assert_eq!(preferences.amplitude, AmplitudeScale::default());
+        assert_eq!(preferences.pixels_per_mm, Some(60.0));
     }
 
     #[test]

@@ -7,7 +7,7 @@ pub(crate) mod tiles;
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
 use crate::bench::Bench;
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::export::Exportable;
 use crate::bench::export::gather::is_exportable;
 use crate::bench::pane::Pane;
@@ -36,7 +36,7 @@ pub(crate) struct Desk<'a> {
     /// The scene.
     pub scene: &'a SceneView,
     /// What the user wants.
-    pub(crate) wishes: &'a mut Wishes,
+    pub(crate) commands: &'a mut Commands,
     /// Where the workspace is, if it is shown.
     pub shown: Option<workspace::Shown>,
     /// Whether panes were moved.
@@ -56,12 +56,12 @@ impl Desk<'_> {
             Pane::Library => framed(ui, 10, |ui| self.show_library(ui)),
             Pane::Tuning => scrolled(ui, pane, |ui| {
                 let bench = &mut *self.bench;
-                let audition = &bench.transient.audition;
+                let mute_solo = &bench.transient.mute_solo;
                 let live = &bench.transient.live;
-                crate::tools::tuning::show(ui, self.scene, live, audition, self.wishes);
+                crate::tools::tuning::show(ui, self.scene, live, mute_solo, self.commands);
             }),
             Pane::Bridge => scrolled(ui, pane, |ui| {
-                self.bench.show_bridge(ui, self.wishes);
+                self.bench.show_bridge(ui, self.commands);
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),
@@ -70,7 +70,7 @@ impl Desk<'_> {
             Pane::SpatialSpectra => framed(ui, 8, |ui| self.show_spatial(ui)),
             Pane::Accuracy => framed(ui, 10, |ui| {
                 self.bench.watch_accuracy();
-                crate::tools::accuracy::view::show(ui, &self.bench.accuracy_view(), self.wishes);
+                crate::tools::accuracy::view::show(ui, &self.bench.accuracy_view(), self.commands);
             }),
             Pane::Why => framed(ui, 10, |ui| {
                 self.bench.explain();
@@ -91,22 +91,22 @@ impl Desk<'_> {
 
     fn show_library(&mut self, ui: &mut Ui) {
         let bench = &mut *self.bench;
-        let chosen = (&bench.transient.audition, bench.workspace.cloth);
+        let chosen = (&bench.transient.mute_solo, bench.workspace.cloth);
         let search = &mut bench.transient.search;
         crate::tools::library::show(
             ui,
-            &mut bench.shelf,
+            &mut bench.library_view,
             self.scene,
             chosen,
             search,
-            self.wishes,
+            self.commands,
         );
     }
 
     fn show_collection(&mut self, ui: &mut Ui) {
         let bench = &mut *self.bench;
         bench.measure_collection(ui.ctx());
-        let items = bench.shelf.shared_items();
+        let items = bench.library_view.shared_items();
         let collection = &mut bench.transient.collection;
         let mut search = std::mem::take(&mut collection.search);
         let mut pointed = None;
@@ -115,7 +115,13 @@ impl Desk<'_> {
             search: &mut search,
             pointed: &mut pointed,
         };
-        crate::tools::collection::view::show(ui, &mut bench.shelf, &view, &mut typed, self.wishes);
+        crate::tools::collection::view::show(
+            ui,
+            &mut bench.library_view,
+            &view,
+            &mut typed,
+            self.commands,
+        );
         collection.search = search;
         if collection.pointed != pointed {
             collection.pointed = pointed;
@@ -126,7 +132,7 @@ impl Desk<'_> {
     fn show_heatmaps(&mut self, ui: &mut Ui) {
         let bench = &*self.bench;
         let style = bench.heatmap_style();
-        crate::tools::contactors::show(ui, self.scene, &bench.transient.live, style, self.wishes);
+        crate::tools::contactors::show(ui, self.scene, &bench.transient.live, style, self.commands);
     }
 }
 
@@ -143,12 +149,12 @@ impl Desk<'_> {
             history: &bench.transient.history,
             contactor,
             filters: &self.scene.filters,
-            map: bench.settings.kept.colour_map,
+            map: bench.settings.preferences.colour_map,
             // Columns stay as they were felt when a textile is moved afterwards.
-            scene_serial: bench.eye.n_scenes,
+            scene_serial: bench.inspection.n_scenes,
         };
         let state = &mut bench.transient.contact_spectrogram;
-        crate::tools::spectra::contact::show(ui, state, &mut bench.eye.inspector, &view);
+        crate::tools::spectra::contact::show(ui, state, &mut bench.inspection.inspector, &view);
     }
 
     fn show_drive_spectrum(&mut self, ui: &mut Ui) {
@@ -156,7 +162,7 @@ impl Desk<'_> {
         let view = DriveSpectrumView {
             history: &bench.transient.history,
             scale: bench.workspace.scale,
-            map: bench.settings.kept.colour_map,
+            map: bench.settings.preferences.colour_map,
         };
         crate::tools::spectra::drive::show(ui, &mut bench.transient.drive_spectrogram, &view);
     }
@@ -170,13 +176,13 @@ impl Desk<'_> {
         let contactor = self.contactor();
         let bench = &mut *self.bench;
         let source = SpatialSource {
-            scene: &bench.eye.scene,
-            scene_serial: bench.eye.n_edits,
+            scene: &bench.inspection.scene,
+            scene_serial: bench.inspection.n_edits,
             contactor,
             pose: bench.transient.live.pose,
         };
         let state = &mut bench.transient.spatial;
-        crate::tools::spectra::spatial::show(ui, state, &mut bench.eye.inspector, &source);
+        crate::tools::spectra::spatial::show(ui, state, &mut bench.inspection.inspector, &source);
     }
 }
 
@@ -191,7 +197,7 @@ impl Desk<'_> {
         let is_replayed = play.source == Source::Recording;
         let view = CompareView {
             scene: self.scene,
-            shelf: bench.shelf.items(),
+            library_view: bench.library_view.items(),
             place,
             route,
             take: bench.take.as_ref().map(Take::name),
@@ -199,7 +205,12 @@ impl Desk<'_> {
             contactor: bench.workspace.contactor,
             tick: is_replayed.then_some(play.tick),
         };
-        crate::tools::compare::view::show(ui, &mut bench.transient.comparison, &view, self.wishes);
+        crate::tools::compare::view::show(
+            ui,
+            &mut bench.transient.comparison,
+            &view,
+            self.commands,
+        );
     }
 }
 
@@ -215,13 +226,13 @@ impl Desk<'_> {
         };
         let view = crate::tools::lab::view::LabView {
             lab,
-            items: bench.shelf.items(),
+            items: bench.library_view.items(),
             ids: bench.loaded.library().ids(),
-            map: bench.settings.kept.colour_map,
+            map: bench.settings.preferences.colour_map,
             scale: bench.workspace.scale,
         };
         let pictures = &mut bench.transient.lab_pictures;
-        crate::tools::lab::view::show(ui, &view, (&mut hands, pictures), self.wishes);
+        crate::tools::lab::view::show(ui, &view, (&mut hands, pictures), self.commands);
         let lab = &mut bench.transient.lab;
         (lab.fields, lab.plan) = (hands.keep, hands.plan);
     }
@@ -233,17 +244,17 @@ impl Desk<'_> {
         self.bench.follow_import(ui.ctx());
         let bench = &mut *self.bench;
         let view = ImportView {
-            shelf: bench.shelf.items(),
-            map: bench.settings.kept.colour_map,
+            library_view: bench.library_view.items(),
+            map: bench.settings.preferences.colour_map,
         };
-        crate::tools::import::view::show(ui, &mut bench.transient.importing, &view, self.wishes);
+        crate::tools::import::view::show(ui, &mut bench.transient.importing, &view, self.commands);
     }
 
     fn show_picture(&mut self, ui: &mut Ui) {
         self.bench.follow_picture(ui.ctx());
         let transient = &mut self.bench.transient;
         let hands = (&mut transient.picturing, &mut transient.picture_textures);
-        crate::tools::picture::view::show(ui, hands, self.wishes);
+        crate::tools::picture::view::show(ui, hands, self.commands);
     }
 }
 
@@ -256,10 +267,10 @@ impl Bench {
             speed_mm_per_s: collection.choice.speed_mm_per_s,
             filters: self.document.scene().filters,
         };
-        let items = self.shelf.items().iter();
+        let items = self.library_view.items().iter();
         let usable = items.filter(|item| item.flaw.is_none());
         let ids = usable.map(|item| item.id.clone());
-        let library = self.shelf.library();
+        let library = self.library_view.library();
         collection.measurements.catch_up(ctx, library, asked, ids);
         for flaw in self.transient.collection.measurements.take_flaws() {
             self.transient.notices.give(flaw);
@@ -276,9 +287,9 @@ impl Bench {
     /// How the heatmaps are drawn.
     pub(crate) fn heatmap_style(&self) -> HeatmapStyle {
         HeatmapStyle {
-            map: self.settings.kept.colour_map,
+            map: self.settings.preferences.colour_map,
             scale: self.workspace.scale,
-            has_numbers: self.settings.kept.has_numbers,
+            has_numbers: self.settings.preferences.has_numbers,
             greys_below: self.workspace.greys_below,
             selected: self.workspace.contactor.unwrap_or(usize::MAX),
         }
@@ -301,13 +312,13 @@ impl Bench {
 impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
         if is_exportable(pane) {
-            crate::bench::export::button::show(ui, Exportable::Pane(pane), self.wishes);
+            crate::bench::export::button::show(ui, Exportable::Pane(pane), self.commands);
         }
         match pane {
             Pane::Heatmaps => {
                 let style = self.bench.heatmap_style();
-                let audition = &self.bench.transient.audition;
-                crate::tools::contactors::show_corner(ui, style, audition, self.wishes);
+                let mute_solo = &self.bench.transient.mute_solo;
+                crate::tools::contactors::show_corner(ui, style, mute_solo, self.commands);
             }
             Pane::ContactSpectrum
             | Pane::DriveSpectrum
@@ -326,25 +337,25 @@ impl Desk<'_> {
                 let (why, is_frozen) = &self.bench.transient.why;
                 let n_contactors = self.bench.transient.live.dots.len();
                 let why = (why.as_ref(), self.bench.workspace.contactor, n_contactors);
-                crate::tools::why::view::show_corner(ui, *is_frozen, why, self.wishes);
+                crate::tools::why::view::show_corner(ui, *is_frozen, why, self.commands);
             }
             Pane::Response => {
                 let probe = self.bench.workspace.probe;
-                crate::tools::response::show_corner(ui, probe, self.wishes);
+                crate::tools::response::show_corner(ui, probe, self.commands);
             }
             Pane::Compare => {
                 let standing = self.bench.comparison_standing();
-                crate::tools::compare::view::controls::show_corner(ui, &standing, self.wishes);
+                crate::tools::compare::view::controls::show_corner(ui, &standing, self.commands);
             }
             Pane::Accuracy => {
                 let shows_methods = self.bench.transient.accuracy.shows_methods;
-                crate::tools::accuracy::view::show_corner(ui, shows_methods, self.wishes);
+                crate::tools::accuracy::view::show_corner(ui, shows_methods, self.commands);
             }
             Pane::Workspace => {
                 let bench = &*self.bench;
                 if let Some(ground) = bench.transient.ground {
                     let (state, size_mm) = (&bench.workspace, self.scene.size_mm);
-                    workspace::show_tools(ui, state, ground, size_mm, self.wishes);
+                    workspace::show_tools(ui, state, ground, size_mm, self.commands);
                 }
             }
             Pane::Collection

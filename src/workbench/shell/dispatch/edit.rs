@@ -2,7 +2,7 @@
 
 use eframe::egui;
 
-use crate::bench::applied_gains::Felt;
+use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
 use crate::bench::document::Document;
 use crate::bench::preparing::Ready;
@@ -39,7 +39,7 @@ impl Bench {
     /// Lets everything follow that depends on the document, which was `before`.
     fn follow(&mut self, ctx: &egui::Context, before: &Scene) {
         let after = self.document.scene().clone();
-        self.transient.audition.follow(before, &after);
+        self.transient.mute_solo.follow(before, &after);
         let selected = self.workspace.cloth;
         let is_new = before.textiles.len() < after.textiles.len();
         self.workspace.cloth = selected.and_then(|index| {
@@ -55,7 +55,7 @@ impl Bench {
 
     fn prepare(&mut self, ctx: &egui::Context, scene: &Scene) {
         let scene = self.felt_now(scene).in_scene(scene);
-        let what = (scene, self.settings.kept.rendering);
+        let what = (scene, self.settings.preferences.rendering);
         let asked = self.preparing.ask(&self.loaded, what, ctx, self.is_stepped);
         if let Some(outcome) = asked {
             self.take_prepared(ctx, outcome);
@@ -70,7 +70,7 @@ impl Bench {
 
     /// Lets the engine render as the user chose, if it does not yet.
     pub(crate) fn render_as_chosen(&mut self, ctx: &egui::Context) {
-        if self.rendering != self.settings.kept.rendering || self.preparing.is_busy() {
+        if self.rendering != self.settings.preferences.rendering || self.preparing.is_busy() {
             let scene = self.document.scene().clone();
             self.prepare(ctx, &scene);
         }
@@ -106,7 +106,8 @@ impl Bench {
                 // The last good scene stays, in the engine and in the document.
                 self.transient.notices.give(error.to_string());
                 let before = self.document.scene().clone();
-                let tried = std::mem::replace(&mut self.settings.kept.rendering, self.rendering);
+                let tried =
+                    std::mem::replace(&mut self.settings.preferences.rendering, self.rendering);
                 if tried != self.rendering {
                     // It was not the scene: what is left of the edit is tried as before.
                     if preparing::differs(self.loaded.scene(), &before) {
@@ -123,11 +124,16 @@ impl Bench {
     }
 
     /// What is to be felt of a scene now.
-    fn felt_now(&self, scene: &Scene) -> Felt {
+    fn felt_now(&self, scene: &Scene) -> AppliedGains {
         let tuning = scene
             .tuning
             .unwrap_or_else(|| self.document.default_tuning());
-        Felt::of(scene, tuning, &self.transient.audition, self.n_contactors())
+        AppliedGains::of(
+            scene,
+            tuning,
+            &self.transient.mute_solo,
+            self.n_contactors(),
+        )
     }
 
     /// Tells the engine which gains changed, if any.
@@ -135,8 +141,8 @@ impl Bench {
         let new = self.felt_now(self.document.scene());
         let changes = self.felt.changes(&new);
         if !changes.is_empty() {
-            new.put_into(&mut self.eye.scene);
-            self.eye.inspector.set_gains(&self.eye.scene);
+            new.put_into(&mut self.inspection.scene);
+            self.inspection.inspector.set_gains(&self.inspection.scene);
         }
         for command in changes {
             self.send(command);

@@ -132,10 +132,10 @@ impl Bench {
     fn open(&mut self, ctx: &egui::Context, origin: Origin) {
         self.transient.ask = None;
         if self.is_stepped {
-            let outcome = open(origin, self.settings.kept.rendering).map(Box::new);
+            let outcome = open(origin, self.settings.preferences.rendering).map(Box::new);
             return self.take_opened(outcome);
         }
-        match Opening::start(origin, self.settings.kept.rendering, ctx) {
+        match Opening::start(origin, self.settings.preferences.rendering, ctx) {
             Ok(opening) => self.transient.opening = Some(opening),
             Err(error) => {
                 let words = format!("The scene was not opened: {error}; try again");
@@ -149,7 +149,7 @@ impl Bench {
         match outcome {
             Ok(opened) => {
                 if let Some(path) = &opened.path {
-                    self.settings.kept.remember_scene(path);
+                    self.settings.preferences.remember_scene(path);
                 }
                 self.show_scene(*opened);
             }
@@ -161,7 +161,7 @@ impl Bench {
         match self.document.save_as(path) {
             Ok(()) => {
                 self.transient.ask = None;
-                self.settings.kept.remember_scene(path);
+                self.settings.preferences.remember_scene(path);
                 if let Some(after) = self.transient.question.take() {
                     self.go_on(ctx, after);
                 }

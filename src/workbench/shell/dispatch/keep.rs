@@ -8,7 +8,7 @@ use eframe::egui;
 use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
 use crate::bench::keep::{Keep, Kept};
-use crate::bench::library_view::Shelf;
+use crate::bench::library_view::LibraryView;
 use crate::shell::error::AppError;
 use selvedge_foundation::geometry::Point;
 
@@ -46,9 +46,9 @@ impl Bench {
         }
         let is_another = root != kept.folder;
         self.loaded.use_library(&kept.library);
-        let nothing = Shelf::new(Arc::clone(&kept.library), Vec::new());
-        let shelf = mem::replace(&mut self.shelf, nothing);
-        self.shelf = shelf.with_library(kept.library, kept.shelf);
+        let nothing = LibraryView::new(Arc::clone(&kept.library), Vec::new());
+        let library_view = mem::replace(&mut self.library_view, nothing);
+        self.library_view = library_view.with_library(kept.library, kept.library_view);
         if is_another {
             self.document.use_library(&kept.folder);
         }

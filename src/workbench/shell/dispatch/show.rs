@@ -4,7 +4,7 @@ use eframe::egui;
 
 use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
-use crate::bench::mute_solo::Audition;
+use crate::bench::mute_solo::MuteSolo;
 use crate::shell::arrangement;
 use crate::shell::perspective::arrangement_for;
 use crate::tools::why::text::to_text;
@@ -21,13 +21,13 @@ impl Bench {
         match *command {
             ShowCommand::Theme(preference) => {
                 ctx.set_theme(preference);
-                self.settings.kept.theme = preference;
+                self.settings.preferences.theme = preference;
             }
-            ShowCommand::ColourMap(map) => self.settings.kept.colour_map = map,
+            ShowCommand::ColourMap(map) => self.settings.preferences.colour_map = map,
             ShowCommand::Zoom(zoom) => {
-                self.settings.kept.zoom = zoom;
-                self.settings.kept = self.settings.kept.clone().in_bounds();
-                ctx.set_zoom_factor(self.settings.kept.zoom);
+                self.settings.preferences.zoom = zoom;
+                self.settings.preferences = self.settings.preferences.clone().in_bounds();
+                ctx.set_zoom_factor(self.settings.preferences.zoom);
             }
             ShowCommand::Pane(pane) => {
                 arrangement::toggle(&mut self.tree, pane);
@@ -35,18 +35,18 @@ impl Bench {
             }
             ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
             ShowCommand::DefaultArrangement => {
-                let perspective = self.settings.kept.perspective;
+                let perspective = self.settings.preferences.perspective;
                 self.tree = arrangement_for(perspective, self.transient.desk_size);
-                self.settings.kept.arrangements[perspective.index()] = None;
+                self.settings.preferences.arrangements[perspective.index()] = None;
             }
             ShowCommand::SelectContactor(contactor) => {
                 self.send(selvedge_engine::Command::Watch(contactor));
             }
-            ShowCommand::Mute(part) => self.transient.audition.toggle_mute(part),
-            ShowCommand::Solo(part) => self.transient.audition.toggle_solo(part),
-            ShowCommand::HearAll => self.transient.audition = Audition::default(),
+            ShowCommand::Mute(part) => self.transient.mute_solo.toggle_mute(part),
+            ShowCommand::Solo(part) => self.transient.mute_solo.toggle_solo(part),
+            ShowCommand::HearAll => self.transient.mute_solo = MuteSolo::default(),
             ShowCommand::ToggleNumbers => {
-                self.settings.kept.has_numbers = !self.settings.kept.has_numbers;
+                self.settings.preferences.has_numbers = !self.settings.preferences.has_numbers;
             }
             ShowCommand::FreezeWhy => self.transient.why.1 = !self.transient.why.1,
             ShowCommand::CopyWhy => {
@@ -64,7 +64,8 @@ impl Bench {
 
     /// Keeps the arrangement as it is now.
     pub(crate) fn keep_arrangement(&mut self) {
-        let perspective = self.settings.kept.perspective;
-        self.settings.kept.arrangements[perspective.index()] = arrangement::to_text(&self.tree);
+        let perspective = self.settings.preferences.perspective;
+        self.settings.preferences.arrangements[perspective.index()] =
+            arrangement::to_text(&self.tree);
     }
 }

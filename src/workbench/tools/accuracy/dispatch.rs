@@ -13,11 +13,11 @@ impl Bench {
     pub(crate) fn dispatch_accuracy(&mut self, ctx: &egui::Context, command: AccuracyCommand) {
         match command {
             AccuracyCommand::Method(method) => {
-                self.settings.kept.rendering.method = method;
+                self.settings.preferences.rendering.method = method;
                 self.render_as_chosen(ctx);
             }
             AccuracyCommand::Budget(budget_db) => {
-                let rendering = &mut self.settings.kept.rendering;
+                let rendering = &mut self.settings.preferences.rendering;
                 rendering.budget_db = budget_db;
                 *rendering = rendering.in_bounds();
                 self.render_as_chosen(ctx);
@@ -41,10 +41,10 @@ impl Bench {
     fn measure(&mut self, ctx: &egui::Context) {
         let wanted = Wanted {
             name: self.document.scene().name.clone(),
-            scene: self.eye.scene.clone(),
+            scene: self.inspection.scene.clone(),
             path: self.take.as_ref().map(|take| Arc::clone(take.path())),
             rendering: self.rendering,
-            n_edits: self.eye.n_edits,
+            n_edits: self.inspection.n_edits,
         };
         let effort = if self.is_stepped {
             Effort::Quick

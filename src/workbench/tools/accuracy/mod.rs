@@ -196,14 +196,14 @@ impl Bench {
     /// pane is drawn.
     pub(crate) fn watch_accuracy(&mut self) {
         let n_sent = self.engine.commands_sent();
-        let is_felt = self.transient.audition.contactor_mask(self.n_contactors());
+        let is_felt = self.transient.mute_solo.contactor_mask(self.n_contactors());
         let snapshot = self.engine.snapshot();
         let watch = &mut self.transient.accuracy;
-        watch.follow(snapshot, self.eye.n_scenes);
+        watch.follow(snapshot, self.inspection.n_scenes);
         if !watch.is_worth_it(snapshot) {
             return;
         }
-        let scene = &self.eye.scene;
+        let scene = &self.inspection.scene;
         let is_settled = snapshot.counters.commands_obeyed == n_sent
             && snapshot.scene_serial == self.scene_serial
             && snapshot.rendering.tuning == scene.tuning;
@@ -211,7 +211,7 @@ impl Bench {
             watch.tally.changed += 1;
             return;
         }
-        let n_edits = self.eye.n_edits;
+        let n_edits = self.inspection.n_edits;
         let known = watch.setting.take().filter(|s| s.is_of(scene, n_edits));
         let setting = known.unwrap_or_else(|| {
             let scene = scene.clone();
@@ -250,7 +250,7 @@ impl Bench {
         watch.found();
         let measured = watch.measured.as_ref();
         AccuracyView {
-            rendering: self.settings.kept.rendering,
+            rendering: self.settings.preferences.rendering,
             is_preparing: self.preparing.is_busy(),
             method: watch.run.1.map(|(method, ..)| method),
             bound_db: watch.bound_db,
@@ -259,7 +259,7 @@ impl Bench {
             cost: watch.cost(),
             measuring: watch.measuring.as_ref().map(Measuring::share),
             measured,
-            is_outdated: measured.is_some_and(|m| m.n_edits != self.eye.n_edits),
+            is_outdated: measured.is_some_and(|m| m.n_edits != self.inspection.n_edits),
             chosen: watch.chosen,
             shows_methods: watch.shows_methods,
         }

@@ -96,7 +96,7 @@ fn a_window_that_believes_the_wrong_gain_would_see_it() {
     watch(&mut bench, 10);
     // What nobody told the window: a deliberate fault.
     bench
-        .eye
+        .inspection
         .scene
         .textiles
         .iter_mut()
@@ -138,7 +138,7 @@ fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
             snapshot.rendering.bound.level_db <= budget_db,
             "{budget_db} dB"
         );
-        assert_eq!(bench.settings.kept.rendering.budget_db, budget_db);
+        assert_eq!(bench.settings.preferences.rendering.budget_db, budget_db);
         let snapshot = bench.engine.snapshot();
         (snapshot.rendering.method, snapshot.rendering.bound.level_db)
     };
@@ -181,7 +181,10 @@ fn a_budget_that_is_none_is_brought_within_bounds() {
     let (ctx, mut bench) = exploring();
     for (asked, kept) in [(7.0, 1.0), (-3.0, 0.0), (f64::NAN, 0.05)] {
         bench.dispatch(&ctx, AccuracyCommand::Budget(asked).into());
-        assert_eq!(bench.settings.kept.rendering.budget_db, kept, "{asked}");
+        assert_eq!(
+            bench.settings.preferences.rendering.budget_db, kept,
+            "{asked}"
+        );
     }
 }
 

@@ -25,7 +25,7 @@ impl Desk<'_> {
             looks: &mut transient.analysis_looks,
         };
         let view = analysing.view(held.map(|held| held.subject.pseudonym.as_str()));
-        let sight = crate::tools::analysis::view::show(ui, &view, &mut hands, self.wishes);
+        let sight = crate::tools::analysis::view::show(ui, &view, &mut hands, self.commands);
         let wanted = view.found.cloned().zip(sight).map(|(findings, sight)| {
             let AnalysisSight { width_px, paper } = sight;
             Wanted {

@@ -5,7 +5,7 @@ use std::path::Path;
 use eframe::egui::{self, Label, RichText, TextEdit, Ui};
 
 use crate::bench::arrays::wizard::Wizard;
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::array::ArrayCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -57,17 +57,17 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &BridgePane<'_>,
     copy_name: &mut String,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
-    show_choice(ui, &view.array, wishes);
+    show_choice(ui, &view.array, commands);
     show_waiting(ui, &view.array);
-    show_limits(ui, view.array.profile, wishes);
-    show_silencing(ui, view.array.profile, wishes);
+    show_limits(ui, view.array.profile, commands);
+    show_silencing(ui, view.array.profile, commands);
     show_limited(ui, view);
-    show_copying(ui, &view.array, copy_name, wishes);
+    show_copying(ui, &view.array, copy_name, commands);
 }
 
-fn show_choice(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) {
+fn show_choice(ui: &mut Ui, array: &ArrayView<'_>, commands: &mut Commands) {
     row(ui, "Profile", |ui| {
         let name = &array.profile.name;
         list(ui, ("array profile", "Array profile"), CHOICE, name, |ui| {
@@ -75,7 +75,7 @@ fn show_choice(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) {
                 let detail = if *is_own { "yours" } else { "of the program" };
                 let tip = format!("Drive devices as \"{name}\" wherever it fits");
                 if choice(ui, RichText::new(name), detail, &tip) {
-                    wishes.push(ArrayCommand::Choose(Some(name.clone())).into());
+                    commands.push(ArrayCommand::Choose(Some(name.clone())).into());
                     ui.close();
                 }
             }
@@ -120,7 +120,7 @@ fn show_waiting(ui: &mut Ui, array: &ArrayView<'_>) {
     }
 }
 
-fn show_limits(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
+fn show_limits(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     for band in Band::ALL {
         let (index, ink) = (band.index(), palette.band(band));
@@ -133,7 +133,7 @@ fn show_limits(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
              lowering takes effect at once",
         );
         if let Some(limit_um) = new {
-            wishes.push(ArrayCommand::Limit(band, limit_um).into());
+            commands.push(ArrayCommand::Limit(band, limit_um).into());
         }
     }
     for band in Band::ALL {
@@ -153,7 +153,7 @@ fn show_limits(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
              array is measured",
         );
         if let Some(full_um) = new {
-            wishes.push(ArrayCommand::FullScale(band, full_um).into());
+            commands.push(ArrayCommand::FullScale(band, full_um).into());
         }
     }
 }
@@ -178,7 +178,7 @@ fn even(
     }
 }
 
-fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
+fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) {
     let ink = Palette::in_ui(ui).text;
     let most_ms = f64::from(ArrayProfile::LONGEST_SILENCING_MS);
     let hold_ms = f64::from(profile.hold_ms);
@@ -188,7 +188,7 @@ fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
         "How long the device goes on without a frame before it ramps to silence; hold and ramp \
          together take at most 100 ms",
     );
-    wishes.extend(new.map(|ms| ArrayCommand::Hold(ms).into()));
+    commands.extend(new.map(|ms| ArrayCommand::Hold(ms).into()));
     let most_ramp_ms = (most_ms - hold_ms).max(1.0);
     let ramp = even(
         0.0,
@@ -198,12 +198,12 @@ fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, wishes: &mut Wishes) {
     );
     let (new, response) = slider_row(ui, "Ramp", ink, ramp, f64::from(profile.ramp_ms));
     response.on_hover_text("How long the device's ramp to silence takes");
-    wishes.extend(new.map(|ms| ArrayCommand::Ramp(ms).into()));
+    commands.extend(new.map(|ms| ArrayCommand::Ramp(ms).into()));
     let most_v = f64::from(ArrayProfile::LARGEST_HV_DV) / 10.0;
     let volts = even(0.0, most_v, (60.0, 0.1), (1, "V"));
     let (new, response) = slider_row(ui, "Voltage", ink, volts, f64::from(profile.hv_dv) / 10.0);
     response.on_hover_text("High voltage to ask the device for, which allows it or less");
-    wishes.extend(new.map(|volts| ArrayCommand::HighVoltage(volts).into()));
+    commands.extend(new.map(|volts| ArrayCommand::HighVoltage(volts).into()));
 }
 
 /// How many contactors are played weaker than they are shown, with the mark that they carry.
@@ -237,7 +237,12 @@ fn show_limited(ui: &mut Ui, view: &BridgePane<'_>) {
 }
 
 /// A copy under another name; the profile as it was.
-fn show_copying(ui: &mut Ui, array: &ArrayView<'_>, copy_name: &mut String, wishes: &mut Wishes) {
+fn show_copying(
+    ui: &mut Ui,
+    array: &ArrayView<'_>,
+    copy_name: &mut String,
+    commands: &mut Commands,
+) {
     row(ui, "", |ui| {
         let is_of_program = ArrayProfile::shipped(&array.profile.name).is_some();
         let (word, tip) = if is_of_program {
@@ -250,7 +255,7 @@ fn show_copying(ui: &mut Ui, array: &ArrayView<'_>, copy_name: &mut String, wish
         };
         let refusal = (!array.is_own).then_some("Nothing was changed of it");
         if button(ui, word, tip, refusal) {
-            wishes.push(ArrayCommand::Forget.into());
+            commands.push(ArrayCommand::Forget.into());
         }
         let nameless = copy_name.trim().is_empty();
         let refusal = nameless.then_some("Type a name for the copy first");
@@ -260,7 +265,7 @@ fn show_copying(ui: &mut Ui, array: &ArrayView<'_>, copy_name: &mut String, wish
             "Keep these values under the name on the left",
             refusal,
         ) {
-            wishes.push(ArrayCommand::Copy(copy_name.clone()).into());
+            commands.push(ArrayCommand::Copy(copy_name.clone()).into());
         }
         let field = TextEdit::singleline(copy_name)
             .desired_width(ui.available_width())

@@ -2,7 +2,7 @@
 
 use eframe::egui::{RichText, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
@@ -12,7 +12,7 @@ use selvedge_device::FoundPort;
 pub(crate) const BACK: &str = "The array is back as";
 
 /// Shows what is back, if anything is.
-pub(crate) fn show(ui: &mut Ui, back: Option<&FoundPort>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, back: Option<&FoundPort>, commands: &mut Commands) {
     let Some(found) = back else { return };
     let path = found.path.display().to_string();
     ui.add_space(STEP);
@@ -21,7 +21,7 @@ pub(crate) fn show(ui: &mut Ui, back: Option<&FoundPort>, wishes: &mut Wishes) {
     let tip = format!("Connect to {path}; the device stays disarmed");
     ui.vertical_centered_justified(|ui| {
         if button(ui, "Connect again", &tip, None) {
-            wishes.push(DeviceCommand::ConnectPort(found.path.clone()).into());
+            commands.push(DeviceCommand::ConnectPort(found.path.clone()).into());
         }
     });
 }

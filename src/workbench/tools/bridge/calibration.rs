@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::array::ArrayCommand;
-use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, row, toggle};
@@ -39,20 +39,20 @@ pub(crate) fn summary(view: &BridgePane<'_>) -> String {
 }
 
 /// Shows the part.
-pub(crate) fn show(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) {
-    let band = show_bands(ui, array, wishes);
-    show_grid(ui, array, band, wishes);
+pub(crate) fn show(ui: &mut Ui, array: &ArrayView<'_>, commands: &mut Commands) {
+    let band = show_bands(ui, array, commands);
+    show_grid(ui, array, band, commands);
     ui.add_space(STEP);
     if let Some(contactor) = array
         .contactor
         .filter(|one| *one < array.profile.n_contactors())
     {
-        show_chosen(ui, array, contactor, wishes);
+        show_chosen(ui, array, contactor, commands);
     }
 }
 
 /// Which band's gains are shown, and a way back.
-fn show_bands(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) -> Band {
+fn show_bands(ui: &mut Ui, array: &ArrayView<'_>, commands: &mut Commands) -> Band {
     let id = ui.scope_id().with("calibrated band");
     let mut band = ui.data(|data| data.get_temp(id)).unwrap_or(0_usize);
     row(ui, "Drive gain", |ui| {
@@ -65,7 +65,7 @@ fn show_bands(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) -> Band {
             "Every contactor answers its drive alike",
             refusal,
         ) {
-            wishes.push(ArrayCommand::LevelOut.into());
+            commands.push(ArrayCommand::LevelOut.into());
         }
         for one in Band::ALL.into_iter().rev() {
             let word = format!("{} Hz", quantity::fixed(one.carrier_hz(), 0));
@@ -87,7 +87,7 @@ fn show_bands(ui: &mut Ui, array: &ArrayView<'_>, wishes: &mut Wishes) -> Band {
     if band == 0 { Band::Low } else { Band::High }
 }
 
-fn show_grid(ui: &mut Ui, array: &ArrayView<'_>, band: Band, wishes: &mut Wishes) {
+fn show_grid(ui: &mut Ui, array: &ArrayView<'_>, band: Band, commands: &mut Commands) {
     let profile = array.profile;
     let (n_rows, n_columns) = (f32::from(profile.rows), f32::from(profile.cols));
     let room = ui.available_width();
@@ -100,7 +100,7 @@ fn show_grid(ui: &mut Ui, array: &ArrayView<'_>, band: Band, wishes: &mut Wishes
         let (row, column) = (contactor / n_columns, contactor % n_columns);
         let corner = pos2(left + column as f32 * width, rect.top() + row as f32 * CELL);
         let cell = Rect::from_min_size(corner, vec2(width, CELL) - vec2(GAP, GAP));
-        show_cell(ui, cell, array, (contactor, band), wishes);
+        show_cell(ui, cell, array, (contactor, band), commands);
     }
 }
 
@@ -109,7 +109,7 @@ fn show_cell(
     cell: Rect,
     array: &ArrayView<'_>,
     (contactor, band): (usize, Band),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let calibration = array.profile.calibration_of(contactor);
@@ -151,13 +151,13 @@ fn show_cell(
     if response.changed() {
         let mut changed = calibration;
         changed.drive_gain[band.index()] = gain;
-        wishes.push(ArrayCommand::Calibrate(contactor, changed).into());
+        commands.push(ArrayCommand::Calibrate(contactor, changed).into());
     }
     if response.drag_started() || response.gained_focus() {
-        wishes.push(ShowCommand::SelectContactor(contactor).into());
+        commands.push(ShowCommand::SelectContactor(contactor).into());
     }
     if response.hovered() {
-        wishes.push(ShowCommand::Hover(Part::Contactor(contactor)).into());
+        commands.push(ShowCommand::Hover(Part::Contactor(contactor)).into());
     }
     response.on_hover_text(words(array, contactor));
 }
@@ -188,7 +188,7 @@ fn words(array: &ArrayView<'_>, contactor: usize) -> String {
 }
 
 /// The chosen contactor: what it moves at full drive, and whether it is driven at all.
-fn show_chosen(ui: &mut Ui, array: &ArrayView<'_>, contactor: usize, wishes: &mut Wishes) {
+fn show_chosen(ui: &mut Ui, array: &ArrayView<'_>, contactor: usize, commands: &mut Commands) {
     let profile = array.profile;
     let calibration = profile.calibration_of(contactor);
     row(ui, &format!("Contactor {contactor}"), |ui| {
@@ -198,10 +198,10 @@ fn show_chosen(ui: &mut Ui, array: &ArrayView<'_>, contactor: usize, wishes: &mu
                 is_off: !calibration.is_off,
                 ..calibration
             };
-            wishes.push(ArrayCommand::Calibrate(contactor, changed).into());
+            commands.push(ArrayCommand::Calibrate(contactor, changed).into());
         }
         for band in Band::ALL.into_iter().rev() {
-            show_moved(ui, array, (contactor, band), wishes);
+            show_moved(ui, array, (contactor, band), commands);
         }
     });
 }
@@ -211,7 +211,7 @@ fn show_moved(
     ui: &mut Ui,
     array: &ArrayView<'_>,
     (contactor, band): (usize, Band),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let index = band.index();
@@ -244,7 +244,7 @@ fn show_moved(
     if response.changed() {
         let mut changed = calibration;
         changed.drive_gain[index] = full_um / moved_um;
-        wishes.push(ArrayCommand::Calibrate(contactor, changed).into());
+        commands.push(ArrayCommand::Calibrate(contactor, changed).into());
     }
     let tip = RichText::new(format!(
         "What this contactor was measured to move at full drive, {carrier} Hz, µm peak"

@@ -42,7 +42,7 @@ impl Bench {
                 }
             }
             DeviceCommand::StopOnFocusLoss(is_wanted) => {
-                self.settings.kept.stops_on_focus_loss = is_wanted;
+                self.settings.preferences.stops_on_focus_loss = is_wanted;
             }
         }
     }

@@ -10,7 +10,7 @@ use selvedge_engine::Command;
 impl Bench {
     pub(crate) fn dispatch_array(&mut self, command: ArrayCommand) {
         match command {
-            ArrayCommand::Choose(name) => self.settings.kept.array = name,
+            ArrayCommand::Choose(name) => self.settings.preferences.array = name,
             ArrayCommand::Forget => {
                 let name = self.array().name;
                 self.arrays.forget(&name);
@@ -45,7 +45,7 @@ impl Bench {
         let mut profile = self.array();
         name.clone_into(&mut profile.name);
         self.change_array(profile);
-        self.settings.kept.array = Some(name.to_owned());
+        self.settings.preferences.array = Some(name.to_owned());
         self.arrays.copy_name.clear();
     }
 

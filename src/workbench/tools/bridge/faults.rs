@@ -3,7 +3,7 @@
 
 use eframe::egui::{self, Align, Label, Layout, Margin, RichText, TextEdit, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -40,10 +40,10 @@ fn told(words: &FaultWords) -> String {
 }
 
 /// Shows the part: what is chosen for the next start.
-pub(crate) fn show(ui: &mut Ui, chosen: &mut FaultWords, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, chosen: &mut FaultWords, commands: &mut Commands) {
     show_presets(ui, chosen);
     show_group(ui, FaultGroup::All, chosen);
-    show_start(ui, chosen, wishes);
+    show_start(ui, chosen, commands);
     for group in FaultGroup::ALL {
         if group != FaultGroup::All {
             let summary = said_in(group, chosen);
@@ -167,7 +167,7 @@ fn show_words(ui: &mut Ui, words: &str, ink: egui::Color32) {
     ui.add(Label::new(words).wrap());
 }
 
-fn show_start(ui: &mut Ui, chosen: &FaultWords, wishes: &mut Wishes) {
+fn show_start(ui: &mut Ui, chosen: &FaultWords, commands: &mut Commands) {
     ui.add_space(STEP);
     let unread = chosen.faults().err();
     let refusal = unread.map(|(option, _)| format!("\"{}\" cannot be read", option.label));
@@ -180,7 +180,7 @@ fn show_start(ui: &mut Ui, chosen: &FaultWords, wishes: &mut Wishes) {
     let layout = Layout::top_down(Align::Center).with_cross_justify(true);
     ui.with_layout(layout, |ui| {
         if button(ui, word, tip, refusal.as_deref()) {
-            wishes.push(DeviceCommand::StartFaults(chosen.clone()).into());
+            commands.push(DeviceCommand::StartFaults(chosen.clone()).into());
         }
     });
     ui.add_space(STEP);

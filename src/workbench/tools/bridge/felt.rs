@@ -5,7 +5,7 @@ use eframe::egui::{
     vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -26,17 +26,17 @@ const CELL: f32 = 42.0;
 const LINE: f32 = 13.0;
 
 /// Shows the section; it opens and closes by its title.
-pub(crate) fn show(ui: &mut Ui, view: &PlantView, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &PlantView, commands: &mut Commands) {
     let tip = "What the emulator’s contactors would do under a finger, beside what they are told";
     let part = ("Displacement by a model", view.is_open);
-    let head = told_fold(ui, part, "", |ui| show_open(ui, view, wishes));
+    let head = told_fold(ui, part, "", |ui| show_open(ui, view, commands));
     if head.on_hover_text(tip).clicked() {
-        wishes.push(DeviceCommand::ShowContactors(!view.is_open).into());
+        commands.push(DeviceCommand::ShowContactors(!view.is_open).into());
     }
 }
 
-fn show_open(ui: &mut Ui, view: &PlantView, wishes: &mut Wishes) {
-    show_skin(ui, view.skin, wishes);
+fn show_open(ui: &mut Ui, view: &PlantView, commands: &mut Commands) {
+    show_skin(ui, view.skin, commands);
     let palette = Palette::in_ui(ui);
     if view.contactors.is_empty() {
         let words = "Waiting for the emulator’s next tick…";
@@ -57,14 +57,14 @@ fn small(words: &str, ink: egui::Color32) -> RichText {
 }
 
 /// The finger: one of those that have a name.
-fn show_skin(ui: &mut Ui, chosen: Skin, wishes: &mut Wishes) {
+fn show_skin(ui: &mut Ui, chosen: Skin, commands: &mut Commands) {
     row(ui, "Finger", |ui| {
         for (name, skin) in Skin::NAMED.into_iter().rev() {
             let label = capitalised(name);
             let tip = format!("Every contactor under skin: {skin}");
             let choice = ui.selectable_label(skin == chosen, label);
             if choice.on_hover_text(tip).clicked() && skin != chosen {
-                wishes.push(DeviceCommand::LoadContactors(skin).into());
+                commands.push(DeviceCommand::LoadContactors(skin).into());
             }
         }
     });

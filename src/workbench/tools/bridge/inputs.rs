@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Label, Layout, RichText, Ui};
 
-use crate::bench::command::{Command, Wishes};
+use crate::bench::command::{Command, Commands};
 use crate::bench::sources::{SourceCommand, SourcesView};
 use crate::bench::view::{InputView, Live, Source};
 use crate::kit::theme;
@@ -15,14 +15,14 @@ use selvedge_foundation::quantity;
 const MENU: f32 = 288.0;
 
 /// Shows the part of the pane that is about inputs.
-pub(crate) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, commands: &mut Commands) {
     row(ui, "Moved by", |ui| {
-        ui.menu_button("Choose…", |ui| show_menu(ui, sources, wishes))
+        ui.menu_button("Choose…", |ui| show_menu(ui, sources, commands))
             .response
             .on_hover_text("Tablets, touch frames, and other programs of this machine");
     });
     if let Some(surface) = &sources.surface {
-        surface::show(ui, surface, wishes);
+        surface::show(ui, surface, commands);
     }
     show_rate(ui, &live.input);
     show_programs(ui, sources);
@@ -41,16 +41,16 @@ pub(crate) fn word(live: &Live) -> &'static str {
     }
 }
 
-fn show_menu(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
+fn show_menu(ui: &mut Ui, sources: &SourcesView, commands: &mut Commands) {
     ui.set_width(MENU);
     if !sources.is_known && !sources.is_busy {
-        wishes.push(SourceCommand::List.into());
+        commands.push(SourceCommand::List.into());
     }
-    show_devices(ui, sources, wishes);
-    show_acts(ui, sources, wishes);
+    show_devices(ui, sources, commands);
+    show_acts(ui, sources, commands);
 }
 
-fn show_devices(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
+fn show_devices(ui: &mut Ui, sources: &SourcesView, commands: &mut Commands) {
     for (path, described) in &sources.devices {
         let place = path.display().to_string();
         let tip = format!("Read {place} directly");
@@ -60,7 +60,7 @@ fn show_devices(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
             described,
             &tip,
         ) {
-            wishes.push(SourceCommand::Device(path.clone()).into());
+            commands.push(SourceCommand::Device(path.clone()).into());
             ui.close();
         }
     }
@@ -74,11 +74,11 @@ fn show_devices(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
     }
 }
 
-fn show_acts(ui: &mut Ui, sources: &SourcesView, wishes: &mut Wishes) {
+fn show_acts(ui: &mut Ui, sources: &SourcesView, commands: &mut Commands) {
     let mut act = |ui: &mut Ui, words: &str, tip: &str, act: SourceCommand, refusal| {
         if button(ui, words, tip, refusal) {
             let is_last = act != SourceCommand::List;
-            wishes.push(Command::from(act));
+            commands.push(Command::from(act));
             if is_last {
                 ui.close();
             }

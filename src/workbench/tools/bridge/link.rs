@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align, Button, Layout, RichText, Stroke, Ui, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgePhase, BridgeView};
 use crate::kit::theme::{Palette, ROW};
@@ -37,7 +37,7 @@ pub(crate) fn show_arming(
     ui: &mut Ui,
     bridge: Option<&BridgeView>,
     is_stopped: bool,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let phase = bridge.map(|bridge| bridge.phase);
@@ -48,7 +48,7 @@ pub(crate) fn show_arming(
         let armed = Button::new(text).stroke(edge);
         let tip = "Ramp the device to silence; the window goes on";
         if ui.add_sized(size, armed).on_hover_text(tip).clicked() {
-            wishes.push(DeviceCommand::Disarm.into());
+            commands.push(DeviceCommand::Disarm.into());
         }
         return;
     }
@@ -59,7 +59,7 @@ pub(crate) fn show_arming(
             .on_hover_text(tip)
             .clicked()
         {
-            wishes.push(DeviceCommand::GoOn.into());
+            commands.push(DeviceCommand::GoOn.into());
         }
         return;
     }
@@ -78,6 +78,6 @@ pub(crate) fn show_arming(
         None => arm.on_hover_text(tip),
     };
     if arm.clicked() {
-        wishes.push(DeviceCommand::Arm.into());
+        commands.push(DeviceCommand::Arm.into());
     }
 }

@@ -31,7 +31,7 @@ pub(crate) use crate::tools::bridge::array::ArrayView;
 
 use eframe::egui::Ui;
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::sources::SourcesView;
 use crate::bench::view::Live;
 use crate::kit::theme::STEP;
@@ -75,57 +75,57 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &BridgePane<'_>,
     typed: &mut BridgeTyped<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let bridge = view.live.bridge.as_ref();
     link::show_state(ui, bridge, view.target);
-    link::show_arming(ui, bridge, view.live.is_stopped, wishes);
-    timing::show_fault(ui, bridge, wishes);
-    back::show(ui, view.ports.back.as_ref(), wishes);
+    link::show_arming(ui, bridge, view.live.is_stopped, commands);
+    timing::show_fault(ui, bridge, commands);
+    back::show(ui, view.ports.back.as_ref(), commands);
     if let Some(wizard) = view.array.wizard {
         ui.add_space(STEP);
-        wiring::show_wizard(ui, wizard, view, wishes);
+        wiring::show_wizard(ui, wizard, view, commands);
         return;
     }
     ui.add_space(STEP);
-    port::show_port(ui, typed.port, view.ports, wishes);
-    port::show_connecting(ui, bridge.is_some(), typed.port, wishes);
+    port::show_port(ui, typed.port, view.ports, commands);
+    port::show_connecting(ui, bridge.is_some(), typed.port, commands);
     ui.add_space(STEP);
     fold(ui, ("Array", false), &array::summary(view), |ui| {
-        array::show(ui, view, typed.copy_name, wishes);
-        show_contactors(ui, view, wishes);
+        array::show(ui, view, typed.copy_name, commands);
+        show_contactors(ui, view, commands);
     });
     fold(ui, ("Link", true), &counters::summary(bridge), |ui| {
         counters::show_counters(ui, bridge, view.live.status.felt_age_s);
-        timing::show_focus(ui, view.stops_on_focus_loss, wishes);
+        timing::show_focus(ui, view.stops_on_focus_loss, commands);
     });
     fold(ui, ("Timing", false), &timing::summary(bridge), |ui| {
-        timing::show(ui, bridge, wishes);
+        timing::show(ui, bridge, commands);
     });
     fold(ui, ("Input", false), inputs::word(view.live), |ui| {
-        inputs::show(ui, view.live, view.sources, wishes);
+        inputs::show(ui, view.live, view.sources, commands);
     });
     if let Some(running) = view.faults {
         let summary = faults::summary(running, typed.faults);
         fold(ui, ("Faults", false), &summary, |ui| {
-            faults::show(ui, typed.faults, wishes);
+            faults::show(ui, typed.faults, commands);
         });
     }
     if let Some(plant) = view.plant {
-        felt::show(ui, plant, wishes);
+        felt::show(ui, plant, commands);
     }
 }
 
 /// What is known of each contactor.
-fn show_contactors(ui: &mut Ui, view: &BridgePane<'_>, wishes: &mut Wishes) {
+fn show_contactors(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
     if view.array.places_mm.is_empty() {
         return;
     }
     let summary = calibration::summary(view);
     fold(ui, ("Calibration", false), &summary, |ui| {
-        calibration::show(ui, &view.array, wishes);
+        calibration::show(ui, &view.array, commands);
     });
     fold(ui, ("Wiring", false), &wiring::summary(view), |ui| {
-        wiring::show(ui, view, wishes);
+        wiring::show(ui, view, commands);
     });
 }

@@ -3,14 +3,14 @@
 use eframe::egui::Ui;
 
 use crate::bench::Bench;
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::tools::bridge::array::ArrayView;
 use crate::tools::bridge::{BridgePane, BridgeTyped};
 use selvedge_device::LARGEST_CHANNELS;
 
 impl Bench {
     /// Shows the pane of the device and the array that it drives.
-    pub(crate) fn show_bridge(&mut self, ui: &mut Ui, wishes: &mut Wishes) {
+    pub(crate) fn show_bridge(&mut self, ui: &mut Ui, commands: &mut Commands) {
         let has_plant = self.peek_at_plant(ui.ctx()).is_some();
         let profile = self.array();
         let mut copy_name = std::mem::take(&mut self.arrays.copy_name);
@@ -40,14 +40,14 @@ impl Bench {
             sources: &self.sources_view(),
             plant: has_plant.then_some(&self.transient.plant.view),
             faults: faults.running.as_ref(),
-            stops_on_focus_loss: self.settings.kept.stops_on_focus_loss,
+            stops_on_focus_loss: self.settings.preferences.stops_on_focus_loss,
         };
         let mut typed = BridgeTyped {
             port: &mut port,
             copy_name: &mut copy_name,
             faults: &mut faults.chosen,
         };
-        crate::tools::bridge::show(ui, &view, &mut typed, wishes);
+        crate::tools::bridge::show(ui, &view, &mut typed, commands);
         self.arrays.copy_name = copy_name;
         self.transient.port = port;
         self.transient.faults = faults;

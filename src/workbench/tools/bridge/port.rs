@@ -7,7 +7,7 @@ use eframe::egui::{
     WidgetInfo, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
@@ -18,11 +18,16 @@ use crate::tools::bridge::ports::PortsView;
 const MENU: f32 = 288.0;
 
 /// The port: typed, or chosen from those that were found.
-pub(crate) fn show_port(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wishes) {
+pub(crate) fn show_port(
+    ui: &mut Ui,
+    port: &mut String,
+    ports: &PortsView,
+    commands: &mut Commands,
+) {
     let size = vec2(ui.available_width(), ROW + 4.0);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        show_menu(ui, port, ports, wishes);
+        show_menu(ui, port, ports, commands);
         let field = TextEdit::singleline(port)
             .desired_width(ui.available_width())
             .margin(Margin::symmetric(6, 4))
@@ -35,13 +40,13 @@ pub(crate) fn show_port(ui: &mut Ui, port: &mut String, ports: &PortsView, wishe
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let path = port.trim();
         if is_entered && !path.is_empty() {
-            wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+            commands.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
         }
     });
 }
 
 /// The menu of the ports that were found; opening it looks again.
-fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wishes) {
+fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut Commands) {
     let opener = ui.add(Button::new("").min_size(vec2(ROW + STEP, ROW)));
     opener.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "Choose a port"));
     paint_arrow(ui, opener.rect.center());
@@ -49,7 +54,7 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wis
     let menu = Popup::menu(&opener).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     // The click takes effect below, where the menu is shown.
     if opener.clicked() && !menu.is_open() {
-        wishes.push(DeviceCommand::ListPorts.into());
+        commands.push(DeviceCommand::ListPorts.into());
     }
     menu.width(MENU).show(|ui| {
         ui.set_width(MENU);
@@ -58,7 +63,7 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wis
             let tip = format!("Connect to {path}: {description}");
             if choice(ui, name, description, &tip) {
                 path.clone_into(port);
-                wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+                commands.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
                 ui.close();
             }
         }
@@ -71,7 +76,7 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, wishes: &mut Wis
         ui.separator();
         let busy = ports.is_listing.then_some("Looking…");
         if button(ui, "Look again", "List the ports anew", busy) {
-            wishes.push(DeviceCommand::ListPorts.into());
+            commands.push(DeviceCommand::ListPorts.into());
         }
     });
 }
@@ -94,7 +99,12 @@ fn empty_words(ports: &PortsView) -> Option<String> {
     }
 }
 
-pub(crate) fn show_connecting(ui: &mut Ui, is_connected: bool, port: &str, wishes: &mut Wishes) {
+pub(crate) fn show_connecting(
+    ui: &mut Ui,
+    is_connected: bool,
+    port: &str,
+    commands: &mut Commands,
+) {
     ui.columns(2, |columns| {
         columns[0].vertical_centered_justified(|ui| {
             let path = port.trim();
@@ -102,19 +112,19 @@ pub(crate) fn show_connecting(ui: &mut Ui, is_connected: bool, port: &str, wishe
                 .is_empty()
                 .then_some("Type or choose the path of a port first");
             if button(ui, "Connect", "Connect to this port", missing) {
-                wishes.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+                commands.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
             }
         });
         columns[1].vertical_centered_justified(|ui| {
             if is_connected {
                 if button(ui, "Disconnect", "Stop the device and let go of it", None) {
-                    wishes.push(DeviceCommand::Disconnect.into());
+                    commands.push(DeviceCommand::Disconnect.into());
                 }
                 return;
             }
             let tip = "Connect to the emulator in this program";
             if button(ui, "Emulator", tip, None) {
-                wishes.push(DeviceCommand::ConnectEmulator.into());
+                commands.push(DeviceCommand::ConnectEmulator.into());
             }
         });
     });

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align2, Margin, RichText, TextEdit, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::sources::{SourceCommand, SurfaceView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -13,7 +13,7 @@ use selvedge_foundation::quantity;
 const FIELD: f32 = 56.0;
 
 /// Shows where it is; what is typed takes effect when its field is left.
-pub(crate) fn show(ui: &mut Ui, surface: &SurfaceView, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, surface: &SurfaceView, commands: &mut Commands) {
     let [x_mm, y_mm, width_mm, height_mm] = surface.area_mm;
     let tip = "How much of the workspace the tablet's whole surface covers; a tablet that states \
                its resolution is true to size at first";
@@ -39,14 +39,14 @@ pub(crate) fn show(ui: &mut Ui, surface: &SurfaceView, wishes: &mut Wishes) {
         let texts = typed.map(|(text, mm)| text.unwrap_or_else(|| mm.to_string()));
         let texts: Vec<String> = texts.collect();
         let name = surface.name.clone();
-        wishes.push(SourceCommand::Area(name, Some(texts.join(","))).into());
+        commands.push(SourceCommand::Area(name, Some(texts.join(","))).into());
     }
     field_row(ui, "", |ui| {
         let refusal = (!surface.is_own).then_some("Nothing was changed of it");
         let tip = "Where the surface usually lies: in the middle, true to size if the tablet \
                    states that";
         if button(ui, "As at first", tip, refusal) {
-            wishes.push(SourceCommand::Area(surface.name.clone(), None).into());
+            commands.push(SourceCommand::Area(surface.name.clone(), None).into());
         }
         let palette = Palette::in_ui(ui);
         let name = RichText::new(&surface.name)

@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable as _;
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
 use crate::bench::command::device::DeviceCommand;
-use crate::bench::command::{Command, ShowCommand, Wishes};
+use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::sources::{SourcesView, SurfaceView};
 use crate::bench::view::{BridgePhase, BridgeView, Dot, Live};
 use crate::kit::theme;
@@ -77,7 +77,7 @@ impl Stage {
         }
     }
 
-    pub(crate) fn show(&mut self, ui: &mut eframe::egui::Ui, wishes: &mut Wishes) {
+    pub(crate) fn show(&mut self, ui: &mut eframe::egui::Ui, commands: &mut Commands) {
         let view = BridgePane {
             live: &self.live,
             target: Some("Emulator"),
@@ -102,30 +102,30 @@ impl Stage {
             copy_name: &mut self.copy_name,
             faults: &mut self.chosen_faults,
         };
-        show(ui, &view, &mut typed, wishes);
+        show(ui, &view, &mut typed, commands);
     }
 }
 
-pub(crate) fn window(mut stage: Stage) -> Harness<'static, Wishes> {
+pub(crate) fn window(mut stage: Stage) -> Harness<'static, Commands> {
     let mut is_styled = false;
     let mut harness = Harness::builder()
         .with_size(vec2(340.0, 1000.0))
         .build_ui_state(
-            move |ui, wishes: &mut Wishes| {
+            move |ui, commands: &mut Commands| {
                 if !is_styled {
                     theme::install(ui.ctx());
                     is_styled = true;
                 }
-                stage.show(ui, wishes);
-                wishes.retain(|wish| !matches!(wish, Command::Show(ShowCommand::Hover(_))));
+                stage.show(ui, commands);
+                commands.retain(|wish| !matches!(wish, Command::Show(ShowCommand::Hover(_))));
             },
-            Wishes::new(),
+            Commands::new(),
         );
     harness.run();
     harness
 }
 
-pub(crate) fn click(harness: &mut Harness<'_, Wishes>, role: Role, name: &str) -> Vec<Command> {
+pub(crate) fn click(harness: &mut Harness<'_, Commands>, role: Role, name: &str) -> Vec<Command> {
     harness.state_mut().clear();
     harness.get_by_role_and_label(role, name).click();
     harness.run();
@@ -354,7 +354,7 @@ fn picture(name: &str, stage: &mut Stage) -> Vec<u8> {
                     let id = ui.scope_id().with(("fold", *title));
                     ui.data_mut(|data| data.insert_temp(id, *is_open));
                 }
-                stage.show(ui, &mut Wishes::new());
+                stage.show(ui, &mut Commands::new());
             });
         });
         rasteriser.apply(&mut output.textures_delta);

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use eframe::egui::{self, Label, Rect, RichText, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgeView, LinkTiming};
 use crate::kit::spectrogram::paint_sentence;
@@ -33,18 +33,18 @@ pub(crate) fn summary(bridge: Option<&BridgeView>) -> String {
 }
 
 /// A way out of a fault whose cause is gone.
-pub(crate) fn show_fault(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
+pub(crate) fn show_fault(ui: &mut Ui, bridge: Option<&BridgeView>, commands: &mut Commands) {
     if bridge.is_some_and(|bridge| bridge.state == BridgeState::Faulted.label()) {
         let tip = "Ask the device to clear the fault; while its cause lasts it refuses. Arming is \
                    a step of its own";
         if button(ui, "Clear the fault", tip, None) {
-            wishes.push(DeviceCommand::ClearFaults.into());
+            commands.push(DeviceCommand::ClearFaults.into());
         }
     }
 }
 
 /// Shows what is measured on the link.
-pub(crate) fn show(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, bridge: Option<&BridgeView>, commands: &mut Commands) {
     let none = LinkTiming::default();
     let timing = bridge.map_or(&none, |bridge| &bridge.timing);
     show_latching(ui, timing);
@@ -54,7 +54,7 @@ pub(crate) fn show(ui: &mut Ui, bridge: Option<&BridgeView>, wishes: &mut Wishes
         let tip = "From the end of one frame's write to the end of the next";
         show_distribution(right, "Frame interval", &timing.frame_interval, tip);
     });
-    show_log(ui, timing, wishes);
+    show_log(ui, timing, commands);
 }
 
 fn show_latching(ui: &mut Ui, timing: &LinkTiming) {
@@ -145,14 +145,14 @@ fn paint_bars(ui: &Ui, plot: Rect, axis: &Axis, distribution: &Distribution) {
 }
 
 /// Where the log of the links is, and why it is not whole if so.
-fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
+fn show_log(ui: &mut Ui, timing: &LinkTiming, commands: &mut Commands) {
     let Some(path) = &timing.log else { return };
     let palette = Palette::in_ui(ui);
     field_row(ui, "Session log", |ui| {
         let tip = "Copy the path of the log: every setting, arming, stop, fault, refusal and \
                    change of a counter, one line each; five files of 1 MB are kept";
         if button(ui, "Copy path", tip, None) {
-            wishes.push(DeviceCommand::CopyLogPath.into());
+            commands.push(DeviceCommand::CopyLogPath.into());
         }
         if button(
             ui,
@@ -160,7 +160,7 @@ fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
             "Show the log's folder in the file manager",
             None,
         ) {
-            wishes.push(DeviceCommand::OpenLogFolder.into());
+            commands.push(DeviceCommand::OpenLogFolder.into());
         }
     });
     let (words, ink) = match &timing.log_failure {
@@ -172,12 +172,12 @@ fn show_log(ui: &mut Ui, timing: &LinkTiming, wishes: &mut Wishes) {
 }
 
 /// Whether another window that comes to the front stops the device.
-pub(crate) fn show_focus(ui: &mut Ui, stops_on_focus_loss: bool, wishes: &mut Wishes) {
+pub(crate) fn show_focus(ui: &mut Ui, stops_on_focus_loss: bool, commands: &mut Commands) {
     let mut is_on = stops_on_focus_loss;
     let words = "All off when the focus is lost";
     let tip = "Stops an armed device as Esc does, as soon as this window loses the keyboard";
     if ui.checkbox(&mut is_on, words).on_hover_text(tip).changed() {
-        wishes.push(DeviceCommand::StopOnFocusLoss(is_on).into());
+        commands.push(DeviceCommand::StopOnFocusLoss(is_on).into());
     }
 }
 

@@ -6,7 +6,7 @@ use eframe::egui::{
 
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
-use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::query;
 use crate::bench::view::BridgePhase;
 use crate::kit::theme;
@@ -46,7 +46,7 @@ fn doubt(view: &BridgePane<'_>) -> Option<String> {
 }
 
 /// Shows what is known.
-pub(crate) fn show(ui: &mut Ui, view: &BridgePane<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     for line in lines(view) {
         let words = RichText::new(line).font(theme::small()).color(palette.dim);
@@ -55,13 +55,13 @@ pub(crate) fn show(ui: &mut Ui, view: &BridgePane<'_>, wishes: &mut Wishes) {
     row(ui, "", |ui| {
         let tip = "Drive one channel after the other, and click the contactor that moves";
         if button(ui, "Identify channels…", tip, refusal(view)) {
-            wishes.push(ArrayCommand::Identify(WizardCommand::Begin).into());
+            commands.push(ArrayCommand::Identify(WizardCommand::Begin).into());
         }
         let is_straight = view.array.profile.wiring.is_none();
         let refusal = is_straight.then_some("Nothing was measured");
         let tip = "Forget what was measured: channel 0 drives contactor 0, and so on";
         if button(ui, "Forget", tip, refusal) {
-            wishes.push(ArrayCommand::WireStraight.into());
+            commands.push(ArrayCommand::WireStraight.into());
         }
     });
 }
@@ -107,7 +107,7 @@ pub(crate) fn show_wizard(
     ui: &mut Ui,
     wizard: &Wizard,
     view: &BridgePane<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let n = wizard.walk.n_channels();
@@ -120,10 +120,10 @@ pub(crate) fn show_wizard(
         ui.add(Label::new(RichText::new(words).color(palette.text)).wrap());
     }
     if wizard.walk.channel().is_some() {
-        show_array(ui, wizard, view, wishes);
-        show_answers(ui, wizard, is_armed, wishes);
+        show_array(ui, wizard, view, commands);
+        show_answers(ui, wizard, is_armed, commands);
     } else {
-        show_found(ui, wizard, wishes);
+        show_found(ui, wizard, commands);
     }
 }
 
@@ -172,7 +172,7 @@ fn twice_named(wizard: &Wizard) -> Vec<String> {
 }
 
 /// The array, whose contactors are the answers.
-fn show_array(ui: &mut Ui, wizard: &Wizard, view: &BridgePane<'_>, wishes: &mut Wishes) {
+fn show_array(ui: &mut Ui, wizard: &Wizard, view: &BridgePane<'_>, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), PICTURE);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -201,10 +201,10 @@ fn show_array(ui: &mut Ui, wizard: &Wizard, view: &BridgePane<'_>, wishes: &mut 
         dot.paint(ui.painter(), palette);
         if response.clicked() && is_armed {
             let answer = Answer::Contactor(contactor);
-            wishes.push(ArrayCommand::Identify(WizardCommand::Answer(answer)).into());
+            commands.push(ArrayCommand::Identify(WizardCommand::Answer(answer)).into());
         }
         if response.hovered() {
-            wishes.push(ShowCommand::Hover(Part::Contactor(contactor)).into());
+            commands.push(ShowCommand::Hover(Part::Contactor(contactor)).into());
         }
         response.on_hover_text(dot_words(contactor, &channels));
     }
@@ -288,8 +288,8 @@ fn nearest_mm(places_mm: &[[f64; 2]]) -> f64 {
     if nearest < f64::MAX { nearest } else { 2.0 }
 }
 
-fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, wishes: &mut Wishes) {
-    let mut wish = |command| wishes.push(ArrayCommand::Identify(command).into());
+fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, commands: &mut Commands) {
+    let mut wish = |command| commands.push(ArrayCommand::Identify(command).into());
     let unarmed = (!is_armed).then_some("Arm the device first");
     row(ui, "", |ui| {
         if button(
@@ -316,7 +316,7 @@ fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, wishes: &mut Wishe
     });
 }
 
-fn show_found(ui: &mut Ui, wizard: &Wizard, wishes: &mut Wishes) {
+fn show_found(ui: &mut Ui, wizard: &Wizard, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let found = wizard.walk.found();
     for line in found.iter().flat_map(WiringFound::lines) {
@@ -325,7 +325,7 @@ fn show_found(ui: &mut Ui, wizard: &Wizard, wishes: &mut Wishes) {
             .color(palette.dim);
         ui.add(Label::new(words).wrap());
     }
-    let mut wish = |command| wishes.push(ArrayCommand::Identify(command).into());
+    let mut wish = |command| commands.push(ArrayCommand::Identify(command).into());
     row(ui, "", |ui| {
         if button(
             ui,

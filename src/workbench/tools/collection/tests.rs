@@ -40,7 +40,7 @@ fn measure(window: &mut Headless, n_measured: u64) {
 /// What the pane shows, by a function of its entries in order.
 fn shown<T>(window: &mut Headless, of: impl Fn(&Entry<'_>) -> T) -> Vec<T> {
     let scene = window.workbench.bench.scene_view();
-    let items = window.workbench.bench.shelf.shared_items();
+    let items = window.workbench.bench.library_view.shared_items();
     let collection = &window.workbench.bench.transient.collection;
     let view = collection.view(&items, &scene, &collection.search);
     view.entries.iter().map(of).collect()
@@ -58,7 +58,7 @@ fn raw_figures_are_the_levels_of_the_surface_at_the_chosen_speed() {
     measure(&mut window, 16);
     choose(&mut window, |choice| choice.speed_mm_per_s = 20.0);
     measure(&mut window, 32);
-    let library = Arc::clone(window.workbench.bench.shelf.library());
+    let library = Arc::clone(window.workbench.bench.library_view.library());
     for speed_mm_per_s in [20.0, 100.0] {
         choose(&mut window, |choice| choice.speed_mm_per_s = speed_mm_per_s);
         window.pass(2);

@@ -8,9 +8,9 @@ use eframe::egui::{
 };
 
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::{Part, ShowCommand, Wishes};
-use crate::bench::mute_solo::Audition;
-use crate::bench::perceptual_level::Sensation;
+use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::mute_solo::MuteSolo;
+use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Dot, Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -97,7 +97,7 @@ pub(crate) fn show(
     scene: &SceneView,
     live: &Live,
     style: HeatmapStyle,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let Some(grid) = scene.grid else {
@@ -125,7 +125,7 @@ pub(crate) fn show(
         painter.text(title_at, Align2::LEFT_CENTER, title, theme::body(), ink);
         for (index, dot) in live.dots.iter().enumerate() {
             let rect = places.cell(band.index(), index);
-            let is_below = live.sensation.is_below(dot.amplitude_um)[band.index()];
+            let is_below = live.perceptual_level.is_below(dot.amplitude_um)[band.index()];
             let is_grey = style.greys_below && is_below;
             paint_cell(&painter, rect, (dot, band), is_grey, style);
         }
@@ -144,23 +144,23 @@ pub(crate) fn show(
     let height = grid.0 as f32 * places.cell.y - GAP;
     let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
     amplitude_bar(&painter, bar, style.map, style.scale);
-    answer(&response, &places, (scene, live), wishes);
+    answer(&response, &places, (scene, live), commands);
 }
 
 /// What stands over the heatmaps: numbers, the scale's lock and its top.
 pub(crate) fn show_corner(
     ui: &mut Ui,
     style: HeatmapStyle,
-    audition: &Audition,
-    wishes: &mut Wishes,
+    mute_solo: &MuteSolo,
+    commands: &mut Commands,
 ) {
     let scale = style.scale;
     if toggle(ui, "123", style.has_numbers, "Numbers in the cells (N)") {
-        wishes.push(ShowCommand::ToggleNumbers.into());
+        commands.push(ShowCommand::ToggleNumbers.into());
     }
     let tip = "Hollow and grey what is below the threshold of detection, by a model";
     if toggle(ui, "SL", style.greys_below, tip) {
-        wishes.push(ShowCommand::ToggleThreshold.into());
+        commands.push(ShowCommand::ToggleThreshold.into());
     }
     let (word, tip) = if scale.is_locked() {
         (
@@ -174,7 +174,7 @@ pub(crate) fn show_corner(
         )
     };
     if toggle(ui, word, scale.is_locked(), tip) {
-        wishes.push(ShowCommand::LockScale(!scale.is_locked()).into());
+        commands.push(ShowCommand::LockScale(!scale.is_locked()).into());
     }
     let tops = [
         ("−", 0.4, "A scale that ends lower, held"),
@@ -182,10 +182,10 @@ pub(crate) fn show_corner(
     ];
     for (sign, factor, tip) in tops.into_iter().rev() {
         if toggle(ui, sign, false, tip) {
-            wishes.push(ShowCommand::ScaleTop(scale.most_um() * factor).into());
+            commands.push(ShowCommand::ScaleTop(scale.most_um() * factor).into());
         }
     }
-    let is_any = audition.is_any();
+    let is_any = mute_solo.is_any();
     if is_any
         && toggle(
             ui,
@@ -194,7 +194,7 @@ pub(crate) fn show_corner(
             "Feel everything again: end every mute and solo (H)",
         )
     {
-        wishes.push(ShowCommand::HearAll.into());
+        commands.push(ShowCommand::HearAll.into());
     }
 }
 
@@ -202,7 +202,7 @@ pub(crate) fn show_corner(
 fn below_words(live: &Live) -> String {
     let on_cloth = || live.dots.iter().filter(|dot| dot.cloth.is_some());
     let [low, high] = Band::ALL.map(|band| {
-        let is_below = |dot: &&Dot| live.sensation.is_below(dot.amplitude_um)[band.index()];
+        let is_below = |dot: &&Dot| live.perceptual_level.is_below(dot.amplitude_um)[band.index()];
         on_cloth().filter(is_below).count()
     });
     let n = on_cloth().count();
@@ -263,14 +263,14 @@ fn answer(
     response: &Response,
     places: &Places,
     (scene, live): (&SceneView, &Live),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let at = response
         .hover_pos()
         .or_else(|| response.interact_pointer_pos());
     let hit = at.and_then(|at| places.at(at, live.dots.len()));
     if let (Some((_, index)), true) = (hit, response.clicked()) {
-        wishes.push(ShowCommand::SelectContactor(index).into());
+        commands.push(ShowCommand::SelectContactor(index).into());
     }
     if let (Some((_, index)), true) = (hit, response.secondary_clicked()) {
         response
@@ -280,24 +280,24 @@ fn answer(
     let chosen: Option<usize> = response.ctx.data(|data| data.get_temp(response.id));
     response.context_menu(|ui| {
         if let Some(index) = chosen {
-            show_menu(ui, index, live, wishes);
+            show_menu(ui, index, live, commands);
         }
     });
     let Some((index, dot)) = hit.and_then(|(_, i)| live.dots.get(i).map(|dot| (i, dot))) else {
         return;
     };
     if response.hovered() {
-        wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
+        commands.push(ShowCommand::Hover(Part::Contactor(index)).into());
     }
     if response.hovered() && !response.context_menu_opened() {
-        let words = words(index, dot, scene, &live.sensation);
+        let words = words(index, dot, scene, &live.perceptual_level);
         response.clone().on_hover_ui_at_pointer(|ui| {
             ui.label(words);
         });
     }
 }
 
-fn show_menu(ui: &mut Ui, index: usize, live: &Live, wishes: &mut Wishes) {
+fn show_menu(ui: &mut Ui, index: usize, live: &Live, commands: &mut Commands) {
     ui.label(format!("Contactor {index}"));
     let part = Part::Contactor(index);
     let is_muted = live.dots.get(index).is_some_and(|dot| dot.is_muted);
@@ -313,18 +313,18 @@ fn show_menu(ui: &mut Ui, index: usize, live: &Live, wishes: &mut Wishes) {
     ];
     for (label, command) in choices {
         if ui.button(label).clicked() {
-            wishes.push(command.into());
+            commands.push(command.into());
             ui.close();
         }
     }
 }
 
-fn words(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> String {
+fn words(index: usize, dot: &Dot, scene: &SceneView, perceptual_level: &PerceptualLevel) -> String {
     let on = match dot.cloth.and_then(|cloth| scene.cloths.get(cloth)) {
         Some(cloth) => format!("on {} {}", cloth.label, cloth.name),
         None => "off every textile".to_owned(),
     };
-    let bands = sensation.band_lines(dot.amplitude_um);
+    let bands = perceptual_level.band_lines(dot.amplitude_um);
     let limited = limit_words(dot.limiter).map_or_else(String::new, |words| format!("\n{words}"));
     let muted = if dot.is_muted { "\nmuted" } else { "" };
     format!(

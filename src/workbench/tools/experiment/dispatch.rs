@@ -201,7 +201,7 @@ impl Bench {
 
     fn leave_session(&mut self, ctx: &egui::Context) {
         self.send(selvedge_engine::Command::Vibrate(Vec::new()));
-        let mask = self.transient.audition.contactor_mask(self.n_contactors());
+        let mask = self.transient.mute_solo.contactor_mask(self.n_contactors());
         self.send(selvedge_engine::Command::SetContactorMask(mask));
         self.transient.history.clear();
         self.transient.trail = crate::tools::workspace::trail::Trail::default();
@@ -255,7 +255,7 @@ impl Bench {
         let Some(held) = &mut self.transient.experiment.held else {
             return;
         };
-        let flaws = held.materials.shelf.work(ctx, self.is_stepped);
+        let flaws = held.materials.library_view.work(ctx, self.is_stepped);
         match held.poll(began) {
             Ok(true) => self.present(ctx),
             Ok(false) => {}

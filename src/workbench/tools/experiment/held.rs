@@ -116,7 +116,7 @@ impl Held {
         };
         for stimulus in &held.design.stimuli {
             if let Source::Textile { id, .. } = &stimulus.source {
-                held.materials.shelf.want(id);
+                held.materials.library_view.want(id);
             }
         }
         held.look(began);

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::bench::library_view::Shelf;
+use crate::bench::library_view::LibraryView;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
 use crate::shell::error::AppError;
@@ -29,7 +29,7 @@ pub(crate) struct Materials {
     /// What the textiles were made from.
     pub hash: String,
     /// Their pictures.
-    pub(crate) shelf: Shelf,
+    pub(crate) library_view: LibraryView,
 }
 
 impl Materials {
@@ -44,7 +44,7 @@ impl Materials {
             None => Library::shipped()?,
             Some(folder) => Library::named(&folder, build_cache().as_ref())?,
         });
-        let shelf = Shelf::new(
+        let library_view = LibraryView::new(
             Arc::clone(&library),
             crate::bench::library_view::items_of(&library),
         );
@@ -60,7 +60,7 @@ impl Materials {
             rendering,
             display,
             hash,
-            shelf,
+            library_view,
         })
     }
 

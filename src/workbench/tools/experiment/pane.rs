@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use crate::bench::Bench;
-use crate::bench::command::{Command, Wishes};
+use crate::bench::command::{Command, Commands};
 use crate::bench::pane::Pane;
 use crate::shell::desk::Desk;
 use crate::shell::frame::{Felt, frame_as_armed};
@@ -26,13 +26,13 @@ impl Desk<'_> {
         let now_s = ui.input(|input| input.time);
         let bench = &*self.bench;
         if bench.transient.experiment.window.is_open {
-            return crate::tools::experiment::participant::show_apart(ui, self.wishes);
+            return crate::tools::experiment::participant::show_apart(ui, self.commands);
         }
         let view = bench
             .transient
             .experiment
             .participant(&bench.transient.live, now_s);
-        let shown = crate::tools::experiment::participant::show(ui, &view, self.wishes);
+        let shown = crate::tools::experiment::participant::show(ui, &view, self.commands);
         if shown.is_some() {
             self.shown = shown;
         }
@@ -67,7 +67,7 @@ impl Desk<'_> {
             ui,
             (&view, noise.as_ref(), screen),
             &mut hands,
-            self.wishes,
+            self.commands,
         );
         if let Some((held, note)) = experiment.held.as_mut().zip(note) {
             held.note = note;
@@ -81,7 +81,7 @@ impl Bench {
     pub(crate) fn show_participants_window(
         &self,
         ctx: &Context,
-        wishes: &mut Wishes,
+        commands: &mut Commands,
     ) -> Option<Felt> {
         let window = self.transient.experiment.window;
         if !window.is_open {
@@ -99,10 +99,10 @@ impl Bench {
         let id = ViewportId::from_hash_of("participant");
         ctx.show_viewport_immediate(id, builder, |ui, class| {
             if class == ViewportClass::EmbeddedWindow {
-                let shown = crate::tools::experiment::participant::show(ui, &view, wishes)?;
+                let shown = crate::tools::experiment::participant::show(ui, &view, commands)?;
                 return Some((shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
             }
-            take_window_keys(ui.ctx(), window.fills_screen, wishes);
+            take_window_keys(ui.ctx(), window.fills_screen, commands);
             if live.is_armed() {
                 frame_as_armed(ui.ctx());
             }
@@ -112,7 +112,7 @@ impl Bench {
                     crate::tools::experiment::participant::show_before(ui, *is_coming);
                     None
                 }
-                view => crate::tools::experiment::participant::show(ui, view, wishes),
+                view => crate::tools::experiment::participant::show(ui, view, commands),
             });
             Some((
                 shown.inner?,
@@ -135,7 +135,7 @@ impl Bench {
 
 /// What the participant's window does besides showing its view: it closes, fills its screen by F11,
 /// and Esc switches everything off as everywhere.
-fn take_window_keys(ctx: &Context, fills_screen: bool, wishes: &mut Wishes) {
+fn take_window_keys(ctx: &Context, fills_screen: bool, commands: &mut Commands) {
     let (is_closed, is_toggled, is_off) = ctx.input(|input| {
         (
             input.viewport().close_requested(),
@@ -143,13 +143,13 @@ fn take_window_keys(ctx: &Context, fills_screen: bool, wishes: &mut Wishes) {
             input.key_pressed(Key::Escape),
         )
     });
-    let mut act = |act| wishes.push(ExperimentCommand::Window(act).into());
+    let mut act = |act| commands.push(ExperimentCommand::Window(act).into());
     if is_closed {
         act(WindowAct::Close);
     } else if is_toggled {
         act(WindowAct::FillScreen(!fills_screen));
     }
     if is_off {
-        wishes.push(Command::AllOff);
+        commands.push(Command::AllOff);
     }
 }

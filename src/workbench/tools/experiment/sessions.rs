@@ -107,7 +107,7 @@ impl Bench {
             return;
         }
         experiment.form.failure = None;
-        let how = (self.session_display(), self.settings.kept.rendering);
+        let how = (self.session_display(), self.settings.preferences.rendering);
         let work = move |progress: &mut Progress<'_>| {
             progress
                 .step(0.1, "textiles")

@@ -282,7 +282,7 @@ impl Held {
             } else {
                 slots(&self.layout, trial)
             },
-            picture: target.and_then(|id| self.materials.shelf.picture(id)),
+            picture: target.and_then(|id| self.materials.library_view.picture(id)),
             finger: finger.filter(|_| !is_played),
             feels: self.is_felt(),
         }

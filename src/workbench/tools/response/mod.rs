@@ -14,7 +14,7 @@ mod tests;
 use eframe::egui::{self, Align2, Color32, Painter, Rect, RichText, Ui, pos2, vec2};
 
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::probe::Probe;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme;
@@ -59,7 +59,7 @@ pub(crate) struct ResponseView<'a> {
 }
 
 /// Shows both plots; without a textile, what to do.
-pub(crate) fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, view: Option<&ResponseView<'_>>, commands: &mut Commands) {
     let whole = ui.max_rect();
     let Some(view) = view else {
         let words = "Choose a textile in the workspace, or move the chosen contactor over one";
@@ -80,16 +80,16 @@ pub(crate) fn show(ui: &Ui, view: Option<&ResponseView<'_>>, wishes: &mut Wishes
         let side = below.width().min(0.5 * below.height());
         below.split_top_bottom_at_y(below.top() + side)
     };
-    polar::show(ui, left, view, wishes);
-    over_speed::show(ui, right, view, wishes);
+    polar::show(ui, left, view, commands);
+    over_speed::show(ui, right, view, commands);
 }
 
 /// What stands over the plots: whether they follow the display.
-pub(crate) fn show_corner(ui: &mut Ui, probe: Probe, wishes: &mut Wishes) {
+pub(crate) fn show_corner(ui: &mut Ui, probe: Probe, commands: &mut Commands) {
     let tip = "Ask at the display's own velocity, to two digits and 5°";
     if toggle(ui, "follow", probe.follows, tip) {
         let probe = probe.with_follow(!probe.follows);
-        wishes.push(ShowCommand::Probe(probe).into());
+        commands.push(ShowCommand::Probe(probe).into());
     }
 }
 

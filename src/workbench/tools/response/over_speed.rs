@@ -2,7 +2,7 @@
 
 use eframe::egui::{Margin, Painter, Rect, Stroke, Ui, WidgetInfo, pos2};
 
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::probe::{Probe, SPEEDS_MM_PER_S, two_digits};
 use crate::kit::plot;
 use crate::kit::plot::{Drag, Setting, Shown};
@@ -30,7 +30,7 @@ const SCALE: Scale = Scale {
 };
 
 /// Shows the plot; a drag chooses the speed.
-pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut Commands) {
     let setting = Setting {
         name: "Speed of movement",
         margin: Margin {
@@ -54,7 +54,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, wishes: &mut Wi
     declare(ui, response.id, &SCALE, None);
     let chosen = chosen(ui, &shown, view.probe);
     if let Some(probe) = chosen.filter(|probe| *probe != view.probe) {
-        wishes.push(ShowCommand::Probe(probe).into());
+        commands.push(ShowCommand::Probe(probe).into());
     }
     paint_marks(ui.painter(), &shown, view);
     describe(&shown, view);

@@ -4,7 +4,7 @@ use eframe::egui::{
     Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::probe::{Probe, STEP_DEG};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -36,7 +36,7 @@ const SCALE: Scale = Scale {
 };
 
 /// Shows the plot; a drag chooses the direction.
-pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut Commands) {
     let id = ui.scope_id().with("direction of movement");
     let response = ui.interact(rect, id, Sense::click_and_drag());
     let direction_deg = view.probe.direction_deg;
@@ -48,7 +48,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, wishes: &mut Wi
     }
     let chosen = chosen(ui, &response, &plot, view.probe);
     if let Some(probe) = chosen.filter(|probe| *probe != view.probe) {
-        wishes.push(ShowCommand::Probe(probe).into());
+        commands.push(ShowCommand::Probe(probe).into());
     }
     let painter = ui.painter_at(rect);
     plot.paint_ground(&painter, view);

@@ -16,7 +16,7 @@ struct Bench {
     response: TextileResponse,
     curves: Curves,
     probe: Probe,
-    wishes: Wishes,
+    commands: Commands,
     rotation_deg: f64,
 }
 
@@ -27,7 +27,7 @@ fn bench() -> Bench {
         response,
         curves: Curves::default(),
         probe: Probe::default().with_direction(30.0),
-        wishes: Wishes::new(),
+        commands: Commands::new(),
         rotation_deg: 0.0,
     }
 }
@@ -56,14 +56,14 @@ fn window(bench: Bench) -> Harness<'static, Bench> {
             moving: Some(Velocity::new(30.0, -40.0)),
             scale: AmplitudeScale::default(),
         };
-        let mut wishes = Wishes::new();
-        show(ui, Some(&view), &mut wishes);
-        for wish in &wishes {
+        let mut commands = Commands::new();
+        show(ui, Some(&view), &mut commands);
+        for wish in &commands {
             if let Command::Show(ShowCommand::Probe(probe)) = wish {
                 bench.probe = *probe;
             }
         }
-        bench.wishes.extend(wishes);
+        bench.commands.extend(commands);
     };
     Harness::builder()
         .with_size(vec2(480.0, 216.0))
@@ -169,8 +169,8 @@ fn nothing_odd_harms_the_pane() {
                 moving: Some(Velocity::new(f64::NAN, f64::INFINITY)),
                 scale: AmplitudeScale::default(),
             };
-            show(ui, None, &mut Wishes::new());
-            show(ui, Some(&odd), &mut Wishes::new());
+            show(ui, None, &mut Commands::new());
+            show(ui, Some(&odd), &mut Commands::new());
         });
     harness.run();
     for size in [vec2(30.0, 20.0), vec2(1000.0, 40.0), vec2(60.0, 900.0)] {
@@ -180,6 +180,6 @@ fn nothing_odd_harms_the_pane() {
         });
         harness.set_size(size);
         harness.run();
-        assert!(harness.state().wishes.is_empty(), "{size:?}");
+        assert!(harness.state().commands.is_empty(), "{size:?}");
     }
 }

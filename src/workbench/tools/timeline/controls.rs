@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Layout, Ui, vec2};
 
-use crate::bench::command::{Command, FileCommand, PlayCommand, PlaySource, Purpose, Wishes};
+use crate::bench::command::{Command, Commands, FileCommand, PlayCommand, PlaySource, Purpose};
 use crate::kit::theme::STEP;
 use crate::kit::widgets::text::button;
 use crate::shell::keys::hint;
@@ -15,19 +15,19 @@ const STOPPED: &str = "Everything is off: arm first";
 const LIVE: &str = "The pointer cannot be stepped or rewound: choose By itself or Recording";
 
 /// Shows the controls.
-pub(crate) fn show(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
     ui.spacing_mut().item_spacing = vec2(STEP, 2.0 * STEP);
     ui.add_space(STEP);
     ui.horizontal(|ui| {
-        show_buttons(ui, view, wishes);
+        show_buttons(ui, view, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_files(ui, view, wishes);
+            show_files(ui, view, commands);
         });
     });
-    show_sources(ui, view, wishes);
+    show_sources(ui, view, commands);
 }
 
-fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
     let is_recording = view.recorded_ticks.is_some();
     let icon = Icon::Record {
         is_on: is_recording,
@@ -42,14 +42,19 @@ fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     };
     let refusal = (view.is_stopped && !is_recording).then_some(STOPPED);
     let act = Act::new(icon, label, what, refusal);
-    act.show(ui, PlayCommand::ToggleRecording, Some(is_recording), wishes);
+    act.show(
+        ui,
+        PlayCommand::ToggleRecording,
+        Some(is_recording),
+        commands,
+    );
     let act = play_act(view);
-    act.show(ui, PlayCommand::Toggle, None, wishes);
+    act.show(ui, PlayCommand::Toggle, None, commands);
     let refusal = view.is_live().then_some(LIVE);
     let act = Act::new(Icon::Step, "Step", "Play one tick, then hold", refusal);
-    act.show(ui, PlayCommand::Step, None, wishes);
+    act.show(ui, PlayCommand::Step, None, commands);
     let act = Act::new(Icon::Rewind, "Rewind", "Back to the first tick", refusal);
-    act.show(ui, PlayCommand::Rewind, None, wishes);
+    act.show(ui, PlayCommand::Rewind, None, commands);
     let what = if view.does_loop {
         "Stop at the end instead of beginning again"
     } else {
@@ -58,7 +63,7 @@ fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     let refusal = refusal.map(|_| "The pointer has no end: choose By itself or Recording");
     let act = Act::new(Icon::Loop, "Loop", what, refusal);
     let toggled = PlayCommand::Loop(!view.does_loop);
-    act.show(ui, toggled, Some(view.does_loop), wishes);
+    act.show(ui, toggled, Some(view.does_loop), commands);
 }
 
 fn play_act(view: &TransportView<'_>) -> Act {
@@ -74,11 +79,11 @@ fn play_act(view: &TransportView<'_>) -> Act {
     Act::new(Icon::Play, "Play", what, None)
 }
 
-fn show_files(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+fn show_files(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
     let mut ask = |ui: &mut Ui, text: &str, what: &str, purpose, refusal| {
         let command: Command = FileCommand::Ask(purpose).into();
         if button(ui, text, &tip(ui, what, &command), refusal) {
-            wishes.push(command);
+            commands.push(command);
         }
     };
     let (what, refusal) = match view.take {
@@ -98,7 +103,7 @@ fn show_files(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     ask(ui, "Open…", what, Purpose::OpenRecording, None);
 }
 
-fn show_sources(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
+fn show_sources(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
     let none = view
         .take
         .is_none()
@@ -129,7 +134,7 @@ fn show_sources(ui: &mut Ui, view: &TransportView<'_>, wishes: &mut Wishes) {
     ];
     let chosen = sources.iter().position(|source| *source == view.source);
     if let Some(index) = segments(ui, ui.available_width(), &parts, chosen.unwrap_or(0)) {
-        wishes.push(PlayCommand::Source(sources[index]).into());
+        commands.push(PlayCommand::Source(sources[index]).into());
     }
 }
 
@@ -157,7 +162,7 @@ impl Act {
     }
 
     /// Shows it; wishes for the command when it is pressed.
-    fn show(self, ui: &mut Ui, command: PlayCommand, is_on: Option<bool>, wishes: &mut Wishes) {
+    fn show(self, ui: &mut Ui, command: PlayCommand, is_on: Option<bool>, commands: &mut Commands) {
         let command: Command = command.into();
         let face = Face {
             icon: self.icon,
@@ -168,7 +173,7 @@ impl Act {
             is_enabled: self.refusal.is_none(),
         };
         if icon_button(ui, face, is_on) {
-            wishes.push(command);
+            commands.push(command);
         }
     }
 }

@@ -21,7 +21,7 @@ use std::fmt;
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
-use crate::bench::command::{PlaySource, Wishes};
+use crate::bench::command::{Commands, PlaySource};
 use crate::bench::export::Exportable;
 use crate::bench::export::button::{place_in, show as show_export};
 use crate::bench::recording::Take;
@@ -116,23 +116,23 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &TransportView<'_>,
     state: &mut TransportState,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let size = vec2(ui.available_width(), HEIGHT);
     let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
     let (controls, rest) = bar.split_left_right_at_x(bar.left() + CONTROLS);
     let (middle, numbers) = rest.split_left_right_at_x(rest.right() - NUMBERS);
     ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| {
-        controls::show(ui, view, wishes);
+        controls::show(ui, view, commands);
     });
     let timeline = Rect::from_min_max(
         pos2(middle.left() + 3.0 * STEP, middle.top()),
         pos2(middle.right() - 4.0 * STEP, middle.bottom()),
     );
-    strips_view::show(ui, timeline, view, state, wishes);
+    strips_view::show(ui, timeline, view, state, commands);
     // It stands a little above the bar's content, which must not grow by it.
     let export = UiBuilder::new().max_rect(place_in(timeline));
-    show_export(&mut ui.new_child(export), Exportable::Timeline, wishes);
+    show_export(&mut ui.new_child(export), Exportable::Timeline, commands);
     show_numbers(ui, numbers, view);
 }
 

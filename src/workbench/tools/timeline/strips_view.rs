@@ -4,7 +4,7 @@ use eframe::egui::{
     Align2, EventFilter, Key, Painter, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
 };
 
-use crate::bench::command::{PlayCommand, Wishes};
+use crate::bench::command::{Commands, PlayCommand};
 use crate::bench::recording::Take;
 use crate::bench::recording::strips::Felt;
 use crate::kit::theme;
@@ -24,10 +24,10 @@ pub(crate) fn show(
     rect: Rect,
     view: &TransportView<'_>,
     state: &mut TransportState,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     match view.shown_take() {
-        Some(take) => show_take(ui, rect, take, view.tick, (state, wishes)),
+        Some(take) => show_take(ui, rect, take, view.tick, (state, commands)),
         None => felt::show(ui, rect, view),
     }
 }
@@ -37,7 +37,7 @@ fn show_take(
     rect: Rect,
     take: &Take,
     tick: u64,
-    (state, wishes): (&mut TransportState, &mut Wishes),
+    (state, commands): (&mut TransportState, &mut Commands),
 ) {
     let strips = take.strips();
     let plot = Plot::new(rect, strips.fastest_mm_per_s());
@@ -53,7 +53,7 @@ fn show_take(
     let asked = asked_tick(ui, &response, &plot, strips.n_ticks(), tick);
     // An engine that has not followed yet is not asked twice.
     if let Some(asked) = asked.filter(|asked| *asked != tick && state.asked != Some(*asked)) {
-        wishes.push(PlayCommand::Seek(asked).into());
+        commands.push(PlayCommand::Seek(asked).into());
     }
     state.asked = asked;
     paint_title(ui, &plot, &take_title(take), strips.has_levels());

@@ -58,23 +58,23 @@ impl Window {
         }
     }
 
-    fn frame(&mut self, view: &TransportView<'_>, events: Vec<Event>) -> Wishes {
+    fn frame(&mut self, view: &TransportView<'_>, events: Vec<Event>) -> Commands {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(WIDTH, 100.0))),
             events,
             focused: true,
             ..RawInput::default()
         };
-        let mut wishes = Wishes::new();
+        let mut commands = Commands::new();
         let output = self.ctx.run_ui(input, |ui| {
-            show(ui, view, &mut self.state, &mut wishes);
+            show(ui, view, &mut self.state, &mut commands);
         });
         output.drop_without_applying_deltas();
-        wishes
+        commands
     }
 
     /// Presses the button of the pointer there, or lets it go.
-    fn press(&mut self, view: &TransportView<'_>, at: Pos2, is_pressed: bool) -> Wishes {
+    fn press(&mut self, view: &TransportView<'_>, at: Pos2, is_pressed: bool) -> Commands {
         let button = Event::PointerButton {
             pos: at,
             button: PointerButton::Primary,
@@ -84,11 +84,11 @@ impl Window {
         self.frame(view, vec![Event::PointerMoved(at), button])
     }
 
-    fn click(&mut self, view: &TransportView<'_>, at: Pos2) -> Wishes {
+    fn click(&mut self, view: &TransportView<'_>, at: Pos2) -> Commands {
         self.frame(view, vec![Event::PointerMoved(at)]);
-        let mut wishes = self.press(view, at, true);
-        wishes.extend(self.press(view, at, false));
-        wishes
+        let mut commands = self.press(view, at, true);
+        commands.extend(self.press(view, at, false));
+        commands
     }
 }
 
@@ -130,8 +130,8 @@ fn the_buttons_ask_for_what_they_show() {
     ];
     window.frame(&replay, Vec::new());
     for (index, command) in (0..).zip(expected) {
-        let wishes = window.click(&replay, button_at(index));
-        assert_eq!(wishes, [Command::from(command)]);
+        let commands = window.click(&replay, button_at(index));
+        assert_eq!(commands, [Command::from(command)]);
     }
 }
 
@@ -155,8 +155,11 @@ fn what_makes_no_sense_now_asks_for_nothing() {
     }
     let take = recorded();
     let with_take = view(Some(&take));
-    let wishes = window.click(&with_take, recording);
-    assert_eq!(wishes, [PlayCommand::Source(PlaySource::Recording).into()]);
+    let commands = window.click(&with_take, recording);
+    assert_eq!(
+        commands,
+        [PlayCommand::Source(PlaySource::Recording).into()]
+    );
 }
 
 #[test]
@@ -168,8 +171,8 @@ fn a_recording_can_be_ended_even_when_everything_is_off() {
         ..view(None)
     };
     window.frame(&recording, Vec::new());
-    let wishes = window.click(&recording, RECORD);
-    assert_eq!(wishes, [PlayCommand::ToggleRecording.into()]);
+    let commands = window.click(&recording, RECORD);
+    assert_eq!(commands, [PlayCommand::ToggleRecording.into()]);
 }
 
 #[test]
@@ -184,13 +187,13 @@ fn scrubbing_asks_once_for_each_tick() {
     // Left of everything is the first tick, wherever the plot begins exactly.
     let (inside, far_left) = (pos2(700.0, 34.0), pos2(0.0, 34.0));
     window.frame(&replay, vec![Event::PointerMoved(inside)]);
-    let wishes = window.press(&replay, inside, true);
-    let [Command::Play(PlayCommand::Seek(tick))] = wishes[..] else {
-        panic!("{wishes:?}");
+    let commands = window.press(&replay, inside, true);
+    let [Command::Play(PlayCommand::Seek(tick))] = commands[..] else {
+        panic!("{commands:?}");
     };
     assert!((150..250).contains(&tick), "{tick}");
-    let wishes = window.frame(&replay, vec![Event::PointerMoved(far_left)]);
-    assert_eq!(wishes, [PlayCommand::Seek(0).into()]);
+    let commands = window.frame(&replay, vec![Event::PointerMoved(far_left)]);
+    assert_eq!(commands, [PlayCommand::Seek(0).into()]);
     assert_eq!(window.frame(&replay, Vec::new()), []);
     window.press(&replay, far_left, false);
     assert_eq!(window.frame(&replay, Vec::new()), []);
@@ -291,12 +294,12 @@ fn no_width_is_too_small() {
                 source,
                 ..view(Some(&take))
             };
-            let mut wishes = Wishes::new();
+            let mut commands = Commands::new();
             let output = window.ctx.run_ui(input.clone(), |ui| {
-                show(ui, &narrow, &mut window.state, &mut wishes);
+                show(ui, &narrow, &mut window.state, &mut commands);
             });
             output.drop_without_applying_deltas();
-            assert_eq!(wishes, []);
+            assert_eq!(commands, []);
         }
     }
 }

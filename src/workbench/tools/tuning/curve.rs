@@ -2,7 +2,7 @@
 
 use eframe::egui::{Margin, Pos2, Sense, Ui, vec2};
 
-use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
 use crate::bench::view::{LibraryDot, SceneView};
@@ -127,7 +127,7 @@ pub(crate) fn exported(scene: &SceneView, reference_db: f64, origin: Origin) -> 
 }
 
 /// Shows the curve, or what it waits for; a click on a dot chooses its textile, if it is placed.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let Some(reference_db) = scene.reference_db.filter(|_| !scene.library.is_empty()) else {
@@ -176,9 +176,9 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, wishes: &mut Wishes) {
     });
     if let Some(dot) = near {
         if let Some(index) = scene.placed(&dot.id) {
-            wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+            commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
             if shown.response.clicked() {
-                wishes.push(ShowCommand::SelectCloth(Some(index)).into());
+                commands.push(ShowCommand::SelectCloth(Some(index)).into());
             }
         }
         let words = format!(

@@ -5,8 +5,8 @@ pub(crate) mod curve;
 use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Part, ShowCommand, Wishes};
-use crate::bench::mute_solo::Audition;
+use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::mute_solo::MuteSolo;
 use crate::bench::perceptual_level::{SOURCE, above_words, felt_words, noticed_db, of_textile};
 use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
@@ -27,8 +27,8 @@ pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
     live: &Live,
-    audition: &Audition,
-    wishes: &mut Wishes,
+    mute_solo: &MuteSolo,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let (now, rest) = (scene.tuning, scene.default_tuning);
@@ -39,22 +39,22 @@ pub(crate) fn show(
     let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
     let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
     tip_beside(ui, &response, slider_tip(noticed));
-    wishes.extend(new.map(|db| Edit::MasterGain(db).into()));
+    commands.extend(new.map(|db| Edit::MasterGain(db).into()));
     for band in Band::ALL {
         let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
-        show_band(ui, band, noticed, (scene, audition), wishes);
+        show_band(ui, band, noticed, (scene, mute_solo), commands);
     }
-    show_textile(ui, scene, (under, noticed), wishes);
+    show_textile(ui, scene, (under, noticed), commands);
     show_felt(ui, felt.as_ref());
     let scale = Scale::share(rest.compression);
     let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
     let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
     tip_beside(ui, &response, tip);
-    wishes.extend(new.map(|share| Edit::Compression(share).into()));
-    curve::show(ui, scene, wishes);
+    commands.extend(new.map(|share| Edit::Compression(share).into()));
+    curve::show(ui, scene, commands);
     show_ranges(ui, scene);
     ui.add_space(theme::STEP);
-    show_filters(ui, scene.filters, wishes);
+    show_filters(ui, scene.filters, commands);
 }
 
 /// A band's own gain, without the master's, dB.
@@ -70,8 +70,8 @@ fn show_band(
     ui: &mut Ui,
     band: Band,
     noticed: Option<f64>,
-    (scene, audition): (&SceneView, &Audition),
-    wishes: &mut Wishes,
+    (scene, mute_solo): (&SceneView, &MuteSolo),
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
@@ -79,13 +79,18 @@ fn show_band(
     let ink = palette.band(band);
     let value = own_gain_db(&scene.tuning, band);
     let (new, response) = slider_row(ui, &name, ink, scale, value);
-    wishes.extend(new.map(|db| Edit::BandGain(band, db).into()));
+    commands.extend(new.map(|db| Edit::BandGain(band, db).into()));
     // Mute and solo stand between the name and the rail.
     let part = Part::Band(band);
     let middle = response.rect.left_center();
     let letters = [
-        ("M", -42.0, audition.is_muted(part), ShowCommand::Mute(part)),
-        ("S", -22.0, audition.is_solo(part), ShowCommand::Solo(part)),
+        (
+            "M",
+            -42.0,
+            mute_solo.is_muted(part),
+            ShowCommand::Mute(part),
+        ),
+        ("S", -22.0, mute_solo.is_solo(part), ShowCommand::Solo(part)),
     ];
     for (letter, left, is_on, command) in letters {
         let corner = middle + vec2(left, -9.0);
@@ -96,7 +101,7 @@ fn show_band(
         };
         let mut corner_ui = ui.new_child(UiBuilder::new().max_rect(rect));
         if toggle(&mut corner_ui, letter, is_on, &label) {
-            wishes.push(command.into());
+            commands.push(command.into());
         }
     }
     tip_beside(ui, &response, slider_tip(noticed));
@@ -166,7 +171,7 @@ fn show_textile(
     ui: &mut Ui,
     scene: &SceneView,
     (under, noticed): (Option<usize>, Option<f64>),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let Some((index, cloth)) = under.and_then(|i| scene.cloths.get(i).map(|cloth| (i, cloth)))
@@ -187,7 +192,7 @@ fn show_textile(
         .with_max_y(ui.cursor().top() + theme::ROW);
     let (new, response) = slider_row(ui, name, palette.text, scale, cloth.gain_db);
     if response.hovered() {
-        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+        commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
     }
     if is_marked {
         let lit = egui::Shape::rect_filled(row.expand2(vec2(6.0, 0.0)), 4, palette.raised);
@@ -198,7 +203,7 @@ fn show_textile(
         &response,
         format!("Gain of {}\n{}", cloth.name, slider_tip(noticed)),
     );
-    wishes.extend(new.map(|db| Edit::TextileGain(index, db).into()));
+    commands.extend(new.map(|db| Edit::TextileGain(index, db).into()));
 }
 
 fn show_ranges(ui: &mut Ui, scene: &SceneView) {
@@ -228,7 +233,7 @@ fn show_ranges(ui: &mut Ui, scene: &SceneView) {
 }
 
 /// Kind and width of the filters.
-fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
+fn show_filters(ui: &mut Ui, filters: Filters, commands: &mut Commands) {
     let octaves = match filters {
         Filters::LogGaussian { octaves } => octaves,
         Filters::Receptor => 2.0,
@@ -252,7 +257,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
         );
     });
     if chosen != filters {
-        wishes.push(Edit::Filters(chosen).into());
+        commands.push(Edit::Filters(chosen).into());
     }
     let scale = Scale {
         least: OCTAVES[0],
@@ -270,7 +275,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, wishes: &mut Wishes) {
         let (new, response) = slider_row(ui, "Width", ink, scale, octaves);
         if is_gaussian {
             tip_beside(ui, &response, "Width of both filters at half power");
-            wishes
+            commands
                 .extend(new.map(|octaves| Edit::Filters(Filters::LogGaussian { octaves }).into()));
         } else {
             response.on_disabled_hover_text("Receptor thresholds have the width that they have");

@@ -19,7 +19,7 @@ pub(crate) use crate::tools::why::text::to_text;
 
 use crate::bench::Bench;
 use crate::bench::command::Part;
-use crate::bench::perceptual_level::Sensation;
+use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::Source;
 use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState};
 use selvedge_render::array::{ContactTrace, Touch};
@@ -43,7 +43,7 @@ pub(crate) struct Why {
     /// Whether the contactor is left out for the moment.
     pub(crate) is_muted: bool,
     /// What the whole display feels like, by a model.
-    pub(crate) sensation: Sensation,
+    pub(crate) perceptual_level: PerceptualLevel,
     /// What becomes of the amplitudes at the output.
     pub output: Output,
 }
@@ -158,7 +158,7 @@ impl Bench {
     fn explained(&mut self) -> Option<Why> {
         let contactor = self.workspace.contactor?;
         let live = &self.transient.live;
-        let trace = self.eye.inspector.trace(0, contactor, &live.pose)?;
+        let trace = self.inspection.inspector.trace(0, contactor, &live.pose)?;
         let cloths = &self.document.scene().textiles;
         let cloth = trace
             .touch
@@ -166,7 +166,7 @@ impl Bench {
             .and_then(|touch| cloths.get(touch.textile));
         let textile = cloth.map(|cloth| {
             let name = self
-                .shelf
+                .library_view
                 .item(&cloth.id)
                 .map_or(&cloth.id, |item| &item.name);
             format!("{} {name}", cloth.label)
@@ -176,7 +176,7 @@ impl Bench {
             let n_columns = n_columns.max(1);
             (contactor / n_columns, contactor % n_columns)
         });
-        let is_muted = !self.transient.audition.is_felt(Part::Contactor(contactor));
+        let is_muted = !self.transient.mute_solo.is_felt(Part::Contactor(contactor));
         let bridge = live.bridge.as_ref();
         let gain = bridge.and_then(|bridge| bridge.gain);
         let comp_limit = bridge.and_then(|bridge| bridge.comp_limit);
@@ -198,7 +198,7 @@ impl Bench {
             trace,
             textile,
             is_muted,
-            sensation: live.sensation,
+            perceptual_level: live.perceptual_level,
             output,
         })
     }

@@ -65,7 +65,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Why {
         trace,
         textile: Some("1 Sine".to_owned()),
         is_muted: false,
-        sensation: Sensation::default(),
+        perceptual_level: PerceptualLevel::default(),
         output,
     }
 }
@@ -111,9 +111,9 @@ fn a_case_worked_by_hand_reads_as_it_was_worked() {
 fn what_it_feels_like_is_told_and_marked_as_a_model() {
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     let amplitudes_um = explained.trace.amplitudes_um;
-    explained.sensation = Sensation::of(std::iter::once(amplitudes_um));
+    explained.perceptual_level = PerceptualLevel::of(std::iter::once(amplitudes_um));
     // 10 µm and 4 dB are 24 dB re 1 µm; the threshold at 40 Hz is 8 dB, alone at 320 Hz 5.5 dB.
-    let [low_db, high_db] = explained.sensation.above_db(amplitudes_um);
+    let [low_db, high_db] = explained.perceptual_level.above_db(amplitudes_um);
     assert!((low_db - 16.0).abs() < 0.2, "{low_db} dB SL");
     assert!(high_db < low_db, "{high_db} dB SL");
     let text = to_text(&explained);

@@ -64,7 +64,7 @@ pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
 
 /// What it feels like, by the model: this contactor's levels above threshold, and the display.
 fn felt(why: &Why) -> [(String, String); 2] {
-    let above = why.sensation.above_db(why.trace.amplitudes_um);
+    let above = why.perceptual_level.above_db(why.trace.amplitudes_um);
     let [low, high] = above.map(|above_db| {
         if above_db.is_finite() {
             fixed(above_db, 1)
@@ -73,7 +73,7 @@ fn felt(why: &Why) -> [(String, String); 2] {
         }
     });
     let above = format!("{low} / {high} dB SL (model)");
-    let display = format!("{} (model)", felt_words(&why.sensation.whole));
+    let display = format!("{} (model)", felt_words(&why.perceptual_level.whole));
     [("Sensation", above), ("Display feels", display)].map(|(name, value)| (name.to_owned(), value))
 }
 
@@ -197,7 +197,7 @@ fn rows(why: &Why) -> Vec<TableRow> {
     }
     let amplitudes = why.trace.amplitudes_um;
     row("amplitude", "", None, amplitudes, "um");
-    let above_db = why.sensation.above_db(amplitudes);
+    let above_db = why.perceptual_level.above_db(amplitudes);
     row("sensation level by model", "", None, above_db, "dB");
     let limits = why.output.limits;
     row("limit", "", None, limits.map(|limit| limit.um), "um");

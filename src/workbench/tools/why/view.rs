@@ -5,7 +5,7 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::perceptual_level::SOURCE;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -60,19 +60,19 @@ pub(crate) fn show_corner(
     ui: &mut Ui,
     is_frozen: bool,
     (why, chosen, n_contactors): (Option<&Why>, Option<usize>, usize),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     if why.is_none() {
         return;
     }
     if toggle(ui, "copy", false, "Copy the chain as text") {
-        wishes.push(ShowCommand::CopyWhy.into());
+        commands.push(ShowCommand::CopyWhy.into());
     }
     let tip = "Hold the explanation while everything else goes on";
     if toggle(ui, "freeze", is_frozen, tip) {
-        wishes.push(ShowCommand::FreezeWhy.into());
+        commands.push(ShowCommand::FreezeWhy.into());
     }
-    show_neighbours(ui, chosen, n_contactors, wishes);
+    show_neighbours(ui, chosen, n_contactors, commands);
 }
 
 /// Steps to the contactor before and the one behind, around all of them.
@@ -80,7 +80,7 @@ fn show_neighbours(
     ui: &mut Ui,
     contactor: Option<usize>,
     n_contactors: usize,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let Some(contactor) = contactor.filter(|contactor| *contactor < n_contactors) else {
         return;
@@ -96,7 +96,7 @@ fn show_neighbours(
     for (sign, step, tip) in steps {
         if toggle(ui, sign, false, tip) {
             let next = (contactor + step) % n_contactors;
-            wishes.push(ShowCommand::SelectContactor(next).into());
+            commands.push(ShowCommand::SelectContactor(next).into());
         }
     }
 }

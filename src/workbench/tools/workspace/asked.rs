@@ -33,11 +33,11 @@ impl Desk<'_> {
             readings: &transient.readings,
             maps: &transient.maps,
             lattice: &transient.lattice,
-            colours: bench.settings.kept.colour_map,
+            colours: bench.settings.preferences.colour_map,
         };
         let (live, state) = (&transient.live, &bench.workspace);
         let over = (&transient.trail, layers);
-        let shown = workspace::show(ui, self.scene, live, over, state, self.wishes);
+        let shown = workspace::show(ui, self.scene, live, over, state, self.commands);
         self.shown = Some(shown);
     }
 
@@ -49,7 +49,7 @@ impl Desk<'_> {
         let name = name.as_deref().map_or("", str::trim);
         let view =
             cloth.map(|(asked, cloth)| bench.response_view(&asked, (name, cloth.rotation_deg)));
-        crate::tools::response::show(ui, view.as_ref(), self.wishes);
+        crate::tools::response::show(ui, view.as_ref(), self.commands);
     }
 }
 
@@ -83,7 +83,7 @@ impl Bench {
         if overlays.need_readings() && transient.live.centre.is_some() {
             let pose = &transient.live.pose;
             let readings = &mut transient.readings;
-            self.eye.inspector.readings_into(0, pose, readings);
+            self.inspection.inspector.readings_into(0, pose, readings);
         }
         let Some(band) = overlays.map() else {
             transient.maps.clear();
@@ -93,9 +93,9 @@ impl Bench {
             velocity: self.workspace.probe.velocity(),
             band,
             scale: self.workspace.scale,
-            colours: self.settings.kept.colour_map,
+            colours: self.settings.preferences.colour_map,
         };
-        let inspector = &self.eye.inspector;
+        let inspector = &self.inspection.inspector;
         transient
             .maps
             .catch_up(ctx, inspector, wanted, self.is_stepped);
@@ -108,7 +108,7 @@ impl Bench {
         let live = &self.transient.live;
         readings.clear();
         if live.centre.is_some() {
-            self.eye
+            self.inspection
                 .inspector
                 .readings_into(0, &live.pose, &mut readings);
         }
@@ -122,7 +122,7 @@ impl Bench {
             .or_else(|| under.map(|reading| reading.textile))
             .or(self.transient.asked_textile)?;
         self.transient.asked_textile = Some(textile);
-        let response = self.eye.inspector.response(textile)?;
+        let response = self.inspection.inspector.response(textile)?;
         let on_it = under.filter(|reading| reading.textile == textile);
         let place = contactor.zip(on_it.map(|reading| reading.points));
         let asked = Asked {

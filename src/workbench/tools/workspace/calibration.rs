@@ -8,7 +8,7 @@ use eframe::egui::{
     Stroke, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{Command, ShowCommand, Wishes};
+use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::card;
@@ -60,7 +60,7 @@ pub(crate) fn forget_unless(ui: &Ui, stage: &Stage<'_>) {
 }
 
 /// Shows the crosses and the card that asks for their distance.
-pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let known = ui.data(|data| data.get_temp::<Measurement>(id(stage)));
     let is_first = known.is_none();
     let mut measurement = known.unwrap_or_default();
@@ -69,7 +69,7 @@ pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
     painter.rect_filled(stage.ground, 0, veil);
     let ends = [0, 1].map(|which| show_cross(ui, stage, &mut measurement, which));
     paint(&painter, ends);
-    show_card(ui, stage, (&mut measurement, is_first), ends, wishes);
+    show_card(ui, stage, (&mut measurement, is_first), ends, commands);
     ui.data_mut(|data| data.insert_temp(id(stage), measurement));
 }
 
@@ -114,10 +114,10 @@ fn show_card(
     stage: &Stage<'_>,
     (measurement, is_first): (&mut Measurement, bool),
     ends: [Pos2; 2],
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     card(ui, stage.ground, 400.0, "True size", |ui, _| {
-        show_question(ui, (measurement, is_first), ends, wishes);
+        show_question(ui, (measurement, is_first), ends, commands);
     });
 }
 
@@ -125,7 +125,7 @@ fn show_question(
     ui: &mut Ui,
     (measurement, is_first): (&mut Measurement, bool),
     ends: [Pos2; 2],
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let words = "Measure the distance between the two crosses on the screen with a ruler. The \
@@ -151,10 +151,10 @@ fn show_question(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let is_used = button(ui, "Use", "Show true size from now on (Enter)", None);
             if is_used || is_entered {
-                answer(measurement, distance_in_pixels(ends, ui), wishes);
+                answer(measurement, distance_in_pixels(ends, ui), commands);
             }
             if button(ui, "Cancel", "Leave the screen as it is", None) {
-                wishes.push(Command::Dismiss);
+                commands.push(Command::Dismiss);
             }
         });
     });
@@ -169,9 +169,9 @@ fn show_question(
     ui.label(said.font(theme::small()));
 }
 
-fn answer(measurement: &mut Measurement, pixels: f64, wishes: &mut Wishes) {
+fn answer(measurement: &mut Measurement, pixels: f64, commands: &mut Commands) {
     match pixels_per_mm(pixels, &measurement.typed) {
-        Ok(pixels_per_mm) => wishes.push(ShowCommand::Calibrated(pixels_per_mm).into()),
+        Ok(pixels_per_mm) => commands.push(ShowCommand::Calibrated(pixels_per_mm).into()),
         Err(why) => measurement.refusal = Some(why),
     }
 }

@@ -8,7 +8,7 @@ use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2
 
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::DotStyle;
-use crate::bench::perceptual_level::Sensation;
+use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Dot, Live};
 use crate::kit::theme::Palette;
 use crate::kit::widgets::limit_mark::paint_limit_mark;
@@ -45,7 +45,7 @@ pub(crate) fn paint(
         points_per_mm: view.length(1.0).max(LEAST_SCALE),
         scale: state.scale,
         style: state.dot_style,
-        sensation: state.greys_below.then_some(live.sensation),
+        perceptual_level: state.greys_below.then_some(live.perceptual_level),
     };
     let sight = painter.clip_rect().expand(2.5 * brush.points_per_mm);
     let in_sight = |dot: &&Dot| sight.contains(view.screen(dot.position));
@@ -113,7 +113,7 @@ struct Brush<'a> {
     scale: AmplitudeScale,
     style: DotStyle,
     /// By what to grey what is not felt, if it is greyed.
-    sensation: Option<Sensation>,
+    perceptual_level: Option<PerceptualLevel>,
 }
 
 impl Brush<'_> {
@@ -166,8 +166,8 @@ impl Brush<'_> {
 
     /// Whether each band is greyed because it is too weak to be felt.
     fn is_below(&self, dot: &Dot) -> [bool; 2] {
-        let is_below = |s: Sensation| s.is_below(dot.amplitude_um);
-        self.sensation.map_or([false; 2], is_below)
+        let is_below = |s: PerceptualLevel| s.is_below(dot.amplitude_um);
+        self.perceptual_level.map_or([false; 2], is_below)
     }
 
     /// Below threshold a disc is a grey ring.

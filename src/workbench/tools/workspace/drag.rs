@@ -10,7 +10,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::view::Cloth;
 use crate::kit::theme::Palette;
 use crate::tools::workspace::arrange::{Guides, Handle, Handles, Lines, SNAP_POINTS};
@@ -38,7 +38,7 @@ enum Grab {
 }
 
 /// Lets the pointer and the arrow keys arrange textiles.
-pub(crate) fn arrange(ui: &mut Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+pub(crate) fn arrange(ui: &mut Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let id = stage.response.id.with("grab");
     let pointer = stage.response.interact_pointer_pos();
     let (is_pressed, is_down) = ui.input(|input| {
@@ -50,7 +50,7 @@ pub(crate) fn arrange(ui: &mut Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
     // A tap may come and go within one frame: it chooses all the same.
     let is_taken = stage.response.is_pointer_button_down_on() || stage.response.clicked();
     if let Some(at) = pointer.filter(|_| is_pressed && is_taken) {
-        let grab = take_hold(stage, at, wishes);
+        let grab = take_hold(stage, at, commands);
         ui.data_mut(|data| data.insert_temp(id, Some(grab)));
     }
     let grab = held(ui, id);
@@ -60,21 +60,21 @@ pub(crate) fn arrange(ui: &mut Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
     let dragged = grab.filter(|_| stage.response.dragged_by(PointerButton::Primary));
     let mut guides = Guides::default();
     if let (Some(grab), Some(at)) = (dragged, pointer) {
-        guides = follow(ui, stage, (grab, at), wishes);
+        guides = follow(ui, stage, (grab, at), commands);
     }
     if stage.response.clicked()
         && let Some(at) = pointer
         && let Some(index) = dot_at(stage, at)
     {
-        wishes.push(ShowCommand::SelectContactor(index).into());
+        commands.push(ShowCommand::SelectContactor(index).into());
     }
-    nudge(ui, stage, wishes);
+    nudge(ui, stage, commands);
     let painter = ui.painter_at(stage.ground);
     paint_hovered(ui, &painter, stage);
     paint_guides(&painter, stage, guides);
     paint_selection(&painter, stage);
     if dragged.is_none() {
-        crate::tools::workspace::tools::show_beside_selection(ui, stage, wishes);
+        crate::tools::workspace::tools::show_beside_selection(ui, stage, commands);
     }
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn dot_at(stage: &Stage<'_>, at: Pos2) -> Option<usize> {
 }
 
 /// What a press gets hold of; a textile is chosen by it, empty ground chooses none.
-fn take_hold(stage: &Stage<'_>, at: Pos2, wishes: &mut Wishes) -> Grab {
+fn take_hold(stage: &Stage<'_>, at: Pos2, commands: &mut Commands) -> Grab {
     let place = stage.view.workspace(at);
     if let Some((index, cloth)) = stage.selected() {
         match Handles::of(&stage.view, cloth).hit(at) {
@@ -106,7 +106,7 @@ fn take_hold(stage: &Stage<'_>, at: Pos2, wishes: &mut Wishes) -> Grab {
     let hit = arrange::topmost(&stage.scene.cloths, place);
     // A click on a dot means the contactor, not the textile below it; a drag means the textile.
     if stage.state.cloth != hit && dot_at(stage, at).is_none() {
-        wishes.push(ShowCommand::SelectCloth(hit).into());
+        commands.push(ShowCommand::SelectCloth(hit).into());
     }
     let cloth = hit.and_then(|index| Some((index, stage.scene.cloths.get(index)?)));
     cloth.map_or(Grab::Ground, |(index, cloth)| {
@@ -115,10 +115,10 @@ fn take_hold(stage: &Stage<'_>, at: Pos2, wishes: &mut Wishes) -> Grab {
 }
 
 /// Lets what is held follow the pointer; says which lines it snapped to.
-fn follow(ui: &Ui, stage: &Stage<'_>, (grab, at): (Grab, Pos2), wishes: &mut Wishes) -> Guides {
+fn follow(ui: &Ui, stage: &Stage<'_>, (grab, at): (Grab, Pos2), commands: &mut Commands) -> Guides {
     let (index, icon) = match grab {
         Grab::Ground => {
-            navigate::pan(ui, stage, wishes);
+            navigate::pan(ui, stage, commands);
             return Guides::default();
         }
         Grab::Cloth(index, _) | Grab::Turn(index, _) => (index, CursorIcon::Grabbing),
@@ -129,11 +129,11 @@ fn follow(ui: &Ui, stage: &Stage<'_>, (grab, at): (Grab, Pos2), wishes: &mut Wis
         return Guides::default();
     };
     if stage.state.cloth != Some(index) {
-        wishes.push(ShowCommand::SelectCloth(Some(index)).into());
+        commands.push(ShowCommand::SelectCloth(Some(index)).into());
     }
     let modifiers = ui.input(|input| input.modifiers);
     let (edit, guides) = edit_of(stage, (grab, cloth), stage.view.workspace(at), modifiers);
-    wishes.extend(edit.map(Into::into));
+    commands.extend(edit.map(Into::into));
     guides
 }
 
@@ -186,7 +186,7 @@ fn edit_of(
 }
 
 /// Arrow keys move the chosen textile, unless they belong to something else.
-fn nudge(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+fn nudge(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let ground = stage.response.id;
     let focused = ui.memory(Memory::focused);
     if focused.is_some_and(|id| id != ground) {
@@ -210,7 +210,7 @@ fn nudge(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
     });
     if right != 0.0 || up != 0.0 {
         let origin = cloth.workspace_from_textile.origin + Displacement::new(right, up);
-        wishes.push(Edit::MoveCloth(index, arrange::fine(origin)).into());
+        commands.push(Edit::MoveCloth(index, arrange::fine(origin)).into());
     }
 }
 

@@ -2,7 +2,7 @@
 
 use eframe::egui::{DragAndDrop, Rect, Stroke, StrokeKind, Ui, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::edit::Edit;
 use crate::bench::editing::new_size_mm;
 use crate::kit::theme;
@@ -19,7 +19,7 @@ pub(crate) struct LibraryItem {
 }
 
 /// Shows where a carried textile would lie, and places it when it is let go.
-pub(crate) fn take(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+pub(crate) fn take(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     if !DragAndDrop::has_payload_of_type::<LibraryItem>(ui.ctx()) {
         return;
     }
@@ -29,7 +29,7 @@ pub(crate) fn take(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
     let under = stage.view.workspace(at);
     let middle = Point::new(under.x_mm.round(), under.y_mm.round());
     if let Some(item) = stage.response.dnd_release_payload::<LibraryItem>() {
-        wishes.push(Edit::AddCloth(item.id.clone(), middle).into());
+        commands.push(Edit::AddCloth(item.id.clone(), middle).into());
     } else if stage.response.dnd_hover_payload::<LibraryItem>().is_some() {
         paint_ghost(ui, stage, middle);
     }

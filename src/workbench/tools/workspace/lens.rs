@@ -6,7 +6,7 @@ use eframe::egui::{
     self, Align2, CursorIcon, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{Part, ShowCommand, Wishes};
+use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -41,7 +41,13 @@ pub(crate) fn split(inner: Rect, size_mm: [f64; 2]) -> (Rect, Option<Rect>) {
 }
 
 /// Shows the lens and its readings in `column`; a click on a contactor looks closer at it.
-pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, trail: &Trail, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &Ui,
+    column: Rect,
+    stage: &Stage<'_>,
+    trail: &Trail,
+    commands: &mut Commands,
+) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter_at(column);
     painter.vline(
@@ -68,7 +74,7 @@ pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, trail: &Trail, wish
         let painter = ui.painter_at(glass);
         paint_cloths(&painter, &view, stage);
         paint_display(&painter, &view, stage, trail);
-        choose(&response, &view, stage, wishes);
+        choose(&response, &view, stage, commands);
     } else {
         let words = "Move the pointer over a textile";
         painter.text(
@@ -105,15 +111,15 @@ pub(crate) fn room_below(column: Rect) -> Option<Rect> {
 }
 
 /// Tells of the contactor under the pointer, and chooses the one that is clicked.
-fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, wishes: &mut Wishes) {
+fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, commands: &mut Commands) {
     let at = response.hover_pos();
     let Some(index) = at.and_then(|at| display::hit(view, &stage.live.dots, at)) else {
         return;
     };
     response.ctx.set_cursor_icon(CursorIcon::PointingHand);
-    wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
+    commands.push(ShowCommand::Hover(Part::Contactor(index)).into());
     if response.clicked() {
-        wishes.push(ShowCommand::SelectContactor(index).into());
+        commands.push(ShowCommand::SelectContactor(index).into());
     }
     tips::tell_of_dot(response, stage, index);
 }

@@ -3,11 +3,11 @@
 use eframe::egui::{Button, Ui};
 
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Command, Look, Part, ShowCommand, Wishes};
+use crate::bench::command::{Command, Commands, Look, Part, ShowCommand};
 use crate::tools::workspace::{Stage, arrange, tools};
 
 /// Shows the menu while it is open. What it is about is settled when it opens.
-pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let id = stage.response.id.with("menu is about");
     if stage.response.secondary_clicked()
         && let Some(at) = stage.response.interact_pointer_pos()
@@ -15,19 +15,19 @@ pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
         let hit = arrange::topmost(&stage.scene.cloths, stage.view.workspace(at));
         ui.data_mut(|data| data.insert_temp(id, hit));
         if stage.arranges() && hit.is_some() {
-            wishes.push(ShowCommand::SelectCloth(hit).into());
+            commands.push(ShowCommand::SelectCloth(hit).into());
         }
     }
     stage.response.context_menu(|ui| {
         let about = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
         match about.filter(|index| *index < stage.scene.cloths.len()) {
-            Some(index) => show_cloth(ui, stage, index, wishes),
-            None => show_ground(ui, wishes),
+            Some(index) => show_cloth(ui, stage, index, commands),
+            None => show_ground(ui, commands),
         }
     });
 }
 
-fn show_cloth(ui: &mut Ui, stage: &Stage<'_>, index: usize, wishes: &mut Wishes) {
+fn show_cloth(ui: &mut Ui, stage: &Stage<'_>, index: usize, commands: &mut Commands) {
     let top = stage.scene.cloths.len().saturating_sub(1);
     let is_muted = |cloth: &crate::bench::view::Cloth| cloth.is_muted;
     let part = Part::Cloth(index);
@@ -37,26 +37,26 @@ fn show_cloth(ui: &mut Ui, stage: &Stage<'_>, index: usize, wishes: &mut Wishes)
         stage.scene.cloths.get(index).is_some_and(is_muted),
         &mute(part),
     ) {
-        wishes.push(mute(part));
+        commands.push(mute(part));
     }
     if entry(ui, "Solo", false, &ShowCommand::Solo(part).into()) {
-        wishes.push(ShowCommand::Solo(part).into());
+        commands.push(ShowCommand::Solo(part).into());
     }
     if stage.scene.cloths.iter().any(is_muted)
         && entry(ui, "Feel everything", false, &ShowCommand::HearAll.into())
     {
-        wishes.push(ShowCommand::HearAll.into());
+        commands.push(ShowCommand::HearAll.into());
     }
     ui.separator();
     let raise = Edit::RaiseCloth(index).into();
     let is_below = index < top;
     ui.add_enabled_ui(is_below, |ui| {
         if entry(ui, "Raise to top", false, &raise) {
-            wishes.extend(tools::raising(index, top));
+            commands.extend(tools::raising(index, top));
         }
     });
     if entry(ui, "Remove", false, &Edit::RemoveCloth(index).into()) {
-        wishes.extend(tools::removing(index));
+        commands.extend(tools::removing(index));
     }
 }
 
@@ -64,7 +64,7 @@ fn mute(part: Part) -> Command {
     ShowCommand::Mute(part).into()
 }
 
-fn show_ground(ui: &mut Ui, wishes: &mut Wishes) {
+fn show_ground(ui: &mut Ui, commands: &mut Commands) {
     for (name, command) in [
         ("Fit", ShowCommand::Look(Look::Fit)),
         ("True size", ShowCommand::Look(Look::TrueSize)),
@@ -72,7 +72,7 @@ fn show_ground(ui: &mut Ui, wishes: &mut Wishes) {
     ] {
         let command = command.into();
         if entry(ui, name, false, &command) {
-            wishes.push(command);
+            commands.push(command);
         }
     }
 }

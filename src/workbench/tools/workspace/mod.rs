@@ -43,7 +43,7 @@ use eframe::egui::{
     WidgetInfo, vec2,
 };
 
-use crate::bench::command::{Part, ShowCommand, Tool, Wishes};
+use crate::bench::command::{Commands, Part, ShowCommand, Tool};
 use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -93,7 +93,7 @@ pub(crate) fn show(
     live: &Live,
     (trail, layers): (&Trail, Layers<'_>),
     state: &WorkspaceState,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) -> Shown {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
@@ -120,9 +120,9 @@ pub(crate) fn show(
     let tag = paint(ui, &stage, trail);
     access::declare(ui, &stage);
     paint_rulers(ui, frame, &stage);
-    let feels = handle(ui, &stage, tag, wishes);
+    let feels = handle(ui, &stage, tag, commands);
     if let Some(lens) = lens {
-        lens::show(ui, lens, &stage, trail, wishes);
+        lens::show(ui, lens, &stage, trail, commands);
     }
     if let Some(band) = state.overlays.map() {
         let beside = lens.and_then(lens::room_below);
@@ -140,25 +140,25 @@ pub(crate) fn show(
 
 /// Does what the pointer and the keys want, with the controls that lie on the ground. Says whether
 /// the pointer feels.
-fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, wishes: &mut Wishes) -> bool {
+fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, commands: &mut Commands) -> bool {
     calibration::forget_unless(ui, stage);
     if stage.state.is_calibrating {
-        calibration::show(ui, stage, wishes);
+        calibration::show(ui, stage, commands);
         return false;
     }
-    let is_panning = navigate::navigate(ui, stage, wishes);
+    let is_panning = navigate::navigate(ui, stage, commands);
     if stage.arranges() {
-        drag::arrange(ui, stage, wishes);
+        drag::arrange(ui, stage, commands);
     } else {
         drag::paint_choice(&ui.painter_at(stage.ground), stage);
         if stage.response.hovered() {
             ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
         }
     }
-    drop::take(ui, stage, wishes);
-    menu::show(ui, stage, wishes);
+    drop::take(ui, stage, commands);
+    menu::show(ui, stage, commands);
     tips::tell(ui, stage, tag);
-    say_hovered(stage, wishes);
+    say_hovered(stage, commands);
     let is_busy = Popup::is_any_open(ui.ctx()) || DragAndDrop::has_any_payload(ui.ctx());
     stage.state.tool == Tool::Explore && !(is_panning || is_busy)
 }
@@ -248,18 +248,18 @@ fn paint_marked(painter: &Painter, stage: &Stage<'_>) {
 }
 
 /// Says what the pointer rests on.
-fn say_hovered(stage: &Stage<'_>, wishes: &mut Wishes) {
+fn say_hovered(stage: &Stage<'_>, commands: &mut Commands) {
     let Some(at) = stage.response.hover_pos() else {
         return;
     };
     let place = stage.view.workspace(at);
     if let Some(index) = arrange::topmost(&stage.scene.cloths, place) {
-        wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+        commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
     }
     if stage.arranges()
         && let Some(index) = drag::dot_at(stage, at)
     {
-        wishes.push(ShowCommand::Hover(Part::Contactor(index)).into());
+        commands.push(ShowCommand::Hover(Part::Contactor(index)).into());
     }
 }
 

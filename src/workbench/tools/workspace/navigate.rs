@@ -3,7 +3,7 @@
 
 use eframe::egui::{CursorIcon, Event, MouseWheelUnit, PointerButton, Ui, Vec2};
 
-use crate::bench::command::{Look, PlayCommand, ShowCommand, Wishes};
+use crate::bench::command::{Commands, Look, PlayCommand, ShowCommand};
 use crate::tools::workspace::{Stage, arrange};
 use selvedge_foundation::geometry::Displacement;
 
@@ -15,25 +15,25 @@ const NOTCH_DEG: f64 = 5.0;
 const POINTS_PER_NOTCH: f32 = 40.0;
 
 /// Zooms, turns and pans. Says whether the ground is being dragged.
-pub(crate) fn navigate(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) -> bool {
+pub(crate) fn navigate(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) -> bool {
     if stage.response.contains_pointer() {
-        take_wheel(ui, stage, wishes);
+        take_wheel(ui, stage, commands);
     }
     if stage.response.double_clicked()
         && let Some(at) = stage.response.interact_pointer_pos()
         && arrange::topmost(&stage.scene.cloths, stage.view.workspace(at)).is_none()
     {
-        wishes.push(ShowCommand::Look(Look::Fit).into());
+        commands.push(ShowCommand::Look(Look::Fit).into());
     }
     let is_panning = stage.response.dragged_by(PointerButton::Middle);
     if is_panning {
-        pan(ui, stage, wishes);
+        pan(ui, stage, commands);
     }
     is_panning
 }
 
 /// Lets the ground follow the drag.
-pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     let by = stage.response.drag_delta();
     if by != Vec2::ZERO {
@@ -42,11 +42,11 @@ pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
             f64::from(by.x) / points_per_mm,
             -f64::from(by.y) / points_per_mm,
         );
-        wishes.push(ShowCommand::Look(Look::Centre(stage.view.centre() - shift)).into());
+        commands.push(ShowCommand::Look(Look::Centre(stage.view.centre() - shift)).into());
     }
 }
 
-fn take_wheel(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+fn take_wheel(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let (turned, scrolled, pinched, pointer) = ui.input(|input| {
         let is_turning = input.modifiers.alt;
         let notches = input.events.iter().filter_map(notches).sum::<f64>();
@@ -59,14 +59,14 @@ fn take_wheel(ui: &Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
         )
     });
     if turned != 0.0 {
-        wishes.push(PlayCommand::Turn(NOTCH_DEG * turned).into());
+        commands.push(PlayCommand::Turn(NOTCH_DEG * turned).into());
     }
     let factor = f64::from(pinched * (scrolled / POINTS_PER_E).exp());
     if (factor - 1.0).abs() > 1e-6
         && let Some(at) = pointer
     {
         let place = stage.view.workspace(at);
-        wishes.push(ShowCommand::Look(Look::Zoom(factor, place)).into());
+        commands.push(ShowCommand::Look(Look::Zoom(factor, place)).into());
     }
 }
 

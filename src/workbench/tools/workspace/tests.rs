@@ -65,7 +65,7 @@ impl Window {
     }
 
     /// One frame with these events: what was wished for, and what came of it.
-    fn run(&mut self, mut events: Vec<Event>) -> (Wishes, Shown) {
+    fn run(&mut self, mut events: Vec<Event>) -> (Commands, Shown) {
         self.frame += 1;
         events.insert(0, Event::ModifiersChanged(self.modifiers));
         let input = RawInput {
@@ -76,25 +76,25 @@ impl Window {
             events,
             ..RawInput::default()
         };
-        let mut wishes = Wishes::new();
+        let mut commands = Commands::new();
         let mut shown = None;
         let (maps, lattice) = (Maps::default(), Lattice::default());
         let layers = layers(&maps, &lattice);
         let mut output = self.ctx.run_ui(input, |ui| {
-            wishes.clear();
+            commands.clear();
             shown = Some(show(
                 ui,
                 &self.scene,
                 &self.live,
                 (&Trail::default(), layers),
                 &self.state,
-                &mut wishes,
+                &mut commands,
             ));
         });
         output.textures_delta.clear();
         let is_hover = |c: &Command| matches!(c, Command::Show(ShowCommand::Hover(_)));
-        wishes.retain(|command| !is_hover(command));
-        (wishes, shown.unwrap())
+        commands.retain(|command| !is_hover(command));
+        (commands, shown.unwrap())
     }
 
     fn at(&mut self, x_mm: f64, y_mm: f64) -> Pos2 {
@@ -113,7 +113,7 @@ impl Window {
 
     /// Drags from one place to another, mm; what was wished for while the button was down, and
     /// after it was let go.
-    fn drag(&mut self, from: [f64; 2], to: [f64; 2]) -> (Wishes, Wishes) {
+    fn drag(&mut self, from: [f64; 2], to: [f64; 2]) -> (Commands, Commands) {
         let [from, to] = [self.at(from[0], from[1]), self.at(to[0], to[1])];
         self.run(vec![Event::PointerMoved(from)]);
         let mut during = self.run(vec![self.press(from, true)]).0;
@@ -127,14 +127,14 @@ impl Window {
         (during, after)
     }
 
-    fn click(&mut self, at: Pos2) -> Wishes {
+    fn click(&mut self, at: Pos2) -> Commands {
         self.run(vec![Event::PointerMoved(at)]);
-        let mut wishes = self.run(vec![self.press(at, true)]).0;
-        wishes.extend(self.run(vec![self.press(at, false)]).0);
-        wishes
+        let mut commands = self.run(vec![self.press(at, true)]).0;
+        commands.extend(self.run(vec![self.press(at, false)]).0);
+        commands
     }
 
-    fn scroll(&mut self, at: Pos2) -> Wishes {
+    fn scroll(&mut self, at: Pos2) -> Commands {
         self.run(vec![Event::PointerMoved(at)]);
         let wheel = Event::MouseWheel {
             unit: MouseWheelUnit::Line,
@@ -173,12 +173,12 @@ fn cloth(origin: [f64; 2], size_mm: [f64; 2]) -> Cloth {
     }
 }
 
-fn edits(wishes: &[Command]) -> Vec<Edit> {
+fn edits(commands: &[Command]) -> Vec<Edit> {
     let edit = |command: &Command| match command {
         Command::Edit(edit) => Some(edit.clone()),
         _ => None,
     };
-    wishes.iter().filter_map(edit).collect()
+    commands.iter().filter_map(edit).collect()
 }
 
 #[test]
@@ -256,9 +256,9 @@ fn the_pointer_feels_while_it_explores_and_not_while_it_arranges() {
 fn the_wheel_zooms_about_the_pointer_and_with_alt_turns_the_display() {
     let mut window = Window::new(Tool::Explore);
     let at = window.at(70.0, 70.0);
-    let wishes = window.scroll(at);
-    let [Command::Show(ShowCommand::Look(Look::Zoom(factor, place)))] = wishes[..] else {
-        panic!("{wishes:?}");
+    let commands = window.scroll(at);
+    let [Command::Show(ShowCommand::Look(Look::Zoom(factor, place)))] = commands[..] else {
+        panic!("{commands:?}");
     };
     assert!(factor > 1.0, "{factor}");
     assert!(
@@ -276,9 +276,9 @@ fn two_clicks_on_empty_ground_show_all_of_it() {
     for ([x_mm, y_mm], is_fit) in [([70.0, 70.0], false), ([60.0, 200.0], true)] {
         let mut window = Window::new(Tool::Explore);
         let at = window.at(x_mm, y_mm);
-        let mut wishes = window.click(at);
-        wishes.extend(window.click(at));
-        assert_eq!(wishes.contains(&fit), is_fit, "{wishes:?}");
+        let mut commands = window.click(at);
+        commands.extend(window.click(at));
+        assert_eq!(commands.contains(&fit), is_fit, "{commands:?}");
     }
 }
 
@@ -328,12 +328,12 @@ fn a_textile_of_the_library_is_placed_where_it_is_let_go() {
         id: "silk".to_owned(),
     };
     DragAndDrop::set_payload(&window.ctx, item);
-    let (wishes, shown) = window.run(vec![Event::PointerMoved(at + vec2(1.0, 0.0))]);
-    assert_eq!(wishes, []);
+    let (commands, shown) = window.run(vec![Event::PointerMoved(at + vec2(1.0, 0.0))]);
+    assert_eq!(commands, []);
     assert!(!shown.feels, "the pointer carries");
-    let wishes = window.run(vec![window.press(at, false)]).0;
+    let commands = window.run(vec![window.press(at, false)]).0;
     let add = Edit::AddCloth("silk".to_owned(), Point::new(70.0, 200.0));
-    assert_eq!(wishes, [add.into()]);
+    assert_eq!(commands, [add.into()]);
 }
 
 #[test]
@@ -357,9 +357,9 @@ fn what_is_measured_between_the_crosses_calibrates_the_screen() {
     window.run(Vec::new());
     let (_, shown) = window.run(Vec::new());
     assert!(!shown.feels, "the pointer measures");
-    let wishes = window.run(vec![typed("100"), enter]).0;
-    let [Command::Show(ShowCommand::Calibrated(pixels_per_mm))] = wishes[..] else {
-        panic!("{wishes:?}");
+    let commands = window.run(vec![typed("100"), enter]).0;
+    let [Command::Show(ShowCommand::Calibrated(pixels_per_mm))] = commands[..] else {
+        panic!("{commands:?}");
     };
     let pixels = 0.6 * (f64::from(shown.ground.width()) - 28.0);
     assert!(
@@ -393,7 +393,7 @@ fn nothing_to_show_is_shown_without_harm() {
             live,
             (&Trail::default(), layers),
             state,
-            &mut Wishes::new(),
+            &mut Commands::new(),
         );
     });
     output.textures_delta.clear();

@@ -4,7 +4,7 @@
 
 use eframe::egui::{Label, Pos2, Response, Ui};
 
-use crate::bench::perceptual_level::Sensation;
+use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Cloth, Dot, SceneView};
 use crate::kit::widgets::limit_mark::limit_words;
 use crate::tools::workspace::{Stage, arrange, drag, overlay};
@@ -40,7 +40,7 @@ pub(crate) fn tell(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
 pub(crate) fn tell_of_dot(response: &Response, stage: &Stage<'_>, index: usize) {
     if let Some(dot) = stage.live.dots.get(index) {
         response.clone().on_hover_ui_at_pointer(|ui| {
-            let words = of_dot(index, dot, stage.scene, &stage.live.sensation);
+            let words = of_dot(index, dot, stage.scene, &stage.live.perceptual_level);
             ui.add(Label::new(words).extend());
         });
     }
@@ -70,7 +70,12 @@ fn of_cloth(cloth: &Cloth) -> String {
     )
 }
 
-fn of_dot(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> String {
+fn of_dot(
+    index: usize,
+    dot: &Dot,
+    scene: &SceneView,
+    perceptual_level: &PerceptualLevel,
+) -> String {
     let grid = match scene.grid {
         Some((_, n_columns)) if n_columns > 0 => {
             format!(", row {}, column {}", index / n_columns, index % n_columns)
@@ -82,7 +87,7 @@ fn of_dot(index: usize, dot: &Dot, scene: &SceneView, sensation: &Sensation) -> 
         None => "off every textile".to_owned(),
     };
     let [x, y] = [dot.position.x_mm, dot.position.y_mm].map(|mm| quantity::fixed(mm, 2));
-    let bands = sensation.band_lines(dot.amplitude_um);
+    let bands = perceptual_level.band_lines(dot.amplitude_um);
     let state = match limit_words(dot.limiter) {
         _ if dot.is_muted => "\nMuted".to_owned(),
         Some(words) => format!("\n{words}"),
@@ -125,7 +130,7 @@ mod tests {
             amplitude_um: [3.0, 0.5],
             ..Dot::default()
         };
-        let words = of_dot(9, &dot, &scene, &Sensation::default());
+        let words = of_dot(9, &dot, &scene, &PerceptualLevel::default());
         assert!(words.starts_with("Contactor 9, row 2, column 1\non 2 Wool felt"));
         assert!(words.contains("at 1.00, −2.00 mm"), "{words}");
         assert!(words.contains("320 Hz  0.50 µm"), "{words}");

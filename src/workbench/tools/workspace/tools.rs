@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Command, Look, ShowCommand, Tool, Wishes};
+use crate::bench::command::{Command, Commands, Look, ShowCommand, Tool};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::tools::workspace::state::WorkspaceState;
@@ -36,12 +36,12 @@ pub(crate) fn show(
     state: &WorkspaceState,
     pane: Rect,
     size_mm: [f64; 2],
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     ui.spacing_mut().item_spacing.x = STEP;
     ui.spacing_mut().button_padding = vec2(2.0 * STEP, 0.0);
     let view = state.camera.view(pane, size_mm);
-    show_magnification(ui, state, &view, wishes);
+    show_magnification(ui, state, &view, commands);
     ui.add_space(2.0 * STEP);
     let size = vec2(60.0, BUTTON);
     for (tool, name, what) in [
@@ -54,11 +54,11 @@ pub(crate) fn show(
     ] {
         let command: Command = ShowCommand::Tool(tool).into();
         if offered(ui, size, (name, state.tool == tool), what, &command) {
-            wishes.push(command);
+            commands.push(command);
         }
     }
     ui.add_space(2.0 * STEP);
-    overlay::show_menu(ui, state, view.points_per_mm(), wishes);
+    overlay::show_menu(ui, state, view.points_per_mm(), commands);
 }
 
 /// Shows the magnification, from right to left.
@@ -66,7 +66,7 @@ fn show_magnification(
     ui: &mut Ui,
     state: &WorkspaceState,
     view: &ViewTransform,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let pixels_per_point = ui.ctx().pixels_per_point();
     let is_true = state.is_true_size(view, pixels_per_point);
@@ -82,7 +82,7 @@ fn show_magnification(
     ] {
         let command: Command = ShowCommand::Look(look).into();
         if offered(ui, size, (name, is_chosen), what, &command) {
-            wishes.push(command);
+            commands.push(command);
         }
     }
     let pixels_per_mm = view.points_per_mm() * f64::from(pixels_per_point);
@@ -102,7 +102,7 @@ fn magnification(pixels_per_mm: f64, is_true: bool) -> String {
 }
 
 /// Shows what can be done with the chosen textile, beside it.
-pub(crate) fn show_beside_selection(ui: &mut Ui, stage: &Stage<'_>, wishes: &mut Wishes) {
+pub(crate) fn show_beside_selection(ui: &mut Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let Some((index, cloth)) = stage.selected() else {
         return;
     };
@@ -123,13 +123,13 @@ pub(crate) fn show_beside_selection(ui: &mut Ui, stage: &Stage<'_>, wishes: &mut
             ui.add_enabled_ui(!is_on_top, |ui| {
                 let what = "Lay it on top of the others";
                 if offered(ui, size, ("Raise", false), what, &raise) {
-                    wishes.extend(raising(index, top));
+                    commands.extend(raising(index, top));
                 }
             });
             let remove: Command = Edit::RemoveCloth(index).into();
             let what = "Take it out of the scene";
             if offered(ui, size, ("Remove", false), what, &remove) {
-                wishes.extend(removing(index));
+                commands.extend(removing(index));
             }
         });
     });

@@ -73,7 +73,7 @@ impl Headless {
         let mut desk = Self::explored(n_ticks);
         desk.dispatch(ShowCommand::Pane(Pane::Collection));
         desk.pass_ticks(2);
-        let n_textiles = desk.workbench.bench.shelf.items().len() as u64;
+        let n_textiles = desk.workbench.bench.library_view.items().len() as u64;
         while desk.workbench.n_textiles_measured() < n_textiles {
             thread::sleep(Duration::from_millis(5));
             // However long it takes, the display stays where it is.
@@ -353,7 +353,7 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
     let factors = desk
         .workbench
         .bench
-        .eye
+        .inspection
         .inspector
         .response(textile)
         .unwrap()

@@ -54,7 +54,7 @@ fn the_collection_holds_the_levels_of_every_textile() {
     let exported = desk.exported(Exportable::Pane(Pane::Collection));
     let table = table_of(&exported);
     let ids = table.text("textile").unwrap();
-    let library = std::sync::Arc::clone(desk.workbench.bench.shelf.library());
+    let library = std::sync::Arc::clone(desk.workbench.bench.library_view.library());
     assert_eq!(ids, library.ids());
     for (band, name) in Band::ALL.into_iter().zip(["raw_a40_um", "raw_a320_um"]) {
         for (id, um) in ids.iter().zip(column(&exported, name)) {

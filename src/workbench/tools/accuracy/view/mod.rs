@@ -11,7 +11,7 @@ use eframe::egui::{
     self, ComboBox, Layout, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
 use crate::kit::plot::{Drag, Setting};
 use crate::kit::theme;
@@ -51,15 +51,15 @@ const HISTOGRAM: Setting<'_> = Setting {
 };
 
 /// Shows the pane.
-pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
     let size = ui.available_size();
     if size.x >= ROOM_FOR_THREE {
-        show_controls(ui, view, wishes);
+        show_controls(ui, view, commands);
         let rect = ui.available_rect_before_wrap();
         let [errors, costs, methods] = thirds(rect);
         within(ui, errors, |ui| errors::show(ui, view));
         within(ui, costs, |ui| costs::show(ui, view));
-        within(ui, methods, |ui| pareto::show(ui, view, wishes));
+        within(ui, methods, |ui| pareto::show(ui, view, commands));
         ui.advance_cursor_after_rect(rect);
         return;
     }
@@ -67,7 +67,7 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
         .id_salt("accuracy")
         .auto_shrink(false);
     area.show(ui, |ui| {
-        show_controls(ui, view, wishes);
+        show_controls(ui, view, commands);
         let left_over = (size.y - ROW - 3.0 * STEP).max(LEAST);
         let size = vec2(ui.available_width(), left_over);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -75,9 +75,9 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
             let (above, below) = rect.split_top_bottom_at_fraction(0.45);
             show_histograms(ui, above, view);
             let below = below.with_min_y(below.top() + GAP);
-            within(ui, below, |ui| pareto::show(ui, view, wishes));
+            within(ui, below, |ui| pareto::show(ui, view, commands));
         } else if view.shows_methods {
-            within(ui, rect, |ui| pareto::show(ui, view, wishes));
+            within(ui, rect, |ui| pareto::show(ui, view, commands));
         } else {
             show_histograms(ui, rect, view);
         }
@@ -95,14 +95,14 @@ fn show_histograms(ui: &mut Ui, rect: Rect, view: &AccuracyView<'_>) {
 
 /// What stands beside the title: begin anew, and which plots there are where there is no room for
 /// all.
-pub(crate) fn show_corner(ui: &mut Ui, shows_methods: bool, wishes: &mut Wishes) {
+pub(crate) fn show_corner(ui: &mut Ui, shows_methods: bool, commands: &mut Commands) {
     let tip = "Begin the statistics of errors and costs anew";
     if toggle(ui, "reset", false, tip) {
-        wishes.push(AccuracyCommand::Reset.into());
+        commands.push(AccuracyCommand::Reset.into());
     }
     let tip = "Every method on this scene";
     if toggle(ui, "methods", shows_methods, tip) {
-        wishes.push(AccuracyCommand::ToggleMethods.into());
+        commands.push(AccuracyCommand::ToggleMethods.into());
     }
 }
 
@@ -123,10 +123,10 @@ fn within(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
 }
 
 /// The method, and the error that it may make.
-fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
     let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
     let row = ui.horizontal(|ui| {
-        show_method(ui, view, wishes);
+        show_method(ui, view, commands);
         ui.add_space(STEP);
         let scale = Scale {
             least: 0.0,
@@ -143,7 +143,7 @@ fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
             let ink = Palette::in_ui(ui).text;
             let now_db = view.rendering.budget_db;
             let (new, response) = slider_row(ui, "Error budget", ink, scale, now_db);
-            wishes.extend(new.map(|db| AccuracyCommand::Budget(db).into()));
+            commands.extend(new.map(|db| AccuracyCommand::Budget(db).into()));
             response
         });
         slider.inner
@@ -177,7 +177,7 @@ fn budget_words(view: &AccuracyView<'_>) -> String {
     )
 }
 
-fn show_method(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+fn show_method(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
     let mut chosen = view.rendering.method;
     let combo = ComboBox::from_id_salt("rendering method")
         .selected_text(chosen.name())
@@ -196,7 +196,7 @@ fn show_method(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
          heard), table (looked up), or auto: the cheapest within the error budget",
     );
     if chosen != view.rendering.method {
-        wishes.push(AccuracyCommand::Method(chosen).into());
+        commands.push(AccuracyCommand::Method(chosen).into());
     }
 }
 

@@ -6,7 +6,7 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
@@ -25,8 +25,8 @@ const ERRORS_DB: [f64; 2] = [1e-8, 100.0];
 const REACH: f32 = 7.0;
 
 /// Shows the methods in the space that is left.
-pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
-    show_head(ui, view, wishes);
+pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
+    show_head(ui, view, commands);
     let words = view.measured.map(|measured| words_below(view, measured));
     let n_lines = if words.is_some() { 2.0 } else { 0.0 };
     let height = (ui.available_height() - n_lines * LINE).max(60.0);
@@ -44,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
     plot.paint_axes(ui.painter());
     plot.paint_front(ui.painter(), measured);
     for (index, row) in measured.rows.iter().enumerate() {
-        show_point(ui, &plot, (measured, index, row), view.chosen, wishes);
+        show_point(ui, &plot, (measured, index, row), view.chosen, commands);
     }
     plot.paint_names(ui.painter(), measured);
     for line in words.unwrap_or_default() {
@@ -52,12 +52,12 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
     }
 }
 
-fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
+fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         if let Some(share) = view.measuring {
             if button(ui, "Stop", "Stop measuring", None) {
-                wishes.push(AccuracyCommand::StopMeasuring.into());
+                commands.push(AccuracyCommand::StopMeasuring.into());
             }
             let bar = ProgressBar::new(share)
                 .desired_height(STEP)
@@ -71,7 +71,7 @@ fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, wishes: &mut Wishes) {
         let tip = "Measure the error and the time of every method on this scene, along the last \
                    recording or across its textiles: a few seconds on a thread of its own";
         if button(ui, "Measure this scene", tip, None) {
-            wishes.push(AccuracyCommand::Measure.into());
+            commands.push(AccuracyCommand::Measure.into());
         }
         if let Some(measured) = view.measured {
             let before = if view.is_outdated {
@@ -91,7 +91,7 @@ fn show_point(
     plot: &Plot,
     (measured, index, row): (&Measured, usize, &Row),
     chosen: Option<usize>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let Some(at) = plot.place_of(row) else {
         return;
@@ -121,7 +121,7 @@ fn show_point(
     }
     if response.clicked() {
         let next = if is_chosen { None } else { Some(index) };
-        wishes.push(AccuracyCommand::Choose(next).into());
+        commands.push(AccuracyCommand::Choose(next).into());
     }
     response.on_hover_text(format!("{name}\n{}", words_of(row)));
 }

@@ -8,7 +8,7 @@ use eframe::egui::{
     Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::toggle;
@@ -63,7 +63,7 @@ pub(crate) fn show(
     (nth, drawn, room): (usize, &Drawn, f32),
     picture: Option<&Result<Arc<ColorImage>, String>>,
     looks: &mut Looks,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let [laid_width, laid_height] = drawn.figure.size_px();
     #[expect(clippy::cast_possible_truncation, reason = "a ratio, for the screen")]
@@ -89,7 +89,7 @@ pub(crate) fn show(
         let mut child = ui.new_child(UiBuilder::new().max_rect(corner));
         let label = format!("Save “{title}” as PNG, SVG or CSV");
         if toggle(&mut child, "save…", false, &label) {
-            wishes.push(AnalysisCommand::SaveFigure(nth).into());
+            commands.push(AnalysisCommand::SaveFigure(nth).into());
         }
     });
 }

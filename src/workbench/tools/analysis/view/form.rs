@@ -4,7 +4,7 @@ use std::path::Path;
 
 use eframe::egui::{Align, Layout, ProgressBar, Role, Ui, WidgetInfo, vec2};
 
-use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fold;
 use crate::kit::widgets::text::{button, toggle};
@@ -17,14 +17,19 @@ use crate::tools::import::view::fields::{LINE, Need, Tone, note, row_of, text};
 const NAME: f32 = 44.0;
 
 /// Shows it all.
-pub(crate) fn show(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &AnalysisView<'_>,
+    fields: &mut Fields,
+    commands: &mut Commands,
+) {
     let mut name = None;
     row_of(ui, NAME, ("folder", ""), |ui, label| {
         name = Some(label.clone());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let tip = "Choose a folder and analyse it";
             if toggle(ui, "choose…", false, tip) {
-                wishes.push(FileCommand::Ask(Purpose::OpenLogs).into());
+                commands.push(FileCommand::Ask(Purpose::OpenLogs).into());
             }
         });
     });
@@ -39,17 +44,17 @@ pub(crate) fn show(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wi
     }
     row_of(ui, NAME, ("seed", ""), |ui, label| {
         text(ui, label, &mut fields.seed, ("1", 72.0, Need::Optional));
-        show_effort(ui, view.choice, wishes);
+        show_effort(ui, view.choice, commands);
     });
-    show_more(ui, view, wishes);
+    show_more(ui, view, commands);
     ui.add_space(STEP);
     if let Some(share) = view.share {
         show_progress(ui, share, "Analysing the sessions");
         if button(ui, "Cancel", "What was found before stays", None) {
-            wishes.push(AnalysisCommand::Stop.into());
+            commands.push(AnalysisCommand::Stop.into());
         }
     } else {
-        show_button(ui, view, wishes);
+        show_button(ui, view, commands);
     }
     if let Some(line) = view.failure {
         note(ui, line, Tone::Wrong);
@@ -65,7 +70,7 @@ pub(crate) fn show(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wi
     }
 }
 
-fn show_button(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
+fn show_button(ui: &mut Ui, view: &AnalysisView<'_>, commands: &mut Commands) {
     let verb = if view.found.is_some() {
         "Analyse again"
     } else {
@@ -73,11 +78,11 @@ fn show_button(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
     };
     let tip = "Read the logs and compute everything";
     if button(ui, verb, tip, view.refusal) {
-        wishes.push(AnalysisCommand::Begin.into());
+        commands.push(AnalysisCommand::Begin.into());
     }
 }
 
-fn show_effort(ui: &mut Ui, choice: &Choice, wishes: &mut Wishes) {
+fn show_effort(ui: &mut Ui, choice: &Choice, commands: &mut Commands) {
     for (effort, word, tip) in [
         (
             Effort::Quick,
@@ -95,13 +100,13 @@ fn show_effort(ui: &mut Ui, choice: &Choice, wishes: &mut Wishes) {
                 effort,
                 ..choice.clone()
             };
-            wishes.push(AnalysisCommand::Choose(choice).into());
+            commands.push(AnalysisCommand::Choose(choice).into());
         }
     }
 }
 
 /// What is chosen seldom.
-fn show_more(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
+fn show_more(ui: &mut Ui, view: &AnalysisView<'_>, commands: &mut Commands) {
     let choice = view.choice;
     row_of(ui, NAME, ("with", ""), |ui, _| {
         let tip = "Compare the stress of maps with that of random ranks: takes longer";
@@ -110,7 +115,7 @@ fn show_more(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
                 has_random_data: !choice.has_random_data,
                 ..choice.clone()
             };
-            wishes.push(AnalysisCommand::Choose(choice).into());
+            commands.push(AnalysisCommand::Choose(choice).into());
         }
         let is_left_out = view.found.is_some_and(|found| !found.left_out.is_empty());
         if view.held.is_some() || is_left_out || choice.with_held {
@@ -120,7 +125,7 @@ fn show_more(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
                     with_held: !choice.with_held,
                     ..choice.clone()
                 };
-                wishes.push(AnalysisCommand::Choose(choice).into());
+                commands.push(AnalysisCommand::Choose(choice).into());
             }
         }
     });
@@ -146,13 +151,13 @@ pub(crate) fn show_folded(
     ui: &mut Ui,
     view: &AnalysisView<'_>,
     fields: &mut Fields,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let folder = Path::new(fields.folder.trim()).file_name();
     let summary = folder.unwrap_or_default().to_string_lossy().into_owned();
     fold(ui, ("Folder and choices", false), &summary, |ui| {
-        show(ui, view, fields, wishes);
-        show_report(ui, view, wishes);
+        show(ui, view, fields, commands);
+        show_report(ui, view, commands);
     });
     if let Some(share) = view.share {
         show_progress(ui, share, "Analysing the sessions");
@@ -160,7 +165,7 @@ pub(crate) fn show_folded(
 }
 
 /// The report's files.
-pub(crate) fn show_report(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show_report(ui: &mut Ui, view: &AnalysisView<'_>, commands: &mut Commands) {
     ui.add_space(2.0 * STEP);
     if let Some(share) = view.writing {
         return show_progress(ui, share, "Writing the report");
@@ -169,11 +174,11 @@ pub(crate) fn show_report(ui: &mut Ui, view: &AnalysisView<'_>, wishes: &mut Wis
         ui.spacing_mut().item_spacing.x = STEP;
         let tip = "A page to read, every table as CSV and JSON, every figure as SVG and PNG";
         if button(ui, "Write report…", tip, None) {
-            wishes.push(FileCommand::Ask(Purpose::WriteReport).into());
+            commands.push(FileCommand::Ask(Purpose::WriteReport).into());
         }
         let is_written = matches!(view.written, Some(Ok(_)));
         if is_written && button(ui, "Show it", "Show the folder of the report", None) {
-            wishes.push(AnalysisCommand::ShowReport.into());
+            commands.push(AnalysisCommand::ShowReport.into());
         }
     });
     match view.written {

@@ -13,7 +13,7 @@ pub(crate) mod words;
 
 use eframe::egui::{Align, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
@@ -61,12 +61,12 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &AnalysisView<'_>,
     hands: &mut AnalysisHands<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) -> Option<Sight> {
     ui.spacing_mut().item_spacing.y = STEP;
     let whole = ui.available_rect_before_wrap();
     let Some(found) = view.found else {
-        show_empty(ui, view, hands.fields, wishes);
+        show_empty(ui, view, hands.fields, commands);
         return None;
     };
     let sections = &found.analysis.sections;
@@ -77,20 +77,20 @@ pub(crate) fn show(
         ui.painter().vline(left.right(), whole.y_range(), hairline);
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
             scrolled(ui, "analysis-left", |ui| {
-                form::show(ui, view, hands.fields, wishes);
-                outline::show(ui, sections, view.section, wishes);
-                form::show_report(ui, view, wishes);
+                form::show(ui, view, hands.fields, commands);
+                outline::show(ui, sections, view.section, commands);
+                form::show_report(ui, view, commands);
             });
         });
         inside(ui, right.with_min_x(right.left() + 14.0), |ui| {
-            sight = show_found(ui, view, hands.looks, wishes);
+            sight = show_found(ui, view, hands.looks, commands);
         });
     } else {
         inside(ui, whole, |ui| {
-            form::show_folded(ui, view, hands.fields, wishes);
-            outline::show_closed(ui, sections, view.section, wishes);
+            form::show_folded(ui, view, hands.fields, commands);
+            outline::show_closed(ui, sections, view.section, commands);
             ui.add_space(STEP);
-            sight = show_found(ui, view, hands.looks, wishes);
+            sight = show_found(ui, view, hands.looks, commands);
         });
     }
     ui.advance_cursor_after_rect(whole);
@@ -102,7 +102,7 @@ fn show_found(
     ui: &mut Ui,
     view: &AnalysisView<'_>,
     looks: &mut Looks,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) -> Option<Sight> {
     let found = view.found?;
     // Room for the bar beside a line that matters.
@@ -113,7 +113,7 @@ fn show_found(
             ui.add_space(STEP);
         }
         if let Some(who) = view.held {
-            show_held(ui, who, view.is_covered, wishes);
+            show_held(ui, who, view.is_covered, commands);
         }
         if view.is_covered {
             return None;
@@ -124,8 +124,10 @@ fn show_found(
             .auto_shrink(false);
         // With or without a bar that scrolls, figures are as wide.
         let room = ui.available_width();
-        area.show(ui, |ui| section::show(ui, view, (at, room), looks, wishes))
-            .inner
+        area.show(ui, |ui| {
+            section::show(ui, view, (at, room), looks, commands)
+        })
+        .inner
     })
 }
 
@@ -136,7 +138,7 @@ fn inside_margin<R>(ui: &mut Ui, room: Rect, content: impl FnOnce(&mut Ui) -> R)
 }
 
 /// What is said while a session is held in this window.
-fn show_held(ui: &mut Ui, who: &str, is_covered: bool, wishes: &mut Wishes) {
+fn show_held(ui: &mut Ui, who: &str, is_covered: bool, commands: &mut Commands) {
     ui.horizontal_wrapped(|ui| {
         let words = if is_covered {
             format!(
@@ -156,13 +158,13 @@ fn show_held(ui: &mut Ui, who: &str, is_covered: bool, wishes: &mut Wishes) {
             ("Cover them", "Nobody who takes part ought to see results")
         };
         if button(ui, verb, tip, None) {
-            wishes.push(AnalysisCommand::Uncover(is_covered).into());
+            commands.push(AnalysisCommand::Uncover(is_covered).into());
         }
     });
 }
 
 /// What to do when there is nothing yet.
-fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wishes: &mut Wishes) {
+fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let whole = ui.available_rect_before_wrap();
     let size = vec2(whole.width().min(520.0), whole.height().min(420.0));
@@ -183,7 +185,7 @@ fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, wishes:
             note(ui, &words, Tone::Quiet);
         }
         ui.add_space(STEP);
-        form::show(ui, view, fields, wishes);
+        form::show(ui, view, fields, commands);
         ui.add_space(2.0 * STEP);
         for words in EMPTY {
             note(ui, words, Tone::Quiet);

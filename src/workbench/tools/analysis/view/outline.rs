@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::query::capitalised;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -23,7 +23,7 @@ pub(crate) fn named(title: &str) -> (&str, String) {
 }
 
 /// Shows the sections.
-pub(crate) fn show(ui: &mut Ui, sections: &[Section], chosen: usize, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, sections: &[Section], chosen: usize, commands: &mut Commands) {
     let mut above = None;
     ui.add_space(STEP);
     for (nth, one) in sections.iter().enumerate() {
@@ -33,7 +33,7 @@ pub(crate) fn show(ui: &mut Ui, sections: &[Section], chosen: usize, wishes: &mu
             above = Some(experiment);
         }
         if entry(ui, one, &about, nth == chosen) {
-            wishes.push(AnalysisCommand::Select(nth).into());
+            commands.push(AnalysisCommand::Select(nth).into());
         }
     }
 }
@@ -85,13 +85,18 @@ fn tip(section: &Section) -> String {
 }
 
 /// The same as a closed list, where there is little room.
-pub(crate) fn show_closed(ui: &mut Ui, sections: &[Section], chosen: usize, wishes: &mut Wishes) {
+pub(crate) fn show_closed(
+    ui: &mut Ui,
+    sections: &[Section],
+    chosen: usize,
+    commands: &mut Commands,
+) {
     let now = sections.get(chosen).map_or("", |section| &section.title);
     let width = ui.available_width();
     list(ui, ("analysis sections", "Section"), width, now, |ui| {
         for (nth, section) in sections.iter().enumerate() {
             if ui.selectable_label(nth == chosen, &section.title).clicked() {
-                wishes.push(AnalysisCommand::Select(nth).into());
+                commands.push(AnalysisCommand::Select(nth).into());
             }
         }
     });

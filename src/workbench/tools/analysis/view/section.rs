@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::{ColorImage, Label, RichText, TextureHandle, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::analysis::AnalysisView;
@@ -55,7 +55,7 @@ pub(crate) fn show(
     view: &AnalysisView<'_>,
     (section, room): (&Section, f32),
     looks: &mut Looks,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) -> Option<Sight> {
     looks.turn_to(view.found?, view.section, section);
     let palette = Palette::in_ui(ui);
@@ -72,11 +72,11 @@ pub(crate) fn show(
     let sight = (!section.figures.is_empty()).then(|| figure::sight(ui, room));
     for (nth, drawn) in section.figures.iter().enumerate() {
         let picture = figure::picture_of(view, nth);
-        figure::show(ui, (nth, drawn, room), picture, looks, wishes);
+        figure::show(ui, (nth, drawn, room), picture, looks, commands);
         ui.add_space(4.0 * STEP);
     }
     for (nth, one) in section.tables.iter().enumerate() {
-        table::show(ui, (nth, one), &mut looks.tables, wishes);
+        table::show(ui, (nth, one), &mut looks.tables, commands);
         ui.add_space(5.0 * STEP);
     }
     sight

@@ -9,7 +9,7 @@ use eframe::egui::{
     Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::toggle;
@@ -31,13 +31,13 @@ pub(crate) fn show(
     ui: &mut Ui,
     (nth, table): (usize, &Table),
     looks: &mut [Option<TableLook>],
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let Some(look) = looks.get_mut(nth) else {
         return;
     };
     let look = look.get_or_insert_with(|| TableLook::of(ui, table));
-    show_caption(ui, (nth, table), wishes);
+    show_caption(ui, (nth, table), commands);
     let area = ScrollArea::horizontal()
         .id_salt(("table", nth))
         .auto_shrink([false, true]);
@@ -59,7 +59,7 @@ pub(crate) fn show(
     });
 }
 
-fn show_caption(ui: &mut Ui, (nth, table): (usize, &Table), wishes: &mut Wishes) {
+fn show_caption(ui: &mut Ui, (nth, table): (usize, &Table), commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), LINE + STEP);
     let line = Layout::left_to_right(Align::Center);
@@ -72,7 +72,7 @@ fn show_caption(ui: &mut Ui, (nth, table): (usize, &Table), wishes: &mut Wishes)
         }
         let label = format!("Copy “{}” as CSV", table.title);
         if toggle(ui, "copy", false, &label) {
-            wishes.push(AnalysisCommand::CopyTable(nth).into());
+            commands.push(AnalysisCommand::CopyTable(nth).into());
         }
     });
 }

@@ -4,8 +4,8 @@ use eframe::egui::{
     self, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
-use crate::bench::library_view::Shelf;
+use crate::bench::command::Commands;
+use crate::bench::library_view::LibraryView;
 use crate::bench::view::ClothPicture;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::paint_line;
@@ -25,10 +25,10 @@ const WORDS: f32 = 44.0;
 /// Shows the pieces in rows.
 pub(crate) fn show(
     ui: &mut Ui,
-    shelf: &mut Shelf,
+    library_view: &mut LibraryView,
     view: &CollectionView<'_>,
     pointed: &mut Option<String>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let room = ui.available_width() - 12.0;
     #[expect(
@@ -44,9 +44,9 @@ pub(crate) fn show(
         for row in &rows[range] {
             ui.horizontal(|ui| {
                 for entry in *row {
-                    shelf.want(&entry.item.id);
-                    let picture = shelf.picture(&entry.item.id);
-                    show_piece(ui, entry, picture, pointed, wishes);
+                    library_view.want(&entry.item.id);
+                    let picture = library_view.picture(&entry.item.id);
+                    show_piece(ui, entry, picture, pointed, commands);
                 }
             });
         }
@@ -58,7 +58,7 @@ fn show_piece(
     entry: &Entry<'_>,
     picture: Option<ClothPicture>,
     pointed: &mut Option<String>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let (rect, response) =
@@ -105,7 +105,7 @@ fn show_piece(
         let at = pos2(square.left(), square.bottom() + below);
         paint_line(ui, at, SIDE, line);
     }
-    answer(ui, &response, entry, pointed, wishes);
+    answer(ui, &response, entry, pointed, commands);
     response.on_hover_ui(|ui| {
         let flaw = entry.item.flaw.as_deref();
         let tip = "Click to select it, double click to add it, drag it into the workspace";

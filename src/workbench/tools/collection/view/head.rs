@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align, Layout, RichText, TextEdit, Ui, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::list;
@@ -34,7 +34,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &CollectionView<'_>,
     search: &mut String,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let mut choice = view.choice.clone();
     line(ui, |ui| {
@@ -49,7 +49,7 @@ pub(crate) fn show(
         line(ui, |ui| show_axes(ui, &mut choice, view));
     }
     if choice != *view.choice {
-        wishes.push(CollectionCommand::Choose(choice).into());
+        commands.push(CollectionCommand::Choose(choice).into());
     }
 }
 

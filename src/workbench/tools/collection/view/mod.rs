@@ -12,8 +12,8 @@ pub(crate) mod table;
 use eframe::egui::{self, DragAndDrop, Response, Stroke, StrokeKind, Ui};
 
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Part, ShowCommand, Wishes};
-use crate::bench::library_view::Shelf;
+use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::library_view::LibraryView;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::collection::{CollectionCommand, CollectionView, Entry, Joining, Mode};
@@ -39,13 +39,13 @@ pub(crate) struct Typed<'a> {
 /// Shows the pane.
 pub(crate) fn show(
     ui: &mut Ui,
-    shelf: &mut Shelf,
+    library_view: &mut LibraryView,
     view: &CollectionView<'_>,
     typed: &mut Typed<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     *typed.pointed = None;
-    head::show(ui, view, typed.search, wishes);
+    head::show(ui, view, typed.search, commands);
     let room = ui.available_rect_before_wrap();
     let (room, foot) = room.split_top_bottom_at_y(room.bottom() - STATUS);
     if view.entries.is_empty() {
@@ -58,7 +58,7 @@ pub(crate) fn show(
     } else {
         match view.choice.mode {
             Mode::Cloths => within(ui, room, |ui| {
-                cloths::show(ui, shelf, view, typed.pointed, wishes);
+                cloths::show(ui, library_view, view, typed.pointed, commands);
             }),
             Mode::Plot => {
                 let is_wide = room.width() >= SIDE_BY_SIDE && room.width() > WIDE * room.height();
@@ -69,7 +69,7 @@ pub(crate) fn show(
                     room.split_top_bottom_at_y(room.top() + height.round())
                 };
                 within(ui, plot, |ui| {
-                    plot::show(ui, shelf, view, typed.pointed, wishes);
+                    plot::show(ui, library_view, view, typed.pointed, commands);
                 });
                 let table = if is_wide {
                     table.with_min_x(table.left() + 3.0 * STEP)
@@ -77,12 +77,12 @@ pub(crate) fn show(
                     table.with_min_y(table.top() + STEP)
                 };
                 within(ui, table, |ui| {
-                    table::show(ui, view, typed.pointed, wishes);
+                    table::show(ui, view, typed.pointed, commands);
                 });
             }
         }
     }
-    within(ui, foot, |ui| status::show(ui, view, wishes));
+    within(ui, foot, |ui| status::show(ui, view, commands));
 }
 
 fn within(ui: &mut Ui, room: egui::Rect, content: impl FnOnce(&mut Ui)) {
@@ -96,20 +96,20 @@ fn answer(
     response: &Response,
     entry: &Entry<'_>,
     pointed: &mut Option<String>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let id = &entry.item.id;
     if response.hovered() {
         *pointed = Some(id.clone());
         if let Some(index) = entry.placed {
-            wishes.push(ShowCommand::Hover(Part::Cloth(index)).into());
+            commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
         }
     }
     if entry.item.flaw.is_some() {
         return;
     }
     if response.double_clicked() {
-        wishes.push(Edit::AddCloths(vec![id.clone()]).into());
+        commands.push(Edit::AddCloths(vec![id.clone()]).into());
     } else if response.clicked() {
         let is_more = ui.input(|input| input.modifiers.command);
         let joining = if is_more {
@@ -117,13 +117,13 @@ fn answer(
         } else {
             Joining::Alone
         };
-        wishes.push(CollectionCommand::Select(vec![id.clone()], joining).into());
+        commands.push(CollectionCommand::Select(vec![id.clone()], joining).into());
         if let Some(index) = entry.placed.filter(|_| !is_more) {
-            wishes.push(ShowCommand::SelectCloth(Some(index)).into());
+            commands.push(ShowCommand::SelectCloth(Some(index)).into());
         }
     }
     if response.drag_started() {
-        wishes.push(CollectionCommand::Carry.into());
+        commands.push(CollectionCommand::Carry.into());
         DragAndDrop::set_payload(ui.ctx(), LibraryItem { id: id.clone() });
     }
 }

@@ -5,8 +5,8 @@ use eframe::egui::{
     pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
-use crate::bench::library_view::Shelf;
+use crate::bench::command::Commands;
+use crate::bench::library_view::LibraryView;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Side, paint_ticks};
@@ -34,10 +34,10 @@ const N_ACTIVE: usize = 24;
 /// Shows the plot in the space that there is.
 pub(crate) fn show(
     ui: &mut Ui,
-    shelf: &mut Shelf,
+    library_view: &mut LibraryView,
     view: &CollectionView<'_>,
     pointed: &mut Option<String>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     let [left, top, right, bottom] = ROOM;
@@ -58,7 +58,7 @@ pub(crate) fn show(
     paint_axes(ui.painter(), &plot, view);
     let placed = plot.placed(view);
     let side = SIDES[usize::from(placed.len() > MANY)];
-    let framed = frame_selecting(ui, &response, &placed, wishes);
+    let framed = frame_selecting(ui, &response, &placed, commands);
     paint_tuning(ui, &placed);
     let marked = placed.iter().find(|one| one.entry.is_marked);
     if let Some(marked) = marked.filter(|_| x.is_log() && y.is_log()) {
@@ -68,8 +68,8 @@ pub(crate) fn show(
     let inks = [palette.dim, palette.text];
     names::paint(ui.painter(), area, (&placed, side), inks);
     for one in in_order(&placed) {
-        shelf.want(&one.entry.item.id);
-        let picture = shelf.picture(&one.entry.item.id);
+        library_view.want(&one.entry.item.id);
+        let picture = library_view.picture(&one.entry.item.id);
         let square = Rect::from_center_size(one.at, vec2(side, side));
         let response = ui.interact(
             square,
@@ -88,7 +88,7 @@ pub(crate) fn show(
         let is_framed = framed.is_some_and(|frame| frame.contains(one.at));
         paint_state(ui.painter(), square, &one.entry, is_framed);
         paint_focus(ui, &response);
-        answer(ui, &response, &one.entry, pointed, wishes);
+        answer(ui, &response, &one.entry, pointed, commands);
         response.on_hover_text(words_of(&one.entry, view));
     }
     if let Some(frame) = framed {
@@ -112,10 +112,10 @@ fn frame_selecting(
     ui: &Ui,
     response: &Response,
     placed: &[Placed<'_>],
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) -> Option<Rect> {
     if response.clicked() {
-        wishes.push(CollectionCommand::Select(Vec::new(), Joining::Alone).into());
+        commands.push(CollectionCommand::Select(Vec::new(), Joining::Alone).into());
     }
     if !(response.dragged() || response.drag_stopped()) {
         return None;
@@ -149,7 +149,7 @@ fn frame_selecting(
     } else {
         Joining::Alone
     };
-    wishes.push(CollectionCommand::Select(ids, joining).into());
+    commands.push(CollectionCommand::Select(ids, joining).into());
     None
 }
 

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Label, Layout, ProgressBar, RichText, Role, Ui, WidgetInfo, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::edit::Edit;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -13,12 +13,12 @@ use crate::tools::collection::{CollectionCommand, CollectionView, Mode};
 const BAR: f32 = 96.0;
 
 /// Shows the line.
-pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, commands: &mut Commands) {
     let size = ui.available_size();
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        show_adding(ui, view, wishes);
-        show_progress(ui, view, wishes);
+        show_adding(ui, view, commands);
+        show_progress(ui, view, commands);
         let words = RichText::new(words(view)).font(theme::small());
         let line = Layout::left_to_right(Align::Center);
         ui.with_layout(line, |ui| {
@@ -27,7 +27,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, wishes: &mut Wishes) 
     });
 }
 
-fn show_adding(ui: &mut Ui, view: &CollectionView<'_>, wishes: &mut Wishes) {
+fn show_adding(ui: &mut Ui, view: &CollectionView<'_>, commands: &mut Commands) {
     let usable = view.selected().filter(|one| one.item.flaw.is_none());
     let ids: Vec<String> = usable.map(|one| one.item.id.clone()).collect();
     let tip = if ids.is_empty() {
@@ -37,25 +37,25 @@ fn show_adding(ui: &mut Ui, view: &CollectionView<'_>, wishes: &mut Wishes) {
     };
     ui.add_enabled_ui(!ids.is_empty(), |ui| {
         if toggle(ui, "add to the scene", false, tip) {
-            wishes.push(Edit::AddCloths(ids).into());
+            commands.push(Edit::AddCloths(ids).into());
         }
     });
     if view.n_selected > 0 && toggle(ui, "none", false, "Select nothing") {
         let nothing =
             CollectionCommand::Select(Vec::new(), crate::tools::collection::Joining::Alone);
-        wishes.push(nothing.into());
+        commands.push(nothing.into());
     }
 }
 
-fn show_progress(ui: &mut Ui, view: &CollectionView<'_>, wishes: &mut Wishes) {
+fn show_progress(ui: &mut Ui, view: &CollectionView<'_>, commands: &mut Commands) {
     if view.is_halted && toggle(ui, "go on", false, "Go on measuring the library") {
-        wishes.push(CollectionCommand::GoOn.into());
+        commands.push(CollectionCommand::GoOn.into());
     }
     let Some(n_done) = view.progress else {
         return;
     };
     if toggle(ui, "stop", false, "Stop measuring the library") {
-        wishes.push(CollectionCommand::Stop.into());
+        commands.push(CollectionCommand::Stop.into());
     }
     let share = n_done as f32 / view.items.len().max(1) as f32;
     let (bar, _) = ui.allocate_exact_size(vec2(BAR, STEP), eframe::egui::Sense::hover());

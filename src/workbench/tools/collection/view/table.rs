@@ -5,7 +5,7 @@ use eframe::egui::{
     vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::paint_line;
@@ -38,11 +38,11 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &CollectionView<'_>,
     pointed: &mut Option<String>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let (head, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
     for (column, cell) in (0..).zip(cells(head)) {
-        show_heading(ui, cell, column, view.choice, wishes);
+        show_heading(ui, cell, column, view.choice, commands);
     }
     let palette = Palette::in_ui(ui);
     let line = Stroke::new(1.0, palette.hairline);
@@ -54,7 +54,7 @@ pub(crate) fn show(
         .auto_shrink(false);
     rows.show_rows(ui, LINE, listed.len(), |ui, range| {
         for entry in &listed[range] {
-            show_row(ui, entry, view.choice.is_tuned, pointed, wishes);
+            show_row(ui, entry, view.choice.is_tuned, pointed, commands);
         }
     });
 }
@@ -76,7 +76,7 @@ fn cells(row: Rect) -> [Rect; 6] {
 }
 
 /// A heading: a click sorts by it.
-fn show_heading(ui: &Ui, cell: Rect, column: usize, choice: &Choice, wishes: &mut Wishes) {
+fn show_heading(ui: &Ui, cell: Rect, column: usize, choice: &Choice, commands: &mut Commands) {
     let (by, name, unit, decimals) = COLUMNS[column];
     let palette = Palette::in_ui(ui);
     let response = ui.interact(cell, ui.scope_id().with(("sort", column)), Sense::click());
@@ -118,7 +118,7 @@ fn show_heading(ui: &Ui, cell: Rect, column: usize, choice: &Choice, wishes: &mu
             sort: choice.sort.after(by),
             ..choice.clone()
         };
-        wishes.push(CollectionCommand::Choose(choice).into());
+        commands.push(CollectionCommand::Choose(choice).into());
     }
     response.on_hover_text(label);
 }
@@ -140,7 +140,7 @@ fn show_row(
     entry: &Entry<'_>,
     is_tuned: bool,
     pointed: &mut Option<String>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), LINE);
@@ -175,7 +175,7 @@ fn show_row(
         let at = pos2(cell.left() + indent, cell.center().y);
         paint_line(ui, at, cell.width() - indent, text);
     }
-    answer(ui, &response, entry, pointed, wishes);
+    answer(ui, &response, entry, pointed, commands);
 }
 
 /// What stands in a cell.

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
 
-use crate::bench::command::{CompareCommand, Wishes};
+use crate::bench::command::{Commands, CompareCommand};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
@@ -37,10 +37,10 @@ const KINDS: [(What, &str, &str); 3] = [
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
 /// What stands over the pane: hold A, compare or stop.
-pub(crate) fn show_corner(ui: &mut Ui, standing: &Standing, wishes: &mut Wishes) {
+pub(crate) fn show_corner(ui: &mut Ui, standing: &Standing, commands: &mut Commands) {
     if matches!(standing, Standing::Running(_)) {
         if toggle(ui, "stop", false, "Stop comparing") {
-            wishes.push(CompareCommand::Cancel.into());
+            commands.push(CompareCommand::Cancel.into());
         }
     } else if toggle(
         ui,
@@ -48,11 +48,11 @@ pub(crate) fn show_corner(ui: &mut Ui, standing: &Standing, wishes: &mut Wishes)
         false,
         "Compare now, whether anything has changed or not",
     ) {
-        wishes.push(CompareCommand::Run.into());
+        commands.push(CompareCommand::Run.into());
     }
     let tip = "Hold the present tuning as A, to compare it with what comes";
     if toggle(ui, "hold A", false, tip) {
-        wishes.push(CompareCommand::Hold.into());
+        commands.push(CompareCommand::Hold.into());
     }
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     comparison: &Comparison,
     view: &CompareView<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let now = &comparison.choice;
     let mut choice = now.clone();
@@ -86,7 +86,7 @@ pub(crate) fn show(
         }
     });
     if choice != *now {
-        wishes.push(CompareCommand::Choose(choice).into());
+        commands.push(CompareCommand::Choose(choice).into());
     }
 }
 
@@ -176,14 +176,14 @@ fn show_textiles(ui: &mut Ui, choice: &mut Choice, view: &CompareView<'_>) {
     };
     for (index, side) in ["A", "B"].into_iter().enumerate() {
         let chosen = &mut choice.textiles[index];
-        let named = |id: &str| view.shelf.iter().find(|item| item.id == id);
+        let named = |id: &str| view.library_view.iter().find(|item| item.id == id);
         let text = match chosen {
             None => "as placed".to_owned(),
             Some(id) => named(id).map_or_else(|| id.clone(), |item| item.name.clone()),
         };
         combo(ui, side, width, &text, |ui| {
             ui.selectable_value(chosen, None, "as placed");
-            for item in view.shelf.iter().filter(|item| item.flaw.is_none()) {
+            for item in view.library_view.iter().filter(|item| item.flaw.is_none()) {
                 ui.selectable_value(chosen, Some(item.id.clone()), &item.name);
             }
         });

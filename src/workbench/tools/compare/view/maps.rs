@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Align2, Painter, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::Tick;
@@ -24,7 +24,7 @@ pub(crate) fn show(
     rect: Rect,
     found: &LevelDifference,
     view: &CompareView<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let Some(grid) = view.scene.grid else {
         let at = rect.left_top();
@@ -70,7 +70,7 @@ pub(crate) fn show(
         return;
     };
     if response.clicked() {
-        wishes.push(ShowCommand::SelectContactor(index).into());
+        commands.push(ShowCommand::SelectContactor(index).into());
     }
     let tally = &cells[index][band];
     let band = Band::ALL[band];

@@ -10,7 +10,7 @@ mod tests;
 
 use eframe::egui::{Align, Align2, Label, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::view::{SceneView, ShelfItem};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -31,7 +31,7 @@ pub(crate) struct CompareView<'a> {
     /// The scene.
     pub scene: &'a SceneView,
     /// The textiles of the library.
-    pub(crate) shelf: &'a [ShelfItem],
+    pub(crate) library_view: &'a [ShelfItem],
     /// The place in the scene's list whose textile is exchanged.
     pub place: usize,
     /// The path that a comparison would follow now.
@@ -51,10 +51,10 @@ pub(crate) fn show(
     ui: &mut Ui,
     comparison: &mut Comparison,
     view: &CompareView<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
-    controls::show(ui, comparison, view, wishes);
+    controls::show(ui, comparison, view, commands);
     let palette = Palette::in_ui(ui);
     let rect = ui.available_rect_before_wrap();
     let Some(found) = comparison
@@ -73,8 +73,8 @@ pub(crate) fn show(
     if view.standing != Standing::Fresh {
         dimmed.set_opacity(0.45);
     }
-    maps::show(&dimmed, maps, found, view, wishes);
-    over_time::show(&dimmed, curve, comparison, view, wishes);
+    maps::show(&dimmed, maps, found, view, commands);
+    over_time::show(&dimmed, curve, comparison, view, commands);
     let top = body.bottom() + STEP;
     for (band, words) in Band::ALL.into_iter().zip(summary) {
         let top = top + LINE * band.index() as f32;

@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{CompareCommand, Wishes};
+use crate::bench::command::{Commands, CompareCommand};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks, paint_unit};
@@ -30,7 +30,7 @@ pub(crate) fn show(
     rect: Rect,
     comparison: &mut Comparison,
     view: &CompareView<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let area = Rect::from_min_max(rect.min + vec2(LEFT, TOP), rect.max - vec2(6.0, BOTTOM));
     if area.width() < 40.0 || area.height() < 24.0 {
@@ -64,7 +64,7 @@ pub(crate) fn show(
         let stroke = Stroke::new(1.0, Palette::in_ui(ui).selection);
         ui.painter().vline(x, area.y_range(), stroke);
     }
-    answer(&response, &plot, &columns, is_recorded, wishes);
+    answer(&response, &plot, &columns, is_recorded, commands);
 }
 
 struct Plot {
@@ -226,14 +226,14 @@ fn answer(
     plot: &Plot,
     columns: &[[Spread; 2]],
     is_recorded: bool,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let Some(pointer) = response.hover_pos() else {
         return;
     };
     let tick = plot.tick_at(pointer.x);
     if response.clicked() && is_recorded {
-        wishes.push(CompareCommand::Seek(tick).into());
+        commands.push(CompareCommand::Seek(tick).into());
     }
     let share = (pointer.x - plot.area.left()) / plot.area.width();
     #[expect(

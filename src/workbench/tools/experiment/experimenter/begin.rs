@@ -2,7 +2,7 @@
 
 use eframe::egui::{ProgressBar, RichText, Ui, vec2};
 
-use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::text::{button, choice, section};
 use crate::tools::experiment::command::ExperimentCommand;
@@ -19,10 +19,10 @@ const WIDE: f32 = f32::INFINITY;
 /// Width of a row's name, points.
 const NAME: f32 = 84.0;
 
-pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, commands: &mut Commands) {
     section(ui, "New session");
     row_of(ui, NAME, ("design", ""), |ui, _| {
-        show_designs(ui, form, wishes);
+        show_designs(ui, form, commands);
     });
     if let Ok(design) = &form.design {
         note(ui, &about(design), Tone::Quiet);
@@ -39,7 +39,7 @@ pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mu
     } else {
         let tip = "Prepare every textile of the design, then open the log";
         if button(ui, "Begin the session", tip, refusal.as_deref()) {
-            wishes.push(ExperimentCommand::Begin.into());
+            commands.push(ExperimentCommand::Begin.into());
         }
     }
     if let Some(line) = &form.failure {
@@ -47,7 +47,7 @@ pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, wishes: &mu
     } else if let Some(line) = refusal {
         note(ui, &line, Tone::Quiet);
     }
-    show_found(ui, form, share.is_some(), wishes);
+    show_found(ui, form, share.is_some(), commands);
 }
 
 /// A field with its name.
@@ -95,7 +95,7 @@ fn one_of(ui: &mut Ui, name: &str, chosen: &mut String, words: &[&str]) {
     });
 }
 
-fn show_designs(ui: &mut Ui, form: &Form, wishes: &mut Wishes) {
+fn show_designs(ui: &mut Ui, form: &Form, commands: &mut Commands) {
     let now = match (&form.design, &form.chosen) {
         (Ok(design), _) => title_of(design),
         (Err(_), Chosen::File(path)) => path.display().to_string(),
@@ -107,12 +107,12 @@ fn show_designs(ui: &mut Ui, form: &Form, wishes: &mut Wishes) {
             let title = Design::shipped(name).map_or_else(|| name.to_owned(), |d| title_of(&d));
             let is_now = form.chosen == Chosen::Shipped(name);
             if ui.selectable_label(is_now, title).clicked() {
-                wishes.push(ExperimentCommand::Choose(name).into());
+                commands.push(ExperimentCommand::Choose(name).into());
             }
         }
         ui.separator();
         if ui.selectable_label(false, "Open a design…").clicked() {
-            wishes.push(FileCommand::Ask(Purpose::OpenDesign).into());
+            commands.push(FileCommand::Ask(Purpose::OpenDesign).into());
         }
     });
 }
@@ -140,7 +140,7 @@ fn about(design: &Design) -> String {
     )
 }
 
-fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
+fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, commands: &mut Commands) {
     section(ui, "Sessions in the folder");
     let no_folder = form.folder.trim().is_empty();
     let refusal = no_folder.then_some("Say in which folder first");
@@ -150,10 +150,10 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
         "Look which sessions the folder holds",
         refusal,
     ) {
-        wishes.push(ExperimentCommand::List.into());
+        commands.push(ExperimentCommand::List.into());
     }
     for found in &form.found {
-        show_row(ui, found, is_busy, wishes);
+        show_row(ui, found, is_busy, commands);
     }
     for line in &form.unread {
         note(ui, line, Tone::Wrong);
@@ -164,7 +164,7 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, wishes: &mut Wishes) {
     }
 }
 
-fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, wishes: &mut Wishes) {
+fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, commands: &mut Commands) {
     let (done, all) = found.progress;
     let name = format!(
         "{}, session {}",
@@ -181,6 +181,6 @@ fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, wishes: &mut Wishes) {
     }
     let tip = format!("Resume {}", found.log.display());
     if choice(ui, RichText::new(name), &detail, &tip) && !is_busy {
-        wishes.push(ExperimentCommand::Resume(found.log.clone()).into());
+        commands.push(ExperimentCommand::Resume(found.log.clone()).into());
     }
 }

@@ -6,7 +6,7 @@ pub(crate) mod session;
 
 use eframe::egui::{ProgressBar, RichText, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, section};
@@ -35,29 +35,29 @@ pub(crate) fn show(
     ui: &mut Ui,
     (view, noise, (window, is_blank)): (&ExperimenterView, Option<&NoiseView>, Screen),
     hands: &mut ExperimenterHands<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
-    show_window(ui, window, wishes);
-    show_blank(ui, is_blank, wishes);
+    show_window(ui, window, commands);
+    show_blank(ui, is_blank, commands);
     if let Some(trial) = hands.typed {
         section(ui, "Answer, typed for the participant");
-        crate::tools::experiment::participant::show_typed(ui, trial, wishes);
+        crate::tools::experiment::participant::show_typed(ui, trial, commands);
     }
     match view {
-        ExperimenterView::Nobody { share } => begin::show(ui, hands.form, *share, wishes),
+        ExperimenterView::Nobody { share } => begin::show(ui, hands.form, *share, commands),
         ExperimenterView::Held(held) => {
-            session::show(ui, held, hands.note.as_deref_mut(), wishes);
+            session::show(ui, held, hands.note.as_deref_mut(), commands);
         }
     }
     if let Some(noise) = noise {
         let has_folder = hands.form.kept_folder().is_some();
-        show_noise(ui, noise, has_folder, wishes);
+        show_noise(ui, noise, has_folder, commands);
     }
 }
 
 /// How it stands with the masking noise that the design asks for.
-fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, wishes: &mut Wishes) {
+fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, commands: &mut Commands) {
     section(ui, "Masking noise");
     match noise {
         NoiseView::Writing(share) => {
@@ -78,14 +78,14 @@ fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, wishes: &mut Wis
             let refusal = (!has_folder).then_some("Say in which folder first");
             let tip = "Pink noise, 30 Hz to 6 kHz, ten minutes that repeat without a seam";
             if button(ui, "Write the noise", tip, refusal) {
-                wishes.push(ExperimentCommand::Noise.into());
+                commands.push(ExperimentCommand::Noise.into());
             }
         }
     }
 }
 
 /// Whether the participant sees anything in trials.
-fn show_blank(ui: &mut Ui, is_blank: bool, wishes: &mut Wishes) {
+fn show_blank(ui: &mut Ui, is_blank: bool, commands: &mut Commands) {
     let (words, tip) = if is_blank {
         (
             "Show the screen",
@@ -98,13 +98,13 @@ fn show_blank(ui: &mut Ui, is_blank: bool, wishes: &mut Wishes) {
         )
     };
     if button(ui, words, tip, None) {
-        wishes.push(ExperimentCommand::Blank(!is_blank).into());
+        commands.push(ExperimentCommand::Blank(!is_blank).into());
     }
 }
 
 /// Where the participant's view is.
-fn show_window(ui: &mut Ui, window: ParticipantsWindow, wishes: &mut Wishes) {
-    let mut act = |act| wishes.push(ExperimentCommand::Window(act).into());
+fn show_window(ui: &mut Ui, window: ParticipantsWindow, commands: &mut Commands) {
+    let mut act = |act| commands.push(ExperimentCommand::Window(act).into());
     if !window.is_open {
         let tip = "The participant's view alone, to be dragged to a screen of its own";
         if button(ui, "Participant's window", tip, None) {

@@ -2,7 +2,7 @@
 
 use eframe::egui::{ProgressBar, RichText, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -13,7 +13,12 @@ use crate::tools::experiment::view::{Course, HeldView, Link};
 use crate::tools::import::view::fields::{Need, Tone, note, row_of, text};
 use selvedge_foundation::quantity;
 
-pub(crate) fn show(ui: &mut Ui, view: &HeldView, typed: Option<&mut String>, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &HeldView,
+    typed: Option<&mut String>,
+    commands: &mut Commands,
+) {
     let palette = Palette::in_ui(ui);
     ui.label(
         RichText::new(&view.title)
@@ -23,18 +28,18 @@ pub(crate) fn show(ui: &mut Ui, view: &HeldView, typed: Option<&mut String>, wis
     note(ui, &view.subject, Tone::Quiet);
     show_progress(ui, view);
     if let Some(line) = &view.failure {
-        show_failure(ui, line, wishes);
+        show_failure(ui, line, commands);
     }
     show_table(ui, view);
-    show_step(ui, view, wishes);
+    show_step(ui, view, commands);
     if let Some(typed) = typed {
         row_of(ui, 44.0, ("note", ""), |ui, label| {
             let hint = "on this trial";
             text(ui, label, typed, (hint, f32::INFINITY, Need::Optional));
         });
     }
-    show_link(ui, &view.link, wishes);
-    show_end(ui, view, wishes);
+    show_link(ui, &view.link, commands);
+    show_end(ui, view, commands);
 }
 
 fn show_progress(ui: &mut Ui, view: &HeldView) {
@@ -81,12 +86,12 @@ fn show_progress(ui: &mut Ui, view: &HeldView) {
     }
 }
 
-fn show_failure(ui: &mut Ui, line: &str, wishes: &mut Wishes) {
+fn show_failure(ui: &mut Ui, line: &str, commands: &mut Commands) {
     ui.add_space(STEP);
     note(ui, &format!("Not on disk yet: {line}"), Tone::Wrong);
     let tip = "The answer is kept until it is on disk";
     if button(ui, "Write it again", tip, None) {
-        wishes.push(ExperimentCommand::Retry.into());
+        commands.push(ExperimentCommand::Retry.into());
     }
 }
 
@@ -101,7 +106,7 @@ fn show_table(ui: &mut Ui, view: &HeldView) {
     }
 }
 
-fn show_step(ui: &mut Ui, view: &HeldView, wishes: &mut Wishes) {
+fn show_step(ui: &mut Ui, view: &HeldView, commands: &mut Commands) {
     section(ui, "Course");
     ui.horizontal_wrapped(|ui| {
         let is_trial = view.course == Course::Trial;
@@ -115,7 +120,7 @@ fn show_step(ui: &mut Ui, view: &HeldView, wishes: &mut Wishes) {
         let rests = matches!(view.course, Course::Paused | Course::Finished);
         let pass = other.or_else(|| rests.then_some("Nothing to go on from"));
         if button(ui, "Go on", "Go on for the participant, at once", pass) {
-            wishes.push(ExperimentCommand::Pass.into());
+            commands.push(ExperimentCommand::Pass.into());
         }
         let pause = match view.pause {
             Pause::None => ("Pause", "Before the next trial", true),
@@ -125,17 +130,17 @@ fn show_step(ui: &mut Ui, view: &HeldView, wishes: &mut Wishes) {
         let (words, tip, is_wanted) = pause;
         let finished = (view.course == Course::Finished).then_some("The session is over");
         if button(ui, words, tip, finished) {
-            wishes.push(ExperimentCommand::Pause(is_wanted).into());
+            commands.push(ExperimentCommand::Pause(is_wanted).into());
         }
         let tip = "Give this trial up: a row says so, and it comes again";
         let abort = writing.or_else(|| (!is_trial).then_some("No trial is under way"));
         if button(ui, "Abort the trial", tip, abort) {
-            wishes.push(ExperimentCommand::Abort.into());
+            commands.push(ExperimentCommand::Abort.into());
         }
     });
 }
 
-fn show_link(ui: &mut Ui, link: &Link, wishes: &mut Wishes) {
+fn show_link(ui: &mut Ui, link: &Link, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     section(ui, "Device");
     ui.horizontal(|ui| {
@@ -159,28 +164,28 @@ fn show_link(ui: &mut Ui, link: &Link, wishes: &mut Wishes) {
     }
     if link.is_armed {
         if button(ui, "Disarm", "Ramp the device to silence", None) {
-            wishes.push(DeviceCommand::Disarm.into());
+            commands.push(DeviceCommand::Disarm.into());
         }
     } else {
         let refusal = (link.state == "not connected").then_some("Connect it in the Bridge pane");
         if link.is_stopped && refusal.is_some() {
             let tip = "End the silence of all off; no device is connected";
             if button(ui, "Go on without a device", tip, None) {
-                wishes.push(DeviceCommand::GoOn.into());
+                commands.push(DeviceCommand::GoOn.into());
             }
         } else if button(ui, "Arm", "Turn the high voltage on", refusal) {
-            wishes.push(DeviceCommand::Arm.into());
+            commands.push(DeviceCommand::Arm.into());
         }
     }
 }
 
-fn show_end(ui: &mut Ui, view: &HeldView, wishes: &mut Wishes) {
+fn show_end(ui: &mut Ui, view: &HeldView, commands: &mut Commands) {
     section(ui, "Session");
     note(ui, &view.log, Tone::Quiet);
     let is_stuck = view.failure.is_some();
     let waits = (view.is_writing && !is_stuck).then_some("The row is being written");
     let tip = "What is answered is on disk; the session can be resumed";
     if button(ui, "End the session", tip, waits) {
-        wishes.push(ExperimentCommand::End.into());
+        commands.push(ExperimentCommand::End.into());
     }
 }

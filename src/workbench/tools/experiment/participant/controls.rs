@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Align, Key, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::experiment::command::ExperimentCommand;
@@ -44,63 +44,63 @@ pub(crate) fn height(draft: &Draft, room: f32) -> f32 {
 }
 
 /// Shows what the trial is answered with, and the button that hands the answer in.
-pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
     match trial.draft {
         Draft::Nothing => {}
         Draft::Ranks(order) => {
             let is_wide = is_wide(ui.available_width());
             row(ui, ranks::width() + DONE, |ui| {
-                ranks::show(ui, order, wishes);
+                ranks::show(ui, order, commands);
                 if is_wide {
                     ui.add_space(2.0 * STEP);
-                    show_done(ui, trial, wishes);
+                    show_done(ui, trial, commands);
                 }
             });
             if !is_wide {
                 // What the first and the last rank mean stands between.
                 ui.add_space(5.0 * STEP);
-                row(ui, DONE, |ui| show_done(ui, trial, wishes));
+                row(ui, DONE, |ui| show_done(ui, trial, commands));
             }
         }
         Draft::Odd { position, grade } => {
-            show_numbers(ui, N_TRIAD, *position, wishes);
+            show_numbers(ui, N_TRIAD, *position, commands);
             row(ui, 3.0 * 128.0 + 160.0, |ui| {
                 for one in Grade::ALL {
                     let mark = Mark::Grade(one);
-                    choose(ui, one.name(), *grade == Some(one), mark, wishes);
+                    choose(ui, one.name(), *grade == Some(one), mark, commands);
                 }
                 ui.add_space(4.0 * STEP);
-                show_done(ui, trial, wishes);
+                show_done(ui, trial, commands);
             });
         }
         Draft::Choose { n, position, sure } => {
-            show_numbers(ui, *n, *position, wishes);
-            show_sure(ui, trial, *sure, wishes);
+            show_numbers(ui, *n, *position, commands);
+            show_sure(ui, trial, *sure, commands);
         }
         Draft::Judge { is_real, sure } => {
             row(ui, 2.0 * 172.0, |ui| {
                 for (words, said) in [("real", true), ("generated", false)] {
                     let is_on = *is_real == Some(said);
-                    choose(ui, words, is_on, Mark::Real(said), wishes);
+                    choose(ui, words, is_on, Mark::Real(said), commands);
                 }
             });
-            show_sure(ui, trial, *sure, wishes);
+            show_sure(ui, trial, *sure, commands);
         }
-        Draft::Magnitude(text) => show_number(ui, trial, text, wishes),
+        Draft::Magnitude(text) => show_number(ui, trial, text, commands),
         Draft::Adjust {
             values, parameters, ..
         } => {
             for (at, (value, parameter)) in values.iter().zip(parameters).enumerate() {
-                show_parameter(ui, (at, parameters.len()), (*value, parameter), wishes);
+                show_parameter(ui, (at, parameters.len()), (*value, parameter), commands);
             }
-            row(ui, 160.0, |ui| show_done(ui, trial, wishes));
+            row(ui, 160.0, |ui| show_done(ui, trial, commands));
         }
         Draft::Ratings { values, scales } => {
             focus_first(ui, trial, scales);
             for (at, (value, scale)) in values.iter().zip(scales).enumerate() {
-                show_scale(ui, at, (*value, scale), wishes);
+                show_scale(ui, at, (*value, scale), commands);
             }
-            row(ui, 160.0, |ui| show_done(ui, trial, wishes));
+            row(ui, 160.0, |ui| show_done(ui, trial, commands));
         }
     }
 }
@@ -144,28 +144,28 @@ fn row(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
 }
 
 /// A large button that says something, chosen or not.
-fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, wishes: &mut Wishes) {
+fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, commands: &mut Commands) {
     let least = if words.chars().count() > 1 {
         112.0
     } else {
         72.0
     };
     if big::button(ui, (words, words), least, is_on).clicked() {
-        wishes.push(ExperimentCommand::Mark(mark).into());
+        commands.push(ExperimentCommand::Mark(mark).into());
     }
 }
 
-fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, wishes: &mut Wishes) {
+fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, commands: &mut Commands) {
     row(ui, count(n) * 80.0, |ui| {
         for at in 0..n {
             let words = (at + 1).to_string();
-            choose(ui, &words, chosen == Some(at), Mark::Place(at), wishes);
+            choose(ui, &words, chosen == Some(at), Mark::Place(at), commands);
         }
     });
 }
 
 /// How sure somebody is, where that is asked, and the button that ends the trial.
-fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, wishes: &mut Wishes) {
+fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, commands: &mut Commands) {
     if sure.n_grades > 0 {
         let width = f32::from(sure.n_grades) * 80.0 + 220.0;
         let n = f32::from(sure.n_grades);
@@ -176,14 +176,14 @@ fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, wishes: &mut Wishes
                 let is_on = sure.grade == Some(grade);
                 let (words, label) = (grade.to_string(), format!("Sure {grade}"));
                 if big::button(ui, (&words, &label), side, is_on).clicked() {
-                    wishes.push(ExperimentCommand::Mark(Mark::Confidence(grade)).into());
+                    commands.push(ExperimentCommand::Mark(Mark::Confidence(grade)).into());
                 }
             }
             show_end(ui, "certain");
         });
     }
     if !trial.ends_at_once() {
-        row(ui, 160.0, |ui| show_done(ui, trial, wishes));
+        row(ui, 160.0, |ui| show_done(ui, trial, commands));
     }
 }
 
@@ -194,9 +194,9 @@ fn show_end(ui: &mut Ui, words: &str) {
 }
 
 /// The button that hands the answer in; grey, with what is missing as its tip.
-fn show_done(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
+fn show_done(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
     if trial.may_play && big::button(ui, ("Again", "Again"), 112.0, false).clicked() {
-        wishes.push(ExperimentCommand::Play.into());
+        commands.push(ExperimentCommand::Play.into());
     }
     let missing = trial.draft.answer().err();
     let words = if trial.is_open { "Done" } else { "…" };
@@ -207,11 +207,11 @@ fn show_done(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
         .inner
         .on_disabled_hover_text(missing.unwrap_or_default());
     if response.clicked() {
-        wishes.push(ExperimentCommand::Answer.into());
+        commands.push(ExperimentCommand::Answer.into());
     }
 }
 
-fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, wishes: &mut Wishes) {
+fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, commands: &mut Commands) {
     row(ui, 420.0, |ui| {
         let label = ui.label(RichText::new("Number").font(theme::large()));
         let mut typed = text.to_owned();
@@ -223,16 +223,16 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, wishes: &mut Wish
         let response = ui.add(field).labelled_by(label.id);
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if response.changed() {
-            wishes.push(ExperimentCommand::Mark(Mark::Type(typed)).into());
+            commands.push(ExperimentCommand::Mark(Mark::Type(typed)).into());
         }
         if is_entered && trial.draft.answer().is_ok() {
-            wishes.push(ExperimentCommand::Answer.into());
+            commands.push(ExperimentCommand::Answer.into());
         }
         let is_free = ui.memory(|memory| memory.focused().is_none());
         if trial.is_open && is_free && !is_entered {
             response.request_focus();
         }
-        show_done(ui, trial, wishes);
+        show_done(ui, trial, commands);
     });
 }
 
@@ -241,7 +241,7 @@ fn show_parameter(
     ui: &mut Ui,
     (at, n): (usize, usize),
     (value, parameter): (f64, &TunedParameter),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let name = match (n, at) {
         (1, _) => "Control",
@@ -258,11 +258,16 @@ fn show_parameter(
     };
     if let Some(share) = line(ui, &rail) {
         let to = parameter.from + share * range;
-        wishes.push(ExperimentCommand::Mark(Mark::Set(at, to)).into());
+        commands.push(ExperimentCommand::Mark(Mark::Set(at, to)).into());
     }
 }
 
-fn show_scale(ui: &mut Ui, at: usize, (value, scale): (Option<f64>, &Scale), wishes: &mut Wishes) {
+fn show_scale(
+    ui: &mut Ui,
+    at: usize,
+    (value, scale): (Option<f64>, &Scale),
+    commands: &mut Commands,
+) {
     let [low, high] = scale.bounds();
     let is_in_steps = scale.points > 0;
     let rail = Rail {
@@ -279,7 +284,7 @@ fn show_scale(ui: &mut Ui, at: usize, (value, scale): (Option<f64>, &Scale), wis
     if let Some(share) = line(ui, &rail) {
         let to = low + share * (high - low);
         let to = if is_in_steps { to.round() } else { to };
-        wishes.push(ExperimentCommand::Mark(Mark::Rate(at, to)).into());
+        commands.push(ExperimentCommand::Mark(Mark::Rate(at, to)).into());
     }
 }
 

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Key, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::view::TrialView;
@@ -32,7 +32,7 @@ const ARROWS: [Key; 4] = [
 
 /// Takes the keys that were pressed, unless words are being typed. Enter, Space and arrows belong
 /// to a button or line that has the focus.
-pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
+pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, commands: &mut Commands) {
     if ui.ctx().text_edit_focused() {
         return;
     }
@@ -43,13 +43,13 @@ pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
     };
     let is_pressed = |key| is_own(key) && ui.input(|input| input.key_pressed(key));
     for mark in marks(trial.draft, is_pressed) {
-        wishes.push(ExperimentCommand::Mark(mark).into());
+        commands.push(ExperimentCommand::Mark(mark).into());
     }
     if is_pressed(Key::Enter) && trial.draft.answer().is_ok() {
-        wishes.push(ExperimentCommand::Answer.into());
+        commands.push(ExperimentCommand::Answer.into());
     }
     if is_pressed(Key::Space) && trial.may_play {
-        wishes.push(ExperimentCommand::Play.into());
+        commands.push(ExperimentCommand::Play.into());
     }
 }
 

@@ -14,7 +14,7 @@ use eframe::egui::{
     WidgetText, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
@@ -34,7 +34,11 @@ const TYPED: f32 = 460.0;
 const LINE: f32 = 720.0;
 
 /// Shows the participant's view; where the pointer feels, if there is such a place.
-pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes) -> Option<Shown> {
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &ParticipantView<'_>,
+    commands: &mut Commands,
+) -> Option<Shown> {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));
@@ -50,7 +54,7 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
             left_s,
         } => {
             show_words(ui, title, words);
-            show_pass(ui, *left_s, wishes);
+            show_pass(ui, *left_s, commands);
             None
         }
         ParticipantView::Movement {
@@ -68,10 +72,10 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
             let shown = ground::show(ui, rect, ground);
             ground::paint_guide(ui, &shown.view, ground, (*is_circle, *guide));
             let mut ui = ui.new_child(UiBuilder::new().max_rect(foot));
-            show_pass(&mut ui, Some(*left_s), wishes);
+            show_pass(&mut ui, Some(*left_s), commands);
             Some(shown)
         }
-        ParticipantView::Trial(trial) => Some(show_trial(ui, trial, wishes)),
+        ParticipantView::Trial(trial) => Some(show_trial(ui, trial, commands)),
         ParticipantView::Blank(ground) => {
             let rect = ui.max_rect();
             Some(ground::show_unseen(ui, rect, (ground, "Blank screen")))
@@ -80,7 +84,7 @@ pub(crate) fn show(ui: &mut Ui, view: &ParticipantView<'_>, wishes: &mut Wishes)
 }
 
 /// What a trial is answered with, for an experimenter who types while the participant sees nothing.
-pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
     let width = ui.available_width().max(TYPED);
     ui.add(eframe::egui::Label::new(sentence(&trial.question)).wrap());
     let height = controls::height(trial.draft, width);
@@ -92,12 +96,14 @@ pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes
             if !trial.is_open {
                 ui.disable();
             }
-            ui.allocate_ui(vec2(width, height), |ui| controls::show(ui, trial, wishes));
+            ui.allocate_ui(vec2(width, height), |ui| {
+                controls::show(ui, trial, commands)
+            });
         });
     let hint = RichText::new(keys::hint(trial)).color(Palette::in_ui(ui).dim);
     ui.add(eframe::egui::Label::new(hint).wrap());
     if trial.is_open {
-        keys::take(ui, trial, wishes);
+        keys::take(ui, trial, commands);
     }
 }
 
@@ -115,7 +121,7 @@ pub(crate) fn show_before(ui: &mut Ui, is_coming: bool) {
 }
 
 /// Stands where the view was before it went to a window of its own.
-pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
+pub(crate) fn show_apart(ui: &mut Ui, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     ui.painter().rect_filled(ui.max_rect(), 0, palette.floor);
     let height = ui.available_height();
@@ -128,12 +134,12 @@ pub(crate) fn show_apart(ui: &mut Ui, wishes: &mut Wishes) {
         ui.add_space(2.0 * STEP);
         let tip = "Close that window and show the view here";
         if button(ui, "Show it here again", tip, None) {
-            wishes.push(ExperimentCommand::Window(WindowAct::Close).into());
+            commands.push(ExperimentCommand::Window(WindowAct::Close).into());
         }
     });
 }
 
-fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown {
+fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) -> Shown {
     let [rect, foot] = split(
         ui,
         &sentence(&trial.question),
@@ -147,14 +153,14 @@ fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, wishes: &mut Wishes) -> Shown 
     if !trial.is_open {
         ui.disable();
     }
-    controls::show(&mut ui, trial, wishes);
+    controls::show(&mut ui, trial, commands);
     let palette = Palette::in_ui(&ui);
     let (at, font) = (foot.center_bottom(), theme::body());
     let hint = keys::hint(trial);
     ui.painter()
         .text(at, Align2::CENTER_BOTTOM, hint, font, palette.dim);
     if trial.is_open {
-        keys::take(&ui, trial, wishes);
+        keys::take(&ui, trial, commands);
     }
     shown
 }
@@ -209,7 +215,7 @@ fn show_words(ui: &mut Ui, title: &str, words: &str) {
 }
 
 /// The button that goes on, with the seconds until it does.
-fn show_pass(ui: &mut Ui, left_s: Option<f64>, wishes: &mut Wishes) {
+fn show_pass(ui: &mut Ui, left_s: Option<f64>, commands: &mut Commands) {
     let Some(left_s) = left_s else { return };
     let may_pass = left_s <= 0.0;
     let words = if may_pass {
@@ -225,7 +231,7 @@ fn show_pass(ui: &mut Ui, left_s: Option<f64>, wishes: &mut Wishes) {
         let is_free = !ui.ctx().text_edit_focused();
         let is_key = is_free && ui.input(|input| input.key_pressed(Key::Enter));
         if may_pass && (is_clicked || is_key) {
-            wishes.push(ExperimentCommand::Pass.into());
+            commands.push(ExperimentCommand::Pass.into());
         }
     });
 }

@@ -26,25 +26,25 @@ fn trial(draft: &Draft) -> TrialView<'_> {
 }
 
 /// A window with nothing in it but a participant's view, and what is wished for in it.
-fn window(view: ParticipantView<'_>) -> Harness<'_, Wishes> {
+fn window(view: ParticipantView<'_>) -> Harness<'_, Commands> {
     window_of(view, vec2(900.0, 700.0))
 }
 
-fn window_of(view: ParticipantView<'_>, size: eframe::egui::Vec2) -> Harness<'_, Wishes> {
+fn window_of(view: ParticipantView<'_>, size: eframe::egui::Vec2) -> Harness<'_, Commands> {
     let mut is_styled = false;
     Harness::builder().with_size(size).build_ui_state(
-        move |ui, wishes| {
+        move |ui, commands| {
             if !is_styled {
                 theme::install(ui.ctx());
                 is_styled = true;
             }
-            show(ui, &view, wishes);
+            show(ui, &view, commands);
         },
-        Wishes::new(),
+        Commands::new(),
     )
 }
 
-fn marks(harness: &Harness<'_, Wishes>) -> Vec<ExperimentCommand> {
+fn marks(harness: &Harness<'_, Commands>) -> Vec<ExperimentCommand> {
     let mut all = harness.state().clone();
     all.dedup();
     all.into_iter()
@@ -302,8 +302,8 @@ fn while_the_screen_is_blank_answers_are_typed_in_the_experimenters_pane_alone()
     let mut typed = Harness::builder()
         .with_size(vec2(300.0, 500.0))
         .build_ui_state(
-            |ui, wishes| show_typed(ui, &trial(&draft), wishes),
-            Wishes::new(),
+            |ui, commands| show_typed(ui, &trial(&draft), commands),
+            Commands::new(),
         );
     typed.run();
     typed.key_press(Key::Num4);

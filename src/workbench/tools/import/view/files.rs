@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{Align, Label, Layout, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
-use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, toggle};
@@ -43,10 +43,10 @@ const HOLDS: [(Option<KesPlace>, &str); 7] = {
 };
 
 /// Takes files that are dropped on the window while the pane is in sight.
-pub(crate) fn take_dropped(ui: &Ui, wishes: &mut Wishes) {
+pub(crate) fn take_dropped(ui: &Ui, commands: &mut Commands) {
     let dropped = dropped(ui);
     if !dropped.is_empty() {
-        wishes.push(ImportCommand::Add(dropped).into());
+        commands.push(ImportCommand::Add(dropped).into());
     }
 }
 
@@ -72,7 +72,7 @@ pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
 }
 
 /// What to do when there is nothing yet.
-pub(crate) fn show_empty(ui: &mut Ui, wishes: &mut Wishes) {
+pub(crate) fn show_empty(ui: &mut Ui, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let whole = ui.available_rect_before_wrap();
     let width = whole.width().min(520.0);
@@ -87,7 +87,7 @@ pub(crate) fn show_empty(ui: &mut Ui, wishes: &mut Wishes) {
     ui.label(RichText::new("Import your own fabrics").font(theme::title()));
     ui.label(RichText::new("Drop measurements here, or choose files.").color(palette.text));
     if button(ui, "Choose files…", "", None) {
-        wishes.push(FileCommand::Ask(Purpose::ImportFiles).into());
+        commands.push(FileCommand::Ask(Purpose::ImportFiles).into());
     }
     for words in EMPTY {
         let words = RichText::new(words).font(theme::small()).color(palette.dim);
@@ -100,7 +100,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     importing: &mut Importing,
     found: Option<&Found>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let n = importing.draft.told.files.len();
     let state = if n == 1 {
@@ -123,10 +123,10 @@ pub(crate) fn show(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         if button(ui, "Add…", "Choose more files", None) {
-            wishes.push(FileCommand::Ask(Purpose::ImportFiles).into());
+            commands.push(FileCommand::Ask(Purpose::ImportFiles).into());
         }
         if button(ui, "Read again", "Read the files anew from the disk", None) {
-            wishes.push(ImportCommand::ReadAgain.into());
+            commands.push(ImportCommand::ReadAgain.into());
         }
         if button(
             ui,
@@ -134,7 +134,7 @@ pub(crate) fn show(
             "Let go of all files and of what was typed",
             None,
         ) {
-            wishes.push(ImportCommand::Clear.into());
+            commands.push(ImportCommand::Clear.into());
         }
     });
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, Layout, Response, RichText, Ui, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, toggle};
@@ -34,7 +34,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     importing: &mut Importing,
     view: &ImportView<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let found = importing.found().cloned();
     let refusal = importing.refusal();
@@ -53,11 +53,11 @@ pub(crate) fn show(
         });
         let (save, feel) = ("Save to the library", "Save and feel");
         if button(ui, save, "Write it into the library", refusal.as_deref()) {
-            wishes.push(ImportCommand::Keep { is_felt: false }.into());
+            commands.push(ImportCommand::Keep { is_felt: false }.into());
         }
         let tip = "Write it into the library and place it under the display";
         if button(ui, feel, tip, refusal.as_deref()) {
-            wishes.push(ImportCommand::Keep { is_felt: true }.into());
+            commands.push(ImportCommand::Keep { is_felt: true }.into());
         }
     });
     show_outcome(ui, importing, view, refusal.as_deref());
@@ -112,7 +112,7 @@ fn ids_words(importing: &Importing, found: Option<&Found>) -> String {
 
 /// What was kept, or why nothing can be.
 fn show_outcome(ui: &mut Ui, importing: &Importing, view: &ImportView<'_>, refusal: Option<&str>) {
-    let is_known = |id: &str| view.shelf.iter().any(|item| item.id == id);
+    let is_known = |id: &str| view.library_view.iter().any(|item| item.id == id);
     let taken = || importing.taken(is_known);
     match (importing.kept(), refusal) {
         (Some(Err(failure)), _) => note(ui, &failure.line, Tone::Wrong),

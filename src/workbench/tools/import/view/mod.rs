@@ -15,7 +15,7 @@ pub(crate) mod table;
 
 use eframe::egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::follower::Standing;
 use crate::bench::view::ShelfItem;
 use crate::kit::theme::colour_map::ColourMap;
@@ -37,7 +37,7 @@ const KEEP: f32 = 164.0;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ImportView<'a> {
     /// The textiles of the library.
-    pub(crate) shelf: &'a [ShelfItem],
+    pub(crate) library_view: &'a [ShelfItem],
     /// The colours of heights.
     pub map: ColourMap,
 }
@@ -47,14 +47,14 @@ pub(crate) fn show(
     ui: &mut Ui,
     importing: &mut Importing,
     view: &ImportView<'_>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
-    files::take_dropped(ui, wishes);
+    files::take_dropped(ui, commands);
     let whole = ui.available_rect_before_wrap();
     let before = importing.draft.clone();
     if importing.draft.told.files.is_empty() {
-        files::show_empty(ui, wishes);
+        files::show_empty(ui, commands);
         return;
     }
     if whole.width() >= WIDE {
@@ -63,33 +63,33 @@ pub(crate) fn show(
         ui.painter()
             .vline(left.right(), whole.y_range(), (1.0, hairline));
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
-            scrolled(ui, "import-left", |ui| show_left(ui, importing, wishes));
+            scrolled(ui, "import-left", |ui| show_left(ui, importing, commands));
         });
         let right = right.with_min_x(right.left() + 12.0);
         let edge = (right.bottom() - KEEP).max(right.top() + 0.45 * right.height());
         let (look, keep) = right.split_top_bottom_at_y(edge);
-        inside(ui, look, |ui| show_look(ui, importing, view, wishes));
+        inside(ui, look, |ui| show_look(ui, importing, view, commands));
         ui.painter()
             .hline(right.x_range(), edge - 4.0, (1.0, hairline));
         inside(ui, keep, |ui| {
             scrolled(ui, "import-keep", |ui| {
-                keep::show(ui, importing, view, wishes);
+                keep::show(ui, importing, view, commands);
             });
         });
     } else {
         scrolled(ui, "import", |ui| {
-            show_left(ui, importing, wishes);
+            show_left(ui, importing, commands);
             let size = vec2(ui.available_width(), 0.8 * whole.height().max(300.0));
             let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
-            inside(ui, rect, |ui| show_look(ui, importing, view, wishes));
-            keep::show(ui, importing, view, wishes);
+            inside(ui, rect, |ui| show_look(ui, importing, view, commands));
+            keep::show(ui, importing, view, commands);
         });
     }
     ui.advance_cursor_after_rect(whole);
     // Panes change nothing: what was typed goes through the dispatcher like everything else.
     let typed = std::mem::replace(&mut importing.draft, before);
     if typed != importing.draft {
-        wishes.push(ImportCommand::Draft(Box::new(typed)).into());
+        commands.push(ImportCommand::Draft(Box::new(typed)).into());
     }
 }
 
@@ -114,11 +114,11 @@ pub(crate) fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
 }
 
 /// Files, and what they mean.
-fn show_left(ui: &mut Ui, importing: &mut Importing, wishes: &mut Wishes) {
+fn show_left(ui: &mut Ui, importing: &mut Importing, commands: &mut Commands) {
     let found = importing.found().cloned();
     let found = found.as_deref();
     let failure = failure_of(importing, found).cloned();
-    files::show(ui, importing, found, wishes);
+    files::show(ui, importing, found, commands);
     show_failure(ui, failure.as_ref(), Step::Files);
     ui.add_space(2.0 * STEP);
     let kind = found.map(|found| found.kind);
@@ -145,7 +145,12 @@ fn failure_of<'a>(importing: &Importing, found: Option<&'a Found>) -> Option<&'a
 }
 
 /// What was read, before anything is saved.
-fn show_look(ui: &mut Ui, importing: &mut Importing, view: &ImportView<'_>, wishes: &mut Wishes) {
+fn show_look(
+    ui: &mut Ui,
+    importing: &mut Importing,
+    view: &ImportView<'_>,
+    commands: &mut Commands,
+) {
     let standing = importing.standing();
     let found = importing.found().cloned();
     let state = match standing {
@@ -157,7 +162,7 @@ fn show_look(ui: &mut Ui, importing: &mut Importing, view: &ImportView<'_>, wish
     if matches!(standing, Standing::Working(_))
         && crate::kit::widgets::text::button(ui, "Stop reading", "", None)
     {
-        wishes.push(ImportCommand::Cancel.into());
+        commands.push(ImportCommand::Cancel.into());
     }
     let Some(found) = found else {
         return;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::view::ShelfItem;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
@@ -17,16 +17,16 @@ use selvedge_textile::RECIPES;
 const LIST: f32 = 320.0;
 
 /// Shows the controls.
-pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, commands: &mut Commands) {
     let line = Layout::left_to_right(Align::Center);
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, line, |ui| {
-        show_beginnings(ui, view.items, wishes);
+        show_beginnings(ui, view.items, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_steps(ui, view.lab, wishes);
+            show_steps(ui, view.lab, commands);
         });
     });
-    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, wishes));
+    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, commands));
     ui.add_space(STEP);
     let Some(steps) = &view.lab.steps else {
         return;
@@ -38,20 +38,20 @@ pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, wishes
         // The bar of the scroll has room of its own: nothing lies under it.
         ui.set_max_width(ui.available_width() - 10.0);
         match view.lab.page {
-            Page::Recipe => recipe::show(ui, steps, wishes),
+            Page::Recipe => recipe::show(ui, steps, commands),
             Page::Family => {
                 let own = (&mut hands.plan, &mut hands.keep);
-                family::show(ui, (view, steps), own, wishes);
+                family::show(ui, (view, steps), own, commands);
             }
-            Page::Keep => keep::show(ui, view, &mut hands.keep, wishes),
+            Page::Keep => keep::show(ui, view, &mut hands.keep, commands),
         }
         ui.add_space(2.0 * STEP);
     });
 }
 
-fn show_beginnings(ui: &mut Ui, items: &[ShelfItem], wishes: &mut Wishes) {
+fn show_beginnings(ui: &mut Ui, items: &[ShelfItem], commands: &mut Commands) {
     let mut begin = |ui: &mut Ui, beginning: Beginning| {
-        wishes.push(LabCommand::Begin(beginning).into());
+        commands.push(LabCommand::Begin(beginning).into());
         ui.close();
     };
     let menu = ui.menu_button("Begin with", |ui| {
@@ -93,7 +93,7 @@ fn list(ui: &mut Ui, salt: &str, items: &[ShelfItem]) -> Option<String> {
     chosen
 }
 
-fn show_steps(ui: &mut Ui, lab: &Lab, wishes: &mut Wishes) {
+fn show_steps(ui: &mut Ui, lab: &Lab, commands: &mut Commands) {
     let [back, forth] = lab.can_step();
     let is_changed = lab
         .steps
@@ -119,7 +119,7 @@ fn show_steps(ui: &mut Ui, lab: &Lab, wishes: &mut Wishes) {
             None => response.on_hover_text(name),
         };
         if response.clicked() {
-            wishes.push(command.into());
+            commands.push(command.into());
         }
     }
 }
@@ -137,7 +137,7 @@ pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
     ui.add_space(2.0 * STEP);
 }
 
-fn show_pages(ui: &mut Ui, shown: Page, wishes: &mut Wishes) {
+fn show_pages(ui: &mut Ui, shown: Page, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     for (page, title) in Page::ALL {
         let is_shown = page == shown;
@@ -154,13 +154,13 @@ fn show_pages(ui: &mut Ui, shown: Page, wishes: &mut Wishes) {
                 .hline(response.rect.x_range().shrink(6.0), foot, line);
         }
         if response.clicked() {
-            wishes.push(LabCommand::Show(page).into());
+            commands.push(LabCommand::Show(page).into());
         }
     }
 }
 
 /// What the recipe is compared with.
-pub(crate) fn show_compared(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
+pub(crate) fn show_compared(ui: &mut Ui, view: &LabView<'_>, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     ui.label(super::small("compare with", palette.dim));
     let compared = view.lab.compared.as_ref();
@@ -172,13 +172,13 @@ pub(crate) fn show_compared(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes
         .selected_text(RichText::new(name).font(theme::small()))
         .show_ui(ui, |ui| {
             if ui.selectable_label(compared.is_none(), "nothing").clicked() {
-                wishes.push(LabCommand::Compare(None).into());
+                commands.push(LabCommand::Compare(None).into());
             }
             for item in view.items.iter().filter(|item| item.flaw.is_none()) {
                 let is_chosen = compared.is_some_and(|compared| compared.id == item.id);
                 if ui.selectable_label(is_chosen, &item.name).clicked() {
                     let command = LabCommand::Compare(Some(item.id.clone()));
-                    wishes.push(command.into());
+                    commands.push(command.into());
                 }
             }
         })

@@ -2,7 +2,7 @@
 
 use eframe::egui::{ComboBox, RichText, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::row;
@@ -22,7 +22,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     (view, steps): (&LabView<'_>, &Steps),
     (plan, keep): (&mut FamilyFields, &mut KeepFields),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let words = "Several textiles that differ in one parameter, evenly apart";
@@ -43,7 +43,7 @@ pub(crate) fn show(
         no,
     ) && let Ok(plan) = asked
     {
-        wishes.push(LabCommand::TryFamily(plan).into());
+        commands.push(LabCommand::TryFamily(plan).into());
     }
     let Some(family) = &view.lab.family else {
         return;
@@ -67,7 +67,7 @@ pub(crate) fn show(
     let no = busy.or(wrong);
     let tip = "Keep every textile of the family in the library of the scene";
     if wide_button(ui, &format!("Keep all {n}"), tip, no.as_deref()) {
-        wishes.push(LabCommand::KeepFamily.into());
+        commands.push(LabCommand::KeepFamily.into());
     }
 }
 

@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::lab::command::LabCommand;
 use crate::tools::lab::fields::KeepFields;
@@ -10,7 +10,12 @@ use crate::tools::lab::view::controls::{complaint, wide_button};
 use crate::tools::lab::view::{LabView, rows};
 
 /// Shows the fields and the buttons.
-pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, fields: &mut KeepFields, wishes: &mut Wishes) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    view: &LabView<'_>,
+    fields: &mut KeepFields,
+    commands: &mut Commands,
+) {
     show_fields(ui, fields);
     ui.add_space(STEP);
     let lab = view.lab;
@@ -37,11 +42,11 @@ pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, fields: &mut KeepFields, wis
     let refusal = refusal.as_deref();
     let tip = "Keep it in the library of the scene: its profiles, its picture and its recipe";
     if wide_button(ui, "Keep", tip, refusal) {
-        wishes.push(LabCommand::Keep { feels: false }.into());
+        commands.push(LabCommand::Keep { feels: false }.into());
     }
     let tip = "Keep it and lay it under the display";
     if wide_button(ui, "Keep and feel", tip, refusal) {
-        wishes.push(LabCommand::Keep { feels: true }.into());
+        commands.push(LabCommand::Keep { feels: true }.into());
     }
 }
 

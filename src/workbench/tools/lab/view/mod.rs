@@ -21,7 +21,7 @@ use eframe::egui::{
 };
 
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::bench::view::ShelfItem;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme;
@@ -74,7 +74,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &LabView<'_>,
     (hands, pictures): (&mut LabHands, &mut LabPictures),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let whole = ui.max_rect();
     let is_wide = whole.width() >= WIDE;
@@ -91,10 +91,10 @@ pub(crate) fn show(
         ui.painter().hline(whole.x_range(), edge, line);
         (below.with_min_y(edge + STEP), above.with_max_y(edge - STEP))
     };
-    within(ui, controls, |ui| controls::show(ui, view, hands, wishes));
+    within(ui, controls, |ui| controls::show(ui, view, hands, commands));
     within(ui, plots, |ui| {
-        show_standing(ui, view, wishes);
-        show_plots(ui, view, pictures, wishes);
+        show_standing(ui, view, commands);
+        show_plots(ui, view, pictures, commands);
     });
 }
 
@@ -111,17 +111,17 @@ fn within<R>(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
 }
 
 /// The line over the plots: what is shown, how it stands to the recipe, what it is compared with.
-fn show_standing(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
+fn show_standing(ui: &mut Ui, view: &LabView<'_>, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let lab = view.lab;
     let size = vec2(ui.available_width(), LINE);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         controls::show_name(ui, lab.steps.as_ref());
-        controls::show_compared(ui, view, wishes);
+        controls::show_compared(ui, view, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(share) = lab.share() {
                 if button(ui, "Stop", "Stop what is being computed", None) {
-                    wishes.push(LabCommand::Stop.into());
+                    commands.push(LabCommand::Stop.into());
                 }
                 let bar = ProgressBar::new(share)
                     .desired_width(72.0)
@@ -132,7 +132,7 @@ fn show_standing(ui: &mut Ui, view: &LabView<'_>, wishes: &mut Wishes) {
             }
             if lab.is_stopped && !lab.is_fresh() {
                 if button(ui, "Go on", "Compute the preview after all", None) {
-                    wishes.push(LabCommand::GoOn.into());
+                    commands.push(LabCommand::GoOn.into());
                 }
                 ui.label(small("stopped: an earlier recipe is shown", palette.text));
                 return;
@@ -154,7 +154,12 @@ fn small(words: &str, ink: egui::Color32) -> RichText {
 }
 
 /// The plots, in a grid or below each other.
-fn show_plots(ui: &mut Ui, view: &LabView<'_>, pictures: &mut LabPictures, wishes: &mut Wishes) {
+fn show_plots(
+    ui: &mut Ui,
+    view: &LabView<'_>,
+    pictures: &mut LabPictures,
+    commands: &mut Commands,
+) {
     let room = ui.available_size();
     let Some(preview) = view.lab.preview.clone() else {
         let words = match (&view.lab.refusal, view.lab.fault()) {
@@ -181,7 +186,7 @@ fn show_plots(ui: &mut Ui, view: &LabView<'_>, pictures: &mut LabPictures, wishe
             ui.set_opacity(STALE);
         }
         let parts = if is_narrow { stacked(rect) } else { grid(rect) };
-        show_parts(ui, view, (&preview, pictures), parts, wishes);
+        show_parts(ui, view, (&preview, pictures), parts, commands);
     });
 }
 
@@ -220,9 +225,9 @@ fn show_parts(
     view: &LabView<'_>,
     (preview, pictures): (&std::sync::Arc<Preview>, &mut LabPictures),
     [profile, relief, spectra, curves, figures]: Parts,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
-    profile::show(ui, profile, view, preview, wishes);
+    profile::show(ui, profile, view, preview, commands);
     pictures::show_relief(ui, relief, (view, preview), pictures);
     pictures::show_spectra(ui, spectra, (view, preview), pictures);
     curves::show(ui, curves, view, preview);

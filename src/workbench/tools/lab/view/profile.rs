@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Side, paint_ticks, paint_unit, round_step};
 use crate::kit::widgets::polyline::corners;
@@ -28,11 +28,11 @@ pub(crate) fn show(
     rect: Rect,
     view: &LabView<'_>,
     preview: &Preview,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let look = view.lab.look;
     let head = rect.with_max_y(rect.top() + 20.0);
-    within(ui, head, |ui| show_head(ui, look, wishes));
+    within(ui, head, |ui| show_head(ui, look, commands));
     let area = Rect::from_min_max(
         pos2(rect.left() + 34.0, rect.top() + 24.0),
         pos2(rect.right() - 8.0, rect.bottom() - 16.0),
@@ -59,13 +59,13 @@ pub(crate) fn show(
     plot.paint(ui.painter(), profile, Stroke::new(1.25, palette.text));
     plot.paint_units(ui.painter());
     if let Some(look) = moved(ui, &response, look, profile) {
-        wishes.push(LabCommand::Look(look).into());
+        commands.push(LabCommand::Look(look).into());
     }
     tell(response, &plot, (profile, compared));
 }
 
 /// Which stroke, and how much of it.
-fn show_head(ui: &mut Ui, look: Look, wishes: &mut Wishes) {
+fn show_head(ui: &mut Ui, look: Look, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     ui.horizontal(|ui| {
         ui.label(super::small("profile", palette.dim));
@@ -77,7 +77,7 @@ fn show_head(ui: &mut Ui, look: Look, wishes: &mut Wishes) {
             let tip = format!("Profile along {}", direction.label());
             if toggle(ui, letters, direction == look.direction, &tip) {
                 let other = Look { direction, ..look };
-                wishes.push(LabCommand::Look(other).into());
+                commands.push(LabCommand::Look(other).into());
             }
         }
         ui.add_space(8.0);
@@ -86,7 +86,7 @@ fn show_head(ui: &mut Ui, look: Look, wishes: &mut Wishes) {
             let tip = format!("Look at {words} of it; the wheel looks closer, a drag moves along");
             if toggle(ui, words, is_shown, &tip) {
                 let other = Look { span_mm, ..look };
-                wishes.push(LabCommand::Look(other).into());
+                commands.push(LabCommand::Look(other).into());
             }
         }
     });

@@ -2,7 +2,7 @@
 
 use eframe::egui::{CollapsingHeader, RichText, Ui};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::tools::lab::command::LabCommand;
@@ -12,7 +12,7 @@ use crate::tools::lab::view::rows;
 use selvedge_textile::{Group, Parameter, ParameterKind, groups};
 
 /// Shows every parameter; what is wrong stands below its own.
-pub(crate) fn show(ui: &mut Ui, steps: &Steps, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, steps: &Steps, commands: &mut Commands) {
     let draft = steps.now();
     let fault = steps.fault();
     if let Some(fault) = fault.filter(|fault| fault.place.is_none()) {
@@ -36,7 +36,7 @@ pub(crate) fn show(ui: &mut Ui, steps: &Steps, wishes: &mut Wishes) {
         };
         header.show_unindented(ui, |ui| {
             for parameter in &group.parameters {
-                show_parameter(ui, steps, parameter, wishes);
+                show_parameter(ui, steps, parameter, commands);
                 if let Some(fault) = fault.filter(|fault| fault.place == Some(parameter.place)) {
                     complaint(ui, &fault.message);
                 }
@@ -56,7 +56,7 @@ fn is_short(group: &Group) -> bool {
     !group.parameters.iter().any(is_list)
 }
 
-fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, wishes: &mut Wishes) {
+fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, commands: &mut Commands) {
     let draft = steps.now();
     let is_of_table = matches!(parameter.kind, ParameterKind::Template { .. })
         || draft.has_table(parameter.place.table);
@@ -108,6 +108,6 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, wishes: &mu
         }
     };
     if let Some(value) = changed {
-        wishes.push(LabCommand::Set(parameter.place, value).into());
+        commands.push(LabCommand::Set(parameter.place, value).into());
     }
 }

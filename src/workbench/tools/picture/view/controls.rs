@@ -2,7 +2,7 @@
 
 use eframe::egui::{RichText, Ui};
 
-use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::bench::follower::Standing;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -24,16 +24,16 @@ const NAME: f32 = 52.0;
 const NUMBER: f32 = 72.0;
 
 /// Shows the steps.
-pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, commands: &mut Commands) {
     let found = picturing.found().cloned();
     let found = found.as_deref();
     let standing = picturing.standing();
-    show_picture(ui, picturing, found, wishes);
+    show_picture(ui, picturing, found, commands);
     if let Standing::Working(share) = standing {
         ui.horizontal(|ui| {
             note(ui, &format!("working {:.0} %", 100.0 * share), Tone::Quiet);
             if button(ui, "Stop", "Stop working it out", None) {
-                wishes.push(PictureCommand::Cancel.into());
+                commands.push(PictureCommand::Cancel.into());
             }
         });
     }
@@ -55,7 +55,7 @@ fn show_picture(
     ui: &mut Ui,
     picturing: &mut Picturing,
     found: Option<&Found>,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let draft = &mut picturing.draft;
     let name = draft.source.as_ref().map(|chosen| chosen.file().name());
@@ -63,7 +63,7 @@ fn show_picture(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         if button(ui, "Another…", "Choose another picture", None) {
-            wishes.push(FileCommand::Ask(Purpose::OpenPicture).into());
+            commands.push(FileCommand::Ask(Purpose::OpenPicture).into());
         }
         if button(
             ui,
@@ -71,7 +71,7 @@ fn show_picture(
             "Let go of the picture and of what was typed",
             None,
         ) {
-            wishes.push(PictureCommand::Clear.into());
+            commands.push(PictureCommand::Clear.into());
         }
     });
     show_failure(ui, found, Step::Picture);

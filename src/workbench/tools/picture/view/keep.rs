@@ -2,7 +2,7 @@
 
 use eframe::egui::{Button, Ui, vec2};
 
-use crate::bench::command::Wishes;
+use crate::bench::command::Commands;
 use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::text::{button, toggle};
 use crate::tools::import::view::fields::{Need, Tone, note, row_of, step_title, text};
@@ -13,7 +13,7 @@ use selvedge_foundation::quantity::with_unit;
 use selvedge_textile::surface::Representation;
 
 /// Shows the step.
-pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) {
+pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, commands: &mut Commands) {
     ui.spacing_mut().item_spacing.y = STEP;
     let made = picturing.found().and_then(|found| found.made.clone());
     let figures = made.map_or_else(String::new, |made| {
@@ -60,11 +60,11 @@ pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, wishes: &mut Wishes) 
             None => response.on_hover_text(tip),
         };
         if response.clicked() {
-            wishes.push(PictureCommand::Keep { is_felt: true }.into());
+            commands.push(PictureCommand::Keep { is_felt: true }.into());
         }
         let save = "Write it into the library";
         if button(ui, "Save to the library", save, refusal.as_deref()) {
-            wishes.push(PictureCommand::Keep { is_felt: false }.into());
+            commands.push(PictureCommand::Keep { is_felt: false }.into());
         }
     });
     show_outcome(ui, picturing, refusal);

@@ -12,7 +12,7 @@ pub(crate) mod plots;
 
 use eframe::egui::{Align, Label, Layout, RichText, Ui, UiBuilder, vec2};
 
-use crate::bench::command::{FileCommand, Purpose, Wishes};
+use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
@@ -40,14 +40,14 @@ const EMPTY: [&str; 3] = [
 pub(crate) fn show(
     ui: &mut Ui,
     (picturing, textures): (&mut Picturing, &mut PictureTextures),
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
     if let Some(path) = dropped(ui).into_iter().next() {
-        wishes.push(PictureCommand::Open(path).into());
+        commands.push(PictureCommand::Open(path).into());
     }
     if picturing.draft.source.is_none() {
-        show_empty(ui, wishes);
+        show_empty(ui, commands);
         return;
     }
     let whole = ui.available_rect_before_wrap();
@@ -61,17 +61,17 @@ pub(crate) fn show(
         let (steps, keep) = left.split_top_bottom_at_y(edge);
         inside(ui, steps.with_max_y(edge - 6.0), |ui| {
             scrolled(ui, "picture-steps", |ui| {
-                controls::show(ui, picturing, wishes);
+                controls::show(ui, picturing, commands);
             });
         });
         ui.painter().hline(left.x_range(), edge - 3.0, hairline);
-        inside(ui, keep, |ui| keep::show(ui, picturing, wishes));
+        inside(ui, keep, |ui| keep::show(ui, picturing, commands));
         let right = right.with_min_x(right.left() + 12.0);
         inside(ui, right, |ui| cards::show(ui, picturing, textures));
     } else {
         scrolled(ui, "picture", |ui| {
-            keep::show(ui, picturing, wishes);
-            controls::show(ui, picturing, wishes);
+            keep::show(ui, picturing, commands);
+            controls::show(ui, picturing, commands);
             let size = vec2(ui.available_width(), 4.0 * ui.available_width());
             let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
             inside(ui, rect, |ui| cards::show(ui, picturing, textures));
@@ -81,12 +81,12 @@ pub(crate) fn show(
     // Panes change nothing: what was typed goes through the dispatcher like everything else.
     let typed = std::mem::replace(&mut picturing.draft, before);
     if typed != picturing.draft {
-        wishes.push(PictureCommand::Draft(Box::new(typed)).into());
+        commands.push(PictureCommand::Draft(Box::new(typed)).into());
     }
 }
 
 /// What to do when there is nothing yet.
-fn show_empty(ui: &mut Ui, wishes: &mut Wishes) {
+fn show_empty(ui: &mut Ui, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let whole = ui.available_rect_before_wrap();
     let size = vec2(whole.width().min(520.0), whole.height().min(260.0));
@@ -98,7 +98,7 @@ fn show_empty(ui: &mut Ui, wishes: &mut Wishes) {
     ui.label(RichText::new("Feel a cloth from its picture").font(theme::title()));
     ui.label(RichText::new("Drop a picture here, or choose one.").color(palette.text));
     if button(ui, "Choose a picture…", "", None) {
-        wishes.push(FileCommand::Ask(Purpose::OpenPicture).into());
+        commands.push(FileCommand::Ask(Purpose::OpenPicture).into());
     }
     for words in EMPTY {
         let words = RichText::new(words).font(theme::small()).color(palette.dim);

@@ -15,7 +15,7 @@ pub(crate) use crate::tools::workspace::overlay::motion::paint_velocities;
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, Painter, PopupCloseBehavior, RichText, Ui, vec2};
 
-use crate::bench::command::{ShowCommand, Wishes};
+use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::view::Cloth;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -158,7 +158,7 @@ pub(crate) fn show_menu(
     ui: &mut Ui,
     state: &WorkspaceState,
     points_per_mm: f64,
-    wishes: &mut Wishes,
+    commands: &mut Commands,
 ) {
     let palette = Palette::in_ui(ui);
     let is_any = state.overlays != Overlays::default();
@@ -171,7 +171,7 @@ pub(crate) fn show_menu(
         ui.set_min_width(230.0);
         for (overlay, label) in Overlays::ALL {
             let command = ShowCommand::Overlay(overlay);
-            menu_choice(ui, label, state.overlays.shows(overlay), command, wishes);
+            menu_choice(ui, label, state.overlays.shows(overlay), command, commands);
             if overlay == Overlay::Points && state.overlays.points {
                 show_hint(ui, points_per_mm);
             }

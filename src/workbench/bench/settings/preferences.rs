@@ -26,7 +26,7 @@ const HEIGHT: [f32; 2] = [600.0, 16_384.0];
 
 /// What is kept between two runs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Kept {
+pub struct Preferences {
     /// Dark, light, or as the system.
     pub theme: ThemePreference,
     /// The colours that stand for numbers.
@@ -67,7 +67,7 @@ pub struct Kept {
     pub(crate) recent_scenes: Vec<PathBuf>,
 }
 
-impl Default for Kept {
+impl Default for Preferences {
     fn default() -> Self {
         Self {
             theme: ThemePreference::System,
@@ -93,7 +93,7 @@ impl Default for Kept {
     }
 }
 
-impl Kept {
+impl Preferences {
     /// The same with every value at the nearest bound; what is no number is as at first.
     pub(crate) fn in_bounds(self) -> Self {
         let within = |value: f32, [least, most]: [f32; 2]| {
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn values_out_of_bounds_go_to_the_nearest_bound() {
-        let kept = Kept {
+        let preferences = Preferences {
             zoom: 9.0,
             pixels_per_mm: Some(-3.0),
             rendering: Rendering {
@@ -148,18 +148,18 @@ mod tests {
                 ..Rendering::default()
             },
             window_size: Some([10.0, f32::INFINITY]),
-            ..Kept::default()
+            ..Preferences::default()
         };
-        let kept = kept.in_bounds();
-        assert_eq!(kept.zoom, 2.0);
-        assert_eq!(kept.pixels_per_mm, Some(1.0));
-        assert_eq!(kept.rendering.budget_db, 1.0);
-        assert_eq!(kept.window_size, Some([960.0, 16_384.0]));
+        let preferences = preferences.in_bounds();
+        assert_eq!(preferences.zoom, 2.0);
+        assert_eq!(preferences.pixels_per_mm, Some(1.0));
+        assert_eq!(preferences.rendering.budget_db, 1.0);
+        assert_eq!(preferences.window_size, Some([960.0, 16_384.0]));
     }
 
     #[test]
     fn what_is_no_number_is_as_at_first() {
-        let kept = Kept {
+        let preferences = Preferences {
             zoom: f32::NAN,
             pixels_per_mm: Some(f64::NAN),
             rendering: Rendering {
@@ -167,24 +167,30 @@ mod tests {
                 ..Rendering::default()
             },
             window_size: Some([1400.0, f32::NAN]),
-            ..Kept::default()
+            ..Preferences::default()
         };
-        assert_eq!(kept.in_bounds(), Kept::default());
+        assert_eq!(preferences.in_bounds(), Preferences::default());
     }
 
     #[test]
     fn recent_scenes_are_ten_newest_first_and_each_once() {
-        let mut kept = Kept::default();
+        let mut preferences = Preferences::default();
         for n in 0..14 {
-            kept.remember_scene(Path::new(&format!("/scenes/{n}.scene.toml")));
+            preferences.remember_scene(Path::new(&format!("/scenes/{n}.scene.toml")));
         }
-        kept.remember_scene(Path::new("/scenes/9.scene.toml"));
-        assert_eq!(kept.recent_scenes.len(), 10);
-        assert_eq!(kept.recent_scenes[0], Path::new("/scenes/9.scene.toml"));
-        assert_eq!(kept.recent_scenes[1], Path::new("/scenes/13.scene.toml"));
-        kept.remember_scene(Path::new("here.scene.toml"));
+        preferences.remember_scene(Path::new("/scenes/9.scene.toml"));
+        assert_eq!(preferences.recent_scenes.len(), 10);
+        assert_eq!(
+            preferences.recent_scenes[0],
+            Path::new("/scenes/9.scene.toml")
+        );
+        assert_eq!(
+            preferences.recent_scenes[1],
+            Path::new("/scenes/13.scene.toml")
+        );
+        preferences.remember_scene(Path::new("here.scene.toml"));
         assert!(
-            kept.recent_scenes[0].is_absolute(),
+            preferences.recent_scenes[0].is_absolute(),
             "relative paths are made absolute"
         );
     }
