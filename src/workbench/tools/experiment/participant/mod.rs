@@ -97,7 +97,7 @@ pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Comm
                 ui.disable();
             }
             ui.allocate_ui(vec2(width, height), |ui| {
-                controls::show(ui, trial, commands)
+                controls::show(ui, trial, commands);
             });
         });
     let hint = RichText::new(keys::hint(trial)).color(Palette::in_ui(ui).dim);
