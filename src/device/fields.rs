@@ -117,3 +117,12 @@ impl<'a> FieldReader<'a> {
         (!self.short).then_some(value)
     }
 }
+
+/// The low 32 bits, as ticks, clocks and numbers of samples travel.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "they wrap at 2³² on the wire"
+)]
+pub(crate) fn wrapped_u32(count: u64) -> u32 {
+    count as u32
+}

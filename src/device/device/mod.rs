@@ -20,6 +20,7 @@ mod trouble;
 
 use super::framing::{Decoder, Packet};
 use super::message::{Config, DeviceState, Fault, LogText, Message, Status, fault_bit};
+use crate::fields::wrapped_u32;
 pub use lie::{Lie, Miswiring};
 pub use model::DeviceModel;
 use output::{OutputStage, TICK};
@@ -348,15 +349,6 @@ impl DeviceCore {
 )]
 fn wrapped(count: u64) -> u16 {
     count as u16
-}
-
-/// The low 32 bits, as ticks and clocks travel.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "ticks and µs wrap at 2³² on the wire"
-)]
-fn wrapped_u32(count: u64) -> u32 {
-    count as u32
 }
 
 #[cfg(test)]

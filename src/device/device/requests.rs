@@ -3,7 +3,8 @@
 
 use super::lie::caps_packet;
 use super::output::{IdentDrive, allow};
-use super::{DeviceCore, DeviceSink, MS_US, Session, sample_ring, wrapped_u32};
+use super::{DeviceCore, DeviceSink, MS_US, Session, sample_ring};
+use crate::fields::wrapped_u32;
 use crate::framing::Received;
 use crate::message::{
     ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC,

@@ -6,7 +6,7 @@
 
 use super::model::SAMPLE_HZ;
 use super::sink::SampleCount;
-use crate::fields::FieldReader;
+use crate::fields::{FieldReader, wrapped_u32};
 
 /// Bytes before the first sample.
 pub(super) const HEAD_LEN: usize = 8;
@@ -104,7 +104,7 @@ impl SampleRing {
         }
         let playable = sample_at(now_us) + 1;
         // The number wraps after six days: it is the one nearest to now.
-        let away = first.wrapping_sub(low_word(playable)).cast_signed();
+        let away = first.wrapping_sub(wrapped_u32(playable)).cast_signed();
         let Some(first) = playable.checked_add_signed(i64::from(away)) else {
             return Taken::Odd;
         };
@@ -132,7 +132,7 @@ impl SampleRing {
         let late = playable.saturating_sub(first).min(u64::from(n));
         self.count.packets = self.count.packets.wrapping_add(1);
         self.count.received += u32::from(n);
-        self.count.late += low_word(late);
+        self.count.late += wrapped_u32(late);
         self.count.clipped = self.count.clipped.wrapping_add(clipped);
         Taken::Yes { clipped, is_late }
     }
@@ -197,14 +197,6 @@ impl SampleRing {
 /// The sample that sounds at a time.
 fn sample_at(us: u64) -> u64 {
     us * RATE_HZ / 1_000_000
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "sample numbers wrap on the wire"
-)]
-fn low_word(number: u64) -> u32 {
-    number as u32
 }
 
 #[expect(
