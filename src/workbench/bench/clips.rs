@@ -4,8 +4,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui;
-
 use crate::bench::Bench;
 use crate::bench::task::{Task, taken};
 use selvedge_engine::{ClipKind, ClipWriter, Written, write_clip};
@@ -71,8 +69,7 @@ impl Bench {
     }
 
     /// Renders the recording into a file; one at a time.
-    pub(crate) fn write_clip_to(&mut self, ctx: &egui::Context, kind: ClipKind, path: &Path) {
-        self.transient.ask = None;
+    pub(crate) fn write_clip_to(&mut self, kind: ClipKind, path: &Path) {
         let Some(take) = self.take.clone() else {
             let words = "There is no recording to export; record one first";
             return self.transient.notices.give(words);
@@ -104,7 +101,7 @@ impl Bench {
             clip.and_then(|clip| write_clip(clip, &what, &exploration, progress))
                 .map_err(|error| error.to_string())
         };
-        let task = Task::start(("selvedge-clip", ctx), self.is_stepped, work);
+        let task = Task::start(("selvedge-clip", &self.ctx), self.is_stepped, work);
         self.transient.clips.task = Some(task);
     }
 
@@ -152,7 +149,6 @@ fn said(written: &Written) -> String {
 mod tests {
     use super::*;
     use crate::bench::Drive;
-    use crate::bench::command::{FileCommand, Purpose};
     use crate::bench::recording::Take;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::{ExplorationPath, PathRow};
@@ -160,13 +156,12 @@ mod tests {
 
     #[test]
     fn the_recording_at_hand_is_written_as_every_kind() {
-        let ctx = egui::Context::default();
+        let ctx = eframe::egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         let folder = ScratchFolder::made("clips");
         let write = |bench: &mut Bench, kind| {
             let path = folder.join(format!("a.{}", ending(kind)));
-            let file = FileCommand::Use(Purpose::Clip(kind), path.clone());
-            bench.dispatch(&ctx, file.into());
+            bench.write_clip_to(kind, &path);
             bench.poll_clips();
             path
         };

@@ -8,9 +8,13 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::Bench;
+use crate::bench::command::edit::Edit;
+use crate::bench::error::AppError;
 use crate::bench::job::{Job, Polled};
+use crate::bench::library_view::LibraryView;
 use crate::bench::view::ShelfItem;
-use crate::shell::error::AppError;
+use selvedge_foundation::geometry::Point;
 use selvedge_foundation::progress::unheard;
 use selvedge_textile::{BuiltFile, Library, TextileError, n_threads};
 
@@ -157,6 +161,56 @@ fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppE
         ids,
         is_to_feel,
     })
+}
+
+impl Bench {
+    pub(crate) fn keep(&mut self, ctx: &egui::Context, keep: Keep) {
+        let library = Arc::clone(self.loaded.library());
+        let keeping = &mut self.transient.keeping;
+        if let Some(outcome) = keeping.ask(keep, &library, ctx, self.is_stepped) {
+            self.take_kept(outcome);
+        }
+    }
+
+    /// Takes textiles that a thread has kept, and lets the next wish begin.
+    pub(crate) fn poll_kept(&mut self, ctx: &egui::Context) {
+        let Some((outcome, next)) = self.transient.keeping.poll() else {
+            return;
+        };
+        self.take_kept(outcome);
+        if let Some(next) = next {
+            self.keep(ctx, next);
+        }
+    }
+
+    fn take_kept(&mut self, outcome: Result<Kept, AppError>) {
+        let kept = match outcome {
+            Ok(kept) => kept,
+            Err(error) => return self.transient.notices.give(error.to_string()),
+        };
+        let words = format!("Kept {} in {}", kept.ids.join(", "), kept.folder.display());
+        self.transient.notices.give(words);
+        let root = self.loaded.library().root();
+        if root != kept.before && root != kept.folder {
+            // Another scene was opened meanwhile, over a library of its own.
+            return;
+        }
+        let is_another = root != kept.folder;
+        self.loaded.use_library(&kept.library);
+        let nothing = LibraryView::new(Arc::clone(&kept.library), Vec::new());
+        let library_view = std::mem::replace(&mut self.library_view, nothing);
+        self.library_view = library_view.with_library(kept.library, kept.library_view);
+        if is_another {
+            self.document.use_library(&kept.folder);
+        }
+        self.scene_has_changed();
+        if let (true, Some(first)) = (kept.is_to_feel, kept.ids.into_iter().next()) {
+            let [width, height] = self.document.scene().size_mm;
+            let middle = Point::new(0.5 * width, 0.5 * height);
+            let place = self.transient.live.centre.unwrap_or(middle);
+            self.commands.push(Edit::AddCloth(first, place).into());
+        }
+    }
 }
 
 #[cfg(test)]

@@ -9,8 +9,11 @@ pub(crate) mod arrays;
 pub(crate) mod clips;
 pub(crate) mod command;
 pub(crate) mod document;
+pub(crate) mod edit;
 pub(crate) mod editing;
+pub(crate) mod error;
 pub(crate) mod export;
+pub(crate) mod files;
 pub(crate) mod folders;
 pub(crate) mod follower;
 pub(crate) mod free_places;
@@ -19,11 +22,13 @@ pub(crate) mod job;
 pub(crate) mod keep;
 pub(crate) mod library_view;
 pub(crate) mod mute_solo;
+pub(crate) mod news;
 pub(crate) mod notices;
 pub(crate) mod opening;
 pub(crate) mod pane;
 pub(crate) mod perceptual_level;
 pub(crate) mod perspective;
+pub(crate) mod play;
 pub(crate) mod preparing;
 pub(crate) mod probe;
 pub(crate) mod query;
@@ -33,37 +38,35 @@ pub(crate) mod settings;
 pub(crate) mod signals;
 pub(crate) mod sources;
 pub(crate) mod task;
+pub(crate) mod tool;
+pub(crate) mod transient;
 pub(crate) mod view;
 
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::arrays::Arrays;
+use crate::bench::command::Commands;
 use crate::bench::document::Document;
+use crate::bench::error::AppError;
 use crate::bench::library_view::LibraryView;
 use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::pane::Pane;
-use crate::bench::perspective::Perspective;
 use crate::bench::preparing::Preparing;
 use crate::bench::recording::Take;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, session_log};
+use crate::bench::transient::Transient;
 use crate::bench::view::{LibraryDot, Marks, SceneView};
 use crate::kit::theme;
-use crate::shell::arrangement;
-use crate::shell::dialogs::Dialogs;
-use crate::shell::error::AppError;
-use crate::shell::pointer::PointerTap;
-use crate::shell::state::Transient;
 use crate::tools::workspace::state::WorkspaceState;
 use crate::tools::workspace::trail::Trail;
 use eframe::egui;
-use egui_tiles::Tree;
 use selvedge_device::{LogBound, SessionLog};
 use selvedge_engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::LoadedScene;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The time between two frames while something moves: 30 frames a second.
@@ -92,17 +95,16 @@ pub(crate) struct Bench {
     pub(crate) settings: Settings,
     /// What devices are taken to drive.
     pub(crate) arrays: Arrays,
-    /// Which pane stands where.
-    pub(crate) tree: Tree<Pane>,
-    /// The arrangements of the other perspectives, as far as they were shown.
-    pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    /// What tools want of each other, of the document and of the device: done by the shell.
+    pub(crate) commands: Commands,
+    /// The panes in sight.
+    pub(crate) in_sight: Vec<Pane>,
     /// How the workspace is looked at.
     pub(crate) workspace: WorkspaceState,
     pub(crate) transient: Transient,
     pub(crate) engine: Engine,
     pub(crate) switch: StopSwitch,
     pub(crate) is_stepped: bool,
-    pub(crate) tap: Arc<Mutex<PointerTap>>,
     /// The exploration that can be replayed.
     pub(crate) take: Option<Take>,
     /// The scene as the engine has it: with its textiles, and gains as they are felt.
@@ -170,7 +172,7 @@ impl Bench {
             scene: opened.prepared,
             on_news: (!is_stepped).then(|| waker(ctx)),
         };
-        let mut engine = if is_stepped {
+        let engine = if is_stepped {
             Engine::without_thread(config, now)?
         } else {
             Engine::start(config)?
@@ -178,14 +180,13 @@ impl Bench {
         let loaded = opened.loaded;
         let mut bench = Self {
             document: document_of(&loaded, opened.path.as_deref()),
-            tree: arrangement::default_tree(egui::Vec2::ZERO),
-            resting: Default::default(),
+            commands: Commands::new(),
+            in_sight: Vec::new(),
             arrays: Arrays::default(),
             workspace: WorkspaceState::default(),
             transient: Transient::default(),
             switch: engine.stop_switch(),
             is_stepped,
-            tap: Arc::new(Mutex::new(PointerTap::new(engine.take_pointer()))),
             engine,
             take: None,
             scene_serial,
@@ -207,7 +208,6 @@ impl Bench {
     /// Takes up the settings and whatever else a new window begins with.
     fn begin(&mut self, complaint: Option<String>) {
         if !self.is_stepped {
-            self.transient.dialogs = Dialogs::of_desktop();
             self.transient.keeping.own_folder = own_libraries();
             self.log_links();
             self.read_arrays();
@@ -275,7 +275,7 @@ impl Bench {
     }
 
     /// What a scene that is new to the window needs.
-    fn show_document(&mut self) {
+    pub(crate) fn show_document(&mut self) {
         let title = format!("{} – Selvedge", self.document.scene().name);
         self.ctx
             .send_viewport_cmd(egui::ViewportCommand::Title(title));
@@ -292,6 +292,11 @@ impl Bench {
         self.library = query::library_dots(&self.loaded, &self.library_view);
         let (n_scenes, n_edits) = (self.inspection.n_scenes, self.inspection.n_edits);
         self.inspection = InspectionCache::on(&self.loaded, n_scenes, n_edits + 1);
+    }
+
+    /// Whether a pane is in sight.
+    pub(crate) fn shows(&self, pane: Pane) -> bool {
+        self.in_sight.contains(&pane)
     }
 
     /// Contactors of the first display.

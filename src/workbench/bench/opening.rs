@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
+use crate::bench::error::AppError;
 use crate::bench::job::{Job, Polled};
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
 use crate::bench::view::ShelfItem;
-use crate::shell::error::AppError;
 use selvedge_engine::PreparedScene;
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::LoadedScene;

@@ -6,9 +6,9 @@
 
 use eframe::egui;
 
+use crate::bench::error::AppError;
 use crate::bench::job::{Job, Polled};
 use crate::bench::rendering::Rendering;
-use crate::shell::error::AppError;
 use selvedge_engine::{EngineError, PreparedScene};
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::{LoadedScene, PlacedTextile, Scene};

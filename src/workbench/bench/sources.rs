@@ -295,8 +295,8 @@ mod tests {
     fn a_program_that_joins_moves_the_display_and_hears_what_is_felt() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(&ctx, SourceCommand::Listen.into());
-        bench.dispatch(&ctx, SourceCommand::Program.into());
+        bench.dispatch(SourceCommand::Listen.into());
+        bench.dispatch(SourceCommand::Program.into());
         let (address, _) = bench.transient.sources.view().programs.unwrap();
         let mut program = TcpStream::connect(address).unwrap();
         program
@@ -322,7 +322,7 @@ mod tests {
         assert_eq!(bench.transient.live.play.source, Source::Lines);
         let counts = bench.transient.sources.view().programs.unwrap().1;
         assert!(counts.has_writer && counts.connected == 1, "{counts:?}");
-        bench.dispatch(&ctx, SourceCommand::EndListening.into());
+        bench.dispatch(SourceCommand::EndListening.into());
         assert!(bench.transient.sources.view().programs.is_none());
         while let Some(Ok(_)) = lines.next() {
             // What was on its way; then the connection ends.
@@ -349,18 +349,18 @@ mod tests {
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.transient.sources.take_listed(Ok(vec![Ok(tablet())]));
         assert_eq!(bench.sources_view().surface, None, "none was chosen");
-        bench.dispatch(&ctx, SourceCommand::Device("/nowhere/event7".into()).into());
+        bench.dispatch(SourceCommand::Device("/nowhere/event7".into()).into());
         let usual = bench.sources_view().surface.unwrap();
         assert_eq!((usual.area_mm[2], usual.is_own), (216.0, false));
         let area = |text: &str| {
             let text = Some(text.to_owned());
             SourceCommand::Area("Pen tablet".to_owned(), text).into()
         };
-        bench.dispatch(&ctx, area("10,20,100,62.5"));
+        bench.dispatch(area("10,20,100,62.5"));
         let own = bench.sources_view().surface.unwrap();
         assert_eq!((own.area_mm, own.is_own), ([10.0, 20.0, 100.0, 62.5], true));
         for wrong in ["10,20,0,62.5", "10,20,-4,62.5", "10,20,wide,62.5"] {
-            bench.dispatch(&ctx, area(wrong));
+            bench.dispatch(area(wrong));
             let shown = bench.transient.notices.shown();
             let last = &shown.last().unwrap().text;
             assert!(
@@ -369,10 +369,7 @@ mod tests {
             );
             assert_eq!(bench.sources_view().surface.as_ref(), Some(&own));
         }
-        bench.dispatch(
-            &ctx,
-            SourceCommand::Area("Pen tablet".to_owned(), None).into(),
-        );
+        bench.dispatch(SourceCommand::Area("Pen tablet".to_owned(), None).into());
         assert_eq!(bench.sources_view().surface, Some(usual));
         assert!(bench.settings.preferences.tablet_areas.is_empty());
     }
@@ -381,14 +378,14 @@ mod tests {
     fn a_device_that_is_not_there_is_a_notice() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(&ctx, SourceCommand::Device("/nowhere/event1".into()).into());
+        bench.dispatch(SourceCommand::Device("/nowhere/event1".into()).into());
         let shown = bench.transient.notices.shown();
         assert!(
             shown[0].text.starts_with("/nowhere/event1"),
             "{}",
             shown[0].text
         );
-        bench.dispatch(&ctx, SourceCommand::List.into());
+        bench.dispatch(SourceCommand::List.into());
         assert!(bench.transient.sources.view().is_known);
     }
 }

@@ -12,15 +12,17 @@ use crate::bench::command::{Command, Commands, PlaySource, ShowCommand};
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::recording::Take;
+use crate::bench::tool::PaneContext;
+use crate::bench::transient::Transient;
 use crate::bench::view::{Hovered, SceneView, Source};
 use crate::kit::theme::Palette;
+use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
 use crate::shell::desk::Desk;
 use crate::shell::perspective::arrangement_for;
-use crate::shell::pointer::{Ground, Pointed};
-use crate::shell::state::{After, Transient};
+use crate::shell::state::After;
 use crate::shell::tab_row::TabRow;
-use crate::tools::workspace;
+use crate::shell::window::Workbench;
 
 /// Width of the frame around the window of an armed device, points.
 const ARMED_FRAME: f32 = 5.0;
@@ -28,29 +30,28 @@ const ARMED_FRAME: f32 = 5.0;
 const HEADER: f32 = 44.0;
 
 /// Shows one frame; says what the user wants.
-pub(crate) fn show(bench: &mut Bench, ui: &mut Ui) -> Commands {
+pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     let mut commands = Commands::new();
-    let scene = bench.scene_view();
-    show_header(bench, ui, &scene, &mut commands);
-    if !bench.transient.experiment.is_held() {
+    let scene = window.bench.scene_view();
+    show_header(window, ui, &scene, &mut commands);
+    if !window.bench.has_session() {
         // What is felt is not to be seen.
-        show_transport(bench, ui, &mut commands);
+        show_transport(&mut window.bench, ui, &mut commands);
     }
     let central = CentralPanel::default().frame(Frame::new());
-    let desk = central.show(ui, |ui| {
+    let panes = central.show(ui, |ui| {
         let rect = ui.max_rect();
-        (show_desk(bench, ui, &scene, &mut commands), rect)
+        (show_panes(window, ui, &scene, &mut commands), rect)
     });
-    let (shown, rect) = desk.inner;
-    let apart = bench.show_participants_window(ui.ctx(), &mut commands);
-    bench.leave_plant();
-    let over = shown.map_or(rect, |shown| shown.ground);
-    show_overlays(bench, ui, over, &mut commands);
-    let here = shown.map(|shown| (shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
-    bench.transient.ground = shown.map(|shown| shown.ground);
-    feel(bench, ui.ctx(), &scene, apart.or(here));
-    mark_hovered(bench, ui.ctx(), &mut commands);
-    if bench.transient.live.is_armed() {
+    let (ground, rect) = panes.inner;
+    let apart = (window.bench).show_participants_window(ui.ctx(), &mut commands);
+    window.bench.leave_plant();
+    let over = ground.map_or(rect, |ground| ground.rect);
+    show_overlays(window, ui, over, &mut commands);
+    window.bench.transient.ground = ground.map(|ground| ground.rect);
+    feel(window, ui.ctx(), apart.or(ground));
+    mark_hovered(&mut window.bench, ui.ctx(), &mut commands);
+    if window.bench.transient.live.is_armed() {
         frame_as_armed(ui.ctx());
     }
     commands
@@ -82,16 +83,11 @@ fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, commands: &mut Commands)
     }
 }
 
-fn show_header(bench: &Bench, ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
+fn show_header(window: &Workbench, ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let header = Panel::top("header").exact_size(HEADER);
     header.frame(panel(ui, 16, 0)).show(ui, |ui| {
-        crate::shell::header::show(
-            ui,
-            scene,
-            &bench.transient.live,
-            &bench.appearance(),
-            commands,
-        );
+        let live = &window.bench.transient.live;
+        crate::shell::header::show(ui, scene, live, &window.appearance(), commands);
     });
 }
 
@@ -131,45 +127,51 @@ pub(crate) fn transport_view<'a>(
 }
 
 /// The panes in their tiles.
-fn show_desk(
-    bench: &mut Bench,
+fn show_panes(
+    window: &mut Workbench,
     ui: &mut Ui,
     scene: &SceneView,
     commands: &mut Commands,
-) -> Option<workspace::Shown> {
-    bench.arrange(ui.max_rect().size());
-    let mut tree = std::mem::replace(&mut bench.tree, Tree::empty(Id::NULL));
+) -> Option<PointerGround> {
+    window.arrange(ui.max_rect().size());
+    let mut tree = std::mem::replace(&mut window.shell.tree, Tree::empty(Id::NULL));
+    let mut ground = None;
     let mut desk = Desk {
-        bench,
-        scene,
-        commands,
-        shown: None,
+        context: PaneContext {
+            bench: &mut window.bench,
+            scene,
+            commands,
+            ground: &mut ground,
+        },
+        tools: &mut window.tools,
+        n_drawn: &mut window.shell.n_drawn,
         is_rearranged: false,
         row: TabRow::default(),
     };
     tree.ui(&mut desk, ui);
-    let (shown, is_rearranged) = (desk.shown, desk.is_rearranged);
-    bench.tree = tree;
+    let is_rearranged = desk.is_rearranged;
+    window.shell.tree = tree;
     if is_rearranged {
-        bench.keep_arrangement();
+        window.keep_arrangement();
     }
-    shown
+    ground
 }
 
 /// Notices, questions and help over the panes.
-fn show_overlays(bench: &mut Bench, ui: &Ui, over: Rect, commands: &mut Commands) {
+fn show_overlays(window: &mut Workbench, ui: &Ui, over: Rect, commands: &mut Commands) {
     let whole = ui.ctx().content_rect();
+    let (bench, shell) = (&window.bench, &mut window.shell);
     crate::bench::notices::show(ui, over, &bench.transient.notices, commands);
     let recent = &bench.settings.preferences.recent_scenes;
-    if let Some(ask) = &mut bench.transient.ask {
+    if let Some(ask) = &mut shell.ask {
         crate::shell::ask::show(ui, whole, ask, recent, commands);
     }
-    if let Some(after) = &bench.transient.question {
+    if let Some(after) = &shell.question {
         let name = &bench.document.scene().name;
         let is_closing = *after == After::Close;
         crate::shell::question::show(ui, whole, name, is_closing, commands);
     }
-    if bench.transient.is_help_shown {
+    if shell.is_help_shown {
         crate::shell::help::show(ui, whole, commands);
     }
 }
@@ -180,19 +182,19 @@ fn panel(ui: &Ui, across: i8, down: i8) -> Frame {
         .inner_margin(Margin::symmetric(across, down))
 }
 
-impl Bench {
+impl Workbench {
     /// What the menus tick.
     fn appearance(&self) -> crate::shell::menu::Appearance {
-        let kept = &self.settings.preferences;
-        let shown = Pane::ALL.map(|pane| (pane, arrangement::is_shown(&self.tree, pane)));
+        let kept = &self.bench.settings.preferences;
+        let shown = Pane::ALL.map(|pane| (pane, arrangement::is_shown(&self.shell.tree, pane)));
         crate::shell::menu::Appearance {
-            clips: self.clips_view(),
+            clips: self.bench.clips_view(),
             map: kept.colour_map,
             zoom: kept.zoom,
             perspective: kept.perspective,
-            dots: self.workspace.dot_style,
-            greys_below: self.workspace.greys_below,
-            overlays: self.workspace.overlays,
+            dots: self.bench.workspace.dot_style,
+            greys_below: self.bench.workspace.greys_below,
+            overlays: self.bench.workspace.overlays,
             panes: shown.to_vec(),
             recent: kept.recent_scenes.clone(),
         }
@@ -201,86 +203,68 @@ impl Bench {
     /// Arranges the panes for a window of this size before they are shown first, and when the room
     /// changes a lot; what was arranged by hand stays.
     fn arrange(&mut self, size: egui::Vec2) {
-        let before = std::mem::replace(&mut self.transient.desk_size, size);
-        let perspective = self.settings.preferences.perspective;
+        let before = std::mem::replace(&mut self.shell.size, size);
+        let perspective = self.bench.settings.preferences.perspective;
         if before == egui::Vec2::ZERO {
-            self.tree = self.arrangement_of(perspective);
+            self.shell.tree = self.arrangement_of(perspective);
             return;
         }
         if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
-            let kept = &self.settings.preferences.arrangements;
-            for (resting, kept) in self.resting.iter_mut().zip(kept) {
+            let kept = &self.bench.settings.preferences.arrangements;
+            for (resting, kept) in self.shell.resting.iter_mut().zip(kept) {
                 resting.take_if(|_| kept.is_none());
             }
             if kept[perspective.index()].is_none() {
-                self.tree = arrangement_for(perspective, size);
+                self.shell.tree = arrangement_for(perspective, size);
             }
         }
     }
 
     /// The arrangement of a perspective that was kept, or its default one.
     fn arrangement_of(&mut self, perspective: Perspective) -> Tree<Pane> {
-        let kept = self.settings.preferences.arrangements[perspective.index()].as_deref();
+        let kept = self.bench.settings.preferences.arrangements[perspective.index()].as_deref();
         let tree = kept.map(|text| arrangement::from_text(text, perspective));
         if tree.as_ref().is_some_and(Option::is_none) {
             let words = "The arrangement that was kept could not be used: the default one is shown";
-            self.transient.notices.give(words);
+            self.bench.transient.notices.give(words);
         }
-        let size = self.transient.desk_size;
+        let size = self.shell.size;
         tree.flatten()
             .unwrap_or_else(|| arrangement_for(perspective, size))
     }
 
     /// Arranges the window for something else; what was arranged before stays as it is.
     pub(crate) fn arrange_for(&mut self, perspective: Perspective) {
-        let before = std::mem::replace(&mut self.settings.preferences.perspective, perspective);
+        let before = std::mem::replace(
+            &mut self.bench.settings.preferences.perspective,
+            perspective,
+        );
         if before == perspective {
             return;
         }
-        let resting = self.resting[perspective.index()].take();
+        let resting = self.shell.resting[perspective.index()].take();
         let tree = resting.unwrap_or_else(|| self.arrangement_of(perspective));
-        let left = std::mem::replace(&mut self.tree, tree);
-        self.resting[before.index()] = Some(left);
+        let left = std::mem::replace(&mut self.shell.tree, tree);
+        self.shell.resting[before.index()] = Some(left);
     }
 }
 
-/// What the pointer feels on: where it is shown, in which window, and its pixels per point.
-pub(crate) type Felt = (workspace::Shown, Pointed, f32);
-
-/// Tells the tap where the workspace is, and feeds it when nobody else does.
-fn feel(bench: &Bench, ctx: &egui::Context, scene: &SceneView, felt: Option<Felt>) {
-    let transient = &bench.transient;
-    let is_covered =
-        transient.ask.is_some() || transient.question.is_some() || transient.is_help_shown;
+/// Tells the tap where the pointer feels, and feeds it when nobody else does.
+fn feel(window: &Workbench, ctx: &egui::Context, ground: Option<PointerGround>) {
     // What is asked and told here covers nothing in another window.
-    let ground = felt.filter(|(shown, window, _)| {
-        shown.feels && (*window == Pointed::Participant || !is_covered)
+    let ground = ground.filter(|ground| {
+        ground.feels && (ground.window == Pointed::Participant || !window.shell.is_covered())
     });
-    let ground = ground.map(|(shown, window, pixels_per_point)| Ground {
-        window,
-        view: shown.view,
-        rect: shown.ground,
-        size_mm: bench
-            .transient
-            .experiment
-            .size_mm()
-            .unwrap_or(scene.size_mm),
-        pixels_per_point,
-    });
-    let mut tap = bench.tap.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut tap = (window.shell.tap.lock()).unwrap_or_else(PoisonError::into_inner);
     tap.set_ground(ground);
-    if bench.is_stepped {
+    if window.bench.is_stepped {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));
-            input
-                .events
-                .iter()
-                .any(is_move)
-                .then(|| input.pointer.latest_pos())
-                .flatten()
+            let has_moved = input.events.iter().any(is_move);
+            has_moved.then(|| input.pointer.latest_pos()).flatten()
         });
         if let Some(at) = moved {
-            tap.moved_to(bench.stamp(), at);
+            tap.moved_to(window.bench.stamp(), at);
         }
     }
 }

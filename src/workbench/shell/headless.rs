@@ -8,7 +8,7 @@ use eframe::egui::{Context, FullOutput, Pos2, RawInput, Rect, Vec2};
 
 use crate::bench::Drive;
 use crate::bench::command::Command;
-use crate::shell::error::AppError;
+use crate::bench::error::AppError;
 use crate::shell::window::Workbench;
 
 /// Ticks from frame to frame where time passes quickly.
@@ -49,7 +49,7 @@ impl Headless {
 
     /// Does what a user could want.
     pub(crate) fn dispatch(&mut self, command: impl Into<Command>) {
-        self.workbench.dispatch(&self.ctx, command.into());
+        self.workbench.dispatch(command.into());
     }
 
     /// Runs the next frame.

@@ -89,7 +89,7 @@ fn kind(command: &Command) -> &'static str {
         Command::AllOff => "From anywhere",
         Command::Edit(_) | Command::Undo | Command::Redo | Command::Chosen(_) => "Scene",
         Command::Device(_) => "Device",
-        Command::File(_) | Command::Import(_) | Command::Picture(_) | Command::Keep(_) => "Files",
+        Command::File(_) | Command::Picture(_) | Command::Keep(_) => "Files",
         Command::Play(_) | Command::Source(_) => "Play and record",
         Command::Show(_)
         | Command::Lab(_)

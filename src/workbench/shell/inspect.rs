@@ -7,6 +7,7 @@ use crate::bench::command::{FileCommand, Purpose};
 use crate::bench::pane::Pane;
 use crate::bench::view::{BridgePhase, Source};
 use crate::shell::window::Workbench;
+use crate::tools::import::Import;
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::Tuning;
@@ -56,7 +57,7 @@ impl Workbench {
 
     /// How often each pane was drawn, by its title.
     pub fn panes_drawn(&self) -> Vec<(&'static str, u64)> {
-        let drawn = Pane::ALL.into_iter().zip(self.bench.transient.n_drawn);
+        let drawn = Pane::ALL.into_iter().zip(self.shell.n_drawn);
         drawn
             .map(|(pane, n_drawn)| (pane.title(), n_drawn))
             .collect()
@@ -176,19 +177,18 @@ impl Workbench {
 
     /// Readings of measurements that were begun.
     pub fn n_measurements_read(&self) -> u64 {
-        self.bench.transient.importing.n_read()
+        self.tools.get::<Import>().map_or(0, Import::n_read)
     }
 
     /// The figures of what is imported, one line each: SMD of every stroke, or of every place.
     pub fn imported_figures(&self) -> Vec<String> {
-        let found = self.bench.transient.importing.found();
+        let found = self.tools.get::<Import>().and_then(Import::found);
         found.map_or_else(Vec::new, |found| found.figures())
     }
 
     /// Takes a file of measurements, as when it is dropped or chosen.
     pub fn import_file(&mut self, path: PathBuf) {
-        let ctx = self.bench.ctx.clone();
-        self.dispatch(&ctx, FileCommand::Use(Purpose::ImportFiles, path).into());
+        self.dispatch(FileCommand::Use(Purpose::ImportFiles, path).into());
     }
 
     /// Runs of the stages from a picture to a textile that were begun.
@@ -206,8 +206,7 @@ impl Workbench {
 
     /// Takes a picture of a cloth, as when it is dropped or chosen.
     pub fn open_picture(&mut self, path: PathBuf) {
-        let ctx = self.bench.ctx.clone();
-        self.dispatch(&ctx, FileCommand::Use(Purpose::OpenPicture, path).into());
+        self.dispatch(FileCommand::Use(Purpose::OpenPicture, path).into());
     }
 
     /// The sentences that are shown.
@@ -223,13 +222,11 @@ impl Workbench {
 
     /// Connects to the emulator in this process, as the window does when it starts.
     pub fn connect_emulator(&mut self) {
-        let ctx = self.bench.ctx.clone();
-        self.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
+        self.dispatch(DeviceCommand::ConnectEmulator.into());
     }
 
     /// Opens the scene at this path, as the field does that asks for one.
     pub fn open_scene(&mut self, path: PathBuf) {
-        let ctx = self.bench.ctx.clone();
-        self.dispatch(&ctx, FileCommand::Use(Purpose::OpenScene, path).into());
+        self.dispatch(FileCommand::Use(Purpose::OpenScene, path).into());
     }
 }

@@ -9,7 +9,7 @@ pub(crate) mod completion;
 pub(crate) mod desk;
 pub(crate) mod dialogs;
 pub(crate) mod dispatch;
-pub(crate) mod error;
+pub(crate) mod export;
 pub(crate) mod frame;
 pub(crate) mod header;
 pub(crate) mod headless;

@@ -18,9 +18,10 @@ use winit::window::WindowId;
 
 use crate::bench::Drive;
 use crate::bench::command::device::DeviceCommand;
-use crate::shell::error::AppError;
+use crate::bench::error::AppError;
+use crate::kit::view_transform::Pointed;
 use crate::shell::pending_motion::Backlog;
-use crate::shell::pointer::{Pointed, PointerTap};
+use crate::shell::pointer::PointerTap;
 #[cfg(target_os = "linux")]
 use crate::shell::pointer_x11::Listener;
 use crate::shell::window::Workbench;
@@ -112,10 +113,10 @@ pub fn run(
             Ok(workbench) => {
                 let stop = workbench.bench.switch.clone();
                 *for_app.borrow_mut() = Some(Ears {
-                    tap: Arc::clone(&workbench.bench.tap),
+                    tap: Arc::clone(&workbench.shell.tap),
                     stop: stop.clone(),
                     workbench: cc.winit_window().map(|window| window.id()),
-                    listener: listener(cc, &workbench.bench.tap),
+                    listener: listener(cc, &workbench.shell.tap),
                     participant: None,
                 });
                 on_open(EndSwitch {
@@ -163,7 +164,7 @@ fn workbench(
 ) -> Result<Workbench, AppError> {
     let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
     workbench.bench.switch.press_on_panic();
-    workbench.dispatch(&cc.egui_ctx, DeviceCommand::ConnectEmulator.into());
+    workbench.dispatch(DeviceCommand::ConnectEmulator.into());
     Ok(workbench)
 }
 

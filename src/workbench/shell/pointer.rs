@@ -6,42 +6,16 @@
 
 use std::time::Instant;
 
-use eframe::egui::{Pos2, Rect, pos2};
+use eframe::egui::{Pos2, pos2};
 
-use crate::tools::workspace::is_near;
-use crate::tools::workspace::transform::ViewTransform;
+use crate::kit::view_transform::{Pointed, PointerGround, is_near};
 use selvedge_engine::{PointerSample, PointerSender};
-
-/// The window that the pointer is over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Pointed {
-    /// The workbench.
-    #[default]
-    Workbench,
-    /// The participant's window.
-    Participant,
-}
-
-/// Where the workspace was drawn last.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Ground {
-    /// In which window.
-    pub window: Pointed,
-    /// How mm are laid on the screen.
-    pub view: ViewTransform,
-    /// The part of the screen that belongs to the workspace, points.
-    pub rect: Rect,
-    /// Width and height of the workspace, mm.
-    pub size_mm: [f64; 2],
-    /// Pixels per point.
-    pub pixels_per_point: f32,
-}
 
 /// Takes movements and passes on those over the workspace.
 #[derive(Debug, Default)]
 pub(crate) struct PointerTap {
     sender: Option<PointerSender>,
-    ground: Option<Ground>,
+    ground: Option<PointerGround>,
 }
 
 impl PointerTap {
@@ -54,7 +28,7 @@ impl PointerTap {
     }
 
     /// Says where the workspace is now; `None` while something covers it.
-    pub(crate) fn set_ground(&mut self, ground: Option<Ground>) {
+    pub(crate) fn set_ground(&mut self, ground: Option<PointerGround>) {
         self.ground = ground;
     }
 

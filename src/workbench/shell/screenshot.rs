@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 use eframe::egui::{self, vec2};
 
 use crate::bench::command::{PlayCommand, PlaySource};
+use crate::bench::error::AppError;
 use crate::bench::query;
 use crate::bench::view::BridgeView;
 use crate::kit::theme::Palette;
-use crate::shell::error::AppError;
 use crate::shell::headless::Headless;
 use crate::shell::raster::{Picture, Rasteriser};
 use selvedge_device::{ArrayProfile, Bridge, BridgeState, DeviceUid, Target};

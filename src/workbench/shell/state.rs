@@ -1,165 +1,75 @@
-//! What the window knows for the moment: neither saved nor undoable.
+//! What the window around the tools knows for the moment: which pane stands where, what is asked.
 
-use eframe::egui::{Rect, Vec2};
+use std::sync::{Arc, Mutex};
 
-use crate::bench::clips::Clips;
-use crate::bench::export::gather::Exports;
-use crate::bench::folders::Folders;
-use crate::bench::history::Moment;
-use crate::bench::job::Job;
-use crate::bench::keep::Keeping;
-use crate::bench::mute_solo::MuteSolo;
-use crate::bench::notices::Notices;
-use crate::bench::opening::{Opening, Origin};
-use crate::bench::query::IntervalMeter;
-use crate::bench::recording::Take;
-use crate::bench::signals::history::History;
-use crate::bench::sources::Sources;
-use crate::bench::view::{BridgeView, Hovered, Live};
+use eframe::egui::Vec2;
+use egui_tiles::Tree;
+
+use crate::bench::opening::Origin;
+use crate::bench::pane::Pane;
+use crate::bench::perspective::Perspective;
+use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
-use crate::tools::accuracy::AccuracyWatch;
-use crate::tools::analysis::Analysing;
-use crate::tools::analysis::view::section::Looks as AnalysisLooks;
-use crate::tools::bridge::actuators::PlantPeek;
-use crate::tools::bridge::fault_bench::FaultBench;
-use crate::tools::bridge::ports::Ports;
-use crate::tools::collection::Collection;
-use crate::tools::compare::Comparison;
-use crate::tools::experiment::Experiment;
-use crate::tools::import::Importing;
-use crate::tools::lab::Lab;
-use crate::tools::lab::view::pictures::LabPictures;
-use crate::tools::picture::Picturing;
-use crate::tools::picture::view::cards::PictureTextures;
-use crate::tools::response::curves::Curves;
-use crate::tools::spectra::contact::ContactSpectrogram;
-use crate::tools::spectra::drive::DriveSpectrogram;
-use crate::tools::spectra::spatial::SpatialSpectra;
-use crate::tools::spectra::wave::WaveScale;
-use crate::tools::timeline::TransportState;
-use crate::tools::why::Why;
-use crate::tools::workspace::maps::Maps;
-use crate::tools::workspace::overlay::lattice::Lattice;
-use crate::tools::workspace::trail::Trail;
-use selvedge_render::array::ContactorReading;
-use selvedge_render::scene::SceneError;
+use crate::shell::export::Exports;
+use crate::shell::pointer::PointerTap;
 
-/// What is neither saved nor undoable.
-#[derive(Debug, Default)]
-pub(crate) struct Transient {
-    /// Sentences for the user.
-    pub notices: Notices,
-    /// A path that is asked for.
-    pub ask: Option<Ask>,
+/// The window around the tools.
+pub(crate) struct Shell {
+    /// Which pane stands where.
+    pub(crate) tree: Tree<Pane>,
+    /// The arrangements of the other perspectives, as far as they were shown.
+    pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    /// The size of everything between header and timeline, points.
+    pub(crate) size: Vec2,
+    /// Where the desktop asks for paths.
+    pub(crate) dialogs: Dialogs,
+    /// A path that is asked for in the window.
+    pub(crate) ask: Option<Ask>,
     /// What waits for an answer to "save changes?".
-    pub question: Option<After>,
+    pub(crate) question: Option<After>,
     /// Whether the window may close without another question.
     pub(crate) may_close: bool,
     /// Whether the list of keys is shown.
     pub(crate) is_help_shown: bool,
-    /// The desktop's dialogs.
-    pub dialogs: Dialogs,
-    /// The serial ports of this computer.
-    pub ports: Ports,
-    /// What is typed in the field for a port.
-    pub port: String,
-    /// What is typed in the field that searches the library.
-    pub search: String,
-    /// What the link was last opened to.
-    pub target: Option<String>,
-    /// Folders that the desktop is asked to show.
-    pub folders: Folders,
-    /// A scene on its way.
-    pub opening: Option<Opening>,
-    /// A recorded exploration on its way.
-    pub reading: Option<Job<Result<Take, SceneError>>>,
-    /// A recorded exploration on its way into a file.
-    pub saving: Option<Job<Result<Take, SceneError>>>,
-    /// New textiles on their way into the library.
-    pub keeping: Keeping,
     /// What is being exported.
-    pub exports: Exports,
-    /// A file for other programs on its way.
-    pub clips: Clips,
-    /// Tablets, and other programs that joined.
-    pub sources: Sources,
-    /// The engine as it was seen last.
-    pub live: Live,
-    /// Where the display was.
-    pub(crate) trail: Trail,
-    /// The last seconds.
-    pub(crate) history: History,
-    /// The spectrum that arrives, as far as it was drawn.
-    pub(crate) contact_spectrogram: ContactSpectrogram,
-    /// The spectrum that drives, as far as it was drawn.
-    pub(crate) drive_spectrogram: DriveSpectrogram,
-    /// The axis of the drive waveform.
-    pub(crate) wave_scale: WaveScale,
-    /// Spatial spectra as they were drawn last.
-    pub spatial: SpatialSpectra,
-    /// The explanation that is shown, and whether it is held.
-    pub why: (Option<Why>, bool),
-    /// The library as a whole.
-    pub collection: Collection,
-    /// What is compared, and what came of it.
-    pub comparison: Comparison,
-    /// Experiments and the session that is held.
-    pub experiment: Experiment,
-    /// Logs that are analysed.
-    pub analysing: Analysing,
-    /// Tables and figures of an analysis as they are laid out.
-    pub(crate) analysis_looks: AnalysisLooks,
-    /// Measurements that are imported.
-    pub importing: Importing,
-    /// A picture of a cloth on its way to a textile.
-    pub(crate) picturing: Picturing,
-    /// Its stages as textures.
-    pub(crate) picture_textures: PictureTextures,
-    /// How accurate rendering was found to be.
-    pub accuracy: AccuracyWatch,
-    /// Maps of the textiles at the chosen velocity.
-    pub maps: Maps,
-    /// Pictures of the points 1 mm apart.
-    pub lattice: Lattice,
-    /// What the contactors read and how they move, while that is drawn.
-    pub readings: Vec<ContactorReading>,
-    /// A textile's amplitudes over direction and speed.
-    pub curves: Curves,
-    /// The textile whose curves were shown last.
-    pub(crate) asked_textile: Option<usize>,
-    /// The textile lab.
-    pub lab: Lab,
-    /// What the lab pictures, as it was drawn last.
-    pub(crate) lab_pictures: LabPictures,
-    /// What the pointer rests on.
-    pub hovered: Hovered,
-    /// What the timeline remembers.
-    pub(crate) transport: TransportState,
-    /// What is muted and what is felt alone.
-    pub(crate) mute_solo: MuteSolo,
-    /// Whether recordings are replayed again and again.
-    pub does_loop: bool,
-    /// The gesture that edits belong to.
-    pub moment: Moment,
-    /// The part of the screen that showed the workspace last, points.
-    pub ground: Option<Rect>,
-    /// The size of everything between header and timeline, points.
-    pub(crate) desk_size: Vec2,
-    /// A device that is shown though the engine has none: in pictures.
-    pub(crate) pictured_bridge: Option<BridgeView>,
-    /// What is to go wrong with the emulator.
-    pub faults: FaultBench,
-    /// The emulator's contactors.
-    pub plant: PlantPeek,
-    /// Refusals to arm that are expected, since there is no device.
-    pub(crate) n_expected_refusals: u32,
-    /// The device's measured interval between frames.
-    pub interval: IntervalMeter,
-    /// The level that compression leaves alone, dB re 1 µm.
-    pub reference_db: Option<f64>,
+    pub(crate) exports: Exports,
+    /// Scenes that tools have heard of.
+    pub(crate) n_scenes: u64,
     /// How often each pane was drawn.
-    pub n_drawn: [u64; crate::bench::pane::Pane::ALL.len()],
+    pub(crate) n_drawn: [u64; Pane::ALL.len()],
+    /// Where the pointer's movements go to the engine.
+    pub(crate) tap: Arc<Mutex<PointerTap>>,
+}
+
+impl Shell {
+    /// The window of a new user; `tap` takes the pointer's movements.
+    pub(crate) fn new(tap: PointerTap, dialogs: Dialogs) -> Self {
+        Self {
+            tree: arrangement::default_tree(Vec2::ZERO),
+            resting: Default::default(),
+            size: Vec2::ZERO,
+            dialogs,
+            ask: None,
+            question: None,
+            may_close: false,
+            is_help_shown: false,
+            exports: Exports::default(),
+            n_scenes: 0,
+            n_drawn: [0; Pane::ALL.len()],
+            tap: Arc::new(Mutex::new(tap)),
+        }
+    }
+
+    /// Whether a pane is in sight.
+    pub(crate) fn shows(&self, pane: Pane) -> bool {
+        arrangement::is_shown(&self.tree, pane)
+    }
+
+    /// Whether something lies over the panes that wants an answer.
+    pub(crate) fn is_covered(&self) -> bool {
+        self.ask.is_some() || self.question.is_some() || self.is_help_shown
+    }
 }
 
 /// What was asked for when there was something to save first.

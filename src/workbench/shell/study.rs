@@ -8,9 +8,8 @@ use eframe::egui::epaint::{ClippedPrimitive, Primitive};
 use eframe::egui::{FullOutput, vec2};
 
 use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+use crate::bench::error::AppError;
 use crate::bench::pane::Pane;
-use crate::shell::arrangement;
-use crate::shell::error::AppError;
 use crate::shell::headless::Headless;
 use selvedge_studies::{Bench, Findings, ReportError, Row, Study};
 
@@ -118,7 +117,7 @@ fn moving(setting: Setting) -> Result<Headless, ReportError> {
 
 fn show_only(window: &mut Headless, setting: Setting) {
     for pane in Pane::ALL {
-        if arrangement::is_shown(&window.workbench.bench.tree, pane) != setting.shows(pane) {
+        if window.workbench.shell.shows(pane) != setting.shows(pane) {
             window.dispatch(ShowCommand::Pane(pane));
         }
     }
@@ -215,12 +214,9 @@ mod tests {
             (Some(true), Some(true))
         );
         let mut bare = moving(Setting::NothingElse).unwrap();
-        let n_drawn = bare.workbench.bench.transient.n_drawn;
+        let n_drawn = bare.workbench.shell.n_drawn;
         let drawn = tessellated(&mut bare);
-        assert_eq!(
-            bare.workbench.bench.transient.n_drawn, n_drawn,
-            "none is drawn"
-        );
+        assert_eq!(bare.workbench.shell.n_drawn, n_drawn, "none is drawn");
         let mut full = moving(Setting::Default).unwrap();
         assert!(tessellated(&mut full).n_vertices > 4 * drawn.n_vertices);
     }
@@ -228,8 +224,7 @@ mod tests {
     #[test]
     fn every_view_has_a_row_and_only_it_was_in_sight() {
         let window = moving(Setting::Only(Pane::Heatmaps)).unwrap();
-        let in_sight =
-            Pane::ALL.map(|pane| arrangement::is_shown(&window.workbench.bench.tree, pane));
+        let in_sight = Pane::ALL.map(|pane| window.workbench.shell.shows(pane));
         let n_in_sight = in_sight.into_iter().filter(|is| *is).count();
         assert_eq!((n_in_sight, in_sight[Pane::Heatmaps.index()]), (1, true));
         let mut report = |_: f64, _: &str| {};

@@ -6,14 +6,20 @@ use std::path::Path;
 
 use eframe::egui;
 
-use crate::bench::command::Command;
+use crate::bench::error::AppError;
+use crate::bench::tool::Tools;
 use crate::bench::{Bench, Drive};
-use crate::shell::error::AppError;
+use crate::shell::dialogs::Dialogs;
 use crate::shell::frame;
+use crate::shell::pointer::PointerTap;
+use crate::shell::state::Shell;
+use crate::tools;
 
 /// The window: the bench, the tools around it, and the shell that shows them.
 pub struct Workbench {
     pub(crate) bench: Bench,
+    pub(crate) tools: Tools,
+    pub(crate) shell: Shell,
 }
 
 impl Workbench {
@@ -23,38 +29,44 @@ impl Workbench {
     /// # Errors
     /// The scene cannot be opened, or the engine cannot start.
     pub fn new(ctx: &egui::Context, scene: Option<&Path>, drive: Drive) -> Result<Self, AppError> {
-        let bench = Bench::new(ctx, scene, drive)?;
-        Ok(Self { bench })
-    }
-
-    /// Does what the user wants.
-    pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
-        self.bench.dispatch(ctx, command);
+        let mut bench = Bench::new(ctx, scene, drive)?;
+        let dialogs = match drive {
+            Drive::Live => Dialogs::of_desktop(),
+            Drive::Stepped => Dialogs::default(),
+        };
+        let tap = PointerTap::new(bench.engine.take_pointer());
+        let mut tools = Tools::new(tools::all());
+        for tool in tools.iter_mut() {
+            tool.begin(&mut bench);
+        }
+        Ok(Self {
+            bench,
+            tools,
+            shell: Shell::new(tap, dialogs),
+        })
     }
 }
 
 impl eframe::App for Workbench {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        self.bench.take_keys(ctx);
-        self.bench.take_news(ctx);
-        self.bench.take_close_request(ctx);
+        self.take_keys(ctx);
+        self.take_news(ctx);
+        self.take_close_request(ctx);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        let commands = frame::show(&mut self.bench, ui);
-        if !commands.is_empty() {
+        let mut commands = frame::show(self, ui);
+        if !commands.is_empty() || !self.bench.commands.is_empty() {
             // What was wished for shows in the next frame.
             ui.ctx().request_repaint();
         }
-        let ctx = ui.ctx().clone();
-        for command in commands {
-            self.dispatch(&ctx, command);
-        }
+        self.bench.commands.append(&mut commands);
+        self.settle();
     }
 
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
         self.bench.switch.press();
-        self.bench.keep_settings();
+        self.keep_settings();
         // The window is gone and nobody is left to tell; the file that was there is still whole.
         drop(self.bench.settings.save_now());
         drop(self.bench.arrays.save_now());

@@ -19,3 +19,10 @@ pub(crate) mod timeline;
 pub(crate) mod tuning;
 pub(crate) mod why;
 pub(crate) mod workspace;
+
+use crate::bench::tool::Tool;
+
+/// Every tool: to add one is a folder and a line here.
+pub(crate) fn all() -> Vec<Box<dyn Tool>> {
+    vec![Box::new(import::Import::default())]
+}

@@ -27,7 +27,6 @@ use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::collection::CollectionCommand;
 use crate::tools::compare::choice::Choice;
 use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::import::ImportCommand;
 use crate::tools::lab::command::LabCommand;
 use crate::tools::picture::PictureCommand;
 use crate::tools::workspace::overlay::Overlay;
@@ -63,8 +62,6 @@ pub(crate) enum Command {
     Accuracy(AccuracyCommand),
     /// Change what is shown or selected of the library as a whole.
     Collection(CollectionCommand),
-    /// Bring measurements.
-    Import(ImportCommand),
     /// Make a textile of a picture.
     Picture(PictureCommand),
     /// Keep new textiles in the library.
@@ -106,12 +103,6 @@ impl From<FileCommand> for Command {
 impl From<CompareCommand> for Command {
     fn from(command: CompareCommand) -> Self {
         Self::Compare(command)
-    }
-}
-
-impl From<ImportCommand> for Command {
-    fn from(command: ImportCommand) -> Self {
-        Self::Import(command)
     }
 }
 
@@ -288,6 +279,8 @@ pub(crate) enum ShowCommand {
     Look(Look),
     /// Show or hide a pane; a pane behind others comes to the front.
     Pane(Pane),
+    /// Bring a pane to the front if it is not in sight.
+    Reveal(Pane),
     /// Arrange the window for this.
     Perspective(Perspective),
     /// Put every pane back in its place.

@@ -1,13 +1,9 @@
 //! From a pane to what it shows: the same view that the pane is drawn from.
 
-use std::path::PathBuf;
-
 use eframe::egui::Theme;
 
 use crate::bench::export::origin::Origin;
-use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
-use crate::bench::job::Job;
 use crate::bench::pane::Pane;
 use crate::bench::{Bench, query};
 use crate::kit::theme::Palette;
@@ -42,29 +38,19 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Accuracy => Some(Bench::gather_accuracy),
         Pane::Compare => Some(Bench::gather_comparison),
         Pane::Lab => Some(Bench::gather_lab),
-        Pane::Import => Some(Bench::gather_import),
         Pane::Picture => Some(Bench::gather_picture),
         Pane::Workspace => Some(Bench::gather_maps),
         Pane::Collection => Some(Bench::gather_collection),
         Pane::Bridge => Some(Bench::gather_link),
-        Pane::Library | Pane::Participant | Pane::Experimenter | Pane::Analysis => None,
+        Pane::Import | Pane::Library | Pane::Participant | Pane::Experimenter | Pane::Analysis => {
+            None
+        }
     }
 }
 
 /// Whether a pane has numbers to export.
 pub(crate) fn is_exportable(pane: Pane) -> bool {
-    gather_of(Exportable::Pane(pane)).is_some()
-}
-
-/// What is being exported.
-#[derive(Debug, Default)]
-pub(crate) struct Exports {
-    /// What was seen when it was asked for, while its path is.
-    pub seen: Option<(Exportable, Exported)>,
-    /// Where the last export went, and as what.
-    pub last: Option<(PathBuf, Kind)>,
-    /// Files on their way, and tables to be copied.
-    pub(crate) jobs: Vec<Job<Result<Option<String>, ExportError>>>,
+    pane == Pane::Import || gather_of(Exportable::Pane(pane)).is_some()
 }
 
 impl Bench {
@@ -77,7 +63,8 @@ impl Bench {
         gather_of(what).unwrap_or(nothing)(self)
     }
 
-    fn origin(&self) -> Origin {
+    /// Where numbers of the scene come from.
+    pub(crate) fn origin(&self) -> Origin {
         let reference_db = self.transient.reference_db;
         let scene = self.document.scene();
         let origin = Origin::of(scene, &self.document.tuning(), reference_db);
@@ -90,7 +77,7 @@ impl Bench {
     }
 
     /// The same for amplitudes that the engine rendered.
-    fn rendered_origin(&self) -> Origin {
+    pub(crate) fn rendered_origin(&self) -> Origin {
         let status = &self.transient.live.status;
         self.origin().by_method(status.method, status.bound_db)
     }
@@ -336,14 +323,6 @@ impl Bench {
         Ok(crate::tools::collection::export::scatter(&view, origin))
     }
 
-    fn gather_import(&mut self) -> Result<Exported, &'static str> {
-        let map = self.settings.preferences.colour_map;
-        let found = self.transient.importing.found();
-        let exported =
-            found.and_then(|found| crate::tools::import::export::measurement(found, map));
-        exported.ok_or("There is nothing to export yet: choose files in the Import pane")
-    }
-
     fn gather_picture(&mut self) -> Result<Exported, &'static str> {
         let found = self.transient.picturing.found();
         let exported = found.and_then(|found| crate::tools::picture::export::directions(found));
@@ -359,7 +338,7 @@ impl Bench {
     }
 
     /// The scene as panes draw it, without a look at pictures.
-    fn plain_scene_view(&self) -> crate::bench::view::SceneView {
+    pub(crate) fn plain_scene_view(&self) -> crate::bench::view::SceneView {
         query::scene_view(
             &self.document,
             &self.library_view,

@@ -109,7 +109,7 @@ mod tests {
     fn a_recording_replays_what_was_felt() {
         let ctx = eframe::egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(&ctx, PlayCommand::Toggle.into());
+        bench.dispatch(PlayCommand::Toggle.into());
         bench.engine.advance_ticks(3).unwrap();
         bench.engine.send(Command::StartRecording).unwrap();
         bench.engine.advance_ticks(60).unwrap();

@@ -4,25 +4,24 @@
 
 pub(crate) mod tiles;
 
-use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
+use eframe::egui::{self, Ui};
 
 use crate::bench::Bench;
-use crate::bench::command::Commands;
 use crate::bench::export::Exportable;
 use crate::bench::export::gather::is_exportable;
 use crate::bench::pane::Pane;
 use crate::bench::recording::Take;
 use crate::bench::signals::drive::drive_um;
-use crate::bench::view::{SceneView, Source};
+use crate::bench::tool::{PaneContext, Tools};
+use crate::bench::view::Source;
+use crate::kit::pane::{framed, scrolled};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::shell::arrangement;
 use crate::shell::tab_row::TabRow;
 use crate::tools::collection::measuring::Asked;
 use crate::tools::collection::view::Typed as CollectionTyped;
 use crate::tools::compare::view::CompareView;
 use crate::tools::contactors::HeatmapStyle;
-use crate::tools::import::view::ImportView;
 use crate::tools::spectra::contact::ContactSpectrumView;
 use crate::tools::spectra::drive::DriveSpectrumView;
 use crate::tools::spectra::spatial::SpatialSource;
@@ -31,14 +30,12 @@ use crate::tools::workspace;
 
 /// Everything that panes are drawn from, and what came of drawing them.
 pub(crate) struct Desk<'a> {
-    /// The window.
-    pub bench: &'a mut Bench,
-    /// The scene.
-    pub scene: &'a SceneView,
-    /// What the user wants.
-    pub(crate) commands: &'a mut Commands,
-    /// Where the workspace is, if it is shown.
-    pub shown: Option<workspace::Shown>,
+    /// What panes are drawn with.
+    pub(crate) context: PaneContext<'a>,
+    /// The tools.
+    pub(crate) tools: &'a mut Tools,
+    /// How often each pane was drawn.
+    pub(crate) n_drawn: &'a mut [u64; Pane::ALL.len()],
     /// Whether panes were moved.
     pub(crate) is_rearranged: bool,
     /// Where titles and the pane's corner have no room side by side, the corner stands in the pane.
@@ -47,21 +44,30 @@ pub(crate) struct Desk<'a> {
 
 impl Desk<'_> {
     fn show(&mut self, ui: &mut Ui, pane: Pane) {
-        self.bench.transient.n_drawn[pane.index()] += 1;
-        if self.bench.is_veiled(pane) {
+        self.n_drawn[pane.index()] += 1;
+        if self.context.bench.is_veiled(pane) {
             return framed(ui, 10, crate::tools::experiment::experimenter::show_veil);
+        }
+        if let Some(tool) = self.tools.showing(pane) {
+            return tool.ui(pane, ui, &mut self.context);
         }
         match pane {
             Pane::Workspace => self.show_workspace(ui),
             Pane::Library => framed(ui, 10, |ui| self.show_library(ui)),
-            Pane::Tuning => scrolled(ui, pane, |ui| {
-                let bench = &mut *self.bench;
+            Pane::Tuning => scrolled(ui, pane.title(), |ui| {
+                let bench = &mut *self.context.bench;
                 let mute_solo = &bench.transient.mute_solo;
                 let live = &bench.transient.live;
-                crate::tools::tuning::show(ui, self.scene, live, mute_solo, self.commands);
+                crate::tools::tuning::show(
+                    ui,
+                    self.context.scene,
+                    live,
+                    mute_solo,
+                    self.context.commands,
+                );
             }),
-            Pane::Bridge => scrolled(ui, pane, |ui| {
-                self.bench.show_bridge(ui, self.commands);
+            Pane::Bridge => scrolled(ui, pane.title(), |ui| {
+                self.context.bench.show_bridge(ui, self.context.commands);
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),
@@ -69,48 +75,52 @@ impl Desk<'_> {
             Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
             Pane::SpatialSpectra => framed(ui, 8, |ui| self.show_spatial(ui)),
             Pane::Accuracy => framed(ui, 10, |ui| {
-                self.bench.watch_accuracy();
-                crate::tools::accuracy::view::show(ui, &self.bench.accuracy_view(), self.commands);
+                self.context.bench.watch_accuracy();
+                crate::tools::accuracy::view::show(
+                    ui,
+                    &self.context.bench.accuracy_view(),
+                    self.context.commands,
+                );
             }),
             Pane::Why => framed(ui, 10, |ui| {
-                self.bench.explain();
-                let why = self.bench.transient.why.0.as_ref();
-                crate::tools::why::view::show(ui, why, &self.scene.filters);
+                self.context.bench.explain();
+                let why = self.context.bench.transient.why.0.as_ref();
+                crate::tools::why::view::show(ui, why, &self.context.scene.filters);
             }),
             Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
             Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
             Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
-            Pane::Import => framed(ui, 10, |ui| self.show_import(ui)),
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
             Pane::Participant => self.show_participant(ui),
-            Pane::Experimenter => scrolled(ui, pane, |ui| self.show_experimenter(ui)),
+            Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
+            Pane::Import => {}
         }
     }
 
     fn show_library(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         let chosen = (&bench.transient.mute_solo, bench.workspace.cloth);
         let search = &mut bench.transient.search;
         crate::tools::library::show(
             ui,
             &mut bench.library_view,
-            self.scene,
+            self.context.scene,
             chosen,
             search,
-            self.commands,
+            self.context.commands,
         );
     }
 
     fn show_collection(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         bench.measure_collection(ui.ctx());
         let items = bench.library_view.shared_items();
         let collection = &mut bench.transient.collection;
         let mut search = std::mem::take(&mut collection.search);
         let mut pointed = None;
-        let view = collection.view(&items, self.scene, &search);
+        let view = collection.view(&items, self.context.scene, &search);
         let mut typed = CollectionTyped {
             search: &mut search,
             pointed: &mut pointed,
@@ -120,7 +130,7 @@ impl Desk<'_> {
             &mut bench.library_view,
             &view,
             &mut typed,
-            self.commands,
+            self.context.commands,
         );
         collection.search = search;
         if collection.pointed != pointed {
@@ -130,25 +140,31 @@ impl Desk<'_> {
     }
 
     fn show_heatmaps(&mut self, ui: &mut Ui) {
-        let bench = &*self.bench;
+        let bench = &*self.context.bench;
         let style = bench.heatmap_style();
-        crate::tools::contactors::show(ui, self.scene, &bench.transient.live, style, self.commands);
+        crate::tools::contactors::show(
+            ui,
+            self.context.scene,
+            &bench.transient.live,
+            style,
+            self.context.commands,
+        );
     }
 }
 
 /// The plots of the contactor that is looked at closer.
 impl Desk<'_> {
     fn contactor(&self) -> usize {
-        self.bench.workspace.contactor.unwrap_or(usize::MAX)
+        self.context.bench.workspace.contactor.unwrap_or(usize::MAX)
     }
 
     fn show_contact_spectrum(&mut self, ui: &mut Ui) {
         let contactor = self.contactor();
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         let view = ContactSpectrumView {
             history: &bench.transient.history,
             contactor,
-            filters: &self.scene.filters,
+            filters: &self.context.scene.filters,
             map: bench.settings.preferences.colour_map,
             // Columns stay as they were felt when a textile is moved afterwards.
             scene_serial: bench.inspection.n_scenes,
@@ -158,7 +174,7 @@ impl Desk<'_> {
     }
 
     fn show_drive_spectrum(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         let view = DriveSpectrumView {
             history: &bench.transient.history,
             scale: bench.workspace.scale,
@@ -168,13 +184,13 @@ impl Desk<'_> {
     }
 
     fn show_drive_wave(&mut self, ui: &mut Ui) {
-        let view = self.bench.drive_wave_view();
-        crate::tools::spectra::wave::show(ui, &mut self.bench.transient.wave_scale, &view);
+        let view = self.context.bench.drive_wave_view();
+        crate::tools::spectra::wave::show(ui, &mut self.context.bench.transient.wave_scale, &view);
     }
 
     fn show_spatial(&mut self, ui: &mut Ui) {
         let contactor = self.contactor();
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         let source = SpatialSource {
             scene: &bench.inspection.scene,
             scene_serial: bench.inspection.n_edits,
@@ -189,14 +205,14 @@ impl Desk<'_> {
 /// Tunings, textiles and methods against each other.
 impl Desk<'_> {
     fn show_compare(&mut self, ui: &mut Ui) {
-        let standing = self.bench.follow_comparison(ui.ctx());
-        let bench = &mut *self.bench;
+        let standing = self.context.bench.follow_comparison(ui.ctx());
+        let bench = &mut *self.context.bench;
         let play = bench.transient.live.play;
         let route = bench.route();
         let place = bench.compared_place(&route);
         let is_replayed = play.source == Source::Recording;
         let view = CompareView {
-            scene: self.scene,
+            scene: self.context.scene,
             library_view: bench.library_view.items(),
             place,
             route,
@@ -209,7 +225,7 @@ impl Desk<'_> {
             ui,
             &mut bench.transient.comparison,
             &view,
-            self.commands,
+            self.context.commands,
         );
     }
 }
@@ -217,7 +233,7 @@ impl Desk<'_> {
 /// A recipe and what becomes of it.
 impl Desk<'_> {
     fn show_lab(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         bench.follow_lab(ui.ctx());
         let lab = &mut bench.transient.lab;
         let mut hands = crate::tools::lab::view::LabHands {
@@ -232,7 +248,7 @@ impl Desk<'_> {
             scale: bench.workspace.scale,
         };
         let pictures = &mut bench.transient.lab_pictures;
-        crate::tools::lab::view::show(ui, &view, (&mut hands, pictures), self.commands);
+        crate::tools::lab::view::show(ui, &view, (&mut hands, pictures), self.context.commands);
         let lab = &mut bench.transient.lab;
         (lab.fields, lab.plan) = (hands.keep, hands.plan);
     }
@@ -240,21 +256,11 @@ impl Desk<'_> {
 
 /// Measurements.
 impl Desk<'_> {
-    fn show_import(&mut self, ui: &mut Ui) {
-        self.bench.follow_import(ui.ctx());
-        let bench = &mut *self.bench;
-        let view = ImportView {
-            library_view: bench.library_view.items(),
-            map: bench.settings.preferences.colour_map,
-        };
-        crate::tools::import::view::show(ui, &mut bench.transient.importing, &view, self.commands);
-    }
-
     fn show_picture(&mut self, ui: &mut Ui) {
-        self.bench.follow_picture(ui.ctx());
-        let transient = &mut self.bench.transient;
+        self.context.bench.follow_picture(ui.ctx());
+        let transient = &mut self.context.bench.transient;
         let hands = (&mut transient.picturing, &mut transient.picture_textures);
-        crate::tools::picture::view::show(ui, hands, self.commands);
+        crate::tools::picture::view::show(ui, hands, self.context.commands);
     }
 }
 
@@ -279,9 +285,7 @@ impl Bench {
 
     /// Lets the measurements of the library rest while nobody looks at them.
     pub(crate) fn rest_collection(&mut self) {
-        if !arrangement::is_shown(&self.tree, Pane::Collection) {
-            self.transient.collection.measurements.rest();
-        }
+        self.transient.collection.measurements.rest();
     }
 
     /// How the heatmaps are drawn.
@@ -312,19 +316,22 @@ impl Bench {
 impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
         if is_exportable(pane) {
-            crate::bench::export::button::show(ui, Exportable::Pane(pane), self.commands);
+            crate::bench::export::button::show(ui, Exportable::Pane(pane), self.context.commands);
+        }
+        if let Some(tool) = self.tools.showing(pane) {
+            return tool.corner(pane, ui, &mut self.context);
         }
         match pane {
             Pane::Heatmaps => {
-                let style = self.bench.heatmap_style();
-                let mute_solo = &self.bench.transient.mute_solo;
-                crate::tools::contactors::show_corner(ui, style, mute_solo, self.commands);
+                let style = self.context.bench.heatmap_style();
+                let mute_solo = &self.context.bench.transient.mute_solo;
+                crate::tools::contactors::show_corner(ui, style, mute_solo, self.context.commands);
             }
             Pane::ContactSpectrum
             | Pane::DriveSpectrum
             | Pane::DriveWave
             | Pane::SpatialSpectra => {
-                let contactor = self.bench.workspace.contactor;
+                let contactor = self.context.bench.workspace.contactor;
                 let words = contactor.map_or_else(
                     || "no contactor chosen".to_owned(),
                     |contactor| format!("contactor {contactor}"),
@@ -334,28 +341,36 @@ impl Desk<'_> {
                 label.on_hover_text("Click a cell of the heatmaps to choose another contactor");
             }
             Pane::Why => {
-                let (why, is_frozen) = &self.bench.transient.why;
-                let n_contactors = self.bench.transient.live.dots.len();
-                let why = (why.as_ref(), self.bench.workspace.contactor, n_contactors);
-                crate::tools::why::view::show_corner(ui, *is_frozen, why, self.commands);
+                let (why, is_frozen) = &self.context.bench.transient.why;
+                let n_contactors = self.context.bench.transient.live.dots.len();
+                let why = (
+                    why.as_ref(),
+                    self.context.bench.workspace.contactor,
+                    n_contactors,
+                );
+                crate::tools::why::view::show_corner(ui, *is_frozen, why, self.context.commands);
             }
             Pane::Response => {
-                let probe = self.bench.workspace.probe;
-                crate::tools::response::show_corner(ui, probe, self.commands);
+                let probe = self.context.bench.workspace.probe;
+                crate::tools::response::show_corner(ui, probe, self.context.commands);
             }
             Pane::Compare => {
-                let standing = self.bench.comparison_standing();
-                crate::tools::compare::view::controls::show_corner(ui, &standing, self.commands);
+                let standing = self.context.bench.comparison_standing();
+                crate::tools::compare::view::controls::show_corner(
+                    ui,
+                    &standing,
+                    self.context.commands,
+                );
             }
             Pane::Accuracy => {
-                let shows_methods = self.bench.transient.accuracy.shows_methods;
-                crate::tools::accuracy::view::show_corner(ui, shows_methods, self.commands);
+                let shows_methods = self.context.bench.transient.accuracy.shows_methods;
+                crate::tools::accuracy::view::show_corner(ui, shows_methods, self.context.commands);
             }
             Pane::Workspace => {
-                let bench = &*self.bench;
+                let bench = &*self.context.bench;
                 if let Some(ground) = bench.transient.ground {
-                    let (state, size_mm) = (&bench.workspace, self.scene.size_mm);
-                    workspace::show_tools(ui, state, ground, size_mm, self.commands);
+                    let (state, size_mm) = (&bench.workspace, self.context.scene.size_mm);
+                    workspace::show_tools(ui, state, ground, size_mm, self.context.commands);
                 }
             }
             Pane::Collection
@@ -370,23 +385,4 @@ impl Desk<'_> {
             | Pane::Analysis => {}
         }
     }
-}
-
-/// A pane with space around it.
-fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
-    let margin = Margin {
-        left: across,
-        right: across,
-        top: 4,
-        bottom: 8,
-    };
-    Frame::new().inner_margin(margin).show(ui, content);
-}
-
-/// A pane that may be longer than it is high.
-fn scrolled(ui: &mut Ui, pane: Pane, content: impl FnOnce(&mut Ui)) {
-    let area = ScrollArea::vertical()
-        .id_salt(("pane", pane.index()))
-        .auto_shrink(false);
-    area.show(ui, |ui| framed(ui, 12, content));
 }

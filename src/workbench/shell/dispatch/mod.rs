@@ -1,80 +1,158 @@
-//! The one place where something changes: commands in, document, engine and transient state out.
+//! The one place where commands are done: every tool hears of them, then bench and window act.
 
-pub(crate) mod edit;
-pub(crate) mod export;
 pub(crate) mod file;
-pub(crate) mod keep;
-pub(crate) mod play;
 pub(crate) mod show;
-
-use eframe::egui;
 
 use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Chosen, Command, Part, PlayCommand, PlaySource, ShowCommand};
+use crate::bench::command::{
+    Chosen, Command, FileCommand, Part, PlayCommand, PlaySource, Purpose, ShowCommand,
+};
 use crate::bench::document::Document;
+use crate::shell::window::Workbench;
 
-impl Bench {
-    /// Does what the user wants.
-    pub(crate) fn dispatch(&mut self, ctx: &egui::Context, command: Command) {
-        if !self.transient.experiment.allows(&command) {
+impl Workbench {
+    /// Does what the user wants, and what comes of it.
+    pub(crate) fn dispatch(&mut self, command: Command) {
+        self.bench.commands.push(command);
+        self.settle();
+    }
+
+    /// Does what waits.
+    pub(crate) fn settle(&mut self) {
+        while !self.bench.commands.is_empty() {
+            let command = self.bench.commands.remove(0);
+            self.act(command);
+        }
+        self.leave_scene();
+    }
+
+    /// Lets tools forget a scene that was left for another.
+    fn leave_scene(&mut self) {
+        let n_scenes = self.bench.inspection.n_scenes;
+        if std::mem::replace(&mut self.shell.n_scenes, n_scenes) != n_scenes {
+            for tool in self.tools.iter_mut() {
+                tool.leave_scene(&mut self.bench);
+            }
+        }
+    }
+
+    fn act(&mut self, command: Command) {
+        if self.bench.has_session() && !leaves_session(&command) {
             let words = "A session is held: end it first, in the Experimenter pane";
-            return self.transient.notices.give(words);
+            return self.bench.transient.notices.give(words);
+        }
+        for tool in self.tools.iter_mut() {
+            tool.command(&command, &mut self.bench);
         }
         match command {
-            Command::AllOff => self.all_off(),
+            Command::AllOff => {
+                // The switch works at once, whatever waits in the engine's queue.
+                self.bench.switch.press();
+                self.dismiss();
+            }
+            Command::Dismiss => self.dismiss(),
+            Command::File(command) => self.dispatch_file(command),
+            Command::Show(command) => self.dispatch_show(&command),
+            command => self.bench.act(command),
+        }
+    }
+
+    fn dismiss(&mut self) {
+        self.shell.ask = None;
+        self.shell.exports.seen = None;
+        self.shell.question = None;
+        self.shell.is_help_shown = false;
+        self.bench.workspace.is_calibrating = false;
+    }
+}
+
+/// Whether a command leaves what is felt to the session.
+fn leaves_session(command: &Command) -> bool {
+    match command {
+        Command::AllOff
+        | Command::Device(_)
+        | Command::Experiment(_)
+        | Command::Analysis(_)
+        | Command::Dismiss
+        | Command::DismissNotice(_) => true,
+        Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
+            matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
+        }
+        Command::Show(command) => matches!(
+            command,
+            ShowCommand::Theme(_)
+                | ShowCommand::ColourMap(_)
+                | ShowCommand::Zoom(_)
+                | ShowCommand::Pane(_)
+                | ShowCommand::Reveal(_)
+                | ShowCommand::Perspective(_)
+                | ShowCommand::DefaultArrangement
+                | ShowCommand::Hover(_)
+                | ShowCommand::Help
+        ),
+        _ => false,
+    }
+}
+
+impl Bench {
+    /// Does what concerns the document, the device and what is felt.
+    fn act(&mut self, command: Command) {
+        let ctx = &self.ctx.clone();
+        match command {
             Command::Edit(edit) => self.edit(ctx, &edit),
             Command::Undo => self.step_history(ctx, Document::undo),
             Command::Redo => self.step_history(ctx, Document::redo),
             Command::Device(command) => self.dispatch_device(ctx, command),
-            Command::File(command) => self.dispatch_file(ctx, command),
             Command::Play(PlayCommand::Source(PlaySource::Input)) => self.choose_input(ctx),
             Command::Play(command) => self.dispatch_play(command),
             Command::Source(command) => self.dispatch_source(ctx, command),
             Command::Compare(command) => self.dispatch_compare(ctx, command),
             Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
-            Command::Collection(command) => self.dispatch_collection(ctx, command),
-            Command::Import(command) => self.dispatch_import(ctx, command),
-            Command::Picture(command) => self.dispatch_picture(ctx, command),
+            Command::Collection(command) => self.dispatch_collection(command),
+            Command::Picture(command) => self.dispatch_picture(command),
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Experiment(command) => self.dispatch_experiment(ctx, command),
             Command::Analysis(command) => self.dispatch_analysis(ctx, command),
-            Command::Show(command) => self.dispatch_show(ctx, &command),
-            Command::Chosen(act) => self.act_on_chosen(ctx, act),
-            Command::Dismiss => self.dismiss(),
+            Command::Chosen(act) => self.act_on_chosen(act),
             Command::DismissNotice(number) => self.transient.notices.dismiss(number),
+            // Windows and tools have done these.
+            Command::AllOff | Command::Dismiss | Command::File(_) | Command::Show(_) => {}
         }
     }
 
-    /// Everything off. The switch works at once, whatever waits in the engine's queue.
-    fn all_off(&mut self) {
-        self.switch.press();
-        self.dismiss();
+    /// Does what concerns the bench, without a window.
+    #[cfg(test)]
+    pub(crate) fn dispatch(&mut self, command: Command) {
+        self.commands.push(command);
+        while !self.commands.is_empty() {
+            match self.commands.remove(0) {
+                Command::Show(command) => self.dispatch_show(&command),
+                command => self.act(command),
+            }
+        }
     }
 
-    fn act_on_chosen(&mut self, ctx: &egui::Context, act: Chosen) {
+    fn act_on_chosen(&mut self, act: Chosen) {
         let Some(index) = self.workspace.cloth else {
             return;
         };
         let part = Part::Cloth(index);
-        let command = match act {
+        self.commands.push(match act {
             Chosen::Remove => Edit::RemoveCloth(index).into(),
             Chosen::Raise => Edit::RaiseCloth(index).into(),
             Chosen::Mute => ShowCommand::Mute(part).into(),
             Chosen::Solo => ShowCommand::Solo(part).into(),
-        };
-        self.dispatch(ctx, command);
+        });
     }
 
-    fn dismiss(&mut self) {
-        self.transient.ask = None;
-        self.transient.exports.seen = None;
-        self.transient.question = None;
-        self.workspace.is_calibrating = false;
-        self.transient.is_help_shown = false;
+    /// Whether a session of an experiment is under way.
+    pub(crate) fn has_session(&self) -> bool {
+        self.transient.experiment.is_held()
     }
 
+    /// Tells the engine what is wanted of it.
     pub(crate) fn send(&mut self, command: selvedge_engine::Command) {
         if let Err(error) = self.engine.send(command) {
             self.transient.notices.give(error.to_string());

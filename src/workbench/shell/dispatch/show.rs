@@ -7,11 +7,46 @@ use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
 use crate::shell::arrangement;
 use crate::shell::perspective::arrangement_for;
+use crate::shell::window::Workbench;
 use crate::tools::why::text::to_text;
 use crate::tools::workspace::state::Place;
 
+impl Workbench {
+    /// Shows something, or shows it otherwise.
+    pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
+        match *command {
+            ShowCommand::Pane(pane) => {
+                arrangement::toggle(&mut self.shell.tree, pane);
+                self.keep_arrangement();
+            }
+            ShowCommand::Reveal(pane) if !self.shell.shows(pane) => {
+                arrangement::toggle(&mut self.shell.tree, pane);
+                self.keep_arrangement();
+            }
+            ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
+            ShowCommand::DefaultArrangement => {
+                let preferences = &mut self.bench.settings.preferences;
+                let perspective = preferences.perspective;
+                self.shell.tree = arrangement_for(perspective, self.shell.size);
+                preferences.arrangements[perspective.index()] = None;
+            }
+            ShowCommand::Help => self.shell.is_help_shown = !self.shell.is_help_shown,
+            _ => self.bench.dispatch_show(command),
+        }
+        self.bench.tell_gains();
+    }
+
+    /// Keeps the arrangement as it is now.
+    pub(crate) fn keep_arrangement(&mut self) {
+        let preferences = &mut self.bench.settings.preferences;
+        preferences.arrangements[preferences.perspective.index()] =
+            arrangement::to_text(&self.shell.tree);
+    }
+}
+
 impl Bench {
-    pub(crate) fn dispatch_show(&mut self, ctx: &egui::Context, command: &ShowCommand) {
+    pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
+        let ctx = self.ctx.clone();
         let place = Place {
             pane: self.transient.ground.unwrap_or(egui::Rect::ZERO),
             size_mm: self.document.scene().size_mm,
@@ -29,16 +64,6 @@ impl Bench {
                 self.settings.preferences = self.settings.preferences.clone().in_bounds();
                 ctx.set_zoom_factor(self.settings.preferences.zoom);
             }
-            ShowCommand::Pane(pane) => {
-                arrangement::toggle(&mut self.tree, pane);
-                self.keep_arrangement();
-            }
-            ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
-            ShowCommand::DefaultArrangement => {
-                let perspective = self.settings.preferences.perspective;
-                self.tree = arrangement_for(perspective, self.transient.desk_size);
-                self.settings.preferences.arrangements[perspective.index()] = None;
-            }
             ShowCommand::SelectContactor(contactor) => {
                 self.send(selvedge_engine::Command::Watch(contactor));
             }
@@ -54,18 +79,7 @@ impl Bench {
                     ctx.copy_text(to_text(why));
                 }
             }
-            ShowCommand::Help => {
-                self.transient.is_help_shown = !self.transient.is_help_shown;
-            }
             _ => {}
         }
-        self.tell_gains();
-    }
-
-    /// Keeps the arrangement as it is now.
-    pub(crate) fn keep_arrangement(&mut self) {
-        let perspective = self.settings.preferences.perspective;
-        self.settings.preferences.arrangements[perspective.index()] =
-            arrangement::to_text(&self.tree);
     }
 }

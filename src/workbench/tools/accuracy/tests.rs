@@ -11,7 +11,7 @@ use eframe::egui;
 fn exploring() -> (egui::Context, Bench) {
     let ctx = egui::Context::default();
     let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-    bench.dispatch(&ctx, PlayCommand::Toggle.into());
+    bench.dispatch(PlayCommand::Toggle.into());
     bench.engine.advance_ticks(2).unwrap();
     (ctx, bench)
 }
@@ -47,7 +47,7 @@ fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
         "{table_db}"
     );
     assert_eq!(tally(&bench).sampled, 100);
-    bench.dispatch(&ctx, AccuracyCommand::Method(Method::Reference).into());
+    bench.dispatch(AccuracyCommand::Method(Method::Reference).into());
     watch(&mut bench, 100);
     assert_eq!(bench.accuracy_view().method, Some(Method::Reference));
     assert!(largest_db(&mut bench) <= ROUNDING_DB);
@@ -61,7 +61,7 @@ fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
 #[test]
 fn gains_masks_and_edits_on_their_way_are_left_out_and_never_errors() {
     let (ctx, mut bench) = exploring();
-    bench.dispatch(&ctx, AccuracyCommand::Method(Method::Reference).into());
+    bench.dispatch(AccuracyCommand::Method(Method::Reference).into());
     watch(&mut bench, 10);
     let acts = [
         Edit::MasterGain(-20.0).into(),
@@ -74,7 +74,7 @@ fn gains_masks_and_edits_on_their_way_are_left_out_and_never_errors() {
     ];
     for act in acts {
         let before = tally(&bench);
-        bench.dispatch(&ctx, act);
+        bench.dispatch(act);
         // The engine has not heard of it yet; its last tick shows what was before.
         bench.transient.accuracy.last = None;
         bench.watch_accuracy();
@@ -116,13 +116,10 @@ fn nothing_is_sampled_at_rest_or_twice_and_a_reset_forgets() {
         "a held tick once: {:?}",
         tally(&bench)
     );
-    bench.dispatch(
-        &ctx,
-        PlayCommand::Source(crate::bench::command::PlaySource::Pointer).into(),
-    );
+    bench.dispatch(PlayCommand::Source(crate::bench::command::PlaySource::Pointer).into());
     watch(&mut bench, 20);
     assert!(tally(&bench).sampled <= 21, "nothing moves");
-    bench.dispatch(&ctx, AccuracyCommand::Reset.into());
+    bench.dispatch(AccuracyCommand::Reset.into());
     assert_eq!(tally(&bench), Tally::default());
     assert_eq!(*bench.transient.accuracy.found(), ErrorView::default());
 }
@@ -131,7 +128,7 @@ fn nothing_is_sampled_at_rest_or_twice_and_a_reset_forgets() {
 fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
     let (ctx, mut bench) = exploring();
     let mut chosen = |budget_db: f64| {
-        bench.dispatch(&ctx, AccuracyCommand::Budget(budget_db).into());
+        bench.dispatch(AccuracyCommand::Budget(budget_db).into());
         bench.engine.advance_ticks(1).unwrap();
         let snapshot = bench.engine.snapshot();
         assert!(
@@ -165,7 +162,7 @@ fn another_budget_leaves_source_recording_and_scene_as_they_are() {
         .unwrap();
     bench.engine.advance_ticks(10).unwrap();
     let before = bench.engine.snapshot().pose;
-    bench.dispatch(&ctx, AccuracyCommand::Budget(0.3).into());
+    bench.dispatch(AccuracyCommand::Budget(0.3).into());
     bench.engine.advance_ticks(1).unwrap();
     let snapshot = bench.engine.snapshot();
     assert!(snapshot.recording.is_recording, "it goes on");
@@ -180,7 +177,7 @@ fn another_budget_leaves_source_recording_and_scene_as_they_are() {
 fn a_budget_that_is_none_is_brought_within_bounds() {
     let (ctx, mut bench) = exploring();
     for (asked, kept) in [(7.0, 1.0), (-3.0, 0.0), (f64::NAN, 0.05)] {
-        bench.dispatch(&ctx, AccuracyCommand::Budget(asked).into());
+        bench.dispatch(AccuracyCommand::Budget(asked).into());
         assert_eq!(
             bench.settings.preferences.rendering.budget_db, kept,
             "{asked}"
@@ -202,7 +199,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         .unwrap();
     bench.engine.advance_ticks(1).unwrap();
     bench.take_recording();
-    bench.dispatch(&ctx, AccuracyCommand::Measure.into());
+    bench.dispatch(AccuracyCommand::Measure.into());
     while bench.transient.accuracy.measuring.is_some() {
         bench.poll_measuring();
         std::thread::yield_now();
@@ -218,15 +215,15 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         measured.front
     );
     assert!(!view.is_outdated, "nothing changed since");
-    bench.dispatch(&ctx, Edit::RemoveCloth(0).into());
+    bench.dispatch(Edit::RemoveCloth(0).into());
     assert!(bench.accuracy_view().is_outdated, "a textile is gone");
 }
 
 #[test]
 fn a_measurement_that_is_stopped_leaves_the_last_one() {
     let (ctx, mut bench) = exploring();
-    bench.dispatch(&ctx, AccuracyCommand::Measure.into());
-    bench.dispatch(&ctx, AccuracyCommand::StopMeasuring.into());
+    bench.dispatch(AccuracyCommand::Measure.into());
+    bench.dispatch(AccuracyCommand::StopMeasuring.into());
     while bench.transient.accuracy.measuring.is_some() {
         bench.poll_measuring();
         std::thread::yield_now();

@@ -8,7 +8,6 @@ use crate::bench::Bench;
 use crate::bench::command::{FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exportable;
 use crate::bench::pane::Pane;
-use crate::shell::arrangement;
 use crate::tools::analysis::command::AnalysisCommand;
 use selvedge_experiment::analysis::Table;
 
@@ -19,8 +18,8 @@ impl Bench {
         match command {
             AnalysisCommand::Open(folder) => {
                 analysing.fields.folder = folder.display().to_string();
-                if !arrangement::is_shown(&self.tree, Pane::Analysis) {
-                    self.dispatch_show(ctx, &ShowCommand::Pane(Pane::Analysis));
+                if !self.shows(Pane::Analysis) {
+                    self.commands.push(ShowCommand::Pane(Pane::Analysis).into());
                 }
                 self.begin_analysis(ctx);
             }
@@ -37,7 +36,7 @@ impl Bench {
             AnalysisCommand::SaveFigure(nth) => {
                 analysing.saved_figure = nth;
                 let purpose = Purpose::Export(Exportable::Analysed);
-                self.dispatch(ctx, FileCommand::Ask(purpose).into());
+                self.commands.push(FileCommand::Ask(purpose).into());
             }
             AnalysisCommand::Write(folder) => analysing.write(ctx, is_stepped, folder),
             AnalysisCommand::ShowReport => {

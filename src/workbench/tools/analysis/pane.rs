@@ -8,7 +8,7 @@ use crate::tools::analysis::view::{AnalysisHands, Sight as AnalysisSight};
 
 impl Desk<'_> {
     pub(crate) fn show_analysis(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.bench;
+        let bench = &mut *self.context.bench;
         let transient = &mut bench.transient;
         let experiment = &transient.experiment;
         let held = experiment.held.as_deref();
@@ -25,7 +25,8 @@ impl Desk<'_> {
             looks: &mut transient.analysis_looks,
         };
         let view = analysing.view(held.map(|held| held.subject.pseudonym.as_str()));
-        let sight = crate::tools::analysis::view::show(ui, &view, &mut hands, self.commands);
+        let sight =
+            crate::tools::analysis::view::show(ui, &view, &mut hands, self.context.commands);
         let wanted = view.found.cloned().zip(sight).map(|(findings, sight)| {
             let AnalysisSight { width_px, paper } = sight;
             Wanted {

@@ -154,11 +154,11 @@ mod tests {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         assert!(bench.peek_at_plant(&ctx).is_none(), "no emulator yet");
-        bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
+        bench.dispatch(DeviceCommand::ConnectEmulator.into());
         assert!(!bench.peek_at_plant(&ctx).unwrap().is_open);
         let is_looking = |bench: &mut Bench| bench.engine.actuators().unwrap().is_looking();
         assert!(!is_looking(&mut bench), "the section is closed");
-        bench.dispatch(&ctx, DeviceCommand::ShowContactors(true).into());
+        bench.dispatch(DeviceCommand::ShowContactors(true).into());
         assert!(bench.peek_at_plant(&ctx).unwrap().is_open);
         bench.leave_plant();
         assert!(is_looking(&mut bench), "it was drawn in this frame");
@@ -170,13 +170,13 @@ mod tests {
     fn the_finger_that_is_chosen_outlasts_the_link() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
-        bench.dispatch(&ctx, DeviceCommand::LoadContactors(Skin::FIRM).into());
+        bench.dispatch(DeviceCommand::ConnectEmulator.into());
+        bench.dispatch(DeviceCommand::LoadContactors(Skin::FIRM).into());
         assert_eq!(bench.peek_at_plant(&ctx).unwrap().skin, Skin::FIRM);
         assert_eq!(bench.engine.actuators().unwrap().model().skin, Skin::FIRM);
-        bench.dispatch(&ctx, DeviceCommand::Disconnect.into());
+        bench.dispatch(DeviceCommand::Disconnect.into());
         assert!(bench.peek_at_plant(&ctx).is_none());
-        bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
+        bench.dispatch(DeviceCommand::ConnectEmulator.into());
         assert_eq!(bench.peek_at_plant(&ctx).unwrap().skin, Skin::FIRM);
     }
 

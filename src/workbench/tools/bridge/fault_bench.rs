@@ -81,13 +81,13 @@ mod tests {
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         assert_eq!(bench.transient.faults.running, None);
         let words = FaultWords::of(&[("seed", "7"), ("drop", "0.1%")]);
-        bench.dispatch(&ctx, DeviceCommand::StartFaults(words.clone()).into());
+        bench.dispatch(DeviceCommand::StartFaults(words.clone()).into());
         assert_eq!(bench.transient.faults.running.as_ref(), Some(&words));
         let name = bench.transient.target.as_deref();
         assert_eq!(name, Some("Emulator with faults"));
-        bench.dispatch(&ctx, DeviceCommand::ConnectEmulator.into());
+        bench.dispatch(DeviceCommand::ConnectEmulator.into());
         assert_eq!(bench.transient.faults.running, Some(FaultWords::default()));
-        bench.dispatch(&ctx, DeviceCommand::Disconnect.into());
+        bench.dispatch(DeviceCommand::Disconnect.into());
         assert_eq!(bench.transient.faults.running, None);
     }
 
@@ -100,7 +100,7 @@ mod tests {
             ("drop", "often", "Drop: \"often\" is no share"),
         ] {
             let words = FaultWords::of(&[(option, text)]);
-            bench.dispatch(&ctx, DeviceCommand::StartFaults(words).into());
+            bench.dispatch(DeviceCommand::StartFaults(words).into());
             let shown = bench.transient.notices.shown();
             let last = &shown.last().unwrap().text;
             assert!(last.starts_with(told), "{last}");

@@ -28,10 +28,10 @@ use std::time::Duration;
 use eframe::egui;
 
 use crate::bench::Bench;
+use crate::bench::error::AppError;
 use crate::bench::job::{Job, Polled};
+use crate::bench::play::resting_stroke;
 use crate::bench::task::Watch;
-use crate::shell::dispatch::play::resting_stroke;
-use crate::shell::error::AppError;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::{LoadedScene, TICKS_PER_S};

@@ -10,7 +10,6 @@ use crate::bench::perspective::Perspective;
 use crate::bench::task::taken;
 use crate::bench::view::Source;
 use crate::bench::{Bench, FRAME};
-use crate::shell::arrangement;
 use crate::tools::experiment::Begun;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::draft::Mark;
@@ -76,10 +75,12 @@ impl Bench {
         self.send(selvedge_engine::Command::SetAngle(0.0));
         self.send(selvedge_engine::Command::SetContactorMask(Vec::new()));
         let perspective = Perspective::Experiment;
-        self.dispatch_show(ctx, &ShowCommand::Perspective(perspective));
+        self.commands
+            .push(ShowCommand::Perspective(perspective).into());
         let is_apart = self.transient.experiment.window.is_open;
-        if !is_apart && !arrangement::is_shown(&self.tree, Pane::Participant) {
-            self.dispatch_show(ctx, &ShowCommand::Pane(Pane::Participant));
+        if !is_apart && !self.shows(Pane::Participant) {
+            self.commands
+                .push(ShowCommand::Pane(Pane::Participant).into());
         }
         self.present(ctx);
     }

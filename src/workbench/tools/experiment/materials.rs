@@ -4,10 +4,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::bench::error::AppError;
 use crate::bench::library_view::LibraryView;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
-use crate::shell::error::AppError;
 use selvedge_engine::PreparedScene;
 use selvedge_experiment::design::{Design, Source};
 use selvedge_experiment::layout::Layout;

@@ -54,7 +54,6 @@ pub(crate) use crate::tools::experiment::view::ParticipantView;
 #[cfg(test)]
 pub(crate) use crate::tools::experiment::view::TrialView;
 
-use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
 use crate::bench::task::Task;
 use selvedge_experiment::session::Session;
 
@@ -128,11 +127,6 @@ impl Experiment {
         self.held.is_some()
     }
 
-    /// Width and height of what lies before the participant, mm.
-    pub(crate) fn size_mm(&self) -> Option<[f64; 2]> {
-        self.held.as_ref().map(|held| held.layout.size_mm)
-    }
-
     /// How it stands with a masking noise, where the design asks for one.
     pub(crate) fn noise(&self) -> Option<NoiseView> {
         let form = &self.form;
@@ -142,35 +136,5 @@ impl Experiment {
         };
         let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
         is_asked.then(view)
-    }
-
-    /// Whether a command leaves what is felt to the session.
-    pub(crate) fn allows(&self, command: &Command) -> bool {
-        if !self.is_held() {
-            return true;
-        }
-        match command {
-            Command::AllOff
-            | Command::Device(_)
-            | Command::Experiment(_)
-            | Command::Analysis(_)
-            | Command::Dismiss
-            | Command::DismissNotice(_) => true,
-            Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
-                matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
-            }
-            Command::Show(command) => matches!(
-                command,
-                ShowCommand::Theme(_)
-                    | ShowCommand::ColourMap(_)
-                    | ShowCommand::Zoom(_)
-                    | ShowCommand::Pane(_)
-                    | ShowCommand::Perspective(_)
-                    | ShowCommand::DefaultArrangement
-                    | ShowCommand::Hover(_)
-                    | ShowCommand::Help
-            ),
-            _ => false,
-        }
     }
 }

@@ -9,9 +9,9 @@ use eframe::egui::{
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands};
 use crate::bench::pane::Pane;
+use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::desk::Desk;
-use crate::shell::frame::{Felt, frame_as_armed};
-use crate::shell::pointer::Pointed;
+use crate::shell::frame::frame_as_armed;
 use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
 use crate::tools::experiment::experimenter::ExperimenterHands;
 use crate::tools::experiment::view::{Link, ParticipantView};
@@ -24,28 +24,28 @@ const LEAST_WINDOW: [f32; 2] = [700.0, 600.0];
 impl Desk<'_> {
     pub(crate) fn show_participant(&mut self, ui: &mut Ui) {
         let now_s = ui.input(|input| input.time);
-        let bench = &*self.bench;
+        let bench = &*self.context.bench;
         if bench.transient.experiment.window.is_open {
-            return crate::tools::experiment::participant::show_apart(ui, self.commands);
+            return crate::tools::experiment::participant::show_apart(ui, self.context.commands);
         }
         let view = bench
             .transient
             .experiment
             .participant(&bench.transient.live, now_s);
-        let shown = crate::tools::experiment::participant::show(ui, &view, self.commands);
+        let shown = crate::tools::experiment::participant::show(ui, &view, self.context.commands);
         if shown.is_some() {
-            self.shown = shown;
+            *self.context.ground = shown;
         }
     }
 
     pub(crate) fn show_experimenter(&mut self, ui: &mut Ui) {
         let now_s = ui.input(|input| input.time);
-        let transient = &mut self.bench.transient;
+        let transient = &mut self.context.bench.transient;
         let live = &transient.live;
         let link = Link::of(
             (live.bridge.as_ref(), transient.target.as_deref()),
             live.is_stopped,
-            self.bench.engine.profile().limit_um,
+            self.context.bench.engine.profile().limit_um,
         );
         let experiment = &mut transient.experiment;
         let screen = (experiment.window, experiment.is_blank);
@@ -67,7 +67,7 @@ impl Desk<'_> {
             ui,
             (&view, noise.as_ref(), screen),
             &mut hands,
-            self.commands,
+            self.context.commands,
         );
         if let Some((held, note)) = experiment.held.as_mut().zip(note) {
             held.note = note;
@@ -82,7 +82,7 @@ impl Bench {
         &self,
         ctx: &Context,
         commands: &mut Commands,
-    ) -> Option<Felt> {
+    ) -> Option<PointerGround> {
         let window = self.transient.experiment.window;
         if !window.is_open {
             return None;
@@ -99,8 +99,7 @@ impl Bench {
         let id = ViewportId::from_hash_of("participant");
         ctx.show_viewport_immediate(id, builder, |ui, class| {
             if class == ViewportClass::EmbeddedWindow {
-                let shown = crate::tools::experiment::participant::show(ui, &view, commands)?;
-                return Some((shown, Pointed::Workbench, ui.ctx().pixels_per_point()));
+                return crate::tools::experiment::participant::show(ui, &view, commands);
             }
             take_window_keys(ui.ctx(), window.fills_screen, commands);
             if live.is_armed() {
@@ -114,11 +113,8 @@ impl Bench {
                 }
                 view => crate::tools::experiment::participant::show(ui, view, commands),
             });
-            Some((
-                shown.inner?,
-                Pointed::Participant,
-                ui.ctx().pixels_per_point(),
-            ))
+            let window = Pointed::Participant;
+            shown.inner.map(|ground| PointerGround { window, ..ground })
         })
     }
 

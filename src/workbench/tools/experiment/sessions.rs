@@ -9,7 +9,6 @@ use crate::bench::Bench;
 use crate::bench::pane::Pane;
 use crate::bench::rendering::Rendering;
 use crate::bench::task::{Task, taken};
-use crate::shell::arrangement;
 use crate::tools::experiment::Begun;
 use crate::tools::experiment::form::list;
 use crate::tools::experiment::materials::Materials;
@@ -53,7 +52,7 @@ impl Bench {
     pub(crate) fn follow_folder(&mut self, ctx: &egui::Context) {
         let is_due = self.transient.experiment.form.is_to_be_listed();
         let is_typing = ctx.egui_wants_keyboard_input();
-        if is_due && !is_typing && arrangement::is_shown(&self.tree, Pane::Experimenter) {
+        if is_due && !is_typing && self.shows(Pane::Experimenter) {
             self.list_sessions(ctx, false);
         }
         let form = &mut self.transient.experiment.form;

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-
 use crate::bench::Bench;
 use crate::bench::follower::Standing;
 use crate::bench::job::{Job, Polled};
@@ -11,7 +9,7 @@ use crate::bench::keep::{Keep, NewTextile};
 use crate::tools::import::draft::WordsDraft;
 use crate::tools::import::failure::{Failure, Step};
 use crate::tools::import::work::{Body, Found};
-use crate::tools::import::{Importing, Keeping};
+use crate::tools::import::{Import, Keeping};
 use selvedge_textile::{TextileError, nth_id};
 
 /// The textiles of what was read, one for every place.
@@ -63,7 +61,7 @@ pub(crate) fn textiles(found: &Found, said: &WordsDraft) -> Result<Vec<NewTextil
     }
 }
 
-impl Importing {
+impl Import {
     /// Why nothing can be kept now; `None` if it can.
     pub(crate) fn refusal(&self) -> Option<String> {
         match self.standing() {
@@ -96,58 +94,56 @@ impl Importing {
     }
 }
 
-impl Bench {
+impl Import {
     /// Begins to make the textiles and keeps them.
-    pub(crate) fn keep_import(&mut self, ctx: &egui::Context, is_felt: bool) {
-        let importing = &mut self.transient.importing;
-        if let Some(line) = importing.refusal() {
-            importing.kept = Some(Err(Failure::at(Step::Keep, line)));
+    pub(crate) fn keep(&mut self, bench: &mut Bench, is_felt: bool) {
+        if let Some(line) = self.refusal() {
+            self.kept = Some(Err(Failure::at(Step::Keep, line)));
             return;
         }
-        let Some(found) = importing.found().cloned() else {
+        let Some(found) = self.found().cloned() else {
             return;
         };
-        importing.kept = None;
-        let said = importing.draft.words.clone();
+        self.kept = None;
+        let said = self.draft.words.clone();
         let make = move || textiles(&found, &said);
-        if self.is_stepped {
-            return self.take_textiles(ctx, make(), is_felt);
+        if bench.is_stepped {
+            return self.take_textiles(bench, make(), is_felt);
         }
-        match Job::start("selvedge-import-keep", ctx, make) {
-            Ok(job) => importing.keeping = Some(Keeping { job, is_felt }),
+        match Job::start("selvedge-import-keep", &bench.ctx, make) {
+            Ok(job) => self.keeping = Some(Keeping { job, is_felt }),
             Err(error) => {
                 let line = format!("nothing was kept: {error}; try again");
-                importing.kept = Some(Err(Failure::at(Step::Keep, line)));
+                self.kept = Some(Err(Failure::at(Step::Keep, line)));
             }
         }
     }
 
     /// Takes textiles that are made. To be called every frame.
-    pub(crate) fn poll_import(&mut self, ctx: &egui::Context) {
-        self.transient.importing.poll();
-        let Some(keeping) = self.transient.importing.keeping.take() else {
+    pub(crate) fn poll_keeping(&mut self, bench: &mut Bench) {
+        let Some(keeping) = self.keeping.take() else {
             return;
         };
         match keeping.job.poll() {
-            Polled::Working => self.transient.importing.keeping = Some(keeping),
-            Polled::Done(made) => self.take_textiles(ctx, made, keeping.is_felt),
+            Polled::Working => self.keeping = Some(keeping),
+            Polled::Done(made) => self.take_textiles(bench, made, keeping.is_felt),
             Polled::BrokeOff => {
                 let line = "nothing was kept: making it broke off; try again";
-                self.transient.importing.kept = Some(Err(Failure::at(Step::Keep, line)));
+                self.kept = Some(Err(Failure::at(Step::Keep, line)));
             }
         }
     }
 
     fn take_textiles(
         &mut self,
-        ctx: &egui::Context,
+        bench: &mut Bench,
         made: Result<Vec<NewTextile>, Failure>,
         is_felt: bool,
     ) {
         let made = match made {
             Ok(made) => made,
             Err(failure) => {
-                self.transient.importing.kept = Some(Err(failure));
+                self.kept = Some(Err(failure));
                 return;
             }
         };
@@ -158,7 +154,7 @@ impl Bench {
         } else {
             Keep::Save(made)
         };
-        self.dispatch(ctx, keep.into());
-        self.transient.importing.kept = Some(Ok(names.join(", ")));
+        bench.commands.push(keep.into());
+        self.kept = Some(Ok(names.join(", ")));
     }
 }

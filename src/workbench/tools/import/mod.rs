@@ -1,4 +1,4 @@
-//! Importing measurements: what was chosen and typed, what the readers found of it, and the
+//! Import measurements: what was chosen and typed, what the readers found of it, and the
 //! textiles that come of it.
 //!
 //! ```text
@@ -10,7 +10,6 @@
 //! here is only what is asked for, when, and how far it is. Nothing is read while the pane is
 //! hidden, and nothing is written here.
 
-pub(crate) mod dispatch;
 pub(crate) mod draft;
 pub(crate) mod envelope;
 pub(crate) mod export;
@@ -36,36 +35,21 @@ pub(crate) use crate::tools::import::work::Inputs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use eframe::egui;
+use eframe::egui::{self, Ui};
 
 use crate::bench::Bench;
+use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
+use crate::bench::export::Exported;
 use crate::bench::follower::{Follower, Standing};
 use crate::bench::job::Job;
 use crate::bench::keep::NewTextile;
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
 use crate::kit::widgets::relief::{Relief, ReliefPicture};
 
 /// More files than these are no import.
 const MOST_FILES: usize = 8;
-
-/// What can be wanted of an import. Never undoable.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum ImportCommand {
-    /// Take these files to those that are there.
-    Add(Vec<PathBuf>),
-    /// Choose and type this.
-    Draft(Box<Draft>),
-    /// Read the files anew from the disk.
-    ReadAgain,
-    /// Stop reading.
-    Cancel,
-    /// Begin anew, with nothing.
-    Clear,
-    /// Keep what was read as textiles of the library, or feel it at once.
-    Keep {
-        /// Whether it is placed under the display.
-        is_felt: bool,
-    },
-}
 
 /// Textiles on their way to the library.
 struct Keeping {
@@ -75,7 +59,7 @@ struct Keeping {
 
 /// An import: what is wanted of it and what was found.
 #[derive(Default)]
-pub(crate) struct Importing {
+pub(crate) struct Import {
     /// What was chosen and typed.
     pub draft: Draft,
     /// The relief as a texture.
@@ -86,7 +70,7 @@ pub(crate) struct Importing {
     kept: Option<Result<String, Failure>>,
 }
 
-impl Importing {
+impl Import {
     /// What was found last, whatever has changed since.
     pub(crate) fn found(&self) -> Option<&Arc<Found>> {
         self.reading.found()
@@ -155,13 +139,28 @@ impl Importing {
         Ok(())
     }
 
+    /// Takes files that were chosen or dropped, and shows them.
+    fn take_files(&mut self, paths: Vec<PathBuf>, bench: &mut Bench) {
+        if let Err(line) = self.add(paths) {
+            bench.transient.notices.give(line);
+        }
+        bench
+            .commands
+            .push(ShowCommand::Reveal(Pane::Import).into());
+    }
+
     /// Takes what was chosen and typed.
-    pub(crate) fn take_draft(&mut self, draft: Draft) {
-        if draft.told != self.draft.told {
+    fn take_draft(&mut self, draft: Draft) {
+        let before = std::mem::replace(&mut self.draft, draft);
+        self.forget_after(&before);
+    }
+
+    /// Forgets what came of a draft that reads otherwise.
+    fn forget_after(&mut self, before: &Draft) {
+        if before.told != self.draft.told {
             self.kept = None;
             self.picture = ReliefPicture::default();
         }
-        self.draft = draft;
     }
 
     /// Reads the files anew from the disk.
@@ -186,7 +185,7 @@ impl Importing {
     }
 
     /// Lets the reading follow what was chosen.
-    fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
         if self.standing() == Standing::Empty {
             return;
         }
@@ -212,17 +211,45 @@ impl Importing {
     }
 }
 
-impl Bench {
-    /// Lets the import follow what was chosen: to be called while its pane is in sight.
-    pub(crate) fn follow_import(&mut self, ctx: &egui::Context) {
-        let is_stepped = self.is_stepped;
-        self.transient.importing.follow(ctx, is_stepped);
+impl Tool for Import {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Import]
+    }
+
+    fn logic(&mut self, bench: &mut Bench) {
+        self.poll();
+        self.poll_keeping(bench);
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.follow(ui.ctx(), context.bench.is_stepped);
+        framed(ui, 10, |ui| view::show(ui, self, context));
+    }
+
+    fn command(&mut self, command: &Command, bench: &mut Bench) {
+        if let Command::File(FileCommand::Use(Purpose::ImportFiles, path)) = command {
+            self.take_files(vec![path.clone()], bench);
+        }
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let map = bench.settings.preferences.colour_map;
+        let exported = self
+            .found()
+            .and_then(|found| export::measurement(found, map));
+        exported.ok_or("There is nothing to export yet: choose files in the Import pane")
+    }
+
+    fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
+        let last = self.draft.told.files.last();
+        let last = last.filter(|_| purpose == Purpose::ImportFiles);
+        last.map(|file| file.source.path().to_owned())
     }
 }
 
-impl std::fmt::Debug for Importing {
+impl std::fmt::Debug for Import {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Importing")
+        f.debug_struct("Import")
             .field("draft", &self.draft)
             .field("n_read", &self.n_read())
             .finish_non_exhaustive()

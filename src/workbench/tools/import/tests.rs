@@ -44,15 +44,15 @@ fn matrix() -> String {
     text
 }
 
-fn import_of(paths: &[PathBuf]) -> Importing {
-    let mut importing = Importing::default();
+fn import_of(paths: &[PathBuf]) -> Import {
+    let mut importing = Import::default();
     importing.add(paths.to_vec()).unwrap();
     read(&mut importing);
     importing
 }
 
 /// Reads as the pane does when it is drawn.
-fn read(importing: &mut Importing) {
+fn read(importing: &mut Import) {
     let ctx = egui::Context::default();
     importing.follow(&ctx, true);
     // What was stopped on a thread ends first.
@@ -64,14 +64,14 @@ fn read(importing: &mut Importing) {
     assert_eq!(importing.standing(), Standing::Fresh);
 }
 
-fn failure(importing: &Importing) -> &Failure {
+fn failure(importing: &Import) -> &Failure {
     let failure = importing.found().unwrap().failure.as_ref().unwrap();
     assert!(!failure.line.contains('\n'), "{failure:?}");
     assert!(failure.line.contains("; "), "no mend: {failure:?}");
     failure
 }
 
-fn kept(importing: &Importing) -> Vec<NewTextile> {
+fn kept(importing: &Import) -> Vec<NewTextile> {
     keeping::textiles(importing.found().unwrap(), &importing.draft.words).unwrap()
 }
 
@@ -240,7 +240,7 @@ fn only_what_has_changed_is_read_anew() {
     let folder = ScratchFolder::made("again");
     let path = folder.write("twill.txt", export());
     let mut importing = import_of(std::slice::from_ref(&path));
-    let reading = |importing: &Importing| {
+    let reading = |importing: &Import| {
         let strokes = importing.found().unwrap().strokes().unwrap();
         Arc::clone(strokes.reading.as_ref().unwrap())
     };
@@ -265,7 +265,7 @@ fn only_what_has_changed_is_read_anew() {
 fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
     let folder = ScratchFolder::made("cancel");
     let path = folder.write("twill.txt", export());
-    let mut importing = Importing::default();
+    let mut importing = Import::default();
     importing.add(vec![path]).unwrap();
     let inputs = importing.inputs();
     let flag = CancelFlag::new();

@@ -9,7 +9,6 @@ use crate::bench::command::ShowCommand;
 use crate::bench::keep::Keep;
 use crate::bench::pane::Pane;
 use crate::bench::task::{Task, taken};
-use crate::shell::arrangement;
 use crate::tools::lab;
 use crate::tools::lab::command::{Beginning, LabCommand, Plan};
 use crate::tools::lab::family::Family;
@@ -22,8 +21,8 @@ impl Bench {
         let lab = &mut self.transient.lab;
         match command {
             LabCommand::Begin(beginning) => {
-                if !arrangement::is_shown(&self.tree, Pane::Lab) {
-                    self.dispatch_show(ctx, &ShowCommand::Pane(Pane::Lab));
+                if !self.shows(Pane::Lab) {
+                    self.commands.push(ShowCommand::Pane(Pane::Lab).into());
                 }
                 self.begin_lab(ctx, beginning);
             }
@@ -120,13 +119,13 @@ impl Bench {
                 let work = move |progress: &mut Progress<'_>| lab::built(&recipes, progress);
                 let task = Task::start(("selvedge-lab-keep", ctx), self.is_stepped, work);
                 lab.keeping = Some((Some(task), feels));
-                self.poll_lab(ctx);
+                self.poll_lab();
             }
         }
     }
 
     /// Takes what was built to be kept, whether the lab is in sight or not.
-    pub(crate) fn poll_lab(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_lab(&mut self) {
         let lab = &mut self.transient.lab;
         let Some((task, feels)) = &mut lab.keeping else {
             return;
@@ -144,7 +143,7 @@ impl Bench {
                 } else {
                     Keep::Save(textiles)
                 };
-                self.dispatch(ctx, keep.into());
+                self.commands.push(keep.into());
             }
             Err(_) if was_stopped => {}
             Err(words) => lab.refusal = Some(format!("Nothing was kept: {words}")),

@@ -2,22 +2,20 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-
 use crate::bench::Bench;
+use crate::bench::command::ShowCommand;
 use crate::bench::keep::Keep;
 use crate::bench::pane::Pane;
-use crate::shell::arrangement;
 use crate::tools::picture::{PictureCommand, Picturing};
 
 impl Bench {
-    pub(crate) fn dispatch_picture(&mut self, ctx: &egui::Context, command: PictureCommand) {
+    pub(crate) fn dispatch_picture(&mut self, command: PictureCommand) {
         let picturing = &mut self.transient.picturing;
         match command {
             PictureCommand::Open(path) => {
                 picturing.open(path);
-                if !arrangement::is_shown(&self.tree, Pane::Picture) {
-                    arrangement::toggle(&mut self.tree, Pane::Picture);
+                if !self.shows(Pane::Picture) {
+                    self.commands.push(ShowCommand::Pane(Pane::Picture).into());
                 }
             }
             PictureCommand::Draft(draft) => picturing.take_draft(*draft),
@@ -36,7 +34,7 @@ impl Bench {
                 } else {
                     Keep::Save(textile)
                 };
-                self.dispatch(ctx, keep.into());
+                self.commands.push(keep.into());
             }
         }
     }

@@ -5,7 +5,7 @@
 use eframe::egui::{Pos2, Rect};
 
 use crate::bench::view::Cloth;
-use crate::tools::workspace::transform::ViewTransform;
+use crate::kit::view_transform::ViewTransform;
 use selvedge_foundation::geometry::{Displacement, Point};
 
 /// How near on the screen something is snapped to, points.

@@ -26,8 +26,8 @@ pub(crate) struct Asked {
 
 impl Desk<'_> {
     pub(crate) fn show_workspace(&mut self, ui: &mut Ui) {
-        self.bench.prepare_overlays(ui.ctx());
-        let bench = &*self.bench;
+        self.context.bench.prepare_overlays(ui.ctx());
+        let bench = &*self.context.bench;
         let transient = &bench.transient;
         let layers = Layers {
             readings: &transient.readings,
@@ -37,19 +37,27 @@ impl Desk<'_> {
         };
         let (live, state) = (&transient.live, &bench.workspace);
         let over = (&transient.trail, layers);
-        let shown = workspace::show(ui, self.scene, live, over, state, self.commands);
-        self.shown = Some(shown);
+        let shown = workspace::show(
+            ui,
+            self.context.scene,
+            live,
+            over,
+            state,
+            self.context.commands,
+        );
+        *self.context.ground = Some(shown);
     }
 
     pub(crate) fn show_response(&mut self, ui: &Ui) {
-        let asked = self.bench.ask_response(ui.ctx());
-        let bench = &*self.bench;
-        let cloth = asked.and_then(|asked| Some((asked, self.scene.cloths.get(asked.textile)?)));
+        let asked = self.context.bench.ask_response(ui.ctx());
+        let bench = &*self.context.bench;
+        let cloth =
+            asked.and_then(|asked| Some((asked, self.context.scene.cloths.get(asked.textile)?)));
         let name = cloth.map(|(_, cloth)| format!("{} {}", cloth.label, cloth.name));
         let name = name.as_deref().map_or("", str::trim);
         let view =
             cloth.map(|(asked, cloth)| bench.response_view(&asked, (name, cloth.rotation_deg)));
-        crate::tools::response::show(ui, view.as_ref(), self.commands);
+        crate::tools::response::show(ui, view.as_ref(), self.context.commands);
     }
 }
 

@@ -6,7 +6,7 @@
 use eframe::egui::Rect;
 
 use crate::bench::command::Look;
-use crate::tools::workspace::transform::ViewTransform;
+use crate::kit::view_transform::ViewTransform;
 use selvedge_foundation::geometry::Point;
 
 /// Space around the workspace when all of it is shown, points.

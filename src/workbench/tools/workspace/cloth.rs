@@ -9,8 +9,8 @@ use eframe::epaint::text::{LayoutJob, TextWrapping};
 use crate::bench::view::{Cloth, ClothPicture};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
-use crate::tools::workspace::transform::ViewTransform;
 
 /// How far a shadow reaches beyond its textile, points.
 const SHADOW: f32 = 16.0;

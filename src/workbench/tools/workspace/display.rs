@@ -11,9 +11,9 @@ use crate::bench::command::DotStyle;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Dot, Live};
 use crate::kit::theme::Palette;
+use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::limit_mark::paint_limit_mark;
 use crate::tools::workspace::state::WorkspaceState;
-use crate::tools::workspace::transform::ViewTransform;
 use selvedge_foundation::geometry::Point;
 
 /// How long the trail is, s.

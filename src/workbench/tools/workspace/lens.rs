@@ -10,8 +10,8 @@ use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::trail::Trail;
-use crate::tools::workspace::transform::ViewTransform;
 use crate::tools::workspace::{Stage, display, paint_cloths, paint_display, tips};
 use selvedge_foundation::quantity;
 

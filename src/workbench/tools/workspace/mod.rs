@@ -26,8 +26,8 @@ mod tests;
 pub(crate) mod tips;
 pub(crate) mod tools;
 pub(crate) mod trail;
-pub(crate) mod transform;
 
+use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 #[cfg(test)]
 pub(crate) use crate::tools::workspace::drop::LibraryItem;
 pub(crate) use crate::tools::workspace::overlay::Layers;
@@ -36,7 +36,6 @@ pub(crate) use crate::tools::workspace::overlay::lattice::Lattice;
 pub(crate) use crate::tools::workspace::state::WorkspaceState;
 pub(crate) use crate::tools::workspace::tools::show as show_tools;
 pub(crate) use crate::tools::workspace::trail::Trail;
-pub(crate) use crate::tools::workspace::transform::ViewTransform;
 
 use eframe::egui::{
     self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Response, Sense, Stroke, StrokeKind, Ui,
@@ -48,17 +47,6 @@ use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use selvedge_foundation::geometry::Point;
-
-/// What came of showing the workspace.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Shown {
-    /// How mm are laid on the screen.
-    pub view: ViewTransform,
-    /// The part of the screen where the pointer feels.
-    pub ground: Rect,
-    /// Whether the pointer feels there now: not while it arranges, pans, or handles a control.
-    pub feels: bool,
-}
 
 /// What the parts of the pane share during one frame.
 pub(crate) struct Stage<'a> {
@@ -94,7 +82,7 @@ pub(crate) fn show(
     (trail, layers): (&Trail, Layers<'_>),
     state: &WorkspaceState,
     commands: &mut Commands,
-) -> Shown {
+) -> PointerGround {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let inner = Rect::from_min_max(frame.min + vec2(ruler::LEFT, ruler::TOP), frame.max);
@@ -131,9 +119,12 @@ pub(crate) fn show(
     if live.is_stopped {
         paint_all_off(&ui.painter_at(ground), ground);
     }
-    Shown {
+    PointerGround {
+        window: Pointed::Workbench,
         view: stage.view,
-        ground,
+        rect: ground,
+        size_mm: scene.size_mm,
+        pixels_per_point: ui.pixels_per_point(),
         feels,
     }
 }
@@ -321,11 +312,4 @@ fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
         Stroke::new(1.0, palette.hairline),
         StrokeKind::Outside,
     );
-}
-
-/// Whether a place is in the workspace or so close that the display still reaches into it.
-pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
-    let reach_mm = 20.0;
-    let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
-    within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])
 }

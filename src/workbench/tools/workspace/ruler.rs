@@ -4,8 +4,8 @@ use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::axis::round_step;
-use crate::tools::workspace::transform::ViewTransform;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity;
 

@@ -5,9 +5,9 @@ use eframe::egui::Rect;
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::{DotStyle, Look, ShowCommand, Tool};
 use crate::bench::probe::Probe;
+use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::camera::Camera;
 use crate::tools::workspace::overlay::Overlays;
-use crate::tools::workspace::transform::ViewTransform;
 
 /// How the workspace is looked at and what is chosen in it. Never undoable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

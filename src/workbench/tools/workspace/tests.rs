@@ -65,7 +65,7 @@ impl Window {
     }
 
     /// One frame with these events: what was wished for, and what came of it.
-    fn run(&mut self, mut events: Vec<Event>) -> (Commands, Shown) {
+    fn run(&mut self, mut events: Vec<Event>) -> (Commands, PointerGround) {
         self.frame += 1;
         events.insert(0, Event::ModifiersChanged(self.modifiers));
         let input = RawInput {
@@ -361,7 +361,7 @@ fn what_is_measured_between_the_crosses_calibrates_the_screen() {
     let [Command::Show(ShowCommand::Calibrated(pixels_per_mm))] = commands[..] else {
         panic!("{commands:?}");
     };
-    let pixels = 0.6 * (f64::from(shown.ground.width()) - 28.0);
+    let pixels = 0.6 * (f64::from(shown.rect.width()) - 28.0);
     assert!(
         (pixels_per_mm - pixels / 100.0).abs() < 0.02,
         "{pixels_per_mm}"

@@ -10,8 +10,8 @@ use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, Commands, Look, ShowCommand, Tool};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::state::WorkspaceState;
-use crate::tools::workspace::transform::ViewTransform;
 use crate::tools::workspace::{Stage, arrange, overlay};
 use selvedge_foundation::quantity;
 

@@ -249,14 +249,14 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         desk.pass_ticks(7);
-        let ask = desk.workbench.bench.transient.ask.as_ref();
+        let ask = desk.workbench.shell.ask.as_ref();
         let suggested = ask.map(|ask| ask.path.clone()).unwrap_or_default();
-        let last = desk.workbench.bench.transient.exports.last.clone();
+        let last = desk.workbench.shell.exports.last.clone();
         let kind = last.map_or(Kind::Png, |(_, kind)| kind);
         assert!(suggested.ends_with(&what.file_name(kind)), "{suggested}");
         desk.file(FileCommand::Use(Purpose::Export(what), path.clone()));
         assert_eq!(fs::read(&path).unwrap(), seen, "{what:?}");
-        assert!(desk.workbench.bench.transient.ask.is_none(), "answered");
+        assert!(desk.workbench.shell.ask.is_none(), "answered");
     }
     assert_eq!(desk.notices(), "");
     assert_eq!(fs::read_dir(&folder).unwrap().count(), ALL.len());
@@ -278,10 +278,7 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
             notices.contains("end its name in .png, .svg or .csv"),
             "{notices}"
         );
-        assert!(
-            desk.workbench.bench.transient.ask.is_some(),
-            "the field stays"
-        );
+        assert!(desk.workbench.shell.ask.is_some(), "the field stays");
     }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
     let path = folder.join("WAVE.SVG");
@@ -315,10 +312,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         );
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         assert!(desk.notices().contains(words), "{what:?}");
-        assert!(
-            desk.workbench.bench.transient.exports.seen.is_none(),
-            "{what:?}"
-        );
+        assert!(desk.workbench.shell.exports.seen.is_none(), "{what:?}");
     }
     let library = Exportable::Pane(Pane::Library);
     assert!(!is_exportable(Pane::Library) && desk.workbench.bench.exported(library).is_err());

@@ -1,7 +1,7 @@
 //! Files that a window has opened before anything is exported.
 
 use super::*;
-use crate::tools::import::ImportCommand;
+use crate::tools::import::Import;
 use crate::tools::import::tests::export;
 use crate::tools::picture::PictureCommand;
 
@@ -10,8 +10,9 @@ impl Headless {
     pub(crate) fn import(&mut self) {
         let folder = ScratchFolder::made("strokes");
         let path = folder.write("twill.txt", export());
-        self.dispatch(ImportCommand::Add(vec![path]));
-        self.workbench.bench.follow_import(&self.ctx);
+        self.dispatch(FileCommand::Use(Purpose::ImportFiles, path));
+        let import: &mut Import = self.workbench.tools.get_mut().unwrap();
+        import.follow(&self.ctx, true);
     }
 
     /// Works out a picture of a cloth.

@@ -25,7 +25,7 @@ impl Drawn {
         drawn.pass(2);
         let mut tiles = Tiles::default();
         let root = arrangement::tabs(&mut tiles, &[Pane::Analysis]);
-        drawn.window.workbench.bench.tree = Tree::new(Id::unique("alone"), root, tiles);
+        drawn.window.workbench.shell.tree = Tree::new(Id::unique("alone"), root, tiles);
         let analysing = &mut drawn.window.workbench.bench.transient.analysing;
         analysing.fields.seed = asked.seed.to_string();
         analysing.choice = asked.choice.clone();

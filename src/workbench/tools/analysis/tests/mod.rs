@@ -242,7 +242,7 @@ fn figures_are_drawn_once_and_only_while_they_are_in_sight() {
     let toggle = ShowCommand::Pane(Pane::Analysis);
     window.dispatch(toggle.clone());
     assert!(!arrangement::is_shown(
-        &window.workbench.bench.tree,
+        &window.workbench.shell.tree,
         Pane::Analysis
     ));
     window.dispatch(AnalysisCommand::Select(map + 1));

@@ -7,10 +7,10 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 use crate::tools::experiment::guide::{HALF_MM, RADIUS_MM};
 use crate::tools::experiment::view::Ground;
-use crate::tools::workspace::transform::ViewTransform;
-use crate::tools::workspace::{Shown, paint_plain_cloth};
+use crate::tools::workspace::paint_plain_cloth;
 use selvedge_experiment::layout::Place;
 use selvedge_foundation::geometry::Point;
 
@@ -18,7 +18,7 @@ use selvedge_foundation::geometry::Point;
 const TAG: f32 = 44.0;
 
 /// Shows the ground in `rect`, and where the finger is.
-pub(crate) fn show(ui: &Ui, rect: Rect, ground: &Ground) -> Shown {
+pub(crate) fn show(ui: &Ui, rect: Rect, ground: &Ground) -> PointerGround {
     let n = ground.slots.iter().filter(|slot| !slot.is_target).count();
     let shown = show_unseen(ui, rect, (ground, &format!("Ground with {n} fabrics")));
     let view = shown.view;
@@ -39,15 +39,18 @@ pub(crate) fn show(ui: &Ui, rect: Rect, ground: &Ground) -> Shown {
 }
 
 /// The same with nothing to be seen: what lies there is felt all the same.
-pub(crate) fn show_unseen(ui: &Ui, rect: Rect, (ground, name): (&Ground, &str)) -> Shown {
+pub(crate) fn show_unseen(ui: &Ui, rect: Rect, (ground, name): (&Ground, &str)) -> PointerGround {
     let response = ui.interact(rect, ui.scope_id().with("ground"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
     if ground.feels && response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::None);
     }
-    Shown {
+    PointerGround {
+        window: Pointed::Workbench,
         view: ViewTransform::fitted(rect, ground.size_mm),
-        ground: rect,
+        rect,
+        size_mm: ground.size_mm,
+        pixels_per_point: ui.pixels_per_point(),
         feels: ground.feels,
     }
 }

@@ -17,10 +17,10 @@ use eframe::egui::{
 use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::view_transform::PointerGround;
 use crate::kit::widgets::text::button;
 use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
 use crate::tools::experiment::view::{ParticipantView, TrialView};
-use crate::tools::workspace::Shown;
 
 /// Height of the line that says what is asked, points.
 const QUESTION: f32 = 56.0;
@@ -38,7 +38,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     view: &ParticipantView<'_>,
     commands: &mut Commands,
-) -> Option<Shown> {
+) -> Option<PointerGround> {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let mut ui = ui.new_child(UiBuilder::new().max_rect(frame.shrink(4.0 * STEP)));
@@ -139,7 +139,7 @@ pub(crate) fn show_apart(ui: &mut Ui, commands: &mut Commands) {
     });
 }
 
-fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) -> Shown {
+fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) -> PointerGround {
     let [rect, foot] = split(
         ui,
         &sentence(&trial.question),

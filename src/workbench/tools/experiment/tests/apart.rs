@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bench::pane::Pane;
-use crate::shell::pointer::Pointed;
+use crate::kit::view_transform::Pointed;
 
 fn window_act(window: &mut Headless, act: WindowAct) {
     window.dispatch(ExperimentCommand::Window(act));
@@ -35,7 +35,7 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
         let to = at.center() + vec2(-90.0 + 6.0 * f32::from(n), -60.0);
         window
             .workbench
-            .bench
+            .shell
             .tap
             .lock()
             .unwrap()
@@ -78,7 +78,7 @@ fn a_session_that_begins_while_the_window_is_open_brings_no_second_view() {
 }
 
 fn arrangement_shows(window: &Headless, pane: Pane) -> bool {
-    crate::shell::arrangement::is_shown(&window.workbench.bench.tree, pane)
+    crate::shell::arrangement::is_shown(&window.workbench.shell.tree, pane)
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn a_movement_over_the_other_window_is_not_felt() {
     explore(&mut window, 4);
     let mut moved_to = |over, pixel| {
         let stamp = window.workbench.bench.stamp();
-        let mut tap = window.workbench.bench.tap.lock().unwrap();
+        let mut tap = window.workbench.shell.tap.lock().unwrap();
         tap.moved_to_pixel(stamp, over, pixel);
         drop(tap);
         window.pass(2);

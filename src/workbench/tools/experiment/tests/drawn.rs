@@ -5,7 +5,7 @@ use std::path::Path;
 use eframe::egui::{Color32, Theme};
 
 use super::*;
-use crate::tools::workspace::transform::ViewTransform;
+use crate::kit::view_transform::ViewTransform;
 
 /// A window whose frames are drawn, and what they are drawn with.
 struct Drawn {

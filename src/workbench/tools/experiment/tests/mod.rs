@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use eframe::egui::{Pos2, vec2};
 
 use super::*;
+use crate::bench::command::Command;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::edit::Edit;
 use crate::bench::view::Live;
@@ -82,7 +83,7 @@ fn explore(window: &mut Headless, n_ticks: u16) {
         let stamp = window.workbench.bench.stamp();
         window
             .workbench
-            .bench
+            .shell
             .tap
             .lock()
             .unwrap()
@@ -283,11 +284,11 @@ fn nothing_that_tells_what_is_felt_is_drawn_while_a_session_is_held() {
     let mut window = begun(&folder, "odd-one-out", "p01");
     to_trial(&mut window);
     let columns = window.workbench.columns_computed();
-    let trail = window.workbench.bench.transient.n_drawn;
+    let trail = window.workbench.shell.n_drawn;
     explore(&mut window, 20);
     assert_eq!(window.workbench.columns_computed(), columns);
     let participant = crate::bench::pane::Pane::Participant.index();
-    assert!(window.workbench.bench.transient.n_drawn[participant] > trail[participant]);
+    assert!(window.workbench.shell.n_drawn[participant] > trail[participant]);
 }
 
 #[test]

@@ -8,10 +8,10 @@ use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, toggle};
+use crate::tools::import::Import;
 use crate::tools::import::draft::DraftFile;
 use crate::tools::import::view::fields::{LINE, Need, choose, step_title};
 use crate::tools::import::work::Found;
-use crate::tools::import::{ImportCommand, Importing};
 use selvedge_textile::{KesPlace, Measurement, StrokeSide, TextileAxis};
 
 /// What is said before anything was chosen.
@@ -41,14 +41,6 @@ const HOLDS: [(Option<KesPlace>, &str); 7] = {
         (Some(place(Weft, Some(Return))), "weft return"),
     ]
 };
-
-/// Takes files that are dropped on the window while the pane is in sight.
-pub(crate) fn take_dropped(ui: &Ui, commands: &mut Commands) {
-    let dropped = dropped(ui);
-    if !dropped.is_empty() {
-        commands.push(ImportCommand::Add(dropped).into());
-    }
-}
 
 /// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
 pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
@@ -98,7 +90,7 @@ pub(crate) fn show_empty(ui: &mut Ui, commands: &mut Commands) {
 /// Shows the step.
 pub(crate) fn show(
     ui: &mut Ui,
-    importing: &mut Importing,
+    importing: &mut Import,
     found: Option<&Found>,
     commands: &mut Commands,
 ) {
@@ -126,7 +118,7 @@ pub(crate) fn show(
             commands.push(FileCommand::Ask(Purpose::ImportFiles).into());
         }
         if button(ui, "Read again", "Read the files anew from the disk", None) {
-            commands.push(ImportCommand::ReadAgain.into());
+            importing.read_again();
         }
         if button(
             ui,
@@ -134,7 +126,8 @@ pub(crate) fn show(
             "Let go of all files and of what was typed",
             None,
         ) {
-            commands.push(ImportCommand::Clear.into());
+            importing.cancel();
+            *importing = Import::default();
         }
     });
 }

@@ -4,7 +4,7 @@ use eframe::egui::{Align, Layout, Ui, vec2};
 
 use crate::kit::theme::STEP;
 use crate::kit::widgets::text::toggle;
-use crate::tools::import::Importing;
+use crate::tools::import::Import;
 use crate::tools::import::draft::HeightsDraft;
 use crate::tools::import::failure::Failure;
 use crate::tools::import::view::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
@@ -27,7 +27,7 @@ const UNITS: [(LengthUnit, &str); 5] = [
 /// Shows the step.
 pub(crate) fn show(
     ui: &mut Ui,
-    importing: &mut Importing,
+    importing: &mut Import,
     found: Option<&Found>,
     failure: Option<&Failure>,
 ) {

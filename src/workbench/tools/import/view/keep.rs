@@ -2,17 +2,17 @@
 
 use eframe::egui::{Align, Layout, Response, RichText, Ui, vec2};
 
-use crate::bench::command::Commands;
+use crate::bench::Bench;
+use crate::bench::view::ShelfItem;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, toggle};
+use crate::tools::import::Import;
 use crate::tools::import::draft::WordsDraft;
-use crate::tools::import::view::ImportView;
 use crate::tools::import::view::fields::{
     LINE, Need, Tone, choose, note, row_of, step_title, text,
 };
 use crate::tools::import::work::Found;
-use crate::tools::import::{ImportCommand, Importing};
 use selvedge_textile::{Construction, Measurement, known_figures, nth_id};
 
 /// Width that a column of fields needs, points.
@@ -30,12 +30,7 @@ const MADE: [(Construction, &str); 4] = [
 ];
 
 /// Shows the step.
-pub(crate) fn show(
-    ui: &mut Ui,
-    importing: &mut Importing,
-    view: &ImportView<'_>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, importing: &mut Import, bench: &mut Bench) {
     let found = importing.found().cloned();
     let refusal = importing.refusal();
     let line = Layout::left_to_right(Align::Center);
@@ -53,14 +48,15 @@ pub(crate) fn show(
         });
         let (save, feel) = ("Save to the library", "Save and feel");
         if button(ui, save, "Write it into the library", refusal.as_deref()) {
-            commands.push(ImportCommand::Keep { is_felt: false }.into());
+            importing.keep(bench, false);
         }
         let tip = "Write it into the library and place it under the display";
         if button(ui, feel, tip, refusal.as_deref()) {
-            commands.push(ImportCommand::Keep { is_felt: true }.into());
+            importing.keep(bench, true);
         }
     });
-    show_outcome(ui, importing, view, refusal.as_deref());
+    let items = bench.library_view.items();
+    show_outcome(ui, importing, items, refusal.as_deref());
     let suggested = found.as_deref().map(Found::own_name).unwrap_or_default();
     let usual = match found.as_deref().map(|found| found.kind) {
         Some(Measurement::Strokes) => Construction::Woven,
@@ -93,7 +89,7 @@ fn columns(ui: &mut Ui, mut content: impl FnMut(&mut Ui, usize)) {
 }
 
 /// The ids that the textiles will have.
-fn ids_words(importing: &Importing, found: Option<&Found>) -> String {
+fn ids_words(importing: &Import, found: Option<&Found>) -> String {
     let Some(found) = found else {
         return String::new();
     };
@@ -111,8 +107,8 @@ fn ids_words(importing: &Importing, found: Option<&Found>) -> String {
 }
 
 /// What was kept, or why nothing can be.
-fn show_outcome(ui: &mut Ui, importing: &Importing, view: &ImportView<'_>, refusal: Option<&str>) {
-    let is_known = |id: &str| view.library_view.iter().any(|item| item.id == id);
+fn show_outcome(ui: &mut Ui, importing: &Import, items: &[ShelfItem], refusal: Option<&str>) {
+    let is_known = |id: &str| items.iter().any(|item| item.id == id);
     let taken = || importing.taken(is_known);
     match (importing.kept(), refusal) {
         (Some(Err(failure)), _) => note(ui, &failure.line, Tone::Wrong),

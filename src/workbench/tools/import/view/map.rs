@@ -11,7 +11,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
 use crate::kit::widgets::relief::{BAR_ROOM, Relief, paint_height_bar};
 use crate::kit::widgets::text::{button, toggle};
-use crate::tools::import::Importing;
+use crate::tools::import::Import;
 use crate::tools::import::draft::Looked;
 use crate::tools::import::work::Heights;
 use selvedge_foundation::quantity::{fixed, with_unit};
@@ -38,7 +38,7 @@ const NEXT: [[f64; 2]; 5] = [
 ];
 
 /// Shows the step.
-pub(crate) fn show(ui: &mut Ui, importing: &mut Importing, heights: &Heights, map: ColourMap) {
+pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: ColourMap) {
     let Some(relief) = heights.relief.as_deref() else {
         return;
     };

@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use crate::tools::import::Importing;
+use crate::tools::import::Import;
 use crate::tools::import::draft::StrokesDraft;
 use crate::tools::import::failure::Failure;
 use crate::tools::import::view::fields::{Need, Tone, choose_of, note, row, text};
@@ -19,7 +19,7 @@ const NUMBER: f32 = 84.0;
 /// Shows the step.
 pub(crate) fn show(
     ui: &mut Ui,
-    importing: &mut Importing,
+    importing: &mut Import,
     found: Option<&Found>,
     failure: Option<&Failure>,
 ) {

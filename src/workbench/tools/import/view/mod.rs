@@ -1,7 +1,7 @@
 //! Import: measurements of one's own become textiles, in four steps that are all in sight.
 //!
 //! Files and what they mean on the left; what was read, and what it is called, on the right. Draws
-//! what `importing` found; asks for everything by commands.
+//! what was found.
 
 pub(crate) mod curves;
 pub(crate) mod fields;
@@ -17,13 +17,13 @@ use eframe::egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use crate::bench::command::Commands;
 use crate::bench::follower::Standing;
-use crate::bench::view::ShelfItem;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
+use crate::tools::import::Import;
 use crate::tools::import::failure::{Failure, Step};
 use crate::tools::import::view::fields::{show_failure, step_title};
 use crate::tools::import::work::{Body, Found};
-use crate::tools::import::{ImportCommand, Importing};
 use selvedge_textile::Measurement;
 
 /// A pane this wide has room for two columns, points.
@@ -33,28 +33,18 @@ const LEFT: f32 = 316.0;
 /// Height of the last step, points.
 const KEEP: f32 = 164.0;
 
-/// What the pane is drawn from, besides the import.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ImportView<'a> {
-    /// The textiles of the library.
-    pub(crate) library_view: &'a [ShelfItem],
-    /// The colours of heights.
-    pub map: ColourMap,
-}
-
 /// Shows the pane.
-pub(crate) fn show(
-    ui: &mut Ui,
-    importing: &mut Importing,
-    view: &ImportView<'_>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
-    files::take_dropped(ui, commands);
+    let dropped = files::dropped(ui);
+    if !dropped.is_empty() {
+        importing.take_files(dropped, context.bench);
+        ui.ctx().request_repaint();
+    }
     let whole = ui.available_rect_before_wrap();
     let before = importing.draft.clone();
     if importing.draft.told.files.is_empty() {
-        files::show_empty(ui, commands);
+        files::show_empty(ui, context.commands);
         return;
     }
     if whole.width() >= WIDE {
@@ -63,33 +53,38 @@ pub(crate) fn show(
         ui.painter()
             .vline(left.right(), whole.y_range(), (1.0, hairline));
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
-            scrolled(ui, "import-left", |ui| show_left(ui, importing, commands));
+            scrolled(ui, "import-left", |ui| {
+                show_left(ui, importing, context.commands)
+            });
         });
         let right = right.with_min_x(right.left() + 12.0);
         let edge = (right.bottom() - KEEP).max(right.top() + 0.45 * right.height());
         let (look, keep) = right.split_top_bottom_at_y(edge);
-        inside(ui, look, |ui| show_look(ui, importing, view, commands));
+        inside(ui, look, |ui| {
+            show_look(ui, importing, context.bench.settings.preferences.colour_map)
+        });
         ui.painter()
             .hline(right.x_range(), edge - 4.0, (1.0, hairline));
         inside(ui, keep, |ui| {
             scrolled(ui, "import-keep", |ui| {
-                keep::show(ui, importing, view, commands);
+                keep::show(ui, importing, context.bench);
             });
         });
     } else {
         scrolled(ui, "import", |ui| {
-            show_left(ui, importing, commands);
+            show_left(ui, importing, context.commands);
             let size = vec2(ui.available_width(), 0.8 * whole.height().max(300.0));
             let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
-            inside(ui, rect, |ui| show_look(ui, importing, view, commands));
-            keep::show(ui, importing, view, commands);
+            inside(ui, rect, |ui| {
+                show_look(ui, importing, context.bench.settings.preferences.colour_map)
+            });
+            keep::show(ui, importing, context.bench);
         });
     }
     ui.advance_cursor_after_rect(whole);
-    // Panes change nothing: what was typed goes through the dispatcher like everything else.
-    let typed = std::mem::replace(&mut importing.draft, before);
-    if typed != importing.draft {
-        commands.push(ImportCommand::Draft(Box::new(typed)).into());
+    if importing.draft != before {
+        importing.forget_after(&before);
+        ui.ctx().request_repaint();
     }
 }
 
@@ -114,7 +109,7 @@ pub(crate) fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
 }
 
 /// Files, and what they mean.
-fn show_left(ui: &mut Ui, importing: &mut Importing, commands: &mut Commands) {
+fn show_left(ui: &mut Ui, importing: &mut Import, commands: &mut Commands) {
     let found = importing.found().cloned();
     let found = found.as_deref();
     let failure = failure_of(importing, found).cloned();
@@ -137,7 +132,7 @@ fn show_left(ui: &mut Ui, importing: &mut Importing, commands: &mut Commands) {
 }
 
 /// The failure of what is chosen now; what was wrong before something else was typed is past.
-fn failure_of<'a>(importing: &Importing, found: Option<&'a Found>) -> Option<&'a Failure> {
+fn failure_of<'a>(importing: &Import, found: Option<&'a Found>) -> Option<&'a Failure> {
     let is_past = importing.standing() == Standing::Empty;
     found
         .filter(|_| !is_past)
@@ -145,12 +140,7 @@ fn failure_of<'a>(importing: &Importing, found: Option<&'a Found>) -> Option<&'a
 }
 
 /// What was read, before anything is saved.
-fn show_look(
-    ui: &mut Ui,
-    importing: &mut Importing,
-    view: &ImportView<'_>,
-    commands: &mut Commands,
-) {
+fn show_look(ui: &mut Ui, importing: &mut Import, colours: ColourMap) {
     let standing = importing.standing();
     let found = importing.found().cloned();
     let state = match standing {
@@ -162,7 +152,7 @@ fn show_look(
     if matches!(standing, Standing::Working(_))
         && crate::kit::widgets::text::button(ui, "Stop reading", "", None)
     {
-        commands.push(ImportCommand::Cancel.into());
+        importing.cancel();
     }
     let Some(found) = found else {
         return;
@@ -173,7 +163,7 @@ fn show_look(
             curves::show(ui, &mut importing.draft, strokes);
         }
         Body::Heights(heights) if heights.relief.is_some() => {
-            map::show(ui, importing, heights, view.map);
+            map::show(ui, importing, heights, colours);
         }
         Body::Heights(heights) => curves::show_profile(ui, heights),
         Body::Strokes(_) | Body::Nothing => {

@@ -9,9 +9,9 @@ use eframe::egui::{
 };
 
 use crate::bench::view::Cloth;
+use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
 use crate::tools::workspace::cloth;
-use crate::tools::workspace::transform::ViewTransform;
 
 /// Points nearer to one another than this are not drawn, points of the screen.
 const LEAST_STEP: f64 = 6.0;

@@ -20,11 +20,11 @@ use crate::bench::view::Cloth;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::view_transform::ViewTransform;
 use crate::shell::menu::choice as menu_choice;
 use crate::tools::workspace::Stage;
 use crate::tools::workspace::maps::Maps;
 use crate::tools::workspace::state::WorkspaceState;
-use crate::tools::workspace::transform::ViewTransform;
 use selvedge_render::array::ContactorReading;
 use selvedge_textile::tactile::Band;
 

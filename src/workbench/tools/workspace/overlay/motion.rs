@@ -6,8 +6,8 @@
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2, vec2};
 
 use crate::kit::theme::Palette;
+use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::overlay::Overlay;
-use crate::tools::workspace::transform::ViewTransform;
 use crate::tools::workspace::{Stage, cloth};
 use selvedge_foundation::geometry::{Displacement, Rotation, Velocity};
 use selvedge_render::array::{ContactorReading, Reading};

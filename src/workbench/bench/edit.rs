@@ -5,9 +5,9 @@ use eframe::egui;
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
 use crate::bench::document::Document;
+use crate::bench::error::AppError;
 use crate::bench::preparing::Ready;
 use crate::bench::{Bench, editing, preparing};
-use crate::shell::error::AppError;
 
 use selvedge_render::scene::Scene;
 

@@ -79,6 +79,40 @@ impl ViewTransform {
     }
 }
 
+/// The window that the pointer is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Pointed {
+    /// The workbench.
+    #[default]
+    Workbench,
+    /// The participant's window.
+    Participant,
+}
+
+/// Where a pane lets the pointer feel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PointerGround {
+    /// In which window.
+    pub window: Pointed,
+    /// How mm are laid on the screen.
+    pub view: ViewTransform,
+    /// The part of the screen where the pointer feels, points.
+    pub rect: Rect,
+    /// Width and height of what lies there, mm.
+    pub size_mm: [f64; 2],
+    /// Pixels per point.
+    pub pixels_per_point: f32,
+    /// Whether the pointer feels there now: not while it arranges, pans, or handles a control.
+    pub feels: bool,
+}
+
+/// Whether a place is in the workspace or so close that the display still reaches into it.
+pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
+    let reach_mm = 20.0;
+    let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
+    within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])
+}
+
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the screen is drawn in single precision"

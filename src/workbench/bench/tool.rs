@@ -1,0 +1,119 @@
+//! What a tool is: state, work in the background and panes of its own around the bench that all
+//! tools share.
+//!
+//! ```text
+//! logic ─▶ results of work ─┐                      ┌▶ bench: document, selection, engine
+//! ui ─▶ own state ──────────┴─▶ bench.commands ─▶ shell ─▶ every tool's `command`
+//! ```
+//!
+//! A tool changes its own state where it stands. Only what can be undone, what reaches a device and
+//! what one tool wants of another is a command.
+
+use std::any::Any;
+use std::path::PathBuf;
+
+use eframe::egui::Ui;
+
+use crate::bench::Bench;
+use crate::bench::command::{Command, Commands, Purpose};
+use crate::bench::export::Exported;
+use crate::bench::pane::Pane;
+use crate::bench::settings::preferences::Preferences;
+use crate::bench::view::SceneView;
+use crate::kit::view_transform::PointerGround;
+
+/// What a tool is drawn with.
+pub(crate) struct PaneContext<'a> {
+    /// What tools share.
+    pub(crate) bench: &'a mut Bench,
+    /// The scene as every pane draws it in this frame.
+    pub(crate) scene: &'a SceneView,
+    /// What the user wants: done after the frame.
+    pub(crate) commands: &'a mut Commands,
+    /// Where the pointer feels, if a pane showed such a place.
+    pub(crate) ground: &'a mut Option<PointerGround>,
+}
+
+/// A tool of the window.
+pub(crate) trait Tool: Any {
+    /// The panes that it shows.
+    fn panes(&self) -> &'static [Pane];
+
+    /// Takes up what is kept per user. Once, before the first frame.
+    fn begin(&mut self, _bench: &mut Bench) {}
+
+    /// Takes the results of its work in the background, whether it is in sight or not. Once a
+    /// frame, before anything is drawn.
+    fn logic(&mut self, _bench: &mut Bench) {}
+
+    /// Draws one of its panes.
+    fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>);
+
+    /// Draws what stands at the right end of the row of tabs while a pane of its is in front.
+    fn corner(&mut self, _pane: Pane, _ui: &mut Ui, _context: &mut PaneContext<'_>) {}
+
+    /// Does its part of what the user wants; every tool hears every command.
+    fn command(&mut self, _command: &Command, _bench: &mut Bench) {}
+
+    /// What a pane shows now, as a table and a figure.
+    ///
+    /// # Errors
+    /// There is nothing to export, and what to do about it.
+    fn export(&mut self, _pane: Pane, _bench: &mut Bench) -> Result<Exported, &'static str> {
+        Err("This pane shows no numbers to export")
+    }
+
+    /// What an export of it is called, without an ending, where its title will not do.
+    fn export_name(&self) -> Option<String> {
+        None
+    }
+
+    /// The path that a question for one begins with.
+    fn known_path(&self, _purpose: Purpose) -> Option<PathBuf> {
+        None
+    }
+
+    /// Forgets what belonged to the scene that was left for another.
+    fn leave_scene(&mut self, _bench: &mut Bench) {}
+
+    /// Writes down what is kept per user.
+    fn keep_preferences(&self, _preferences: &mut Preferences) {}
+}
+
+/// All tools of a window.
+pub(crate) struct Tools(Vec<Box<dyn Tool>>);
+
+impl Tools {
+    /// These tools.
+    pub(crate) fn new(tools: Vec<Box<dyn Tool>>) -> Self {
+        Self(tools)
+    }
+
+    /// Every tool, in the order of the list.
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut (dyn Tool + 'static)> {
+        self.0.iter_mut().map(|tool| &mut **tool)
+    }
+
+    /// Every tool, in the order of the list.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &(dyn Tool + 'static)> {
+        self.0.iter().map(|tool| &**tool)
+    }
+
+    /// The tool that shows a pane.
+    pub(crate) fn showing(&mut self, pane: Pane) -> Option<&mut (dyn Tool + 'static)> {
+        self.iter_mut().find(|tool| tool.panes().contains(&pane))
+    }
+
+    /// The tool of this type.
+    pub(crate) fn get<T: Tool>(&self) -> Option<&T> {
+        self.iter()
+            .find_map(|tool| (tool as &dyn Any).downcast_ref())
+    }
+
+    /// The tool of this type.
+    #[cfg(test)]
+    pub(crate) fn get_mut<T: Tool>(&mut self) -> Option<&mut T> {
+        self.iter_mut()
+            .find_map(|tool| (tool as &mut dyn Any).downcast_mut())
+    }
+}

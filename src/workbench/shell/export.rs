@@ -1,0 +1,148 @@
+//! Exporting what a pane shows: asking where, writing, copying.
+
+use std::path::{Path, PathBuf};
+
+use crate::bench::command::Purpose;
+use crate::bench::export::write::{ExportError, Kind};
+use crate::bench::export::{Exportable, Exported};
+use crate::bench::job::{Job, Polled};
+use crate::shell::window::Workbench;
+
+/// What a job ends with: a table to be copied, or nothing where a file was written.
+type Outcome = Result<Option<String>, ExportError>;
+
+/// What is being exported.
+#[derive(Debug, Default)]
+pub(crate) struct Exports {
+    /// What was seen when it was asked for, while its path is.
+    pub seen: Option<(Exportable, Exported)>,
+    /// Where the last export went, and as what.
+    pub last: Option<(PathBuf, Kind)>,
+    /// Files on their way, and tables to be copied.
+    pub(crate) jobs: Vec<Job<Result<Option<String>, ExportError>>>,
+}
+
+impl Workbench {
+    /// What a pane shows now.
+    ///
+    /// # Errors
+    /// There is nothing, and what to do about it.
+    pub(crate) fn exported(&mut self, what: Exportable) -> Result<Exported, &'static str> {
+        let Exportable::Pane(pane) = what else {
+            return self.bench.exported(what);
+        };
+        match self.tools.showing(pane) {
+            Some(tool) => tool.export(pane, &mut self.bench),
+            None => self.bench.exported(what),
+        }
+    }
+
+    /// Keeps what is seen and asks where it goes; says what to do when there is nothing.
+    pub(crate) fn ask_export(&mut self, what: Exportable) {
+        match self.exported(what) {
+            Ok(exported) => {
+                self.shell.exports.seen = Some((what, exported));
+                let purpose = Purpose::Export(what);
+                let known = self.export_path(what);
+                self.shell
+                    .dialogs
+                    .ask(purpose, Some(&known), &self.bench.ctx);
+            }
+            Err(words) => self.bench.transient.notices.give(words),
+        }
+    }
+
+    /// Where an export is expected to go: as the last one did, else beside the scene.
+    pub(crate) fn export_path(&self, what: Exportable) -> PathBuf {
+        let last = self.shell.exports.last.clone();
+        let beside = || {
+            let scene = self.bench.document.path().and_then(|path| path.parent());
+            (
+                scene.map(Path::to_owned).unwrap_or_default(),
+                Kind::default(),
+            )
+        };
+        let (folder, kind) = last.unwrap_or_else(beside);
+        let figure = self.bench.transient.analysing.figure();
+        match figure.filter(|_| what == Exportable::Analysed) {
+            Some((section, drawn)) => {
+                let ending = kind.ending();
+                folder.join(format!("{}-{}.{ending}", section.key, drawn.key))
+            }
+            None => folder.join(what.file_name(kind)),
+        }
+    }
+
+    /// Writes what was seen when it was asked for.
+    pub(crate) fn export_to(&mut self, what: Exportable, path: PathBuf) {
+        let kind = match Kind::of(&path) {
+            Ok(kind) => kind,
+            // The field stays, so that the name can be mended.
+            Err(error) => return self.bench.transient.notices.give(error.to_string()),
+        };
+        self.shell.ask = None;
+        let Some(exported) = self.take_seen(what) else {
+            return;
+        };
+        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        self.shell.exports.last = Some((folder, kind));
+        self.begin_export(move || exported.write(&path).map(|()| None));
+    }
+
+    /// Copies a table as text.
+    pub(crate) fn copy_table(&mut self, what: Exportable) {
+        match self.exported(what) {
+            Ok(exported) => self.begin_export(move || exported.to_csv().map(Some)),
+            Err(words) => self.bench.transient.notices.give(words),
+        }
+    }
+
+    /// What was kept of this when it was asked for; else what is seen now.
+    fn take_seen(&mut self, what: Exportable) -> Option<Exported> {
+        match self.shell.exports.seen.take() {
+            Some((seen, exported)) if seen == what => Some(exported),
+            _ => match self.exported(what) {
+                Ok(exported) => Some(exported),
+                Err(words) => {
+                    self.bench.transient.notices.give(words);
+                    None
+                }
+            },
+        }
+    }
+
+    fn begin_export(&mut self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        if self.bench.is_stepped {
+            return self.take_exported(work());
+        }
+        match Job::start("selvedge-export", &self.bench.ctx, work) {
+            Ok(job) => self.shell.exports.jobs.push(job),
+            Err(error) => {
+                let words = format!("Nothing was exported: {error}; try again");
+                self.bench.transient.notices.give(words);
+            }
+        }
+    }
+
+    /// Takes the news of exports that have ended. To be called every frame.
+    pub(crate) fn poll_exports(&mut self) {
+        for job in std::mem::take(&mut self.shell.exports.jobs) {
+            match job.poll() {
+                Polled::Working => self.shell.exports.jobs.push(job),
+                Polled::Done(outcome) => self.take_exported(outcome),
+                Polled::BrokeOff => {
+                    let words = "Nothing was exported: the work broke off; try again";
+                    self.bench.transient.notices.give(words);
+                }
+            }
+        }
+    }
+
+    fn take_exported(&mut self, outcome: Outcome) {
+        match outcome {
+            Ok(Some(table)) => self.bench.ctx.copy_text(table),
+            Ok(None) => {}
+            Err(error) => self.bench.transient.notices.give(error.to_string()),
+        }
+    }
+}
