@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
 
 use super::{FileError, line_at};
 
@@ -23,6 +24,41 @@ pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, 
         };
         FileError::content(path, line, what, mend)
     })
+}
+
+/// Reads what is understood of a TOML text whose keys all have defaults: a key that is unknown is
+/// passed over, a value (or an entry of a table) that is not understood is left out. Says also the
+/// first line of one.
+///
+/// # Errors
+/// This is not TOML at all.
+pub fn known_keys_from_str<T: DeserializeOwned>(
+    text: &str,
+    path: &Path,
+) -> Result<(T, Option<usize>), FileError> {
+    let is_known = |key: &str, value: Value| {
+        let alone = Table::from_iter([(key.to_owned(), value)]);
+        T::deserialize(alone).is_ok()
+    };
+    let mut keys: Table = keys_from_str(text, path)?;
+    let mut odd = Vec::new();
+    keys.retain(|key, value| {
+        if is_known(key, value.clone()) {
+            return true;
+        }
+        odd.push(line_of_key(text, "", 0, key));
+        let Value::Table(entries) = value else {
+            return false;
+        };
+        entries.retain(|name, entry| {
+            let alone = Table::from_iter([(name.to_owned(), entry.clone())]);
+            is_known(key, Value::Table(alone))
+        });
+        true
+    });
+    let known = T::deserialize(keys);
+    let known = known.map_err(|error| FileError::content(path, 1, error.to_string(), "mend it"))?;
+    Ok((known, odd.into_iter().min()))
 }
 
 /// The line, from 1, where a text states `key` in its `nth` (from 0) table called `table`.
@@ -73,10 +109,10 @@ pub fn keys_to_string<T: Serialize>(value: &T, path: &Path) -> Result<String, Fi
 }
 
 /// Keys and values as a file states them, of whatever kind.
-pub type Keys = toml::Table;
+pub type Keys = Table;
 
 /// What a key states.
-pub type KeyValue = toml::Value;
+pub type KeyValue = Value;
 
 /// The value of a key in a table; `""` is the file itself, `outer.inner` a table within a table.
 /// `None` if it is not stated.
@@ -109,7 +145,7 @@ pub fn set_value(keys: &mut Keys, table: &str, key: &str, value: Option<KeyValue
 /// The text under `key`, taken out; `None` if it is not there or no text.
 pub fn take_text(keys: &mut Keys, key: &str) -> Option<String> {
     match keys.remove(key)? {
-        toml::Value::String(text) => Some(text),
+        Value::String(text) => Some(text),
         other => {
             keys.insert(key.to_owned(), other);
             None
@@ -122,7 +158,7 @@ pub fn take_text(keys: &mut Keys, key: &str) -> Option<String> {
 pub fn lay_over(under: &mut Keys, over: Keys) {
     for (key, value) in over {
         match (under.get_mut(&key), value) {
-            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
+            (Some(Value::Table(below)), Value::Table(above)) => lay_over(below, above),
             (_, value) => {
                 under.insert(key, value);
             }

@@ -43,8 +43,8 @@ pub use inflate::{deflate, inflate};
 pub use journal::{Journal, Reopened};
 pub use json::{from_json_str, to_json_string};
 pub use keys::{
-    KeyValue, Keys, keys_from_str, keys_to_string, lay_over, line_of_key, set_value, take_text,
-    value_at,
+    KeyValue, Keys, keys_from_str, keys_to_string, known_keys_from_str, lay_over, line_of_key,
+    set_value, take_text, value_at,
 };
 pub use matrix::NamedMatrix;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};

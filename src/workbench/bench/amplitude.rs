@@ -4,6 +4,8 @@
 //! means the same everywhere at once. It may be held, or follow the largest amplitude in steps
 //! of 1, 2, 5.
 
+use serde::{Deserialize, Serialize};
+
 use crate::kit::widgets::axis::round_step;
 
 /// From the largest to the smallest amplitude on the scale.
@@ -16,7 +18,8 @@ const LEAST_TOP_UM: f64 = 0.05;
 const MOST_TOP_UM: f64 = 5e6;
 
 /// The scale of amplitudes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "AmplitudeKeys", into = "AmplitudeKeys")]
 pub(crate) struct AmplitudeScale {
     /// Its upper end, µm.
     most_um: f64,
@@ -31,6 +34,36 @@ impl Default for AmplitudeScale {
             most_um: FULL_SCALE_UM,
             is_locked: true,
         }
+    }
+}
+
+/// The same as a file states it.
+#[derive(Serialize, Deserialize)]
+#[serde(default)]
+struct AmplitudeKeys {
+    amplitude_top_um: f64,
+    amplitude_locked: bool,
+}
+
+impl Default for AmplitudeKeys {
+    fn default() -> Self {
+        AmplitudeScale::default().into()
+    }
+}
+
+impl From<AmplitudeScale> for AmplitudeKeys {
+    fn from(scale: AmplitudeScale) -> Self {
+        Self {
+            amplitude_top_um: scale.most_um,
+            amplitude_locked: scale.is_locked,
+        }
+    }
+}
+
+impl From<AmplitudeKeys> for AmplitudeScale {
+    fn from(keys: AmplitudeKeys) -> Self {
+        let scale = Self::default().locked_at(keys.amplitude_top_um);
+        scale.with_lock(keys.amplitude_locked)
     }
 }
 

@@ -1,7 +1,10 @@
 //! Perspectives: what the window is arranged for.
 
+use serde::{Deserialize, Serialize};
+
 /// What the window is arranged for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum Perspective {
     /// To feel a scene.
     #[default]
@@ -37,15 +40,6 @@ impl Perspective {
             Self::Explore => "Feel a scene",
             Self::Cloth => "Make cloth: the library and the textile lab",
             Self::Experiment => "Run an experiment with a participant",
-        }
-    }
-
-    /// The word that files use.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Explore => "explore",
-            Self::Cloth => "cloth",
-            Self::Experiment => "experiment",
         }
     }
 }

@@ -1,17 +1,22 @@
 //! How scenes are rendered: a method, and the error that `auto` and `table` may make. Kept per
 //! user; no part of a scene.
 
+use serde::{Deserialize, Serialize};
+
 use selvedge_render::array::{Accuracy, Method};
 
 /// The largest budget that can be chosen, dB.
 pub(crate) const MOST_BUDGET_DB: f64 = 1.0;
 
 /// How scenes are rendered.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Rendering {
     /// The method; `auto` chooses by bounds known before the first tick.
+    #[serde(rename = "rendering_method")]
     pub method: Method,
     /// The level error that `auto` and `table` may make, dB; 0 is exact.
+    #[serde(rename = "error_budget_db")]
     pub budget_db: f64,
 }
 

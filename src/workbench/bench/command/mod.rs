@@ -351,9 +351,11 @@ pub(crate) enum Look {
 
 /// How a contactor's two amplitudes are drawn as a dot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum DotStyle {
     /// A40 is its size, A320 its glow.
     #[default]
+    #[serde(rename = "size and glow")]
     SizeAndGlow,
     /// Both by size: A40 the disc, A320 a ring around it.
     Size,

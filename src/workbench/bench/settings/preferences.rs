@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::ThemePreference;
+use serde::{Deserialize, Serialize};
 
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::DotStyle;
@@ -24,47 +25,68 @@ const WIDTH: [f32; 2] = [960.0, 16_384.0];
 /// Smallest and largest height of the window, points.
 const HEIGHT: [f32; 2] = [600.0, 16_384.0];
 
-/// What is kept between two runs.
-#[derive(Debug, Clone, PartialEq)]
+/// What is kept between two runs. A key that a file does not state is as at first.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Preferences {
     /// Dark, light, or as the system.
+    #[serde(with = "ThemeWord")]
     pub theme: ThemePreference,
     /// The colours that stand for numbers.
     pub(crate) colour_map: ColourMap,
     /// Size of everything: 1 is 100 %.
+    #[serde(rename = "zoom_percent", with = "percent")]
     pub(crate) zoom: f32,
     /// How contactors are drawn.
     pub(crate) dots: DotStyle,
     /// What is drawn over the cloth.
+    #[serde(with = "overlay_words")]
     pub(crate) overlays: Overlays,
     /// Whether heatmaps show numbers.
+    #[serde(rename = "numbers")]
     pub(crate) has_numbers: bool,
     /// Whether what is below the threshold of detection is greyed.
+    #[serde(rename = "grey_below_threshold")]
     pub(crate) greys_below: bool,
     /// Whether an armed device stops when the window loses the keyboard.
+    #[serde(rename = "all_off_on_focus_loss")]
     pub(crate) stops_on_focus_loss: bool,
     /// The scale of amplitudes.
+    #[serde(flatten)]
     pub(crate) amplitude: AmplitudeScale,
     /// Pixels per millimetre of the screen, once it was calibrated.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) pixels_per_mm: Option<f64>,
     /// How scenes are rendered.
+    #[serde(flatten)]
     pub rendering: Rendering,
     /// What the window is arranged for.
     pub(crate) perspective: Perspective,
     /// Where each pane stands in each perspective, as text that whoever arranges them understands.
+    #[serde(flatten, with = "arrangement_keys")]
     pub(crate) arrangements: [Option<String>; Perspective::ALL.len()],
     /// The array profile that was chosen; `None`: the one of the scene's display.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub array: Option<String>,
-    /// Where the surfaces of tablets of these names lie in the workspace.
-    pub(crate) tablet_areas: BTreeMap<String, Area>,
     /// Size of the window, points.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) window_size: Option<[f32; 2]>,
     /// The folder in which sessions of experiments lie, as it was typed.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sessions_folder: Option<String>,
     /// The design that was chosen last: the name of one of the program, or the path of a file.
+    #[serde(rename = "experiment_design", skip_serializing_if = "Option::is_none")]
     pub design: Option<String>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
+    #[serde(with = "scene_paths")]
     pub(crate) recent_scenes: Vec<PathBuf>,
+    /// Where the surfaces of tablets of these names lie in the workspace.
+    #[serde(
+        rename = "tablet_areas_mm",
+        with = "areas",
+        skip_serializing_if = "BTreeMap::is_empty"
+    )]
+    pub(crate) tablet_areas: BTreeMap<String, Area>,
 }
 
 impl Default for Preferences {
@@ -122,15 +144,132 @@ impl Preferences {
         self.recent_scenes.insert(0, path);
         self.recent_scenes.truncate(MAX_RECENT);
     }
+}
 
-    /// Remembers scenes from newest to oldest; relative paths mean nothing in another run.
-    pub(crate) fn with_recent_scenes(mut self, newest_first: Vec<PathBuf>) -> Self {
-        for path in newest_first.into_iter().rev() {
-            if path.is_absolute() {
-                self.remember_scene(&path);
-            }
+/// What a file calls a theme.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "ThemePreference", rename_all = "lowercase")]
+enum ThemeWord {
+    System,
+    Dark,
+    Light,
+}
+
+/// A share as a whole number of hundredths.
+mod percent {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(share: &f32, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_f32((share * 100.0).round())
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+        Ok(f32::deserialize(from)? / 100.0)
+    }
+}
+
+/// Overlays by their names.
+mod overlay_words {
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize as _, Serializer};
+
+    use super::Overlays;
+
+    pub(super) fn serialize<S: Serializer>(overlays: &Overlays, to: S) -> Result<S::Ok, S::Error> {
+        overlays.words().serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Overlays, D::Error> {
+        let words = Vec::<String>::deserialize(from)?;
+        Overlays::from_words(&words).ok_or_else(|| D::Error::custom("no overlay"))
+    }
+}
+
+/// The arrangement of every perspective has a key of its own.
+mod arrangement_keys {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Keys {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        arrangement: Option<String>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        arrangement_cloth: Option<String>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        arrangement_experiment: Option<String>,
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        of: &[Option<String>; 3],
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        let [arrangement, arrangement_cloth, arrangement_experiment] = of.clone();
+        let keys = Keys {
+            arrangement,
+            arrangement_cloth,
+            arrangement_experiment,
+        };
+        keys.serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<[Option<String>; 3], D::Error> {
+        let keys = Keys::deserialize(from)?;
+        Ok([
+            keys.arrangement,
+            keys.arrangement_cloth,
+            keys.arrangement_experiment,
+        ])
+    }
+}
+
+/// Scenes from newest to oldest; paths that are no text, or relative, mean nothing in another run.
+mod scene_paths {
+    use std::path::PathBuf;
+
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use super::Preferences;
+
+    pub(super) fn serialize<S: Serializer>(paths: &[PathBuf], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(paths.iter().filter_map(|path| path.to_str()))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<PathBuf>, D::Error> {
+        let paths = Vec::<PathBuf>::deserialize(from)?;
+        let mut known = Preferences::default();
+        for path in paths.iter().rev().filter(|path| path.is_absolute()) {
+            known.remember_scene(path);
         }
-        self
+        Ok(known.recent_scenes)
+    }
+}
+
+/// Areas by the names of their tablets, as left, bottom, width and height.
+mod areas {
+    use std::collections::BTreeMap;
+
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use super::Area;
+
+    pub(super) fn serialize<S: Serializer>(
+        areas: &BTreeMap<String, Area>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_map(areas.iter().map(|(name, area)| (name, area.numbers())))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<BTreeMap<String, Area>, D::Error> {
+        let areas = BTreeMap::<String, [f64; 4]>::deserialize(from)?;
+        let area = |(name, numbers)| Ok((name, Area::of(numbers).map_err(D::Error::custom)?));
+        areas.into_iter().map(area).collect()
     }
 }
 

@@ -5,9 +5,11 @@
 //! van der Walt 2015 (viridis); Nuñez, Anderton and Renslow 2018 (cividis, for any colour vision).
 
 use eframe::egui::Color32;
+use serde::{Deserialize, Serialize};
 
 /// Which colours stand for numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum ColourMap {
     /// Purple, green, yellow.
     #[default]
