@@ -128,7 +128,10 @@ impl Bench {
         self.commands.push(command);
         while !self.commands.is_empty() {
             match self.commands.remove(0) {
-                Command::Show(command) => self.dispatch_show(&command),
+                Command::Show(command) => {
+                    self.dispatch_show(&command);
+                    self.tell_gains();
+                }
                 command => self.act(command),
             }
         }
