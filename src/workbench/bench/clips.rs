@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::bench::Bench;
-use crate::bench::task::{Task, taken};
+use crate::bench::background::{Task, finished};
 use selvedge_engine::{ClipKind, ClipWriter, Written, write_clip};
 use selvedge_render::{RenderScene, Replay};
 
@@ -101,7 +101,7 @@ impl Bench {
             clip.and_then(|clip| write_clip(clip, &what, &exploration, progress))
                 .map_err(|error| error.to_string())
         };
-        let task = Task::start(("selvedge-clip", &self.ctx), self.is_stepped, work);
+        let task = self.executor.start("selvedge-clip", work);
         self.transient.clips.task = Some(task);
     }
 
@@ -114,7 +114,9 @@ impl Bench {
 
     /// Takes the news of a file. To be called every frame.
     pub(crate) fn poll_clips(&mut self) {
-        let Some((outcome, was_stopped)) = taken(&mut self.transient.clips.task) else {
+        let task = &mut self.transient.clips.task;
+        let was_stopped = task.as_ref().is_some_and(Task::is_stopped);
+        let Some(outcome) = finished(task) else {
             return;
         };
         match outcome {

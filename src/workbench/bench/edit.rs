@@ -1,18 +1,15 @@
 //! Edits: the document changes at once, the engine follows with what it needs.
 
-use eframe::egui;
-
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
 use crate::bench::document::Document;
-use crate::bench::error::AppError;
 use crate::bench::preparing::Ready;
 use crate::bench::{Bench, editing, preparing};
 
 use selvedge_render::scene::Scene;
 
 impl Bench {
-    pub(crate) fn edit(&mut self, ctx: &egui::Context, edit: &Edit) {
+    pub(crate) fn edit(&mut self, edit: &Edit) {
         let before = self.document.scene().clone();
         if let Err(error) = self.document.edit(edit, self.transient.moment) {
             self.transient.notices.give(error.to_string());
@@ -23,21 +20,17 @@ impl Bench {
             let n_cloths = self.document.scene().textiles.len();
             self.workspace.cloth = n_cloths.checked_sub(1);
         }
-        self.follow(ctx, &before);
+        self.follow(&before);
     }
 
-    pub(crate) fn step_history(
-        &mut self,
-        ctx: &egui::Context,
-        step: fn(&mut Document) -> Option<&'static str>,
-    ) {
+    pub(crate) fn step_history(&mut self, step: fn(&mut Document) -> Option<&'static str>) {
         let before = self.document.scene().clone();
         step(&mut self.document);
-        self.follow(ctx, &before);
+        self.follow(&before);
     }
 
     /// Lets everything follow that depends on the document, which was `before`.
-    fn follow(&mut self, ctx: &egui::Context, before: &Scene) {
+    fn follow(&mut self, before: &Scene) {
         let after = self.document.scene().clone();
         self.transient.mute_solo.follow(before, &after);
         let selected = self.workspace.cloth;
@@ -47,48 +40,49 @@ impl Bench {
             moved.or_else(|| (is_new && index + 1 == after.textiles.len()).then_some(index))
         });
         if preparing::differs(self.loaded.scene(), &after) || self.preparing.is_busy() {
-            self.prepare(ctx, &after);
+            self.prepare(&after);
         } else {
             self.tell_gains();
         }
     }
 
-    fn prepare(&mut self, ctx: &egui::Context, scene: &Scene) {
+    fn prepare(&mut self, scene: &Scene) {
         let scene = self.felt_now(scene).in_scene(scene);
         let what = (scene, self.settings.preferences.rendering);
-        let asked = self.preparing.ask(&self.loaded, what, ctx, self.is_stepped);
-        if let Some(outcome) = asked {
-            self.take_prepared(ctx, outcome);
+        let asked = self.preparing.ask(&self.loaded, what, &self.executor);
+        match asked {
+            Some(outcome) => self.take_prepared(outcome),
+            None => self.poll_prepared(),
         }
     }
 
     /// Lets the document's scene be felt again after something else was.
-    pub(crate) fn feel_document(&mut self, ctx: &egui::Context) {
+    pub(crate) fn feel_document(&mut self) {
         let scene = self.document.scene().clone();
-        self.prepare(ctx, &scene);
+        self.prepare(&scene);
     }
 
     /// Lets the engine render as the user chose, if it does not yet.
-    pub(crate) fn render_as_chosen(&mut self, ctx: &egui::Context) {
+    pub(crate) fn render_as_chosen(&mut self) {
         if self.rendering != self.settings.preferences.rendering || self.preparing.is_busy() {
             let scene = self.document.scene().clone();
-            self.prepare(ctx, &scene);
+            self.prepare(&scene);
         }
     }
 
     /// Takes what a thread prepared, if it is done.
-    pub(crate) fn poll_prepared(&mut self, ctx: &egui::Context) {
+    pub(crate) fn poll_prepared(&mut self) {
         let Some((outcome, next)) = self.preparing.poll() else {
             return;
         };
-        self.take_prepared(ctx, outcome);
+        self.take_prepared(outcome);
         if next.is_some() {
             let scene = self.document.scene().clone();
-            self.prepare(ctx, &scene);
+            self.prepare(&scene);
         }
     }
 
-    fn take_prepared(&mut self, ctx: &egui::Context, outcome: Result<Ready, AppError>) {
+    fn take_prepared(&mut self, outcome: Result<Ready, String>) {
         match outcome {
             Ok(mut ready) => {
                 // The library may have changed meanwhile.
@@ -102,22 +96,22 @@ impl Bench {
                 // Gains may have moved on while a thread was at work.
                 self.tell_gains();
             }
-            Err(error) => {
+            Err(line) => {
                 // The last good scene stays, in the engine and in the document.
-                self.transient.notices.give(error.to_string());
+                self.transient.notices.give(line);
                 let before = self.document.scene().clone();
                 let tried =
                     std::mem::replace(&mut self.settings.preferences.rendering, self.rendering);
                 if tried != self.rendering {
                     // It was not the scene: what is left of the edit is tried as before.
                     if preparing::differs(self.loaded.scene(), &before) {
-                        self.prepare(ctx, &before);
+                        self.prepare(&before);
                     }
                     return;
                 }
                 self.document.take_back();
                 if preparing::differs(&before, self.document.scene()) {
-                    self.follow(ctx, &before);
+                    self.follow(&before);
                 }
             }
         }

@@ -4,54 +4,38 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::bench::Bench;
-use crate::bench::error::AppError;
-use crate::bench::job::{Job, Polled};
-use crate::bench::opening::{Opened, Opening, Origin, open};
+use crate::bench::background::finished;
+use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::recording::Take;
-use selvedge_render::scene::{ExplorationPath, SceneError};
+use selvedge_render::scene::ExplorationPath;
 
 impl Bench {
     /// Takes scenes and recordings that other threads bring.
     pub(crate) fn take_files(&mut self) {
-        if let Some(outcome) = self.transient.opening.as_ref().and_then(Opening::poll) {
-            self.transient.opening = None;
+        if let Some(outcome) = finished(&mut self.transient.opening) {
             self.take_opened(outcome);
         }
-        match self.transient.reading.as_ref().map(Job::poll) {
-            Some(Polled::Done(outcome)) => {
-                self.transient.reading = None;
-                self.take_take(outcome);
-            }
-            Some(Polled::BrokeOff) => self.transient.reading = None,
-            Some(Polled::Working) | None => {}
+        if let Some(outcome) = finished(&mut self.transient.reading) {
+            self.take_take(outcome);
         }
-        match self.transient.saving.as_ref().map(Job::poll) {
-            Some(Polled::Done(outcome)) => {
-                self.transient.saving = None;
-                self.take_saved(outcome);
-            }
-            Some(Polled::BrokeOff) => self.transient.saving = None,
-            Some(Polled::Working) | None => {}
+        if let Some(outcome) = finished(&mut self.transient.saving) {
+            self.take_saved(outcome);
         }
     }
 
     /// Opens another scene.
     pub(crate) fn open(&mut self, origin: Origin) {
-        if self.is_stepped {
-            let outcome = open(origin, self.settings.preferences.rendering).map(Box::new);
-            return self.take_opened(outcome);
-        }
-        match Opening::start(origin, self.settings.preferences.rendering, &self.ctx) {
-            Ok(opening) => self.transient.opening = Some(opening),
-            Err(error) => {
-                let words = format!("The scene was not opened: {error}; try again");
-                self.transient.notices.give(words);
-            }
-        }
+        let rendering = self.settings.preferences.rendering;
+        let task = self.executor.start("selvedge-open", move |_| {
+            let opened = open(origin, rendering).map(Box::new);
+            opened.map_err(|error| error.to_string())
+        });
+        self.transient.opening = Some(task);
+        self.take_files();
     }
 
     /// Takes a scene that was opened; when it was not, says why and keeps the last one.
-    pub(crate) fn take_opened(&mut self, outcome: Result<Box<Opened>, AppError>) {
+    pub(crate) fn take_opened(&mut self, outcome: Result<Box<Opened>, String>) {
         match outcome {
             Ok(opened) => {
                 if let Some(path) = &opened.path {
@@ -59,36 +43,29 @@ impl Bench {
                 }
                 self.show_scene(*opened);
             }
-            Err(error) => self.transient.notices.give(error.to_string()),
+            Err(line) => self.transient.notices.give(line),
         }
     }
 
     /// Opens a recorded exploration.
     pub(crate) fn open_recording(&mut self, path: PathBuf) {
-        let read = move || {
+        let task = self.executor.start("selvedge-recording", move |_| {
             let found = ExplorationPath::read(&path);
-            found.map(|found| Take::from_path(path, found))
-        };
-        if self.is_stepped {
-            return self.take_take(read());
-        }
-        match Job::start("selvedge-recording", &self.ctx, read) {
-            Ok(job) => self.transient.reading = Some(job),
-            Err(error) => {
-                let words = format!("The recording was not opened: {error}; try again");
-                self.transient.notices.give(words);
-            }
-        }
+            let take = found.map(|found| Take::from_path(path, found));
+            take.map_err(|error| error.to_string())
+        });
+        self.transient.reading = Some(task);
+        self.take_files();
     }
 
     /// Takes an exploration that was read: it is replayed next.
-    pub(crate) fn take_take(&mut self, outcome: Result<Take, SceneError>) {
+    pub(crate) fn take_take(&mut self, outcome: Result<Take, String>) {
         match outcome {
             Ok(take) => {
                 self.take = Some(take);
                 self.replay();
             }
-            Err(error) => self.transient.notices.give(error.to_string()),
+            Err(line) => self.transient.notices.give(line),
         }
     }
 
@@ -98,24 +75,17 @@ impl Bench {
             let words = "There is no recording to save; record one first";
             return self.transient.notices.give(words);
         };
-        let write = move || match take.path().write(&path) {
-            Ok(()) => Ok(take.saved_as(path)),
-            Err(error) => Err(error),
-        };
-        if self.is_stepped {
-            return self.take_saved(write());
-        }
-        match Job::start("selvedge-save", &self.ctx, write) {
-            Ok(job) => self.transient.saving = Some(job),
-            Err(error) => {
-                let words = format!("The recording was not saved: {error}; try again");
-                self.transient.notices.give(words);
-            }
-        }
+        let task = self.executor.start("selvedge-save", move |_| {
+            let written = take.path().write(&path);
+            let saved = written.map(|()| take.saved_as(path));
+            saved.map_err(|error| error.to_string())
+        });
+        self.transient.saving = Some(task);
+        self.take_files();
     }
 
     /// Takes the news that a recording was saved.
-    pub(crate) fn take_saved(&mut self, outcome: Result<Take, SceneError>) {
+    pub(crate) fn take_saved(&mut self, outcome: Result<Take, String>) {
         match outcome {
             Ok(saved) => {
                 // Another exploration may have been recorded meanwhile.
@@ -124,7 +94,7 @@ impl Bench {
                     self.take = Some(saved);
                 }
             }
-            Err(error) => self.transient.notices.give(error.to_string()),
+            Err(line) => self.transient.notices.give(line),
         }
     }
 

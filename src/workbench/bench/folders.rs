@@ -4,9 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use eframe::egui;
-
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::{Executor, Task, finished};
 
 /// The program that shows a folder on this system.
 const OPENER: &str = if cfg!(target_os = "macos") {
@@ -20,30 +18,24 @@ const OPENER: &str = if cfg!(target_os = "macos") {
 /// The last folder that was asked for.
 #[derive(Debug, Default)]
 pub(crate) struct Folders {
-    opening: Option<Job<Result<(), String>>>,
+    opening: Option<Task<()>>,
 }
 
 impl Folders {
     /// Asks the desktop to show a folder. Programs that show one may run as long as they do: nobody
     /// waits for them but a thread.
-    pub(crate) fn open(&mut self, ctx: &egui::Context, folder: &Path) {
-        self.open_by(ctx, OPENER, folder.to_owned());
+    pub(crate) fn open(&mut self, executor: &Executor, folder: &Path) {
+        self.open_by(executor, OPENER, folder.to_owned());
     }
 
-    fn open_by(&mut self, ctx: &egui::Context, opener: &'static str, folder: PathBuf) {
-        let work = move || show(opener, &folder);
-        self.opening = Job::start("selvedge-folder", ctx, work).ok();
+    fn open_by(&mut self, executor: &Executor, opener: &'static str, folder: PathBuf) {
+        let task = executor.start("selvedge-folder", move |_| show(opener, &folder));
+        self.opening = Some(task);
     }
 
     /// Why the folder was not shown, once. To be called every frame.
     pub(crate) fn poll(&mut self) -> Option<String> {
-        let failure = match self.opening.as_ref()?.poll() {
-            Polled::Working => return None,
-            Polled::Done(outcome) => outcome.err(),
-            Polled::BrokeOff => Some("showing a folder broke off; try again".to_owned()),
-        };
-        self.opening = None;
-        failure
+        finished(&mut self.opening)?.err()
     }
 }
 
@@ -74,14 +66,10 @@ mod tests {
 
     fn outcome(opener: &'static str, folder: &Path) -> Option<String> {
         let mut folders = Folders::default();
-        folders.open_by(&egui::Context::default(), opener, folder.to_owned());
-        loop {
-            let told = folders.poll();
-            if folders.opening.is_none() {
-                return told;
-            }
-            std::thread::yield_now();
-        }
+        folders.open_by(&Executor::InLine, opener, folder.to_owned());
+        let told = folders.poll();
+        assert!(folders.opening.is_none());
+        told
     }
 
     #[cfg(unix)]

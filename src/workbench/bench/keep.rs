@@ -3,19 +3,17 @@
 //! A library that is part of the program cannot take any. Then the user's own folder takes them: it
 //! begins as a copy of that library, and the scene uses it from then on, with all it had.
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui;
-
 use crate::bench::Bench;
+use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::edit::Edit;
-use crate::bench::error::AppError;
-use crate::bench::job::{Job, Polled};
 use crate::bench::library_view::LibraryView;
 use crate::bench::view::ShelfItem;
 use selvedge_foundation::geometry::Point;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::{BuiltFile, Library, TextileError, n_threads};
 
 /// A textile that was made in the window and lies in no folder yet.
@@ -58,68 +56,38 @@ pub(crate) struct Kept {
 /// Keeps textiles, one wish at a time.
 #[derive(Debug, Default)]
 pub(crate) struct Keeping {
-    job: Option<Job<Result<Kept, AppError>>>,
-    next: Vec<Keep>,
+    task: Option<Task<Kept>>,
+    next: VecDeque<Keep>,
     /// The folder that holds the user's own libraries; a stepped window has none.
     pub(crate) own_folder: Option<PathBuf>,
 }
 
 impl Keeping {
-    /// Whether a thread is at work.
-    pub(crate) fn is_busy(&self) -> bool {
-        self.job.is_some()
-    }
-
-    /// Begins to keep textiles in `library`, or queues the wish. With `is_at_once` it is done here
-    /// and now.
-    pub(crate) fn ask(
+    /// Begins to keep textiles in `library`, or queues the wish.
+    ///
+    /// # Errors
+    /// There is no folder for them.
+    fn ask(
         &mut self,
         keep: Keep,
         library: &Arc<Library>,
-        ctx: &egui::Context,
-        is_at_once: bool,
-    ) -> Option<Result<Kept, AppError>> {
-        if self.is_busy() {
-            self.next.push(keep);
-            return None;
+        executor: &Executor,
+    ) -> Result<(), String> {
+        if self.task.is_some() {
+            self.next.push_back(keep);
+            return Ok(());
         }
-        let folder = match self.folder_for(library) {
-            Ok(folder) => folder,
-            Err(error) => return Some(Err(error)),
-        };
+        let folder = self.folder_for(library)?;
         let library = Arc::clone(library);
-        let work = move || keep_in(&library, folder, &keep);
-        if is_at_once {
-            return Some(work());
-        }
-        match Job::start("selvedge-keep", ctx, work) {
-            Ok(job) => {
-                self.job = Some(job);
-                None
-            }
-            Err(error) => Some(Err(wrong(format!(
-                "The textile was not kept: {error}; try again"
-            )))),
-        }
-    }
-
-    /// What came of the last wish, once it is there, and the wish that waits next.
-    pub(crate) fn poll(&mut self) -> Option<(Result<Kept, AppError>, Option<Keep>)> {
-        let outcome = match self.job.as_ref()?.poll() {
-            Polled::Working => return None,
-            Polled::Done(outcome) => outcome,
-            Polled::BrokeOff => {
-                let words = "The textile was not kept: the work broke off; try again";
-                Err(wrong(words.to_owned()))
-            }
-        };
-        self.job = None;
-        let next = (!self.next.is_empty()).then(|| self.next.remove(0));
-        Some((outcome, next))
+        self.task = Some(executor.start("selvedge-keep", move |progress| {
+            let kept = keep_in(&library, folder, &keep, progress);
+            kept.map_err(|error| error.to_string())
+        }));
+        Ok(())
     }
 
     /// Where this library keeps new textiles: in its own folder, if it is one.
-    fn folder_for(&self, library: &Library) -> Result<PathBuf, AppError> {
+    fn folder_for(&self, library: &Library) -> Result<PathBuf, String> {
         let root = library.root();
         if root.is_dir() {
             return Ok(root);
@@ -127,7 +95,7 @@ impl Keeping {
         let Some(own) = &self.own_folder else {
             let words = "This system has no folder for a user's files; save the scene with a \
                          library folder of its own, then keep the textile";
-            return Err(wrong(words.to_owned()));
+            return Err(words.to_owned());
         };
         let name = match root.file_stem() {
             Some(stem) if !library.is_shipped() => Path::new(stem).to_owned(),
@@ -137,11 +105,12 @@ impl Keeping {
     }
 }
 
-fn wrong(words: String) -> AppError {
-    TextileError::Model(words).into()
-}
-
-fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppError> {
+fn keep_in(
+    library: &Library,
+    folder: PathBuf,
+    keep: &Keep,
+    progress: &mut Progress<'_>,
+) -> Result<Kept, TextileError> {
     let (new, is_to_feel) = match keep {
         Keep::Save(new) => (new, false),
         Keep::Feel(new) => (new, true),
@@ -151,8 +120,7 @@ fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppE
         .map(|new| (new.id.clone(), new.files.clone()))
         .collect();
     let before = library.root();
-    let (library, ids) =
-        unheard(|progress| library.add(&textiles, &folder, n_threads(), progress))?;
+    let (library, ids) = library.add(&textiles, &folder, n_threads(), progress)?;
     Ok(Kept {
         library_view: crate::bench::library_view::items_of(&library),
         library: Arc::new(library),
@@ -164,30 +132,31 @@ fn keep_in(library: &Library, folder: PathBuf, keep: &Keep) -> Result<Kept, AppE
 }
 
 impl Bench {
-    pub(crate) fn keep(&mut self, ctx: &egui::Context, keep: Keep) {
+    /// Keeps textiles in the library.
+    pub(crate) fn keep(&mut self, keep: Keep) {
         let library = Arc::clone(self.loaded.library());
         let keeping = &mut self.transient.keeping;
-        if let Some(outcome) = keeping.ask(keep, &library, ctx, self.is_stepped) {
-            self.take_kept(outcome);
+        match keeping.ask(keep, &library, &self.executor) {
+            Ok(()) => self.poll_kept(),
+            Err(line) => self.transient.notices.give(line),
         }
     }
 
-    /// Takes textiles that a thread has kept, and lets the next wish begin.
-    pub(crate) fn poll_kept(&mut self, ctx: &egui::Context) {
-        let Some((outcome, next)) = self.transient.keeping.poll() else {
+    /// Takes textiles that were kept, and lets the next wish begin.
+    pub(crate) fn poll_kept(&mut self) {
+        let Some(outcome) = finished(&mut self.transient.keeping.task) else {
             return;
         };
-        self.take_kept(outcome);
-        if let Some(next) = next {
-            self.keep(ctx, next);
+        match outcome {
+            Ok(kept) => self.take_kept(kept),
+            Err(line) => self.transient.notices.give(line),
+        }
+        if let Some(next) = self.transient.keeping.next.pop_front() {
+            self.keep(next);
         }
     }
 
-    fn take_kept(&mut self, outcome: Result<Kept, AppError>) {
-        let kept = match outcome {
-            Ok(kept) => kept,
-            Err(error) => return self.transient.notices.give(error.to_string()),
-        };
+    fn take_kept(&mut self, kept: Kept) {
         let words = format!("Kept {} in {}", kept.ids.join(", "), kept.folder.display());
         self.transient.notices.give(words);
         let root = self.loaded.library().root();

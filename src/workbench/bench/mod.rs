@@ -6,6 +6,7 @@
 pub(crate) mod amplitude;
 pub(crate) mod applied_gains;
 pub(crate) mod arrays;
+pub(crate) mod background;
 pub(crate) mod clips;
 pub(crate) mod command;
 pub(crate) mod document;
@@ -20,6 +21,7 @@ pub(crate) mod free_places;
 pub(crate) mod history;
 pub(crate) mod job;
 pub(crate) mod keep;
+pub(crate) mod latest;
 pub(crate) mod library_view;
 pub(crate) mod mute_solo;
 pub(crate) mod news;
@@ -44,6 +46,7 @@ pub(crate) mod view;
 
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::arrays::Arrays;
+use crate::bench::background::Executor;
 use crate::bench::command::Commands;
 use crate::bench::document::Document;
 use crate::bench::error::AppError;
@@ -105,6 +108,8 @@ pub(crate) struct Bench {
     pub(crate) engine: Engine,
     pub(crate) switch: StopSwitch,
     pub(crate) is_stepped: bool,
+    /// Where long work is done.
+    pub(crate) executor: Executor,
     /// The exploration that can be replayed.
     pub(crate) take: Option<Take>,
     /// The scene as the engine has it: with its textiles, and gains as they are felt.
@@ -187,6 +192,11 @@ impl Bench {
             transient: Transient::default(),
             switch: engine.stop_switch(),
             is_stepped,
+            executor: if is_stepped {
+                Executor::InLine
+            } else {
+                Executor::Threads(ctx.clone())
+            },
             engine,
             take: None,
             scene_serial,
@@ -271,7 +281,7 @@ impl Bench {
         self.inspection.n_scenes += 1;
         self.workspace.camera = crate::tools::workspace::camera::Camera::default();
         self.show_document();
-        self.render_as_chosen(&self.ctx.clone());
+        self.render_as_chosen();
     }
 
     /// What a scene that is new to the window needs.

@@ -16,7 +16,7 @@ impl Bench {
             self.step_engine(ctx);
         }
         self.take_files();
-        self.poll_kept(ctx);
+        self.poll_kept();
         self.poll_clips();
         self.poll_sources();
         self.poll_lab();
@@ -25,7 +25,7 @@ impl Bench {
             self.transient.notices.give(failure);
         }
         self.poll_measuring();
-        self.poll_prepared(ctx);
+        self.poll_prepared();
         self.transient.comparison.poll();
         self.transient.picturing.poll();
         self.transient.analysing.poll();

@@ -5,10 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use eframe::egui;
-
 use crate::bench::error::AppError;
-use crate::bench::job::{Job, Polled};
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
 use crate::bench::view::ShelfItem;
@@ -46,44 +43,6 @@ pub(crate) struct Opened {
     pub cache: TableCache,
     /// The textiles of its library.
     pub(crate) library_view: Vec<ShelfItem>,
-}
-
-/// A scene on its way.
-#[derive(Debug)]
-pub(crate) struct Opening {
-    origin: Origin,
-    job: Job<Result<Box<Opened>, AppError>>,
-}
-
-impl Opening {
-    /// Begins to open a scene; `ctx` is woken when that is done.
-    pub(crate) fn start(
-        origin: Origin,
-        rendering: Rendering,
-        ctx: &egui::Context,
-    ) -> std::io::Result<Self> {
-        let from = origin.clone();
-        let work = move || open(from, rendering).map(Box::new);
-        let job = Job::start("selvedge-open", ctx, work)?;
-        Ok(Self { origin, job })
-    }
-
-    /// The outcome, once it is there.
-    pub(crate) fn poll(&self) -> Option<Result<Box<Opened>, AppError>> {
-        match self.job.poll() {
-            Polled::Done(result) => Some(result),
-            Polled::Working => None,
-            Polled::BrokeOff => {
-                let what = format!("{:?}: opening it broke off", self.origin);
-                let mend = "please report the scene".to_owned();
-                Some(Err(selvedge_render::scene::SceneError::Value {
-                    what,
-                    mend,
-                }
-                .into()))
-            }
-        }
-    }
 }
 
 /// Opens a scene on this thread.

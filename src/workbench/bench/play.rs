@@ -1,7 +1,5 @@
 //! What moves the display, and recording it.
 
-use eframe::egui;
-
 use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
 use crate::bench::recording::Take;
@@ -45,9 +43,9 @@ impl Bench {
     }
 
     /// Takes positions from the tablet or program that was chosen last.
-    pub(crate) fn choose_input(&mut self, ctx: &egui::Context) {
+    pub(crate) fn choose_input(&mut self) {
         match self.transient.sources.chosen().cloned() {
-            Some(chosen) => self.dispatch_source(ctx, chosen),
+            Some(chosen) => self.dispatch_source(chosen),
             None => self
                 .transient
                 .notices

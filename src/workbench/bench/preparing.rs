@@ -4,12 +4,9 @@
 //! filters, take longer and are prepared on a thread of their own. Edits that come meanwhile wait,
 //! and only the last of them is prepared. So it is with another error budget.
 
-use eframe::egui;
-
-use crate::bench::error::AppError;
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::{Executor, Task, finished};
 use crate::bench::rendering::Rendering;
-use selvedge_engine::{EngineError, PreparedScene};
+use selvedge_engine::PreparedScene;
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::{LoadedScene, PlacedTextile, Scene};
 
@@ -27,7 +24,7 @@ pub(crate) struct Ready {
 /// What a thread brings back.
 struct Done {
     cache: TableCache,
-    outcome: Result<Ready, AppError>,
+    outcome: Result<Ready, String>,
 }
 
 /// Prepares edited scenes, one at a time.
@@ -36,7 +33,7 @@ pub(crate) struct Preparing {
     cache: TableCache,
     /// What the tables in the cache were made for last.
     rendering: Rendering,
-    job: Option<Job<Done>>,
+    task: Option<Task<Done>>,
     next: Option<Scene>,
 }
 
@@ -52,19 +49,18 @@ impl Preparing {
 
     /// Whether a thread is at work.
     pub(crate) fn is_busy(&self) -> bool {
-        self.job.is_some()
+        self.task.is_some()
     }
 
-    /// Prepares a scene whose textiles are mostly those of `loaded`. What takes no time, or must be
-    /// done at once, comes back now.
+    /// Prepares a scene whose textiles are mostly those of `loaded`. What takes no time comes back
+    /// now.
     pub(crate) fn ask(
         &mut self,
         loaded: &LoadedScene,
         (scene, rendering): (Scene, Rendering),
-        ctx: &egui::Context,
-        is_at_once: bool,
-    ) -> Option<Result<Ready, AppError>> {
-        if self.job.is_some() {
+        executor: &Executor,
+    ) -> Option<Result<Ready, String>> {
+        if self.task.is_some() {
             self.next = Some(scene);
             return None;
         }
@@ -73,36 +69,28 @@ impl Preparing {
         let is_quick = is_loaded
             && scene.filters == loaded.scene().filters
             && rendering == std::mem::replace(&mut self.rendering, rendering);
-        if is_at_once || is_quick {
+        if is_quick {
             return Some(prepare(loaded, (scene, rendering), &mut self.cache));
         }
         let mut cache = std::mem::take(&mut self.cache);
         let loaded = loaded.clone();
-        let work = move || {
+        self.task = Some(executor.start("selvedge-prepare", move |_| {
             let outcome = prepare(&loaded, (scene, rendering), &mut cache);
-            Done { cache, outcome }
-        };
-        match Job::start("selvedge-prepare", ctx, work) {
-            Ok(job) => self.job = Some(job),
-            Err(error) => return Some(Err(EngineError::Thread(error).into())),
-        }
+            Ok(Done { cache, outcome })
+        }));
         None
     }
 
-    /// What a thread prepared, if it is done, and the scene that waited meanwhile.
-    pub(crate) fn poll(&mut self) -> Option<(Result<Ready, AppError>, Option<Scene>)> {
-        let done = match self.job.as_ref()?.poll() {
-            Polled::Done(done) => done,
-            Polled::Working => return None,
-            Polled::BrokeOff => {
-                self.job = None;
-                self.next = None;
-                return None;
+    /// What was prepared, if it is done, and the scene that waited meanwhile.
+    pub(crate) fn poll(&mut self) -> Option<(Result<Ready, String>, Option<Scene>)> {
+        let outcome = match finished(&mut self.task)? {
+            Ok(done) => {
+                self.cache = done.cache;
+                done.outcome
             }
+            Err(line) => Err(line),
         };
-        self.job = None;
-        self.cache = done.cache;
-        Some((done.outcome, self.next.take()))
+        Some((outcome, self.next.take()))
     }
 }
 
@@ -110,13 +98,15 @@ fn prepare(
     loaded: &LoadedScene,
     (scene, rendering): (Scene, Rendering),
     cache: &mut TableCache,
-) -> Result<Ready, AppError> {
-    let loaded = loaded.with_scene(scene)?;
+) -> Result<Ready, String> {
+    let loaded = loaded
+        .with_scene(scene)
+        .map_err(|error| error.to_string())?;
     let accuracy = rendering.accuracy();
-    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, cache)?;
+    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, cache);
     Ok(Ready {
+        prepared: Box::new(prepared.map_err(|error| error.to_string())?),
         loaded,
-        prepared: Box::new(prepared),
         rendering,
     })
 }
@@ -172,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_moved_textile_is_ready_at_once_and_a_new_one_later() {
-        let ctx = egui::Context::default();
+        let threads = Executor::Threads(eframe::egui::Context::default());
         let loaded = LoadedScene::shipped().unwrap();
         let mut preparing = Preparing::default();
         let mut scene = loaded.scene().clone();
@@ -182,7 +172,7 @@ mod tests {
             loaded.tuning(),
         );
         let how = Rendering::default();
-        let ready = preparing.ask(&loaded, (scene.clone(), how), &ctx, false);
+        let ready = preparing.ask(&loaded, (scene.clone(), how), &threads);
         let moved = ready.expect("at once").expect("it makes sense").loaded;
         assert_eq!(*moved.scene(), scene);
         let add = |scene: &mut Scene, id: &str| {
@@ -196,11 +186,11 @@ mod tests {
             .find(|id| scene.textiles.iter().all(|cloth| cloth.id != **id))
             .unwrap();
         add(&mut scene, new);
-        let asked = preparing.ask(&moved, (scene.clone(), how), &ctx, false);
+        let asked = preparing.ask(&moved, (scene.clone(), how), &threads);
         assert!(asked.is_none(), "it takes a while");
         let mut last = scene.clone();
         add(&mut last, new);
-        let asked = preparing.ask(&moved, (last.clone(), how), &ctx, false);
+        let asked = preparing.ask(&moved, (last.clone(), how), &threads);
         assert!(asked.is_none(), "it waits");
         let (outcome, waiting) = loop {
             if let Some(done) = preparing.poll() {

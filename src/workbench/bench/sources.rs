@@ -7,15 +7,14 @@
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
-use eframe::egui;
-
 use crate::bench::Bench;
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::{Task, finished};
 use crate::bench::view::Source;
 use selvedge_engine::{
     Area, InputDevice, InputError, InputSource, PointerInput, ProgramCounts, ProgramLink,
     list_input_devices, open_input_device,
 };
+use selvedge_foundation::progress::Progress;
 
 /// Where other programs find this one, if the port is free; otherwise any port is taken.
 const PORT: u16 = 7240;
@@ -66,8 +65,8 @@ pub(crate) struct SourcesView {
     pub programs: Option<(SocketAddr, ProgramCounts)>,
 }
 
-type Listed = Result<Vec<Result<InputDevice, InputError>>, InputError>;
-type Opened = Result<Box<dyn PointerInput>, InputError>;
+type Listed = Vec<Result<InputDevice, InputError>>;
+type Opened = Box<dyn PointerInput>;
 
 /// The sources that are known, and what is under way with them.
 #[derive(Debug, Default)]
@@ -75,8 +74,8 @@ pub(crate) struct Sources {
     view: SourcesView,
     /// The devices as they were listed last.
     listed: Vec<InputDevice>,
-    listing: Option<Job<Listed>>,
-    opening: Option<Job<Opened>>,
+    listing: Option<Task<Listed>>,
+    opening: Option<Task<Opened>>,
     link: Option<ProgramLink>,
     /// What was chosen last.
     chosen: Option<(SourceCommand, String)>,
@@ -116,11 +115,11 @@ impl Sources {
         self.chosen.as_ref().map(|(_, name)| name.as_str())
     }
 
-    fn take_listed(&mut self, listed: Listed) {
+    fn take_listed(&mut self, listed: Result<Listed, String>) {
         self.view.is_known = true;
         let (found, mut complaint) = match listed {
             Ok(found) => (found, None),
-            Err(error) => (Vec::new(), Some(error.to_string())),
+            Err(line) => (Vec::new(), Some(line)),
         };
         self.listed.clear();
         for device in found {
@@ -148,14 +147,14 @@ fn described(device: &InputDevice) -> String {
 
 impl Bench {
     /// Does what is wanted of sources.
-    pub(crate) fn dispatch_source(&mut self, ctx: &egui::Context, command: SourceCommand) {
+    pub(crate) fn dispatch_source(&mut self, command: SourceCommand) {
         match command {
-            SourceCommand::List => self.list_devices(ctx),
-            SourceCommand::Device(path) => self.open_device(ctx, &path),
+            SourceCommand::List => self.list_devices(),
+            SourceCommand::Device(path) => self.open_device(&path),
             SourceCommand::Listen => self.listen(),
             SourceCommand::EndListening => self.end_listening(),
             SourceCommand::Program => self.follow_program(),
-            SourceCommand::Area(name, area) => self.place_surface(ctx, &name, area.as_deref()),
+            SourceCommand::Area(name, area) => self.place_surface(&name, area.as_deref()),
         }
     }
 
@@ -179,7 +178,7 @@ impl Bench {
 
     /// Keeps where the surface of tablets of this name lies; one that is read now is read so from
     /// now on.
-    fn place_surface(&mut self, ctx: &egui::Context, name: &str, area: Option<&str>) {
+    fn place_surface(&mut self, name: &str, area: Option<&str>) {
         let areas = &mut self.settings.preferences.tablet_areas;
         match area.map(str::parse).transpose() {
             Ok(Some(area)) => drop(areas.insert(name.to_owned(), area)),
@@ -191,41 +190,40 @@ impl Bench {
         let path = path.map(|device| device.path.clone());
         let is_read = self.transient.live.play.source == Source::Device;
         if let Some(path) = path.filter(|_| is_read) {
-            self.open_device(ctx, &path);
+            self.open_device(&path);
         }
     }
 
-    fn list_devices(&mut self, ctx: &egui::Context) {
-        let sources = &mut self.transient.sources;
-        if self.is_stepped {
-            return sources.take_listed(list_input_devices());
-        }
-        if sources.listing.is_none() {
-            sources.listing = Job::start("selvedge-inputs", ctx, list_input_devices).ok();
+    fn list_devices(&mut self) {
+        if self.transient.sources.listing.is_none() {
+            let list = |_: &mut Progress<'_>| list_input_devices().map_err(|e| e.to_string());
+            let task = self.executor.start("selvedge-inputs", list);
+            self.transient.sources.listing = Some(task);
+            self.poll_sources();
         }
     }
 
-    fn open_device(&mut self, ctx: &egui::Context, path: &Path) {
+    fn open_device(&mut self, path: &Path) {
         let size_mm = self.document.scene().size_mm;
         let device = path.to_owned();
         let name = self.transient.sources.listed(path).map(|found| &found.name);
         let area = name.and_then(|name| self.settings.preferences.tablet_areas.get(name));
         let area = area.copied();
-        let open = move || open_input_device(&device, area, size_mm);
         let chosen = SourceCommand::Device(path.to_owned());
         self.transient.sources.chosen = Some((chosen, path.display().to_string()));
-        if self.is_stepped {
-            return self.take_device(open());
-        }
-        self.transient.sources.opening = Job::start("selvedge-input", ctx, open).ok();
+        let task = self.executor.start("selvedge-input", move |_| {
+            open_input_device(&device, area, size_mm).map_err(|error| error.to_string())
+        });
+        self.transient.sources.opening = Some(task);
+        self.poll_sources();
     }
 
-    fn take_device(&mut self, opened: Opened) {
+    fn take_device(&mut self, opened: Result<Opened, String>) {
         match opened {
             Ok(input) => self.send(selvedge_engine::Command::SetSource(InputSource::Live(
                 input,
             ))),
-            Err(error) => self.transient.notices.give(error.to_string()),
+            Err(line) => self.transient.notices.give(line),
         }
     }
 
@@ -262,21 +260,11 @@ impl Bench {
     /// Takes what was listed and opened. To be called every frame.
     pub(crate) fn poll_sources(&mut self) {
         let sources = &mut self.transient.sources;
-        match sources.listing.as_ref().map(Job::poll) {
-            Some(Polled::Done(listed)) => {
-                sources.listing = None;
-                sources.take_listed(listed);
-            }
-            Some(Polled::BrokeOff) => sources.listing = None,
-            Some(Polled::Working) | None => {}
+        if let Some(listed) = finished(&mut sources.listing) {
+            sources.take_listed(listed);
         }
-        match sources.opening.as_ref().map(Job::poll) {
-            Some(Polled::Done(opened)) => {
-                sources.opening = None;
-                self.take_device(opened);
-            }
-            Some(Polled::BrokeOff) => sources.opening = None,
-            Some(Polled::Working) | None => {}
+        if let Some(opened) = finished(&mut sources.opening) {
+            self.take_device(opened);
         }
     }
 }
@@ -293,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_program_that_joins_moves_the_display_and_hears_what_is_felt() {
-        let ctx = egui::Context::default();
+        let ctx = eframe::egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.dispatch(SourceCommand::Listen.into());
         bench.dispatch(SourceCommand::Program.into());
@@ -345,7 +333,7 @@ mod tests {
 
     #[test]
     fn the_area_of_a_tablet_is_kept_by_its_name_and_nonsense_is_refused_in_a_line() {
-        let ctx = egui::Context::default();
+        let ctx = eframe::egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.transient.sources.take_listed(Ok(vec![Ok(tablet())]));
         assert_eq!(bench.sources_view().surface, None, "none was chosen");
@@ -376,7 +364,7 @@ mod tests {
 
     #[test]
     fn a_device_that_is_not_there_is_a_notice() {
-        let ctx = egui::Context::default();
+        let ctx = eframe::egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         bench.dispatch(SourceCommand::Device("/nowhere/event1".into()).into());
         let shown = bench.transient.notices.shown();

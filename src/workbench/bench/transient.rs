@@ -2,14 +2,14 @@
 
 use eframe::egui::Rect;
 
+use crate::bench::background::Task;
 use crate::bench::clips::Clips;
 use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
-use crate::bench::job::Job;
 use crate::bench::keep::Keeping;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::notices::Notices;
-use crate::bench::opening::Opening;
+use crate::bench::opening::Opened;
 use crate::bench::query::IntervalMeter;
 use crate::bench::recording::Take;
 use crate::bench::signals::history::History;
@@ -39,7 +39,6 @@ use crate::tools::workspace::maps::Maps;
 use crate::tools::workspace::overlay::lattice::Lattice;
 use crate::tools::workspace::trail::Trail;
 use selvedge_render::array::ContactorReading;
-use selvedge_render::scene::SceneError;
 
 /// What is neither saved nor undoable.
 #[derive(Debug, Default)]
@@ -57,11 +56,11 @@ pub(crate) struct Transient {
     /// Folders that the desktop is asked to show.
     pub folders: Folders,
     /// A scene on its way.
-    pub opening: Option<Opening>,
+    pub opening: Option<Task<Box<Opened>>>,
     /// A recorded exploration on its way.
-    pub reading: Option<Job<Result<Take, SceneError>>>,
+    pub reading: Option<Task<Take>>,
     /// A recorded exploration on its way into a file.
-    pub saving: Option<Job<Result<Take, SceneError>>>,
+    pub saving: Option<Task<Take>>,
     /// New textiles on their way into the library.
     pub keeping: Keeping,
     /// A file for other programs on its way.

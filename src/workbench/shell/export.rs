@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::bench::background::Task;
 use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
-use crate::bench::job::{Job, Polled};
 use crate::shell::window::Workbench;
 
-/// What a job ends with: a table to be copied, or nothing where a file was written.
+/// What it ends with: a table to be copied, or nothing where a file was written.
 type Outcome = Result<Option<String>, ExportError>;
 
 /// What is being exported.
@@ -19,7 +19,7 @@ pub(crate) struct Exports {
     /// Where the last export went, and as what.
     pub last: Option<(PathBuf, Kind)>,
     /// Files on their way, and tables to be copied.
-    pub(crate) jobs: Vec<Job<Result<Option<String>, ExportError>>>,
+    pub(crate) tasks: Vec<Task<Option<String>>>,
 }
 
 impl Workbench {
@@ -112,37 +112,23 @@ impl Workbench {
     }
 
     fn begin_export(&mut self, work: impl FnOnce() -> Outcome + Send + 'static) {
-        if self.bench.is_stepped {
-            return self.take_exported(work());
-        }
-        match Job::start("selvedge-export", &self.bench.ctx, work) {
-            Ok(job) => self.shell.exports.jobs.push(job),
-            Err(error) => {
-                let words = format!("Nothing was exported: {error}; try again");
-                self.bench.transient.notices.give(words);
-            }
-        }
+        let executor = &self.bench.executor;
+        let task = executor.start("selvedge-export", |_| {
+            work().map_err(|error| error.to_string())
+        });
+        self.shell.exports.tasks.push(task);
+        self.poll_exports();
     }
 
     /// Takes the news of exports that have ended. To be called every frame.
     pub(crate) fn poll_exports(&mut self) {
-        for job in std::mem::take(&mut self.shell.exports.jobs) {
-            match job.poll() {
-                Polled::Working => self.shell.exports.jobs.push(job),
-                Polled::Done(outcome) => self.take_exported(outcome),
-                Polled::BrokeOff => {
-                    let words = "Nothing was exported: the work broke off; try again";
-                    self.bench.transient.notices.give(words);
-                }
+        for task in std::mem::take(&mut self.shell.exports.tasks) {
+            match task.poll() {
+                None => self.shell.exports.tasks.push(task),
+                Some(Ok(Some(table))) => self.bench.ctx.copy_text(table),
+                Some(Ok(None)) => {}
+                Some(Err(line)) => self.bench.transient.notices.give(line),
             }
-        }
-    }
-
-    fn take_exported(&mut self, outcome: Outcome) {
-        match outcome {
-            Ok(Some(table)) => self.bench.ctx.copy_text(table),
-            Ok(None) => {}
-            Err(error) => self.bench.transient.notices.give(error.to_string()),
         }
     }
 }

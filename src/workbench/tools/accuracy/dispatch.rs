@@ -14,13 +14,13 @@ impl Bench {
         match command {
             AccuracyCommand::Method(method) => {
                 self.settings.preferences.rendering.method = method;
-                self.render_as_chosen(ctx);
+                self.render_as_chosen();
             }
             AccuracyCommand::Budget(budget_db) => {
                 let rendering = &mut self.settings.preferences.rendering;
                 rendering.budget_db = budget_db;
                 *rendering = rendering.in_bounds();
-                self.render_as_chosen(ctx);
+                self.render_as_chosen();
             }
             AccuracyCommand::Reset => self.transient.accuracy.reset(),
             AccuracyCommand::Measure => self.measure(ctx),

@@ -43,7 +43,7 @@ impl Bench {
                 let written = analysing.view(None).written;
                 let folder = written.and_then(Result::ok).map(Path::to_owned);
                 if let Some(folder) = folder {
-                    self.transient.folders.open(ctx, &folder);
+                    self.transient.folders.open(&self.executor, &folder);
                 }
             }
         }

@@ -38,7 +38,7 @@ impl Bench {
             DeviceCommand::OpenLogFolder => {
                 let log = self.engine.session_log();
                 if let Some(folder) = log.and_then(|log| log.path().parent()) {
-                    self.transient.folders.open(ctx, folder);
+                    self.transient.folders.open(&self.executor, folder);
                 }
             }
             DeviceCommand::StopOnFocusLoss(is_wanted) => {

@@ -206,7 +206,7 @@ impl Bench {
         self.send(selvedge_engine::Command::SetContactorMask(mask));
         self.transient.history.clear();
         self.transient.trail = crate::tools::workspace::trail::Trail::default();
-        self.feel_document(ctx);
+        self.feel_document();
         self.list_sessions(ctx, false);
     }
 
