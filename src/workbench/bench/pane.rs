@@ -2,133 +2,96 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A part of the window that can be moved, stacked and hidden.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub(crate) enum Pane {
+/// Declares every pane once: its name in files, its title, its title where there is little room,
+/// the width of what its tool adds to the row of tabs, points, and whether it has numbers to export.
+macro_rules! panes {
+    ($($(#[$doc:meta])* $name:ident: $title:literal, $short:literal, $corner:literal, $exports:literal;)*) => {
+        /// A part of the window that can be moved, stacked and hidden.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        pub(crate) enum Pane {
+            $($(#[$doc])* $name,)*
+        }
+
+        impl Pane {
+            /// Every pane, in the order in which they are listed.
+            pub(crate) const ALL: [Self; [$($title),*].len()] = [$(Self::$name),*];
+
+            fn facts(self) -> (&'static str, &'static str, f32, bool) {
+                match self {
+                    $(Self::$name => ($title, $short, $corner, $exports),)*
+                }
+            }
+        }
+    };
+}
+
+panes! {
     /// The scene in mm with the display moving over it.
-    Workspace,
+    Workspace: "Workspace", "Workspace", 376.0, true;
     /// The textiles of the library and of the scene.
-    Library,
+    Library: "Library", "Library", 0.0, false;
     /// Gains, compression, filters.
-    Tuning,
+    Tuning: "Tuning", "Tuning", 0.0, true;
     /// The device.
-    Bridge,
+    Bridge: "Bridge", "Bridge", 0.0, true;
     /// Both bands of every contactor.
-    Heatmaps,
+    Heatmaps: "Contactors", "Contactors", 184.0, true;
     /// The spectrum that arrives at the selected contactor, over time.
-    ContactSpectrum,
+    ContactSpectrum: "Contact spectrum", "Contact", 112.0, true;
     /// The spectrum of what drives the selected contactor, over time.
-    DriveSpectrum,
-    /// The waveform that drives the selected contactor.
-    DriveWave,
+    DriveSpectrum: "Drive spectrum", "Drive", 112.0, true;
     /// Spatial spectra of the textile under the selected contactor.
-    SpatialSpectra,
+    SpatialSpectra: "Spatial spectra", "Spatial", 112.0, true;
+    /// The waveform that drives the selected contactor.
+    DriveWave: "Drive waveform", "Wave", 112.0, true;
     /// Why the selected contactor does what it does.
-    Why,
-    /// Two tunings, textiles or methods set against each other.
-    Compare,
-    /// How accurate rendering is, and what it costs.
-    Accuracy,
+    Why: "Why", "Why", 136.0, true;
     /// A textile's amplitudes over direction and speed of movement.
-    Response,
+    Response: "Response", "Response", 56.0, true;
+    /// How accurate rendering is, and what it costs.
+    Accuracy: "Accuracy", "Accuracy", 108.0, true;
+    /// Two tunings, textiles or methods set against each other.
+    Compare: "Compare", "Compare", 124.0, true;
     /// The whole library at once.
-    Collection,
+    Collection: "Collection", "Collection", 0.0, true;
     /// A recipe of a textile, and what becomes of it.
-    Lab,
+    Lab: "Textile lab", "Lab", 0.0, true;
     /// Measurements that become textiles.
-    Import,
+    Import: "Import", "Import", 0.0, true;
     /// A picture of a cloth that becomes a textile.
-    Picture,
+    Picture: "Picture", "Picture", 0.0, true;
     /// What a participant of an experiment sees.
-    Participant,
+    Participant: "Participant", "Participant", 0.0, false;
     /// A session of an experiment, as who holds it sees it.
-    Experimenter,
+    Experimenter: "Experimenter", "Experimenter", 0.0, false;
     /// What the logs of experiments say.
-    Analysis,
+    Analysis: "Analysis", "Analysis", 0.0, false;
 }
 
 impl Pane {
-    /// Every pane, in the order in which they are listed.
-    pub(crate) const ALL: [Self; 20] = [
-        Self::Workspace,
-        Self::Library,
-        Self::Tuning,
-        Self::Bridge,
-        Self::Heatmaps,
-        Self::ContactSpectrum,
-        Self::DriveSpectrum,
-        Self::SpatialSpectra,
-        Self::DriveWave,
-        Self::Why,
-        Self::Response,
-        Self::Accuracy,
-        Self::Compare,
-        Self::Collection,
-        Self::Lab,
-        Self::Import,
-        Self::Picture,
-        Self::Participant,
-        Self::Experimenter,
-        Self::Analysis,
-    ];
-
     /// Its title.
     pub(crate) fn title(self) -> &'static str {
-        match self {
-            Self::Workspace => "Workspace",
-            Self::Library => "Library",
-            Self::Tuning => "Tuning",
-            Self::Bridge => "Bridge",
-            Self::Heatmaps => "Contactors",
-            Self::ContactSpectrum => "Contact spectrum",
-            Self::DriveSpectrum => "Drive spectrum",
-            Self::DriveWave => "Drive waveform",
-            Self::SpatialSpectra => "Spatial spectra",
-            Self::Why => "Why",
-            Self::Compare => "Compare",
-            Self::Accuracy => "Accuracy",
-            Self::Response => "Response",
-            Self::Collection => "Collection",
-            Self::Lab => "Textile lab",
-            Self::Import => "Import",
-            Self::Picture => "Picture",
-            Self::Participant => "Participant",
-            Self::Experimenter => "Experimenter",
-            Self::Analysis => "Analysis",
-        }
+        self.facts().0
     }
 
     /// Its title where there is little room.
     pub(crate) fn short_title(self) -> &'static str {
-        match self {
-            Self::ContactSpectrum => "Contact",
-            Self::DriveSpectrum => "Drive",
-            Self::DriveWave => "Wave",
-            Self::Lab => "Lab",
-            Self::SpatialSpectra => "Spatial",
-            Self::Workspace
-            | Self::Library
-            | Self::Tuning
-            | Self::Bridge
-            | Self::Heatmaps
-            | Self::Why
-            | Self::Response
-            | Self::Accuracy
-            | Self::Compare
-            | Self::Collection
-            | Self::Import
-            | Self::Picture
-            | Self::Participant
-            | Self::Experimenter
-            | Self::Analysis => self.title(),
-        }
+        self.facts().1
+    }
+
+    /// Width of what its tool adds to the row of tabs, points.
+    pub(crate) fn corner_width(self) -> f32 {
+        self.facts().2
+    }
+
+    /// Whether it has numbers to export.
+    pub(crate) fn has_export(self) -> bool {
+        self.facts().3
     }
 
     /// Its place in [`Self::ALL`].
     pub(crate) fn index(self) -> usize {
-        Self::ALL
-            .iter()
-            .position(|pane| *pane == self)
-            .unwrap_or_default()
+        let mut all = Self::ALL.into_iter();
+        all.position(|pane| pane == self).unwrap_or_default()
     }
 }

@@ -3,7 +3,6 @@
 use eframe::egui::{Color32, Ui};
 
 use crate::bench::export::button::SIZE as EXPORT_SIZE;
-use crate::bench::export::gather::is_exportable;
 use crate::bench::pane::Pane;
 use crate::kit::theme;
 
@@ -56,31 +55,10 @@ impl TabRow {
 
 /// Width of what stands at the right end of a row of tabs, points.
 pub(crate) fn corner_width(pane: Pane) -> f32 {
-    let export = if is_exportable(pane) {
+    let export = if pane.has_export() {
         EXPORT_SIZE + TITLE_SPACING
     } else {
         0.0
     };
-    let own = match pane {
-        Pane::Heatmaps => 184.0,
-        Pane::ContactSpectrum | Pane::DriveSpectrum | Pane::DriveWave | Pane::SpatialSpectra => {
-            112.0
-        }
-        Pane::Why => 136.0,
-        Pane::Response => 56.0,
-        Pane::Compare => 124.0,
-        Pane::Accuracy => 108.0,
-        Pane::Workspace => 376.0,
-        Pane::Collection
-        | Pane::Lab
-        | Pane::Library
-        | Pane::Tuning
-        | Pane::Bridge
-        | Pane::Import
-        | Pane::Picture
-        | Pane::Participant
-        | Pane::Experimenter
-        | Pane::Analysis => 0.0,
-    };
-    own + export
+    pane.corner_width() + export
 }

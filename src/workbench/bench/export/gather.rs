@@ -48,11 +48,6 @@ fn gather_of(what: Exportable) -> Option<Gather> {
     }
 }
 
-/// Whether a pane has numbers to export.
-pub(crate) fn is_exportable(pane: Pane) -> bool {
-    pane == Pane::Import || gather_of(Exportable::Pane(pane)).is_some()
-}
-
 impl Bench {
     /// What a pane shows now.
     ///

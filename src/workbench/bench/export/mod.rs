@@ -31,7 +31,6 @@ mod tests;
 pub(crate) mod write;
 
 #[cfg(test)]
-pub(crate) use crate::bench::export::gather::is_exportable;
 pub(crate) use crate::bench::export::origin::Origin;
 pub(crate) use crate::bench::export::write::Kind;
 pub(crate) use selvedge_chart::Columns as Sheet;

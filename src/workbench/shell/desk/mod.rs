@@ -8,7 +8,6 @@ use eframe::egui::{self, Ui};
 
 use crate::bench::Bench;
 use crate::bench::export::Exportable;
-use crate::bench::export::gather::is_exportable;
 use crate::bench::pane::Pane;
 use crate::bench::recording::Take;
 use crate::bench::signals::drive::drive_um;
@@ -315,7 +314,7 @@ impl Bench {
 /// The right end of a row of tabs: what belongs to the pane in front.
 impl Desk<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
-        if is_exportable(pane) {
+        if pane.has_export() {
             crate::bench::export::button::show(ui, Exportable::Pane(pane), self.context.commands);
         }
         if let Some(tool) = self.tools.showing(pane) {

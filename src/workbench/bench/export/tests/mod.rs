@@ -315,7 +315,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         assert!(desk.workbench.shell.exports.seen.is_none(), "{what:?}");
     }
     let library = Exportable::Pane(Pane::Library);
-    assert!(!is_exportable(Pane::Library) && desk.workbench.exported(library).is_err());
+    assert!(!Pane::Library.has_export() && desk.workbench.exported(library).is_err());
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn every_export_has_a_name_of_its_own() {
     for pane in Pane::ALL {
         // What is measured on a link needs one: its export has tests of its own.
         let is_tested = is_listed(&pane) || pane == Pane::Bridge;
-        assert_eq!(is_exportable(pane), is_tested, "{pane:?}");
+        assert_eq!(pane.has_export(), is_tested, "{pane:?}");
     }
 }
 
