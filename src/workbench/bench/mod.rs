@@ -266,7 +266,6 @@ impl Bench {
         self.transient.history.clear();
         self.transient.comparison.leave_scene();
         self.transient.collection.leave_library();
-        self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
         self.workspace.camera = crate::tools::workspace::camera::Camera::default();

@@ -28,7 +28,6 @@ use crate::tools::lab::Lab;
 use crate::tools::lab::view::pictures::LabPictures;
 use crate::tools::picture::Picturing;
 use crate::tools::picture::view::cards::PictureTextures;
-use crate::tools::response::curves::Curves;
 use crate::tools::spectra::contact::ContactSpectrogram;
 use crate::tools::spectra::drive::DriveSpectrogram;
 use crate::tools::spectra::spatial::SpatialSpectra;
@@ -106,10 +105,6 @@ pub(crate) struct Transient {
     pub lattice: Lattice,
     /// What the contactors read and how they move, while that is drawn.
     pub readings: Vec<ContactorReading>,
-    /// A textile's amplitudes over direction and speed.
-    pub curves: Curves,
-    /// The textile whose curves were shown last.
-    pub(crate) asked_textile: Option<usize>,
     /// The textile lab.
     pub lab: Lab,
     /// What the lab pictures, as it was drawn last.

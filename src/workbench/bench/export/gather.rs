@@ -34,7 +34,6 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::SpatialSpectra => Some(Bench::gather_spatial),
         Pane::Tuning => Some(Bench::gather_compression),
         Pane::Why => Some(Bench::gather_why),
-        Pane::Response => Some(Bench::gather_response),
         Pane::Accuracy => Some(Bench::gather_accuracy),
         Pane::Compare => Some(Bench::gather_comparison),
         Pane::Lab => Some(Bench::gather_lab),
@@ -50,7 +49,8 @@ fn gather_of(what: Exportable) -> Option<Gather> {
 
 /// Whether a pane has numbers to export.
 pub(crate) fn is_exportable(pane: Pane) -> bool {
-    pane == Pane::Import || gather_of(Exportable::Pane(pane)).is_some()
+    let is_of_tool = matches!(pane, Pane::Import | Pane::Response);
+    is_of_tool || gather_of(Exportable::Pane(pane)).is_some()
 }
 
 impl Bench {
@@ -222,24 +222,6 @@ impl Bench {
             &filters,
             self.origin(),
         ))
-    }
-
-    fn gather_response(&mut self) -> Result<Exported, &'static str> {
-        let ctx = self.ctx.clone();
-        let scene = self.plain_scene_view();
-        let origin = self.origin();
-        let asked = self.ask_response(&ctx);
-        let cloth = asked.and_then(|asked| Some((asked, scene.cloths.get(asked.textile)?)));
-        let (asked, cloth) = cloth.ok_or(
-            "There is nothing to export: choose a textile in the workspace, or move the chosen \
-             contactor over one",
-        )?;
-        let name = format!("{} {}", cloth.label, cloth.name);
-        let view = self.response_view(&asked, (name.trim(), cloth.rotation_deg));
-        if view.curves.around().is_empty() {
-            return Err("There is nothing to export yet: the curves are being computed");
-        }
-        Ok(crate::tools::response::chart::exported(&view, origin))
     }
 
     fn gather_lab(&mut self) -> Result<Exported, &'static str> {

@@ -38,7 +38,8 @@ pub(crate) use selvedge_chart::Columns as Sheet;
 
 use crate::bench::pane::Pane;
 use crate::kit::theme::colour_map::ColourMap;
-use selvedge_chart::{Axis, Chart, ColourBar, Figure, Row};
+use selvedge_chart::{Axis, Chart, ColourBar, Figure, Ink, Row};
+use selvedge_textile::tactile::Band;
 
 /// Colours of a bar: more than the eye tells apart.
 pub(crate) const N_COLOURS: u8 = 33;
@@ -126,6 +127,14 @@ impl Exported {
             bar: None,
         };
         Self::new(title.to_owned(), sheet, vec![row], note, origin)
+    }
+}
+
+/// What a band is drawn with.
+pub(crate) fn ink(band: Band) -> Ink {
+    match band {
+        Band::Low => Ink::Amber,
+        Band::High => Ink::Cyan,
     }
 }
 

@@ -88,14 +88,13 @@ impl Desk<'_> {
                 crate::tools::why::view::show(ui, why, &self.context.scene.filters);
             }),
             Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
-            Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
             Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            Pane::Import => {}
+            Pane::Import | Pane::Response => {}
         }
     }
 
@@ -350,10 +349,6 @@ impl Desk<'_> {
                 );
                 crate::tools::why::view::show_corner(ui, *is_frozen, why, self.context.commands);
             }
-            Pane::Response => {
-                let probe = self.context.bench.workspace.probe;
-                crate::tools::response::show_corner(ui, probe, self.context.commands);
-            }
             Pane::Compare => {
                 let standing = self.context.bench.comparison_standing();
                 crate::tools::compare::view::controls::show_corner(
@@ -373,7 +368,8 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.context.commands);
                 }
             }
-            Pane::Collection
+            Pane::Response
+            | Pane::Collection
             | Pane::Lab
             | Pane::Library
             | Pane::Tuning

@@ -11,7 +11,7 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
 use crate::tools::response::{
-    ResponseView, ends_db, fill_between, levels_db, paint_handle, paint_moving, words_of,
+    ResponseView, fill_between, levels_db, paint_handle, paint_moving, words_of,
 };
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -123,7 +123,7 @@ impl Plot {
             left: rect.left(),
             radius: (0.5 * rect.width() - BESIDE).min(0.5 * rect.height() - MARGIN),
             rotation_deg: view.rotation_deg,
-            ends_db: ends_db(view.scale),
+            ends_db: view.scale.level_ends_db(),
         }
     }
 

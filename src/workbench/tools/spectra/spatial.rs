@@ -22,8 +22,6 @@ use selvedge_render::scene::Pose;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, N_BINS};
 use selvedge_textile::tactile::Band;
 
-/// Ends of the densities, dB re 1 µm² per cycle/mm.
-pub(crate) const LEVELS_DB: [f64; 2] = [-60.0, 40.0];
 /// Bins nearer to one another on the screen than this are drawn as their mean, points.
 const LEAST_STEP: f32 = 1.5;
 /// How bright a curve is where it does not sound.
@@ -130,16 +128,6 @@ pub(crate) fn show(
         ui.painter().vline(x, area.y_range(), stroke);
         response.on_hover_text_at_pointer(words_of(view, k));
     }
-}
-
-/// The wavenumber of bin k = 1 … 500, cycles/mm.
-pub(crate) fn wavenumber_per_mm(k: usize) -> f64 {
-    BIN_SPACING_PER_MM * k as f64
-}
-
-/// The level of a density in µm² per cycle/mm, dB.
-pub(crate) fn density_db(density_um2_mm: f64) -> f64 {
-    10.0 * density_um2_mm.log10()
 }
 
 /// The curve of a density as `[wavenumber, density]`: bins that are drawn nearer to one another

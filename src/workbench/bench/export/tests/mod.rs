@@ -16,6 +16,7 @@ use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowC
 use crate::shell::headless::Headless;
 use crate::tools::compare::Standing;
 use crate::tools::lab::command::{Beginning, LabCommand};
+use crate::tools::response::Response;
 use crate::tools::workspace::overlay::Overlay;
 use selvedge_foundation::files::{self, Table};
 use selvedge_foundation::quantity;
@@ -98,7 +99,7 @@ impl Headless {
     }
 
     fn exported(&mut self, what: Exportable) -> Exported {
-        let exported = self.workbench.bench.exported(what);
+        let exported = self.workbench.exported(what);
         exported.unwrap_or_else(|words| panic!("{what:?}: {words}"))
     }
 
@@ -303,7 +304,6 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         desk.workbench.bench.workspace.contactor = is_chosen.then_some(9);
         let words = desk
             .workbench
-            .bench
             .exported(what)
             .expect_err("nothing is shown yet");
         assert!(
@@ -315,7 +315,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         assert!(desk.workbench.shell.exports.seen.is_none(), "{what:?}");
     }
     let library = Exportable::Pane(Pane::Library);
-    assert!(!is_exportable(Pane::Library) && desk.workbench.bench.exported(library).is_err());
+    assert!(!is_exportable(Pane::Library) && desk.workbench.exported(library).is_err());
 }
 
 #[test]
@@ -338,12 +338,13 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
     let mut desk = Headless::explored(90);
     let response = desk.exported(Exportable::Pane(Pane::Response));
     let rms_um = column(&response, "a320_rms_um");
-    let curves = &desk.workbench.bench.transient.curves;
+    let shown = desk.workbench.tools.get::<Response>().unwrap();
+    let curves = &shown.curves;
     assert_eq!(
         rms_um.len(),
         curves.around().len() + curves.over_speed().len()
     );
-    let textile = desk.workbench.bench.transient.asked_textile.unwrap();
+    let textile = shown.textile.unwrap();
     let factors = desk
         .workbench
         .bench

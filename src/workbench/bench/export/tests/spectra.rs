@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bench::signals::rows::N_ROWS;
-use crate::tools::spectra::spatial::density_db;
+use crate::bench::signals::spatial::density_db;
 
 #[test]
 fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
