@@ -44,6 +44,13 @@ use selvedge_textile::tactile::Band;
 /// Colours of a bar: more than the eye tells apart.
 pub(crate) const N_COLOURS: u8 = 33;
 
+/// Why there is nothing to export before anything was felt.
+pub(crate) const NOTHING_FELT: &str =
+    "There is nothing to export yet: move over a textile, or let the display explore by itself";
+/// Why there is nothing to export of no contactor.
+pub(crate) const NO_CONTACTOR: &str =
+    "There is nothing to export: choose a contactor first, by a click on a cell of the heatmaps";
+
 /// Something that can be exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Exportable {

@@ -47,7 +47,7 @@ pub(crate) fn differences(
         height_px: 220.0,
         bar: None,
     };
-    let [a, b] = [&sides[0], &sides[1]].map(told);
+    let [a, b] = [&sides[0], &sides[1]].map(describe);
     let origin = origin
         .and("a", &a, &format!("A: {a}"))
         .and("b", &b, &format!("B: {b}"))
@@ -59,7 +59,7 @@ pub(crate) fn differences(
 }
 
 /// What a side is, in one line.
-fn told(side: &Side) -> String {
+fn describe(side: &Side) -> String {
     let placed = side.scene.textiles.iter();
     let ids: Vec<&str> = placed.map(|placed| placed.id.as_str()).collect();
     let gains = side.scene.tuning.map_or_else(

@@ -5,36 +5,29 @@
 //! only what is asked for, when, and how far it is. Nothing is rendered while the pane is hidden.
 
 pub(crate) mod choice;
-pub(crate) mod dispatch;
 pub(crate) mod export;
 #[cfg(test)]
 mod tests;
 pub(crate) mod view;
 
-pub(crate) use crate::tools::compare::choice::Choice;
-pub(crate) use crate::tools::compare::choice::HeldTuning;
-pub(crate) use crate::tools::compare::choice::Inputs;
-pub(crate) use crate::tools::compare::choice::Route;
-pub(crate) use crate::tools::compare::choice::Side;
-#[cfg(test)]
-pub(crate) use crate::tools::compare::choice::TuningChoice;
-#[cfg(test)]
-pub(crate) use crate::tools::compare::choice::What;
-
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::time::Duration;
 
-use eframe::egui;
+use eframe::egui::{self, Theme, Ui};
 
 use crate::bench::Bench;
 use crate::bench::error::AppError;
+use crate::bench::export::Exported;
 use crate::bench::job::{Job, Polled};
-use crate::bench::play::resting_stroke;
+use crate::bench::pane::Pane;
 use crate::bench::task::Watch;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
+use crate::kit::theme::Palette;
+use crate::tools::compare::choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
-use selvedge_render::scene::{LoadedScene, TICKS_PER_S};
+use selvedge_render::scene::LoadedScene;
 use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, Spread, replay_pair};
 
 /// A path of at most so many ticks (ten minutes) is compared as soon as something has changed; a
@@ -68,11 +61,11 @@ enum End {
 
 /// What is compared, and what came of it.
 #[derive(Default)]
-pub(crate) struct Comparison {
+pub(crate) struct Compare {
     /// What the user chose.
     pub choice: Choice,
-    /// The tuning that was held.
-    pub held: Option<HeldTuning>,
+    /// The tuning that was held as A.
+    pub held_tuning: Option<HeldTuning>,
     ended: Option<(Inputs, End)>,
     running: Option<Running>,
     cache: TableCache,
@@ -97,7 +90,7 @@ pub(crate) enum Standing {
     Impossible(String),
 }
 
-impl Comparison {
+impl Compare {
     /// Comparisons that were begun.
     pub(crate) fn n_begun(&self) -> u64 {
         self.n_begun
@@ -151,15 +144,6 @@ impl Comparison {
             Some((_, End::Found(_))) => Standing::Stale,
             Some(_) | None => Standing::None,
         }
-    }
-
-    /// Forgets what was chosen and found in another scene.
-    pub(crate) fn leave_scene(&mut self) {
-        self.cancel();
-        *self = Self {
-            n_begun: self.n_begun,
-            ..Self::default()
-        };
     }
 
     /// Begins to compare; on this thread when `is_at_once`.
@@ -230,6 +214,88 @@ impl Comparison {
         };
         self.ended = Some((inputs, end));
     }
+
+    /// What is asked for now.
+    pub(crate) fn inputs(&self, bench: &Bench) -> Result<Inputs, &'static str> {
+        let document = &bench.document;
+        let tunings = [document.tuning(), document.default_tuning()];
+        let (choice, held) = (&self.choice, self.held_tuning.as_ref());
+        let route = Route::at_hand(bench);
+        Inputs::of(choice, held, document.scene(), tunings, route)
+    }
+
+    /// Holds the present tuning as A, to compare it with what comes.
+    pub(crate) fn hold(&mut self, bench: &Bench) {
+        let document = &bench.document;
+        self.held_tuning = Some(HeldTuning::of(document.scene(), document.tuning()));
+        self.choice.what = What::Tunings;
+        self.choice.tunings = [TuningChoice::Held, TuningChoice::Live];
+    }
+
+    /// Lets the comparison follow what was chosen: to be called while its pane is in sight. Nothing
+    /// begins during a gesture, nor by itself along a path that takes long.
+    pub(crate) fn follow(&mut self, bench: &Bench) -> Standing {
+        let asked = self.inputs(bench);
+        let standing = self.standing(&asked);
+        let is_due = matches!(standing, Standing::Stale | Standing::None);
+        if matches!(standing, Standing::Running(_)) {
+            bench.ctx.request_repaint_after(PROGRESS);
+        } else if let Ok(inputs) = &asked
+            && is_due
+            && inputs.route.n_ticks() <= MOST_AT_ONCE
+            && !bench.transient.moment.is_down
+        {
+            self.begin(inputs.clone(), &bench.loaded, &bench.ctx, bench.is_stepped);
+            return self.standing(&asked);
+        }
+        standing
+    }
+
+    /// Compares what is asked for now, whether it was compared before or not.
+    pub(crate) fn run(&mut self, bench: &Bench) {
+        if let Ok(inputs) = self.inputs(bench) {
+            self.begin(inputs, &bench.loaded, &bench.ctx, bench.is_stepped);
+        }
+    }
+}
+
+impl Tool for Compare {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Compare]
+    }
+
+    fn logic(&mut self, _bench: &mut Bench) {
+        self.poll();
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 10, |ui| view::show(ui, self, context));
+    }
+
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        view::controls::show_corner(ui, self, context.bench);
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        // On paper: no difference is nearly white, whatever the window's theme.
+        let map = Palette::of(Theme::Light).differences();
+        let compared = self.found().zip(self.sides());
+        let (difference, sides) = compared
+            .ok_or("There is nothing to export yet: press “compare” in the Compare pane")?;
+        let grid = bench.plain_scene_view().grid;
+        let grid = grid.unwrap_or((1, difference.by_contactor.len()));
+        let origin = bench.origin();
+        Ok(export::differences(difference, sides, (grid, map), origin))
+    }
+
+    /// Forgets what was chosen and found in another scene.
+    fn leave_scene(&mut self, _bench: &mut Bench) {
+        self.cancel();
+        *self = Self {
+            n_begun: self.n_begun,
+            ..Self::default()
+        };
+    }
 }
 
 /// Replays both and measures; `None` when it was asked to stop.
@@ -260,81 +326,9 @@ fn compare(
     Ok(end.is_continue().then(|| meter.finish()))
 }
 
-impl Bench {
-    /// What is asked for now.
-    pub(crate) fn comparison_inputs(&self) -> Result<Inputs, &'static str> {
-        let comparison = &self.transient.comparison;
-        let tunings = [self.document.tuning(), self.document.default_tuning()];
-        let (choice, held) = (&comparison.choice, comparison.held.as_ref());
-        Inputs::of(choice, held, self.document.scene(), tunings, self.route())
-    }
-
-    /// The recording at hand; without one, once along the stroke that the display explores with.
-    pub(crate) fn route(&self) -> Route {
-        if let Some(take) = &self.take {
-            return Route::Take(Arc::clone(take.path()));
-        }
-        let stroke = resting_stroke(self.document.scene());
-        let n_ticks = (stroke.period_s() * TICKS_PER_S)
-            .ceil()
-            .clamp(1.0, MOST_AT_ONCE as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 1 and ten minutes"
-        )]
-        Route::Stroke(stroke, n_ticks as u64)
-    }
-
-    /// Lets the comparison follow what was chosen: to be called while its pane is in sight. Nothing
-    /// begins during a gesture, nor by itself along a path that takes long.
-    pub(crate) fn follow_comparison(&mut self, ctx: &egui::Context) -> Standing {
-        let asked = self.comparison_inputs();
-        let standing = self.transient.comparison.standing(&asked);
-        match (&standing, asked) {
-            (Standing::Running(_), _) => {
-                ctx.request_repaint_after(PROGRESS);
-                standing
-            }
-            (Standing::Stale | Standing::None, Ok(inputs))
-                if inputs.route.n_ticks() <= MOST_AT_ONCE && !self.transient.moment.is_down =>
-            {
-                self.begin_comparison(ctx, inputs);
-                let asked = self.comparison_inputs();
-                self.transient.comparison.standing(&asked)
-            }
-            _ => standing,
-        }
-    }
-
-    /// How the newest comparison stands to what is asked for now.
-    pub(crate) fn comparison_standing(&self) -> Standing {
-        let asked = self.comparison_inputs();
-        self.transient.comparison.standing(&asked)
-    }
-
-    /// The place in the scene's list whose textile would be exchanged on a path.
-    pub(crate) fn compared_place(&self, route: &Route) -> usize {
-        let choice = &self.transient.comparison.choice;
-        choice.place_in(self.document.scene(), route)
-    }
-
-    /// Compares what is asked for now, whether it was compared before or not.
-    pub(crate) fn compare_now(&mut self, ctx: &egui::Context) {
-        if let Ok(inputs) = self.comparison_inputs() {
-            self.begin_comparison(ctx, inputs);
-        }
-    }
-
-    fn begin_comparison(&mut self, ctx: &egui::Context, inputs: Inputs) {
-        let comparison = &mut self.transient.comparison;
-        comparison.begin(inputs, &self.loaded, ctx, self.is_stepped);
-    }
-}
-
-impl std::fmt::Debug for Comparison {
+impl std::fmt::Debug for Compare {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Comparison")
+        f.debug_struct("Compare")
             .field("choice", &self.choice)
             .field("n_begun", &self.n_begun)
             .finish_non_exhaustive()

@@ -1,6 +1,6 @@
 //! A against B on the same path: what is compared, where and when they differ, and in all.
 //!
-//! Draws what `compare` found; asks for it by commands.
+//! Draws what `compare` found.
 
 pub(crate) mod controls;
 pub(crate) mod maps;
@@ -10,13 +10,12 @@ mod tests;
 
 use eframe::egui::{Align, Align2, Label, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
-use crate::bench::command::Commands;
-use crate::bench::view::{SceneView, ShelfItem};
+use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::axis::round_step;
 use crate::tools::compare::choice::Route;
-use crate::tools::compare::{Comparison, Standing};
+use crate::tools::compare::{Compare, Standing};
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_render::{LevelDifference, Tally};
 use selvedge_textile::tactile::Band;
@@ -26,55 +25,28 @@ const LINE: f32 = 14.0;
 /// A pane this wide has room for the maps beside the curve, points.
 const WIDE: f32 = 300.0;
 
-/// What the pane is drawn from, besides what was found.
-pub(crate) struct CompareView<'a> {
-    /// The scene.
-    pub scene: &'a SceneView,
-    /// The textiles of the library.
-    pub(crate) library_view: &'a [ShelfItem],
-    /// The place in the scene's list whose textile is exchanged.
-    pub place: usize,
-    /// The path that a comparison would follow now.
-    pub route: Route,
-    /// The name of the recording at hand.
-    pub take: Option<&'a str>,
-    /// How what was found stands to what is chosen now.
-    pub standing: Standing,
-    /// The contactor that is looked at closer.
-    pub contactor: Option<usize>,
-    /// The tick of the recording that is shown, while one is replayed.
-    pub tick: Option<u64>,
-}
-
 /// Shows the pane.
-pub(crate) fn show(
-    ui: &mut Ui,
-    comparison: &mut Comparison,
-    view: &CompareView<'_>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, compare: &mut Compare, context: &mut PaneContext<'_>) {
+    let standing = compare.follow(context.bench);
+    let route = Route::at_hand(context.bench);
     ui.spacing_mut().item_spacing.y = STEP;
-    controls::show(ui, comparison, view, commands);
+    controls::show(ui, compare, (&standing, &route), context);
     let palette = Palette::in_ui(ui);
     let rect = ui.available_rect_before_wrap();
-    let Some(found) = comparison
-        .found()
-        .filter(|_| is_worth_showing(&view.standing))
-    else {
-        let words = empty_words(view);
-        ui.label(RichText::new(words).color(palette.dim));
+    let Some(found) = compare.found().filter(|_| is_worth_showing(&standing)) else {
+        ui.label(RichText::new(empty_words(&standing)).color(palette.dim));
         return;
     };
     let summary = Band::ALL.map(|band| summary(&found.in_all[band.index()]));
     let height = (rect.height() - 2.0 * LINE - STEP).max(0.0);
     let body = Rect::from_min_size(rect.min, vec2(rect.width(), height));
-    let (maps, curve) = split(body, view.scene.grid);
+    let (maps, curve) = split(body, context.scene.grid);
     let mut dimmed = ui.new_child(UiBuilder::new().max_rect(body));
-    if view.standing != Standing::Fresh {
+    if standing != Standing::Fresh {
         dimmed.set_opacity(0.45);
     }
-    maps::show(&dimmed, maps, found, view, commands);
-    over_time::show(&dimmed, curve, comparison, view, commands);
+    maps::show(&dimmed, maps, found, context);
+    over_time::show(&dimmed, curve, compare, &route, context);
     let top = body.bottom() + STEP;
     for (band, words) in Band::ALL.into_iter().zip(summary) {
         let top = top + LINE * band.index() as f32;
@@ -89,8 +61,8 @@ fn is_worth_showing(standing: &Standing) -> bool {
     !matches!(standing, Standing::Impossible(_) | Standing::Cancelled)
 }
 
-fn empty_words(view: &CompareView<'_>) -> String {
-    match &view.standing {
+fn empty_words(standing: &Standing) -> String {
+    match standing {
         Standing::Impossible(words) => words.clone(),
         Standing::Cancelled => "Stopped. Press “compare” to compare".to_owned(),
         Standing::Running(_) => "Comparing…".to_owned(),
@@ -209,7 +181,7 @@ fn decimals_of(difference_db: f64) -> usize {
 }
 
 /// Sounding contactors by band, for those who do not see the maps.
-fn told(found: &LevelDifference) -> String {
+fn describe(found: &LevelDifference) -> String {
     let of_band = |band: Band| {
         let cells = || found.by_contactor.iter().map(|cell| &cell[band.index()]);
         let n_both = cells().filter(|tally| tally.n_both > 0).count();
