@@ -9,8 +9,9 @@ use crate::kit::plot::{Drag, Setting, Shown};
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
+use crate::tools::response::chart;
 use crate::tools::response::curves::speeds_mm_per_s;
-use crate::tools::response::{ResponseView, chart, paint_handle, paint_moving, words_of};
+use crate::tools::response::shown::{ResponseView, paint_handle, paint_moving, words_of};
 use selvedge_foundation::geometry::Velocity;
 use selvedge_foundation::quantity;
 

@@ -10,8 +10,8 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
-use crate::tools::response::{
-    ResponseView, fill_between, levels_db, paint_handle, paint_moving, words_of,
+use crate::tools::response::shown::{
+    MEAN, ResponseView, fill_between, levels_db, paint_focus, paint_handle, paint_moving, words_of,
 };
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -57,7 +57,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut 
     }
     plot.name_rings(&painter);
     plot.paint_marks(&painter, view, response.is_pointer_button_down_on());
-    super::paint_focus(ui, &response, rect.shrink(4.0));
+    paint_focus(ui, &response, rect.shrink(4.0));
     tell(response, &plot, view);
 }
 
@@ -230,7 +230,7 @@ impl Plot {
             row
         };
         fill_between(painter, &closed(least), &closed(most), ink);
-        let thin = Stroke::new(1.0, ink.gamma_multiply(super::MEAN));
+        let thin = Stroke::new(1.0, ink.gamma_multiply(MEAN));
         painter.add(Shape::closed_line(mean, thin));
         if view.place.is_some() {
             painter.add(Shape::closed_line(place, Stroke::new(1.75, ink)));

@@ -6,7 +6,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::*;
+use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::Command;
+use crate::bench::probe::Probe;
+use selvedge_foundation::geometry::Velocity;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{ContactInspector, TextileResponse};
 use selvedge_render::scene::LoadedScene;

@@ -15,7 +15,7 @@ use super::*;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::shell::headless::Headless;
 use crate::tools::accuracy::Accuracy;
-use crate::tools::compare::{Compare, Standing};
+use crate::tools::compare::comparison::{Compare, Standing};
 use crate::tools::lab::command::{Beginning, LabCommand};
 use crate::tools::response::Response;
 use crate::tools::workspace::overlay::Overlay;

@@ -7,7 +7,7 @@ use crate::bench::export::origin::Origin;
 use crate::bench::rendering::Rendering;
 use crate::tools::accuracy::checker::{ERRORS_DB, ErrorView, ROUNDING_DB, edges_db};
 use crate::tools::accuracy::measuring::Measured;
-use crate::tools::accuracy::{Accuracy, CostView};
+use crate::tools::accuracy::sampling::{Accuracy, CostView};
 use selvedge_chart::{At, Axis, Bars, Chart, Columns, Extent, Ink, Row, Rule, Series};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;

@@ -8,9 +8,9 @@ use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
-use crate::tools::accuracy::CostView;
-use crate::tools::accuracy::view::numbers::LINE;
-use crate::tools::accuracy::view::{HISTOGRAM, chart, numbers, quiet_line};
+use crate::tools::accuracy::sampling::CostView;
+use crate::tools::accuracy::view::numbers::{HISTOGRAM, LINE, quiet_line};
+use crate::tools::accuracy::view::{chart, numbers};
 use selvedge_foundation::quantity;
 
 /// Shows costs and their distribution in the space that is left.

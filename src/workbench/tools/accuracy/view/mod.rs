@@ -7,20 +7,16 @@ pub(crate) mod errors;
 pub(crate) mod numbers;
 pub(crate) mod pareto;
 
-use eframe::egui::{
-    self, ComboBox, Layout, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2,
-};
+use eframe::egui::{self, ComboBox, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
 use crate::bench::command::Command;
 use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
 use crate::bench::tool::PaneContext;
-use crate::kit::plot::{Drag, Setting};
-use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tip_beside};
 use crate::kit::widgets::text::toggle;
-use crate::tools::accuracy::Accuracy;
+use crate::tools::accuracy::sampling::Accuracy;
 use selvedge_render::array::Method;
 
 /// A pane at least this wide shows all three plots side by side, points.
@@ -33,23 +29,6 @@ const LEAST: f32 = 132.0;
 const GAP: f32 = 3.0 * STEP;
 /// Decades of the budget's slider: down to 0.0001 dB, then 0.
 const DECADES: f64 = 4.0;
-
-/// How both histograms stand in the pane, which may scroll.
-const HISTOGRAM: Setting<'_> = Setting {
-    name: "",
-    margin: Margin {
-        left: 2,
-        right: 2,
-        top: 14,
-        bottom: 16,
-    },
-    wheel: false,
-    drag: Drag::Pans,
-    link: None,
-    hover: false,
-    note: "",
-    has_legend: false,
-};
 
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, context: &mut PaneContext<'_>) {
@@ -212,14 +191,4 @@ fn show_method(ui: &mut Ui, chosen: &mut Method) {
         "How amplitudes are computed: reference (every bin, f64), banded (the bins that can be \
          heard), table (looked up), or auto: the cheapest within the error budget",
     );
-}
-
-/// A line of dim words that is cut where there is no room for all.
-fn quiet_line(ui: &mut Ui, words: &str, tip: &str) {
-    let ink = Palette::in_ui(ui).dim;
-    let words = RichText::new(words).font(theme::small()).color(ink);
-    let label = ui.add(egui::Label::new(words).truncate());
-    if !tip.is_empty() {
-        label.on_hover_text(tip);
-    }
 }

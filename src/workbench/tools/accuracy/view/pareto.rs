@@ -12,10 +12,10 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};
 use crate::kit::widgets::text::button;
-use crate::tools::accuracy::Accuracy;
 use crate::tools::accuracy::measuring::Measured;
-use crate::tools::accuracy::view::numbers::LINE;
-use crate::tools::accuracy::view::{numbers, quiet_line};
+use crate::tools::accuracy::sampling::Accuracy;
+use crate::tools::accuracy::view::numbers;
+use crate::tools::accuracy::view::numbers::{LINE, quiet_line};
 use selvedge_foundation::quantity;
 use selvedge_studies::Row;
 

@@ -10,8 +10,8 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
 use crate::kit::widgets::text::toggle;
 use crate::tools::compare::choice::{Choice, Route, TuningChoice, What};
-use crate::tools::compare::{Compare, Standing};
-use selvedge_foundation::quantity::{fixed, with_unit};
+use crate::tools::compare::comparison::{Compare, Standing};
+use selvedge_foundation::quantity::fixed;
 use selvedge_render::array::Method;
 
 /// Height of a row, points.
@@ -229,14 +229,4 @@ fn combo(ui: &mut Ui, name: &str, width: f32, text: &str, content: impl FnOnce(&
         side => format!("{side} of the comparison"),
     };
     list(ui, (("compare", name), &label), width, text, content);
-}
-
-/// A difference as people read it: with its sign.
-pub(crate) fn signed_db(difference_db: f64, decimals: usize) -> String {
-    let words = with_unit(difference_db, decimals, "dB");
-    if difference_db > 0.0 {
-        format!("+{words}")
-    } else {
-        words
-    }
 }

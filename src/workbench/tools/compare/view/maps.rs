@@ -10,9 +10,8 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::Tick;
 use crate::kit::widgets::bar::colour_bar;
-use crate::tools::compare::view::controls::signed_db;
-use crate::tools::compare::view::{
-    alone_words, band_name, decimals_of, describe, scale_db, unit_of,
+use crate::tools::compare::words::{
+    alone_words, band_name, decimals_of, describe, scale_db, signed_db, unit_of,
 };
 use crate::tools::contactors::{GAP, NUMBER_WIDTH, Places, TITLE};
 use selvedge_foundation::quantity::fixed;

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::bench::Drive;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathRow, Scene, Stroke};
@@ -122,8 +121,7 @@ fn a_comparison_is_fresh_until_something_changes() {
     let mut other = inputs.clone();
     other.sides[1].method = Method::Banded;
     assert_eq!(comparison.standing(&Ok(other)), Standing::Stale);
-    let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-    comparison.leave_scene(&mut bench);
+    comparison.forget();
     assert!(comparison.found().is_none() && comparison.n_begun() == 1);
 }
 

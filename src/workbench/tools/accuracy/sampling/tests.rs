@@ -226,7 +226,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
 fn a_measurement_that_is_stopped_leaves_the_last_one() {
     let (mut accuracy, mut bench) = exploring();
     accuracy.measure(&mut bench);
-    accuracy.stop_measuring();
+    accuracy.measuring.as_ref().unwrap().stop();
     while accuracy.measuring.is_some() {
         accuracy.poll_measuring(&mut bench);
         std::thread::yield_now();
