@@ -208,7 +208,16 @@ impl Desk<'_> {
             crate::bench::export::button::show(ui, Exportable::Pane(pane), self.context.commands);
         }
         if let Some(tool) = self.tools.showing(pane) {
-            return tool.corner(pane, ui, &mut self.context);
+            if !self.context.bench.is_veiled(pane) {
+                return tool.corner(pane, ui, &mut self.context);
+            }
+            // It looks as ever, and a session goes on as it is.
+            ui.scope(|ui| {
+                ui.visuals_mut().disabled_alpha = 1.0;
+                ui.disable();
+                tool.corner(pane, ui, &mut self.context);
+            });
+            return;
         }
         match pane {
             Pane::Heatmaps => {

@@ -58,7 +58,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut 
     plot.name_rings(&painter);
     plot.paint_marks(&painter, view, response.is_pointer_button_down_on());
     paint_focus(ui, &response, rect.shrink(4.0));
-    tell(response, &plot, view);
+    describe(response, &plot, view);
 }
 
 /// The velocity with the direction that the pointer, the keys or an assistive tool choose.
@@ -79,7 +79,7 @@ fn chosen(ui: &Ui, response: &Response, plot: &Plot, probe: Probe) -> Option<Pro
     asked_value(ui, response.id).map(|direction_deg| probe.with_direction(direction_deg))
 }
 
-fn tell(response: Response, plot: &Plot, view: &ResponseView<'_>) {
+fn describe(response: Response, plot: &Plot, view: &ResponseView<'_>) {
     let pointed = response.hover_pos().and_then(|at| plot.direction_deg(at));
     let Some(direction_deg) = pointed.filter(|_| !response.dragged()) else {
         return;
