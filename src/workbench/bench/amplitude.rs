@@ -7,9 +7,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::kit::widgets::axis::round_step;
+use selvedge_foundation::quantity;
 
 /// From the largest to the smallest amplitude on the scale.
 const SPAN: f64 = 100.0;
+/// From the top of the levels of curves to their bottom: wider than the scale, whose top they share,
+/// since curves fall far, dB.
+const LEVELS_SPAN_DB: f64 = 60.0;
 /// The full scale of the output, where the scale begins and which it never exceeds by itself, µm.
 const FULL_SCALE_UM: f64 = 50.0;
 /// The smallest upper end, µm.
@@ -97,6 +101,12 @@ impl AmplitudeScale {
     /// Upper end, µm.
     pub(crate) fn most_um(self) -> f64 {
         self.most_um
+    }
+
+    /// The ends of the levels of curves, dB re 1 µm.
+    pub(crate) fn level_ends_db(self) -> [f64; 2] {
+        let most_db = quantity::level_db(self.most_um);
+        [most_db - LEVELS_SPAN_DB, most_db]
     }
 
     /// The scale after the largest amplitude seen lately, µm: it rises at once and falls when only

@@ -274,9 +274,7 @@ impl Bench {
         self.transient.mute_solo = mute_solo::MuteSolo::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
-        self.transient.comparison.leave_scene();
         self.transient.collection.leave_library();
-        self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
         self.workspace.camera = crate::tools::workspace::camera::Camera::default();

@@ -24,9 +24,7 @@ impl Bench {
         if let Some(failure) = self.transient.folders.poll() {
             self.transient.notices.give(failure);
         }
-        self.poll_measuring();
         self.poll_prepared();
-        self.transient.comparison.poll();
         self.transient.picturing.poll();
         self.transient.analysing.poll();
         self.take_notices();

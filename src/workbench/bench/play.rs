@@ -25,6 +25,7 @@ impl Bench {
             PlayCommand::Step => self.send(selvedge_engine::Command::Step),
             PlayCommand::Rewind => self.send(selvedge_engine::Command::Rewind),
             PlayCommand::Seek(tick) => self.send(selvedge_engine::Command::Seek(tick)),
+            PlayCommand::ReplayAt(tick) => self.seek_in_take(tick),
             PlayCommand::Loop(does_loop) => {
                 self.transient.does_loop = does_loop;
                 self.send(selvedge_engine::Command::SetLoop(does_loop));
@@ -69,7 +70,7 @@ impl Bench {
     }
 
     /// Shows a tick of the recording at hand, whatever moved the display before.
-    pub(crate) fn seek_in_take(&mut self, tick: u64) {
+    fn seek_in_take(&mut self, tick: u64) {
         if self.take.is_none() {
             return;
         }

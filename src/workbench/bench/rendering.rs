@@ -36,6 +36,11 @@ impl Rendering {
         Accuracy::within_db(self.budget_db)
     }
 
+    /// Whether the method keeps to the budget; others have an error of their own.
+    pub(crate) fn has_budget(self) -> bool {
+        matches!(self.method, Method::Auto | Method::Table)
+    }
+
     /// The same with a budget that can be chosen; what is no number is as at first.
     pub(crate) fn in_bounds(self) -> Self {
         let budget_db = if self.budget_db.is_nan() {

@@ -15,26 +15,18 @@ use crate::bench::recording::Take;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::view::{BridgeView, Hovered, Live};
-use crate::tools::accuracy::AccuracyWatch;
 use crate::tools::analysis::Analysing;
 use crate::tools::analysis::view::section::Looks as AnalysisLooks;
 use crate::tools::bridge::actuators::PlantPeek;
 use crate::tools::bridge::fault_bench::FaultBench;
 use crate::tools::bridge::ports::Ports;
 use crate::tools::collection::Collection;
-use crate::tools::compare::Comparison;
 use crate::tools::experiment::Experiment;
 use crate::tools::lab::Lab;
 use crate::tools::lab::view::pictures::LabPictures;
 use crate::tools::picture::Picturing;
 use crate::tools::picture::view::cards::PictureTextures;
-use crate::tools::response::curves::Curves;
-use crate::tools::spectra::contact::ContactSpectrogram;
-use crate::tools::spectra::drive::DriveSpectrogram;
-use crate::tools::spectra::spatial::SpatialSpectra;
-use crate::tools::spectra::wave::WaveScale;
 use crate::tools::timeline::TransportState;
-use crate::tools::why::Why;
 use crate::tools::workspace::maps::Maps;
 use crate::tools::workspace::overlay::lattice::Lattice;
 use crate::tools::workspace::trail::Trail;
@@ -73,20 +65,8 @@ pub(crate) struct Transient {
     pub(crate) trail: Trail,
     /// The last seconds.
     pub(crate) history: History,
-    /// The spectrum that arrives, as far as it was drawn.
-    pub(crate) contact_spectrogram: ContactSpectrogram,
-    /// The spectrum that drives, as far as it was drawn.
-    pub(crate) drive_spectrogram: DriveSpectrogram,
-    /// The axis of the drive waveform.
-    pub(crate) wave_scale: WaveScale,
-    /// Spatial spectra as they were drawn last.
-    pub spatial: SpatialSpectra,
-    /// The explanation that is shown, and whether it is held.
-    pub why: (Option<Why>, bool),
     /// The library as a whole.
     pub collection: Collection,
-    /// What is compared, and what came of it.
-    pub comparison: Comparison,
     /// Experiments and the session that is held.
     pub experiment: Experiment,
     /// Logs that are analysed.
@@ -97,18 +77,12 @@ pub(crate) struct Transient {
     pub(crate) picturing: Picturing,
     /// Its stages as textures.
     pub(crate) picture_textures: PictureTextures,
-    /// How accurate rendering was found to be.
-    pub accuracy: AccuracyWatch,
     /// Maps of the textiles at the chosen velocity.
     pub maps: Maps,
     /// Pictures of the points 1 mm apart.
     pub lattice: Lattice,
     /// What the contactors read and how they move, while that is drawn.
     pub readings: Vec<ContactorReading>,
-    /// A textile's amplitudes over direction and speed.
-    pub curves: Curves,
-    /// The textile whose curves were shown last.
-    pub(crate) asked_textile: Option<usize>,
     /// The textile lab.
     pub lab: Lab,
     /// What the lab pictures, as it was drawn last.

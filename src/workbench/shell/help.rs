@@ -93,8 +93,7 @@ fn kind(command: &Command) -> &'static str {
         Command::Play(_) | Command::Source(_) => "Play and record",
         Command::Show(_)
         | Command::Lab(_)
-        | Command::Accuracy(_)
-        | Command::Compare(_)
+        | Command::Render(_)
         | Command::Collection(_)
         | Command::Experiment(_)
         | Command::Analysis(_)

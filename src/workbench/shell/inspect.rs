@@ -7,7 +7,12 @@ use crate::bench::command::{FileCommand, Purpose};
 use crate::bench::pane::Pane;
 use crate::bench::view::{BridgePhase, Source};
 use crate::shell::window::Workbench;
+use crate::tools::accuracy::Accuracy;
+use crate::tools::compare::Compare;
 use crate::tools::import::Import;
+use crate::tools::response::Response;
+use crate::tools::spectra::contact::ContactSpectrum;
+use crate::tools::spectra::drive::DriveSpectrum;
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::Tuning;
@@ -65,28 +70,28 @@ impl Workbench {
 
     /// Columns computed for the contact spectrum and for the drive spectrum.
     pub fn columns_computed(&self) -> [u64; 2] {
+        let contact = self.tools.get::<ContactSpectrum>();
+        let drive = self.tools.get::<DriveSpectrum>();
         [
-            self.bench
-                .transient
-                .contact_spectrogram
-                .n_columns_computed(),
-            self.bench.transient.drive_spectrogram.n_columns_computed(),
+            contact.map_or(0, ContactSpectrum::n_columns_computed),
+            drive.map_or(0, DriveSpectrum::n_columns_computed),
         ]
     }
 
     /// Comparisons that were begun.
     pub fn n_comparisons(&self) -> u64 {
-        self.bench.transient.comparison.n_begun()
+        self.tools.get::<Compare>().map_or(0, Compare::n_begun)
     }
 
     /// The differences that were found last.
     pub fn comparison(&self) -> Option<&LevelDifference> {
-        self.bench.transient.comparison.found()
+        self.tools.get::<Compare>()?.found()
     }
 
     /// Ticks that were checked against `reference` since the statistics began, and ticks left out.
     pub fn ticks_checked(&self) -> [u64; 2] {
-        let tally = self.bench.transient.accuracy.tally();
+        let accuracy = self.tools.get::<Accuracy>();
+        let tally = accuracy.map(Accuracy::tally).unwrap_or_default();
         [tally.sampled, tally.busy + tally.changed]
     }
 
@@ -102,7 +107,8 @@ impl Workbench {
 
     /// Methods that were measured on this scene.
     pub fn n_methods_measured(&self) -> usize {
-        let measured = self.bench.transient.accuracy.measured.as_ref();
+        let accuracy = self.tools.get::<Accuracy>();
+        let measured = accuracy.and_then(|accuracy| accuracy.measured.as_ref());
         measured.map_or(0, |measured| measured.rows.len())
     }
 
@@ -119,8 +125,9 @@ impl Workbench {
 
     /// Maps over the cloth and curves over direction and speed computed so far.
     pub fn responses_computed(&self) -> [u64; 2] {
-        let transient = &self.bench.transient;
-        [transient.maps.n_computed(), transient.curves.n_computed()]
+        let curves = self.tools.get::<Response>();
+        let n_curves = curves.map_or(0, |response| response.curves.n_computed());
+        [self.bench.transient.maps.n_computed(), n_curves]
     }
 
     /// Previews of recipes that were begun in the textile lab.

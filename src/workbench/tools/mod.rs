@@ -24,5 +24,15 @@ use crate::bench::tool::Tool;
 
 /// Every tool: to add one is a folder and a line here.
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
-    vec![Box::new(import::Import::default())]
+    vec![
+        Box::new(import::Import::default()),
+        Box::new(accuracy::Accuracy::default()),
+        Box::new(compare::Compare::default()),
+        Box::new(response::Response::default()),
+        Box::new(spectra::contact::ContactSpectrum::default()),
+        Box::new(spectra::drive::DriveSpectrum::default()),
+        Box::new(spectra::wave::DriveWave::default()),
+        Box::new(spectra::spatial::SpatialSpectra::default()),
+        Box::new(why::Why::default()),
+    ]
 }

@@ -101,6 +101,7 @@ mod tests {
     use crate::bench::pane::Pane;
     use crate::shell::headless::Headless;
     use crate::shell::raster::Rasteriser;
+    use crate::tools::why::Why;
     use selvedge_device::{ArrayProfile, Calibration};
     use selvedge_textile::tactile::Band;
 
@@ -178,7 +179,8 @@ mod tests {
             assert_eq!(dot.limiter.limited[0], dot.amplitude_um[0] > 2.0, "{dot:?}");
         }
         assert!(dots.iter().any(|dot| dot.limiter.limited[0]));
-        let why = window.workbench.bench.transient.why.0.as_ref().unwrap();
+        let why = window.workbench.tools.get::<Why>().unwrap();
+        let why = why.shown.as_ref().unwrap();
         assert_eq!(why.output.limits.map(|limit| limit.um), [2.0, 50.0]);
         assert!(why.output.limiter.limited[0], "{:?}", why.output);
         let mut last = window.run();

@@ -20,12 +20,11 @@ use crate::bench::keep::Keep;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::probe::Probe;
+use crate::bench::rendering::Rendering;
 use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::tools::accuracy::AccuracyCommand;
 use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::collection::CollectionCommand;
-use crate::tools::compare::choice::Choice;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::lab::command::LabCommand;
 use crate::tools::picture::PictureCommand;
@@ -56,10 +55,8 @@ pub(crate) enum Command {
     Play(PlayCommand),
     /// Choose what else moves the display, or hears of it.
     Source(SourceCommand),
-    /// Compare tunings, textiles or methods.
-    Compare(CompareCommand),
-    /// Change how scenes are rendered, or ask how accurate that is.
-    Accuracy(AccuracyCommand),
+    /// Render scenes so from now on.
+    Render(Rendering),
     /// Change what is shown or selected of the library as a whole.
     Collection(CollectionCommand),
     /// Make a textile of a picture.
@@ -97,12 +94,6 @@ impl From<ArrayCommand> for Command {
 impl From<FileCommand> for Command {
     fn from(command: FileCommand) -> Self {
         Self::File(command)
-    }
-}
-
-impl From<CompareCommand> for Command {
-    fn from(command: CompareCommand) -> Self {
-        Self::Compare(command)
     }
 }
 
@@ -224,6 +215,8 @@ pub(crate) enum PlayCommand {
     Rewind,
     /// To this tick of the recording.
     Seek(u64),
+    /// Show this tick of the recording at hand, whatever moved the display before.
+    ReplayAt(u64),
     /// Whether a recording begins again at its end.
     Loop(bool),
     /// Begin again at its end if it did not, and the other way round.
@@ -247,21 +240,6 @@ pub(crate) enum PlaySource {
     Recording,
     /// The tablet or program that was chosen last.
     Input,
-}
-
-/// What is compared. Never undoable.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum CompareCommand {
-    /// Compare this.
-    Choose(Choice),
-    /// Hold the present tuning as A, to compare it with what comes.
-    Hold,
-    /// Compare now.
-    Run,
-    /// Stop comparing.
-    Cancel,
-    /// Show this tick of the recording at hand.
-    Seek(u64),
 }
 
 /// What is shown how. Never undoable.
@@ -316,10 +294,6 @@ pub(crate) enum ShowCommand {
     Calibrate,
     /// The screen has this many pixels per millimetre.
     Calibrated(f64),
-    /// Hold the explanation of the chosen contactor, or let it follow again.
-    FreezeWhy,
-    /// Copy the explanation of the chosen contactor as text.
-    CopyWhy,
     /// Show or hide the list of keys.
     Help,
 }

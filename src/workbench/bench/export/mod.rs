@@ -30,17 +30,24 @@ pub(crate) mod origin;
 mod tests;
 pub(crate) mod write;
 
-#[cfg(test)]
 pub(crate) use crate::bench::export::origin::Origin;
 pub(crate) use crate::bench::export::write::Kind;
 pub(crate) use selvedge_chart::Columns as Sheet;
 
 use crate::bench::pane::Pane;
 use crate::kit::theme::colour_map::ColourMap;
-use selvedge_chart::{Axis, Chart, ColourBar, Figure, Row};
+use selvedge_chart::{Axis, Chart, ColourBar, Figure, Ink, Row};
+use selvedge_textile::tactile::Band;
 
 /// Colours of a bar: more than the eye tells apart.
 pub(crate) const N_COLOURS: u8 = 33;
+
+/// Why there is nothing to export before anything was felt.
+pub(crate) const NOTHING_FELT: &str =
+    "There is nothing to export yet: move over a textile, or let the display explore by itself";
+/// Why there is nothing to export of no contactor.
+pub(crate) const NO_CONTACTOR: &str =
+    "There is nothing to export: choose a contactor first, by a click on a cell of the heatmaps";
 
 /// Something that can be exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -125,6 +132,14 @@ impl Exported {
             bar: None,
         };
         Self::new(title.to_owned(), sheet, vec![row], note, origin)
+    }
+}
+
+/// What a band is drawn with.
+pub(crate) fn ink(band: Band) -> Ink {
+    match band {
+        Band::Low => Ink::Amber,
+        Band::High => Ink::Cyan,
     }
 }
 

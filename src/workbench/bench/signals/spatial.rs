@@ -6,6 +6,19 @@ use selvedge_textile::tactile::MAX_FREQUENCY_HZ;
 
 use crate::bench::signals::rows::LEAST_HZ;
 
+/// Ends of the densities that are shown, dB re 1 µm² per cycle/mm.
+pub(crate) const DENSITIES_DB: [f64; 2] = [-60.0, 40.0];
+
+/// The wavenumber of bin k = 1 … 500, cycles/mm.
+pub(crate) fn wavenumber_per_mm(k: usize) -> f64 {
+    BIN_SPACING_PER_MM * k as f64
+}
+
+/// The level of a density in µm² per cycle/mm, dB.
+pub(crate) fn density_db(density_um2_mm: f64) -> f64 {
+    10.0 * density_um2_mm.log10()
+}
+
 /// The spectra of all four directions at the points nearest to a contactor.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SpatialView {

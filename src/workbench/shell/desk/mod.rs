@@ -9,22 +9,12 @@ use eframe::egui::{self, Ui};
 use crate::bench::Bench;
 use crate::bench::export::Exportable;
 use crate::bench::pane::Pane;
-use crate::bench::recording::Take;
-use crate::bench::signals::drive::drive_um;
 use crate::bench::tool::{PaneContext, Tools};
-use crate::bench::view::Source;
 use crate::kit::pane::{framed, scrolled};
-use crate::kit::theme;
-use crate::kit::theme::Palette;
 use crate::shell::tab_row::TabRow;
 use crate::tools::collection::measuring::Asked;
 use crate::tools::collection::view::Typed as CollectionTyped;
-use crate::tools::compare::view::CompareView;
 use crate::tools::contactors::HeatmapStyle;
-use crate::tools::spectra::contact::ContactSpectrumView;
-use crate::tools::spectra::drive::DriveSpectrumView;
-use crate::tools::spectra::spatial::SpatialSource;
-use crate::tools::spectra::wave::DriveWaveView;
 use crate::tools::workspace;
 
 /// Everything that panes are drawn from, and what came of drawing them.
@@ -69,32 +59,21 @@ impl Desk<'_> {
                 self.context.bench.show_bridge(ui, self.context.commands);
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
-            Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),
-            Pane::DriveSpectrum => framed(ui, 8, |ui| self.show_drive_spectrum(ui)),
-            Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
-            Pane::SpatialSpectra => framed(ui, 8, |ui| self.show_spatial(ui)),
-            Pane::Accuracy => framed(ui, 10, |ui| {
-                self.context.bench.watch_accuracy();
-                crate::tools::accuracy::view::show(
-                    ui,
-                    &self.context.bench.accuracy_view(),
-                    self.context.commands,
-                );
-            }),
-            Pane::Why => framed(ui, 10, |ui| {
-                self.context.bench.explain();
-                let why = self.context.bench.transient.why.0.as_ref();
-                crate::tools::why::view::show(ui, why, &self.context.scene.filters);
-            }),
-            Pane::Compare => framed(ui, 10, |ui| self.show_compare(ui)),
-            Pane::Response => framed(ui, 10, |ui| self.show_response(ui)),
             Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            Pane::Import => {}
+            Pane::Import
+            | Pane::Response
+            | Pane::Compare
+            | Pane::Accuracy
+            | Pane::Why
+            | Pane::ContactSpectrum
+            | Pane::DriveSpectrum
+            | Pane::DriveWave
+            | Pane::SpatialSpectra => {}
         }
     }
 
@@ -146,84 +125,6 @@ impl Desk<'_> {
             self.context.scene,
             &bench.transient.live,
             style,
-            self.context.commands,
-        );
-    }
-}
-
-/// The plots of the contactor that is looked at closer.
-impl Desk<'_> {
-    fn contactor(&self) -> usize {
-        self.context.bench.workspace.contactor.unwrap_or(usize::MAX)
-    }
-
-    fn show_contact_spectrum(&mut self, ui: &mut Ui) {
-        let contactor = self.contactor();
-        let bench = &mut *self.context.bench;
-        let view = ContactSpectrumView {
-            history: &bench.transient.history,
-            contactor,
-            filters: &self.context.scene.filters,
-            map: bench.settings.preferences.colour_map,
-            // Columns stay as they were felt when a textile is moved afterwards.
-            scene_serial: bench.inspection.n_scenes,
-        };
-        let state = &mut bench.transient.contact_spectrogram;
-        crate::tools::spectra::contact::show(ui, state, &mut bench.inspection.inspector, &view);
-    }
-
-    fn show_drive_spectrum(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.context.bench;
-        let view = DriveSpectrumView {
-            history: &bench.transient.history,
-            scale: bench.workspace.scale,
-            map: bench.settings.preferences.colour_map,
-        };
-        crate::tools::spectra::drive::show(ui, &mut bench.transient.drive_spectrogram, &view);
-    }
-
-    fn show_drive_wave(&mut self, ui: &mut Ui) {
-        let view = self.context.bench.drive_wave_view();
-        crate::tools::spectra::wave::show(ui, &mut self.context.bench.transient.wave_scale, &view);
-    }
-
-    fn show_spatial(&mut self, ui: &mut Ui) {
-        let contactor = self.contactor();
-        let bench = &mut *self.context.bench;
-        let source = SpatialSource {
-            scene: &bench.inspection.scene,
-            scene_serial: bench.inspection.n_edits,
-            contactor,
-            pose: bench.transient.live.pose,
-        };
-        let state = &mut bench.transient.spatial;
-        crate::tools::spectra::spatial::show(ui, state, &mut bench.inspection.inspector, &source);
-    }
-}
-
-/// Tunings, textiles and methods against each other.
-impl Desk<'_> {
-    fn show_compare(&mut self, ui: &mut Ui) {
-        let standing = self.context.bench.follow_comparison(ui.ctx());
-        let bench = &mut *self.context.bench;
-        let play = bench.transient.live.play;
-        let route = bench.route();
-        let place = bench.compared_place(&route);
-        let is_replayed = play.source == Source::Recording;
-        let view = CompareView {
-            scene: self.context.scene,
-            library_view: bench.library_view.items(),
-            place,
-            route,
-            take: bench.take.as_ref().map(Take::name),
-            standing,
-            contactor: bench.workspace.contactor,
-            tick: is_replayed.then_some(play.tick),
-        };
-        crate::tools::compare::view::show(
-            ui,
-            &mut bench.transient.comparison,
-            &view,
             self.context.commands,
         );
     }
@@ -297,18 +198,6 @@ impl Bench {
             selected: self.workspace.contactor.unwrap_or(usize::MAX),
         }
     }
-
-    /// What drove the chosen contactor in the last two ticks.
-    pub(crate) fn drive_wave_view(&self) -> DriveWaveView {
-        let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
-        let contactor = u32::try_from(contactor).unwrap_or(u32::MAX);
-        let (history, tick) = (&self.transient.history, self.transient.live.tick);
-        DriveWaveView {
-            before_um: drive_um(history, contactor, tick.saturating_sub(1)),
-            now_um: drive_um(history, contactor, tick),
-            limit_um: self.limits().map(|limit| limit.um),
-        }
-    }
 }
 
 /// The right end of a row of tabs: what belongs to the pane in front.
@@ -318,52 +207,22 @@ impl Desk<'_> {
             crate::bench::export::button::show(ui, Exportable::Pane(pane), self.context.commands);
         }
         if let Some(tool) = self.tools.showing(pane) {
-            return tool.corner(pane, ui, &mut self.context);
+            if !self.context.bench.is_veiled(pane) {
+                return tool.corner(pane, ui, &mut self.context);
+            }
+            // It looks as ever, and a session goes on as it is.
+            ui.scope(|ui| {
+                ui.visuals_mut().disabled_alpha = 1.0;
+                ui.disable();
+                tool.corner(pane, ui, &mut self.context);
+            });
+            return;
         }
         match pane {
             Pane::Heatmaps => {
                 let style = self.context.bench.heatmap_style();
                 let mute_solo = &self.context.bench.transient.mute_solo;
                 crate::tools::contactors::show_corner(ui, style, mute_solo, self.context.commands);
-            }
-            Pane::ContactSpectrum
-            | Pane::DriveSpectrum
-            | Pane::DriveWave
-            | Pane::SpatialSpectra => {
-                let contactor = self.context.bench.workspace.contactor;
-                let words = contactor.map_or_else(
-                    || "no contactor chosen".to_owned(),
-                    |contactor| format!("contactor {contactor}"),
-                );
-                let ink = Palette::in_ui(ui).dim;
-                let label = ui.label(egui::RichText::new(words).font(theme::small()).color(ink));
-                label.on_hover_text("Click a cell of the heatmaps to choose another contactor");
-            }
-            Pane::Why => {
-                let (why, is_frozen) = &self.context.bench.transient.why;
-                let n_contactors = self.context.bench.transient.live.dots.len();
-                let why = (
-                    why.as_ref(),
-                    self.context.bench.workspace.contactor,
-                    n_contactors,
-                );
-                crate::tools::why::view::show_corner(ui, *is_frozen, why, self.context.commands);
-            }
-            Pane::Response => {
-                let probe = self.context.bench.workspace.probe;
-                crate::tools::response::show_corner(ui, probe, self.context.commands);
-            }
-            Pane::Compare => {
-                let standing = self.context.bench.comparison_standing();
-                crate::tools::compare::view::controls::show_corner(
-                    ui,
-                    &standing,
-                    self.context.commands,
-                );
-            }
-            Pane::Accuracy => {
-                let shows_methods = self.context.bench.transient.accuracy.shows_methods;
-                crate::tools::accuracy::view::show_corner(ui, shows_methods, self.context.commands);
             }
             Pane::Workspace => {
                 let bench = &*self.context.bench;
@@ -372,7 +231,15 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.context.commands);
                 }
             }
-            Pane::Collection
+            Pane::Response
+            | Pane::Compare
+            | Pane::Accuracy
+            | Pane::Why
+            | Pane::ContactSpectrum
+            | Pane::DriveSpectrum
+            | Pane::DriveWave
+            | Pane::SpatialSpectra
+            | Pane::Collection
             | Pane::Lab
             | Pane::Library
             | Pane::Tuning

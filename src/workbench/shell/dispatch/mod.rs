@@ -107,8 +107,10 @@ impl Bench {
             Command::Play(PlayCommand::Source(PlaySource::Input)) => self.choose_input(),
             Command::Play(command) => self.dispatch_play(command),
             Command::Source(command) => self.dispatch_source(command),
-            Command::Compare(command) => self.dispatch_compare(ctx, command),
-            Command::Accuracy(command) => self.dispatch_accuracy(ctx, command),
+            Command::Render(rendering) => {
+                self.settings.preferences.rendering = rendering.in_bounds();
+                self.render_as_chosen();
+            }
             Command::Collection(command) => self.dispatch_collection(command),
             Command::Picture(command) => self.dispatch_picture(command),
             Command::Keep(keep) => self.keep(keep),

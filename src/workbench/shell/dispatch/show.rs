@@ -8,7 +8,6 @@ use crate::bench::mute_solo::MuteSolo;
 use crate::shell::arrangement;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::window::Workbench;
-use crate::tools::why::text::to_text;
 use crate::tools::workspace::state::Place;
 
 impl Workbench {
@@ -72,12 +71,6 @@ impl Bench {
             ShowCommand::HearAll => self.transient.mute_solo = MuteSolo::default(),
             ShowCommand::ToggleNumbers => {
                 self.settings.preferences.has_numbers = !self.settings.preferences.has_numbers;
-            }
-            ShowCommand::FreezeWhy => self.transient.why.1 = !self.transient.why.1,
-            ShowCommand::CopyWhy => {
-                if let Some(why) = &self.transient.why.0 {
-                    ctx.copy_text(to_text(why));
-                }
             }
             _ => {}
         }

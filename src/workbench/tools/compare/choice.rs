@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
+use crate::bench::Bench;
+use crate::bench::play::resting_stroke;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Scene, Stroke, TICKS_PER_S};
 use selvedge_textile::tactile::{Filters, Tuning};
 
 /// Places of a path at which is looked to find the textile under it.
 const N_LOOKS: u64 = 128;
+/// A stroke is compared for ten minutes at most.
+const MOST_STROKE_TICKS: f64 = 24_000.0;
 
 /// What differs between A and B.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -113,6 +117,23 @@ impl PartialEq for Route {
 }
 
 impl Route {
+    /// The recording at hand; without one, once along the stroke that the display explores with.
+    pub(crate) fn at_hand(bench: &Bench) -> Self {
+        if let Some(take) = &bench.take {
+            return Self::Take(Arc::clone(take.path()));
+        }
+        let stroke = resting_stroke(bench.document.scene());
+        let n_ticks = (stroke.period_s() * TICKS_PER_S)
+            .ceil()
+            .clamp(1.0, MOST_STROKE_TICKS);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 1 and ten minutes"
+        )]
+        Self::Stroke(stroke, n_ticks as u64)
+    }
+
     /// Its ticks.
     pub(crate) fn n_ticks(&self) -> u64 {
         match self {

@@ -1,11 +1,11 @@
 //! By how much two runs on the same path differ: by contactor and over time.
 
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, N_COLOURS, Sheet, cells};
 use crate::kit::theme::colour_map::Diverging;
 use crate::tools::compare::choice::Side;
-use crate::tools::compare::view::scale_db as scale_of_differences_db;
-use crate::tools::spectra::export_spectrograms::ink;
+use crate::tools::compare::words::scale_db;
 use selvedge_chart::{Axis, Chart, ColourBar, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::LevelDifference;
@@ -34,7 +34,7 @@ pub(crate) fn differences(
         .chain(over_time(difference))
         .collect();
     let means = found.iter().filter(|one| one.of == "contactor");
-    let most_db = scale_of_differences_db(means.map(|one| one.mean_db).filter(|db| db.is_finite()));
+    let most_db = scale_db(means.map(|one| one.mean_db).filter(|db| db.is_finite()));
     let maps = Row {
         panels: Band::ALL
             .map(|band| map_panel(&found, band, grid, (map, most_db)))
@@ -47,7 +47,7 @@ pub(crate) fn differences(
         height_px: 220.0,
         bar: None,
     };
-    let [a, b] = [&sides[0], &sides[1]].map(told);
+    let [a, b] = [&sides[0], &sides[1]].map(describe);
     let origin = origin
         .and("a", &a, &format!("A: {a}"))
         .and("b", &b, &format!("B: {b}"))
@@ -59,7 +59,7 @@ pub(crate) fn differences(
 }
 
 /// What a side is, in one line.
-fn told(side: &Side) -> String {
+fn describe(side: &Side) -> String {
     let placed = side.scene.textiles.iter();
     let ids: Vec<&str> = placed.map(|placed| placed.id.as_str()).collect();
     let gains = side.scene.tuning.map_or_else(
@@ -184,7 +184,7 @@ fn time_panel(found: &[Found], difference: &LevelDifference) -> Chart {
         ..Series::default()
     };
     let all = Band::ALL.into_iter().flat_map(own);
-    let most_db = scale_of_differences_db(all.flat_map(|one| one.ends_db));
+    let most_db = scale_db(all.flat_map(|one| one.ends_db));
     let end_s = (difference.n_ticks.max(2) - 1) as f64 / TICKS_PER_S;
     // A path that fits has one tick in each entry: least and most are the same line.
     let ends: &[usize] = if difference.ticks_per_entry > 1 {

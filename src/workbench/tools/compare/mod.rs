@@ -1,342 +1,53 @@
 //! Compare: two tunings, two textiles or two methods on the same path, rendered offline and set
 //! against each other.
-//!
-//! Both are replayed side by side on a thread of its own by what renders files and reports; here is
-//! only what is asked for, when, and how far it is. Nothing is rendered while the pane is hidden.
 
 pub(crate) mod choice;
-pub(crate) mod dispatch;
+pub(crate) mod comparison;
 pub(crate) mod export;
-#[cfg(test)]
-mod tests;
 pub(crate) mod view;
+pub(crate) mod words;
 
-pub(crate) use crate::tools::compare::choice::Choice;
-pub(crate) use crate::tools::compare::choice::HeldTuning;
-pub(crate) use crate::tools::compare::choice::Inputs;
-pub(crate) use crate::tools::compare::choice::Route;
-pub(crate) use crate::tools::compare::choice::Side;
-#[cfg(test)]
-pub(crate) use crate::tools::compare::choice::TuningChoice;
-#[cfg(test)]
-pub(crate) use crate::tools::compare::choice::What;
+pub(crate) use crate::tools::compare::comparison::Compare;
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::time::Duration;
-
-use eframe::egui;
+use eframe::egui::{Theme, Ui};
 
 use crate::bench::Bench;
-use crate::bench::error::AppError;
-use crate::bench::job::{Job, Polled};
-use crate::bench::play::resting_stroke;
-use crate::bench::task::Watch;
-use selvedge_foundation::progress::Progress;
-use selvedge_render::array::TableCache;
-use selvedge_render::scene::{LoadedScene, TICKS_PER_S};
-use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, Spread, replay_pair};
+use crate::bench::export::Exported;
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
+use crate::kit::theme::Palette;
 
-/// A path of at most so many ticks (ten minutes) is compared as soon as something has changed; a
-/// longer one when it is asked for.
-const MOST_AT_ONCE: u64 = 24_000;
-/// Ticks between two looks at whether to stop.
-const N_TICKS_A_STEP: u64 = 256;
-/// How often progress is shown.
-const PROGRESS: Duration = Duration::from_millis(100);
-
-/// What a thread brings back.
-struct Brought {
-    cache: TableCache,
-    /// `None` when it was cancelled.
-    found: Result<Option<LevelDifference>, String>,
-}
-
-/// A comparison under way.
-struct Running {
-    inputs: Inputs,
-    job: Job<Brought>,
-    watch: Watch,
-}
-
-/// How a comparison ended.
-enum End {
-    Found(LevelDifference),
-    Failed(String),
-    Cancelled,
-}
-
-/// What is compared, and what came of it.
-#[derive(Default)]
-pub(crate) struct Comparison {
-    /// What the user chose.
-    pub choice: Choice,
-    /// The tuning that was held.
-    pub held: Option<HeldTuning>,
-    ended: Option<(Inputs, End)>,
-    running: Option<Running>,
-    cache: TableCache,
-    columns: Option<Vec<[Spread; 2]>>,
-    n_begun: u64,
-}
-
-/// How the newest comparison stands to what is chosen now.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Standing {
-    /// It is of what is chosen.
-    Fresh,
-    /// It is of something that has changed since.
-    Stale,
-    /// There is none yet.
-    None,
-    /// Another one is under way: the share that is done, 0…1.
-    Running(f32),
-    /// It was stopped.
-    Cancelled,
-    /// It cannot be made: why, and what to do.
-    Impossible(String),
-}
-
-impl Comparison {
-    /// Comparisons that were begun.
-    pub(crate) fn n_begun(&self) -> u64 {
-        self.n_begun
+impl Tool for Compare {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Compare]
     }
 
-    /// What was found last, whatever has changed since.
-    pub(crate) fn found(&self) -> Option<&LevelDifference> {
-        match &self.ended {
-            Some((_, End::Found(found))) => Some(found),
-            _ => None,
-        }
+    fn logic(&mut self, _bench: &mut Bench) {
+        self.poll();
     }
 
-    /// A and B of what was found last.
-    pub(crate) fn sides(&self) -> Option<&[Side; 2]> {
-        self.ended.as_ref().map(|(inputs, _)| &inputs.sides)
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 10, |ui| view::show(ui, self, context));
     }
 
-    /// The path of what was found last.
-    pub(crate) fn route(&self) -> Option<&Route> {
-        self.ended.as_ref().map(|(inputs, _)| &inputs.route)
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        view::controls::show_corner(ui, self, context.bench);
     }
 
-    /// What was found over time, in at most so many columns; kept until that changes.
-    pub(crate) fn columns(&mut self, n_columns: usize) -> &[[Spread; 2]] {
-        let n_entries = self.found().map_or(0, |found| found.over_time.len());
-        let wanted = n_columns.min(n_entries);
-        if self
-            .columns
-            .as_ref()
-            .is_none_or(|kept| kept.len() != wanted)
-        {
-            self.columns = self.found().map(|found| found.columns(wanted));
-        }
-        self.columns.as_deref().unwrap_or_default()
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        // On paper: no difference is nearly white, whatever the window's theme.
+        let map = Palette::of(Theme::Light).differences();
+        let compared = self.found().zip(self.sides());
+        let (difference, sides) = compared
+            .ok_or("There is nothing to export yet: press “compare” in the Compare pane")?;
+        let grid = bench.plain_scene_view().grid;
+        let grid = grid.unwrap_or((1, difference.by_contactor.len()));
+        let origin = bench.origin();
+        Ok(export::differences(difference, sides, (grid, map), origin))
     }
 
-    /// How it stands to what is asked for now.
-    pub(crate) fn standing(&self, asked: &Result<Inputs, &'static str>) -> Standing {
-        let inputs = match asked {
-            Ok(inputs) => inputs,
-            Err(words) => return Standing::Impossible((*words).to_owned()),
-        };
-        if let Some(running) = &self.running {
-            return Standing::Running(running.watch.share());
-        }
-        match &self.ended {
-            Some((of, End::Cancelled)) if of == inputs => Standing::Cancelled,
-            Some((of, End::Failed(words))) if of == inputs => Standing::Impossible(words.clone()),
-            Some((of, End::Found(_))) if of == inputs => Standing::Fresh,
-            Some((_, End::Found(_))) => Standing::Stale,
-            Some(_) | None => Standing::None,
-        }
-    }
-
-    /// Forgets what was chosen and found in another scene.
-    pub(crate) fn leave_scene(&mut self) {
-        self.cancel();
-        *self = Self {
-            n_begun: self.n_begun,
-            ..Self::default()
-        };
-    }
-
-    /// Begins to compare; on this thread when `is_at_once`.
-    fn begin(
-        &mut self,
-        inputs: Inputs,
-        loaded: &LoadedScene,
-        ctx: &egui::Context,
-        is_at_once: bool,
-    ) {
-        self.cancel();
-        self.running = None;
-        self.n_begun += 1;
-        let watch = Watch::default();
-        let mut cache = std::mem::take(&mut self.cache);
-        let (own, waker) = (watch.clone(), ctx.clone());
-        let (loaded, asked) = (loaded.clone(), inputs.clone());
-        let work = move || {
-            let found = own.over(&waker, |progress| {
-                compare(&asked, &loaded, &mut cache, progress)
-            });
-            let found = found.map_err(|error| error.to_string());
-            Brought { cache, found }
-        };
-        if is_at_once {
-            return self.take(inputs, work());
-        }
-        match Job::start("selvedge-compare", ctx, work) {
-            Ok(job) => {
-                self.running = Some(Running { inputs, job, watch });
-            }
-            Err(error) => {
-                let words = format!("Nothing was compared: {error}; press “compare” to try again");
-                self.ended = Some((inputs, End::Failed(words)));
-            }
-        }
-    }
-
-    /// Asks the comparison under way to stop.
-    pub(crate) fn cancel(&self) {
-        if let Some(running) = &self.running {
-            running.watch.stop();
-        }
-    }
-
-    /// Takes what a thread has found, if it is done.
-    pub(crate) fn poll(&mut self) {
-        let Some(running) = self.running.take() else {
-            return;
-        };
-        match running.job.poll() {
-            Polled::Done(brought) => self.take(running.inputs, brought),
-            Polled::Working => self.running = Some(running),
-            Polled::BrokeOff => {
-                let words = "Comparing broke off; press “compare” to try again".to_owned();
-                self.ended = Some((running.inputs, End::Failed(words)));
-            }
-        }
-    }
-
-    fn take(&mut self, inputs: Inputs, brought: Brought) {
-        self.cache = brought.cache;
-        self.columns = None;
-        let end = match brought.found {
-            Ok(Some(found)) => End::Found(found),
-            Ok(None) => End::Cancelled,
-            Err(words) => End::Failed(words),
-        };
-        self.ended = Some((inputs, end));
-    }
-}
-
-/// Replays both and measures; `None` when it was asked to stop.
-fn compare(
-    inputs: &Inputs,
-    loaded: &LoadedScene,
-    cache: &mut TableCache,
-    progress: &mut Progress<'_>,
-) -> Result<Option<LevelDifference>, AppError> {
-    let mut scenes = Vec::with_capacity(2);
-    for side in &inputs.sides {
-        scenes.push(RenderScene::of(&loaded.with_scene(side.scene.clone())?));
-    }
-    let n_ticks = inputs.route.n_ticks();
-    let mut meter = DifferenceMeter::new(n_ticks);
-    let pair = [0, 1].map(|index| (&scenes[index], inputs.sides[index].method));
-    let mut n_done = 0_u64;
-    let end = replay_pair(pair, inputs.route.ticks(), cache, &mut |tick, frames| {
-        meter.add(tick, frames);
-        n_done += 1;
-        let is_due = n_done.is_multiple_of(N_TICKS_A_STEP) || n_done == 1;
-        let share = n_done as f64 / n_ticks.max(1) as f64;
-        if is_due && progress.step(share, "comparing").is_err() {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
-    })?;
-    Ok(end.is_continue().then(|| meter.finish()))
-}
-
-impl Bench {
-    /// What is asked for now.
-    pub(crate) fn comparison_inputs(&self) -> Result<Inputs, &'static str> {
-        let comparison = &self.transient.comparison;
-        let tunings = [self.document.tuning(), self.document.default_tuning()];
-        let (choice, held) = (&comparison.choice, comparison.held.as_ref());
-        Inputs::of(choice, held, self.document.scene(), tunings, self.route())
-    }
-
-    /// The recording at hand; without one, once along the stroke that the display explores with.
-    pub(crate) fn route(&self) -> Route {
-        if let Some(take) = &self.take {
-            return Route::Take(Arc::clone(take.path()));
-        }
-        let stroke = resting_stroke(self.document.scene());
-        let n_ticks = (stroke.period_s() * TICKS_PER_S)
-            .ceil()
-            .clamp(1.0, MOST_AT_ONCE as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 1 and ten minutes"
-        )]
-        Route::Stroke(stroke, n_ticks as u64)
-    }
-
-    /// Lets the comparison follow what was chosen: to be called while its pane is in sight. Nothing
-    /// begins during a gesture, nor by itself along a path that takes long.
-    pub(crate) fn follow_comparison(&mut self, ctx: &egui::Context) -> Standing {
-        let asked = self.comparison_inputs();
-        let standing = self.transient.comparison.standing(&asked);
-        match (&standing, asked) {
-            (Standing::Running(_), _) => {
-                ctx.request_repaint_after(PROGRESS);
-                standing
-            }
-            (Standing::Stale | Standing::None, Ok(inputs))
-                if inputs.route.n_ticks() <= MOST_AT_ONCE && !self.transient.moment.is_down =>
-            {
-                self.begin_comparison(ctx, inputs);
-                let asked = self.comparison_inputs();
-                self.transient.comparison.standing(&asked)
-            }
-            _ => standing,
-        }
-    }
-
-    /// How the newest comparison stands to what is asked for now.
-    pub(crate) fn comparison_standing(&self) -> Standing {
-        let asked = self.comparison_inputs();
-        self.transient.comparison.standing(&asked)
-    }
-
-    /// The place in the scene's list whose textile would be exchanged on a path.
-    pub(crate) fn compared_place(&self, route: &Route) -> usize {
-        let choice = &self.transient.comparison.choice;
-        choice.place_in(self.document.scene(), route)
-    }
-
-    /// Compares what is asked for now, whether it was compared before or not.
-    pub(crate) fn compare_now(&mut self, ctx: &egui::Context) {
-        if let Ok(inputs) = self.comparison_inputs() {
-            self.begin_comparison(ctx, inputs);
-        }
-    }
-
-    fn begin_comparison(&mut self, ctx: &egui::Context, inputs: Inputs) {
-        let comparison = &mut self.transient.comparison;
-        comparison.begin(inputs, &self.loaded, ctx, self.is_stepped);
-    }
-}
-
-impl std::fmt::Debug for Comparison {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Comparison")
-            .field("choice", &self.choice)
-            .field("n_begun", &self.n_begun)
-            .finish_non_exhaustive()
+    fn leave_scene(&mut self, _bench: &mut Bench) {
+        self.forget();
     }
 }

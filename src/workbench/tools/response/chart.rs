@@ -2,11 +2,11 @@
 //! speed of movement.
 
 use crate::bench::export::Exported;
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::probe::SPEEDS_MM_PER_S;
 use crate::tools::response::curves::speeds_mm_per_s;
-use crate::tools::response::{ResponseView, ends_db};
-use crate::tools::spectra::export_spectrograms::ink;
+use crate::tools::response::shown::ResponseView;
 use selvedge_chart::{Axis, Band as Area, Chart, Columns, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
@@ -53,7 +53,7 @@ fn around(view: &ResponseView<'_>) -> Chart {
 }
 
 fn levels(view: &ResponseView<'_>) -> Axis {
-    Axis::linear("level, dB re 1 µm").within(ends_db(view.scale))
+    Axis::linear("level, dB re 1 µm").within(view.scale.level_ends_db())
 }
 
 /// Both curves of the pane with their numbers.
@@ -79,7 +79,7 @@ pub(crate) fn exported(view: &ResponseView<'_>, origin: Origin) -> Exported {
         quantity::fixed(probe.direction_deg, 0)
     );
     let origin = origin
-        .and("textile", view.textile, view.textile)
+        .and("textile", &view.textile, &view.textile)
         .and("place", &place, &place)
         .and("asked_at", &asked_at, &asked_at);
     let title = format!("Response of {}", view.textile);

@@ -9,8 +9,9 @@ use crate::kit::plot::{Drag, Setting, Shown};
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
+use crate::tools::response::chart;
 use crate::tools::response::curves::speeds_mm_per_s;
-use crate::tools::response::{ResponseView, chart, ends_db, paint_handle, paint_moving, words_of};
+use crate::tools::response::shown::{ResponseView, paint_handle, paint_moving, words_of};
 use selvedge_foundation::geometry::Velocity;
 use selvedge_foundation::quantity;
 
@@ -111,7 +112,7 @@ fn describe(shown: &Shown, view: &ResponseView<'_>) {
 /// The chosen speed, and how fast the contactor moves now.
 fn paint_marks(painter: &Painter, shown: &Shown, view: &ResponseView<'_>) {
     let palette = Palette::of(painter.ctx().theme());
-    let (area, foot_db) = (shown.area(), ends_db(view.scale)[0]);
+    let (area, foot_db) = (shown.area(), view.scale.level_ends_db()[0]);
     let x = |speed_mm_per_s: f64| {
         let x = shown.at([speed_mm_per_s, foot_db]).x;
         area.x_range().contains(x).then_some(x)

@@ -10,8 +10,8 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
-use crate::tools::response::{
-    ResponseView, ends_db, fill_between, levels_db, paint_handle, paint_moving, words_of,
+use crate::tools::response::shown::{
+    MEAN, ResponseView, fill_between, levels_db, paint_focus, paint_handle, paint_moving, words_of,
 };
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -57,8 +57,8 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut 
     }
     plot.name_rings(&painter);
     plot.paint_marks(&painter, view, response.is_pointer_button_down_on());
-    super::paint_focus(ui, &response, rect.shrink(4.0));
-    tell(response, &plot, view);
+    paint_focus(ui, &response, rect.shrink(4.0));
+    describe(response, &plot, view);
 }
 
 /// The velocity with the direction that the pointer, the keys or an assistive tool choose.
@@ -79,7 +79,7 @@ fn chosen(ui: &Ui, response: &Response, plot: &Plot, probe: Probe) -> Option<Pro
     asked_value(ui, response.id).map(|direction_deg| probe.with_direction(direction_deg))
 }
 
-fn tell(response: Response, plot: &Plot, view: &ResponseView<'_>) {
+fn describe(response: Response, plot: &Plot, view: &ResponseView<'_>) {
     let pointed = response.hover_pos().and_then(|at| plot.direction_deg(at));
     let Some(direction_deg) = pointed.filter(|_| !response.dragged()) else {
         return;
@@ -123,7 +123,7 @@ impl Plot {
             left: rect.left(),
             radius: (0.5 * rect.width() - BESIDE).min(0.5 * rect.height() - MARGIN),
             rotation_deg: view.rotation_deg,
-            ends_db: ends_db(view.scale),
+            ends_db: view.scale.level_ends_db(),
         }
     }
 
@@ -230,7 +230,7 @@ impl Plot {
             row
         };
         fill_between(painter, &closed(least), &closed(most), ink);
-        let thin = Stroke::new(1.0, ink.gamma_multiply(super::MEAN));
+        let thin = Stroke::new(1.0, ink.gamma_multiply(MEAN));
         painter.add(Shape::closed_line(mean, thin));
         if view.place.is_some() {
             painter.add(Shape::closed_line(place, Stroke::new(1.75, ink)));

@@ -6,13 +6,15 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::*;
+use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::Command;
-use crate::tools::response::curves::Wanted;
+use crate::bench::probe::Probe;
+use selvedge_foundation::geometry::Velocity;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{ContactInspector, TextileResponse};
 use selvedge_render::scene::LoadedScene;
 
-struct Bench {
+struct Pane {
     response: TextileResponse,
     curves: Curves,
     probe: Probe,
@@ -20,10 +22,10 @@ struct Bench {
     rotation_deg: f64,
 }
 
-fn bench() -> Bench {
+fn pane() -> Pane {
     let scene = RenderScene::of(&LoadedScene::shipped().unwrap());
     let response = ContactInspector::new(&scene).response(0).unwrap();
-    Bench {
+    Pane {
         response,
         curves: Curves::default(),
         probe: Probe::default().with_direction(30.0),
@@ -32,27 +34,27 @@ fn bench() -> Bench {
     }
 }
 
-fn window(bench: Bench) -> Harness<'static, Bench> {
+fn window(pane: Pane) -> Harness<'static, Pane> {
     let mut is_styled = false;
-    let show_bench = move |ui: &mut Ui, bench: &mut Bench| {
+    let show_pane = move |ui: &mut Ui, pane: &mut Pane| {
         if !is_styled {
             theme::install(ui.ctx());
             is_styled = true;
         }
-        let points = bench.response.points_at([20.0, 30.0]);
+        let points = pane.response.points_at([20.0, 30.0]);
         let wanted = Wanted {
-            response: bench.response.clone(),
+            response: pane.response.clone(),
             points: Some(points),
-            probe: bench.probe,
+            probe: pane.probe,
         };
-        bench.curves.catch_up(ui.ctx(), wanted, true);
+        pane.curves.catch_up(ui.ctx(), wanted, true);
         let view = ResponseView {
-            textile: "1 Silk",
-            rotation_deg: bench.rotation_deg,
-            factors: bench.response.factors(),
+            textile: "1 Silk".to_owned(),
+            rotation_deg: pane.rotation_deg,
+            factors: pane.response.factors(),
             place: Some((9, points)),
-            curves: &bench.curves,
-            probe: bench.probe,
+            curves: &pane.curves,
+            probe: pane.probe,
             moving: Some(Velocity::new(30.0, -40.0)),
             scale: AmplitudeScale::default(),
         };
@@ -60,19 +62,19 @@ fn window(bench: Bench) -> Harness<'static, Bench> {
         show(ui, Some(&view), &mut commands);
         for wish in &commands {
             if let Command::Show(ShowCommand::Probe(probe)) = wish {
-                bench.probe = *probe;
+                pane.probe = *probe;
             }
         }
-        bench.commands.extend(commands);
+        pane.commands.extend(commands);
     };
     Harness::builder()
         .with_size(vec2(480.0, 216.0))
-        .build_ui_state(show_bench, bench)
+        .build_ui_state(show_pane, pane)
 }
 
 #[test]
 fn dragging_in_the_polar_plot_chooses_the_direction_and_in_the_other_the_speed() {
-    let mut harness = window(bench());
+    let mut harness = window(pane());
     harness.run();
     let n_first = harness.state().curves.n_computed();
     let dial = harness.get_by_role_and_label(Role::Slider, "Direction of movement");
@@ -111,7 +113,7 @@ fn dragging_in_the_polar_plot_chooses_the_direction_and_in_the_other_the_speed()
 
 #[test]
 fn keys_and_assistive_tools_choose_too() {
-    let mut harness = window(bench());
+    let mut harness = window(pane());
     harness.run();
     harness
         .get_by_role_and_label(Role::Slider, "Direction of movement")
@@ -129,15 +131,15 @@ fn keys_and_assistive_tools_choose_too() {
 
 #[test]
 fn a_place_in_the_polar_plot_and_its_direction_undo_each_other() {
-    let bench = bench();
+    let pane = pane();
     let curves = Curves::default();
     let view = ResponseView {
-        textile: "",
+        textile: String::new(),
         rotation_deg: 23.0,
         factors: [1.0; 2],
         place: None,
         curves: &curves,
-        probe: bench.probe,
+        probe: pane.probe,
         moving: None,
         scale: AmplitudeScale::default(),
     };
@@ -160,7 +162,7 @@ fn nothing_odd_harms_the_pane() {
         .build_ui(|ui| {
             let curves = Curves::default();
             let odd = ResponseView {
-                textile: "",
+                textile: String::new(),
                 rotation_deg: f64::NAN,
                 factors: [f64::INFINITY, 0.0],
                 place: None,
@@ -174,9 +176,9 @@ fn nothing_odd_harms_the_pane() {
         });
     harness.run();
     for size in [vec2(30.0, 20.0), vec2(1000.0, 40.0), vec2(60.0, 900.0)] {
-        let mut harness = window(Bench {
+        let mut harness = window(Pane {
             rotation_deg: 300.0,
-            ..bench()
+            ..pane()
         });
         harness.set_size(size);
         harness.run();

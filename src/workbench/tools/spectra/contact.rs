@@ -7,51 +7,45 @@ use eframe::egui::{
     self, Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
 };
 
+use crate::bench::Bench;
+use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT, bar, ink, rgb};
+use crate::bench::pane::Pane;
 use crate::bench::signals::contact::ContactColumns;
-use crate::bench::signals::history::History;
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ};
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
 use crate::kit::spectrogram;
-use crate::kit::spectrogram::{ColourScale, Layout, ShownColumn, Under, Waterfall};
+use crate::kit::spectrogram::{ColourScale, Layout, Under, Waterfall};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use crate::tools::spectra::{HEIGHT_PX, contactor, frequencies, picture, sheet, show_contactor};
+use selvedge_chart as chart;
+use selvedge_chart::{Chart, Row, Series, Style, Upright};
 use selvedge_foundation::quantity;
-use selvedge_render::array::ContactInspector;
 use selvedge_textile::tactile::{Band, Filters};
 
 /// Ends of the colour scale, dB re 1 µm.
-pub(crate) const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
+const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
 /// Width of the filters' strip, points.
 const STRIP: f32 = 40.0;
 /// The same where the pane is narrow.
 const NARROW_STRIP: f32 = 28.0;
+/// Steps of a filter's exported curve.
+const N_STEPS: u8 = 96;
 
-/// What the pane shows.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ContactSpectrumView<'a> {
-    /// The last seconds.
-    pub(crate) history: &'a History,
-    /// The contactor of the first display.
-    pub contactor: usize,
-    /// The filters of the two bands.
-    pub filters: &'a Filters,
-    /// The colours of levels.
-    pub map: ColourMap,
-    /// Changes when the textiles, their places or the displays change; not with gains or filters,
-    /// which come after what is shown.
-    pub scene_serial: u64,
-}
-
-/// What a spectrogram is made for: history, scene, contactor, colours.
+/// What a spectrogram is made for: history, scene, contactor, colours. Columns stay as they were
+/// felt when a textile is moved afterwards; gains and filters come after what is shown.
 type Key = (u64, u64, usize, ColourMap);
 
-/// The columns that were computed and the texture that holds them.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct ContactSpectrogram {
+/// The spectrum that arrives: the columns that were computed and the texture that holds them.
+#[derive(Debug, Default)]
+pub(crate) struct ContactSpectrum {
     waterfall: Waterfall<Key>,
     columns: ContactColumns,
 }
 
-impl ContactSpectrogram {
+impl ContactSpectrum {
     /// Columns computed so far: it stands still while nothing moves or nobody looks.
     pub(crate) fn n_columns_computed(&self) -> u64 {
         self.waterfall.ring.n_columns_computed()
@@ -63,78 +57,101 @@ impl ContactSpectrogram {
         self.waterfall.image.n_uploads()
     }
 
-    /// The columns that are shown, old to new, all of them caught up.
-    pub(crate) fn shown(
-        &mut self,
-        ctx: &egui::Context,
-        inspector: &mut ContactInspector,
-        view: &ContactSpectrumView<'_>,
-    ) -> Vec<ShownColumn> {
-        while self.catch_up(ctx, inspector, view) {}
-        self.waterfall.shown(view.history)
-    }
-
     /// Computes what is new, as much as one frame may; says whether more is due.
-    fn catch_up(
-        &mut self,
-        ctx: &egui::Context,
-        inspector: &mut ContactInspector,
-        view: &ContactSpectrumView<'_>,
-    ) -> bool {
-        let ContactSpectrumView {
-            history, contactor, ..
-        } = *view;
-        let key = (history.n_clears(), view.scene_serial, contactor, view.map);
-        let colour = |level_db: f32| view.map.colour(share_of(level_db));
-        let columns = &mut self.columns;
-        let name = (ctx, "contact spectrogram");
+    fn catch_up(&mut self, bench: &mut Bench) -> bool {
+        let (contactor, map) = (contactor(bench), bench.settings.preferences.colour_map);
+        let (history, inspection) = (&bench.transient.history, &mut bench.inspection);
+        let key = (history.n_clears(), inspection.n_scenes, contactor, map);
+        let colour = |level_db: f32| map.colour(share_of(level_db));
+        let (columns, inspector) = (&mut self.columns, &mut inspection.inspector);
+        let name = (&bench.ctx, "contact spectrogram");
         self.waterfall
             .catch_up(name, (history, key), colour, |entry, levels_db| {
                 columns.levels_db(inspector, contactor, &entry.glimpse.pose, levels_db);
             })
     }
+
+    /// Shows the spectrogram in the space that is left.
+    fn show(&mut self, ui: &mut Ui, bench: &mut Bench) {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+        let name = format!(
+            "Contact spectrum of contactor {} over time, 10 Hz to 1 kHz",
+            contactor(bench)
+        );
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
+        let strip = if rect.width() < 340.0 {
+            NARROW_STRIP
+        } else {
+            STRIP
+        };
+        let Some(layout) = Layout::of(rect, strip) else {
+            return;
+        };
+        self.catch_up(bench);
+        let Waterfall { ring, image, .. } = &self.waterfall;
+        let painter = ui.painter();
+        let scale = scale(bench.settings.preferences.colour_map);
+        spectrogram::paint(painter, &layout, (ring, image), &scale);
+        if bench.transient.history.newest().is_none() {
+            let words = "Move over a textile: what arrives at the contactor is drawn here";
+            spectrogram::paint_sentence(painter, layout.picture, words);
+        }
+        let filters = &bench.document.scene().filters;
+        paint_filters(painter, layout.strip, filters);
+        let pointer = response.hover_pos();
+        if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
+            response.on_hover_text_at_pointer(filter_words(layout.strip, at, filters));
+        } else if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
+            spectrogram::tell(ui, response, &layout, || words_of(&under));
+        }
+    }
 }
 
-/// Shows the spectrogram in the space that is left; `inspector` is the scene's.
-pub(crate) fn show(
-    ui: &mut Ui,
-    state: &mut ContactSpectrogram,
-    inspector: &mut ContactInspector,
-    view: &ContactSpectrumView<'_>,
-) {
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    let name = format!(
-        "Contact spectrum of contactor {} over time, 10 Hz to 1 kHz",
-        view.contactor
-    );
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
-    let strip = if rect.width() < 340.0 {
-        NARROW_STRIP
-    } else {
-        STRIP
-    };
-    let Some(layout) = Layout::of(rect, strip) else {
-        return;
-    };
-    state.catch_up(ui.ctx(), inspector, view);
-    let Waterfall { ring, image, .. } = &state.waterfall;
-    let painter = ui.painter();
-    spectrogram::paint(painter, &layout, (ring, image), &scale(view.map));
-    if view.history.newest().is_none() {
-        let words = "Move over a textile: what arrives at the contactor is drawn here";
-        spectrogram::paint_sentence(painter, layout.picture, words);
+impl Tool for ContactSpectrum {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::ContactSpectrum]
     }
-    paint_filters(painter, layout.strip, view.filters);
-    let pointer = response.hover_pos();
-    if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
-        response.on_hover_text_at_pointer(filter_words(layout.strip, at, view.filters));
-    } else if let Some(under) = pointer.and_then(|at| state.waterfall.read(&layout, at)) {
-        spectrogram::tell(ui, response, &layout, || words_of(&under));
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 8, |ui| self.show(ui, context.bench));
+    }
+
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        show_contactor(ui, context.bench);
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
+        while self.catch_up(bench) {}
+        let columns = self.waterfall.shown(&bench.transient.history);
+        let mut levels_db = columns.iter().flat_map(|column| column.rows);
+        if !levels_db.any(f32::is_finite) {
+            return Err(NOTHING_FELT);
+        }
+        let map = bench.settings.preferences.colour_map;
+        let picture = Chart {
+            width: 9.0,
+            ..picture(&columns, |level_db| rgb(map, share_of(level_db)))
+        };
+        let levels = chart::Axis::linear("level, dB re 1 µm").within(LEVELS_DB);
+        let row = Row {
+            panels: vec![picture, filters(&bench.document.scene().filters)],
+            height_px: HEIGHT_PX,
+            bar: Some(bar(map, levels)),
+        };
+        let title = format!("Vibration that arrives at contactor {contactor}");
+        let note = "Peak amplitude at the surface, before filters and gains, in rows 4.9 % of the \
+                    frequency wide; each column is a tick of 25 ms, white where nothing was felt. \
+                    Right: amplitude gain of the filters.";
+        let ticks = columns.iter().map(|column| column.tick);
+        let origin = bench.origin().of_contactor(contactor).in_ticks(ticks);
+        let sheet = sheet(&columns, "level_db");
+        Ok(Exported::new(title, sheet, vec![row], note, origin))
     }
 }
 
 /// Where a level stands on the colour scale, 0…1.
-pub(crate) fn share_of(level_db: f32) -> f64 {
+fn share_of(level_db: f32) -> f64 {
     let [least_db, most_db] = LEVELS_DB;
     (f64::from(level_db) - least_db) / (most_db - least_db)
 }
@@ -209,4 +226,28 @@ fn paint_filters(painter: &Painter, strip: Rect, filters: &Filters) {
 
 fn faint(ink: Color32) -> Color32 {
     ink.gamma_multiply(0.4)
+}
+
+/// Both filters upright on the frequency axis of the exported picture.
+fn filters(filters: &Filters) -> Chart {
+    let curve = |band: Band| {
+        let point = |i: u8| {
+            let share = f64::from(i) / f64::from(N_STEPS);
+            let frequency_hz = LEAST_HZ * (MOST_HZ / LEAST_HZ).powf(share);
+            [filters.gain(band, frequency_hz), frequency_hz]
+        };
+        Series {
+            points: (0..=N_STEPS).map(point).collect(),
+            style: Style::Line,
+            ink: ink(band),
+            ..Series::default()
+        }
+    };
+    Chart {
+        x: chart::Axis::whole("gain").within([0.0, 1.0]),
+        y: frequencies(),
+        upright: Upright::Shared,
+        series: Band::ALL.map(curve).to_vec(),
+        ..Chart::default()
+    }
 }

@@ -4,37 +4,34 @@
 
 use eframe::egui::{self, Sense, Ui, WidgetInfo};
 
+use crate::bench::Bench;
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::signals::drive::DriveSpectrum;
-use crate::bench::signals::history::History;
+use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT, bar, ink, rgb};
+use crate::bench::pane::Pane;
+use crate::bench::signals::drive::DriveSpectrum as Spectrum;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
 use crate::kit::spectrogram;
-use crate::kit::spectrogram::{ColourScale, Layout, ShownColumn, Under, Waterfall};
+use crate::kit::spectrogram::{ColourScale, Layout, Under, Waterfall};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::Tick;
+use crate::tools::spectra::{HEIGHT_PX, picture, sheet, show_contactor};
+use selvedge_chart::{At, Axis, Chart, Extent, Row, Rule};
 use selvedge_foundation::quantity;
-
-/// What the pane shows: the contactor that the newest tick of the history watched.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct DriveSpectrumView<'a> {
-    /// The last seconds.
-    pub(crate) history: &'a History,
-    /// The scale of amplitudes.
-    pub scale: AmplitudeScale,
-    /// Its colours.
-    pub map: ColourMap,
-}
+use selvedge_textile::tactile::Band;
 
 /// What a spectrogram is made for: history, contactor, ends of the scale as bits, colours.
 type Key = (u64, Option<u32>, u64, ColourMap);
 
-/// The columns that were computed and the texture that holds them.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct DriveSpectrogram {
+/// The spectrum that drives the contactor which the newest tick watched: the columns that were
+/// computed and the texture that holds them.
+#[derive(Debug, Default)]
+pub(crate) struct DriveSpectrum {
     waterfall: Waterfall<Key>,
-    spectrum: DriveSpectrum,
+    spectrum: Spectrum,
 }
 
-impl DriveSpectrogram {
+impl DriveSpectrum {
     /// Columns computed so far: it stands still while nothing moves or nobody looks.
     pub(crate) fn n_columns_computed(&self) -> u64 {
         self.waterfall.ring.n_columns_computed()
@@ -46,28 +43,15 @@ impl DriveSpectrogram {
         self.waterfall.image.n_uploads()
     }
 
-    /// The columns that are shown, old to new, all of them caught up.
-    pub(crate) fn shown(
-        &mut self,
-        ctx: &egui::Context,
-        view: &DriveSpectrumView<'_>,
-    ) -> Vec<ShownColumn> {
-        while self.catch_up(ctx, view) {}
-        self.waterfall.shown(view.history)
-    }
-
     /// Computes what is new, as much as one frame may; says whether more is due.
-    fn catch_up(&mut self, ctx: &egui::Context, view: &DriveSpectrumView<'_>) -> bool {
-        let DriveSpectrumView {
-            history,
-            scale,
-            map,
-        } = *view;
+    fn catch_up(&mut self, bench: &Bench) -> bool {
+        let (history, scale) = (&bench.transient.history, bench.workspace.scale);
+        let map = bench.settings.preferences.colour_map;
         let watched = history.newest().map(|entry| entry.glimpse.watched);
         let key = (history.n_clears(), watched, scale.most_um().to_bits(), map);
         let colour = |um: f32| map.colour(scale.share(f64::from(um)));
         let spectrum = &mut self.spectrum;
-        let name = (ctx, "drive spectrogram");
+        let name = (&bench.ctx, "drive spectrogram");
         self.waterfall
             .catch_up(name, (history, key), colour, |entry, rows_um| {
                 // What another contactor did is not shown under this one's name.
@@ -77,39 +61,90 @@ impl DriveSpectrogram {
                 }
             })
     }
+
+    /// Shows the spectrogram in the space that is left.
+    fn show(&mut self, ui: &mut Ui, bench: &Bench) {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+        let name = "Drive spectrum of the selected contactor over time, 10 Hz to 1 kHz";
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
+        let Some(layout) = Layout::of(rect, 0.0) else {
+            return;
+        };
+        self.catch_up(bench);
+        let Waterfall { ring, image, .. } = &self.waterfall;
+        let painter = ui.painter();
+        let colours = colours(bench.workspace.scale, bench.settings.preferences.colour_map);
+        spectrogram::paint(painter, &layout, (ring, image), &colours);
+        spectrogram::paint_carriers(painter, layout.picture);
+        if bench.transient.history.newest().is_none() {
+            let words = "Move over a textile: what drives the contactor is drawn here";
+            spectrogram::paint_sentence(painter, layout.picture, words);
+        }
+        let pointer = response.hover_pos();
+        if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
+            spectrogram::tell(ui, response, &layout, || words_of(&under));
+        }
+    }
 }
 
-/// Shows the spectrogram in the space that is left.
-pub(crate) fn show(ui: &mut Ui, state: &mut DriveSpectrogram, view: &DriveSpectrumView<'_>) {
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    let name = "Drive spectrum of the selected contactor over time, 10 Hz to 1 kHz";
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
-    let Some(layout) = Layout::of(rect, 0.0) else {
-        return;
-    };
-    state.catch_up(ui.ctx(), view);
-    let Waterfall { ring, image, .. } = &state.waterfall;
-    let painter = ui.painter();
-    spectrogram::paint(painter, &layout, (ring, image), &colours(view));
-    spectrogram::paint_carriers(painter, layout.picture);
-    if view.history.newest().is_none() {
-        let words = "Move over a textile: what drives the contactor is drawn here";
-        spectrogram::paint_sentence(painter, layout.picture, words);
+impl Tool for DriveSpectrum {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::DriveSpectrum]
     }
-    let pointer = response.hover_pos();
-    if let Some(under) = pointer.and_then(|at| state.waterfall.read(&layout, at)) {
-        spectrogram::tell(ui, response, &layout, || words_of(&under));
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 8, |ui| self.show(ui, context.bench));
+    }
+
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        show_contactor(ui, context.bench);
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
+        while self.catch_up(bench) {}
+        let columns = self.waterfall.shown(&bench.transient.history);
+        let mut amplitudes_um = columns.iter().flat_map(|column| column.rows);
+        if !amplitudes_um.any(|um| um > 0.0) {
+            return Err(NOTHING_FELT);
+        }
+        let (scale, map) = (bench.workspace.scale, bench.settings.preferences.colour_map);
+        let carrier = |band: Band| Rule {
+            at: At::Y(band.carrier_hz()),
+            ink: ink(band),
+            extent: Extent::Edge,
+            ..Rule::default()
+        };
+        let picture = Chart {
+            rules: Band::ALL.map(carrier).to_vec(),
+            ..picture(&columns, |um| rgb(map, scale.share(f64::from(um))))
+        };
+        let ends = [scale.least_um(), scale.most_um()];
+        let row = Row {
+            panels: vec![picture],
+            height_px: HEIGHT_PX,
+            bar: Some(bar(map, Axis::log("peak amplitude, µm").within(ends))),
+        };
+        let title = format!("Spectrum that drives contactor {contactor}");
+        let note = "Amplitude spectrum (peak) of the drive, after gains and before output limits: \
+                    100 ms under a Hann window whose gain is compensated; the largest in rows 4.9 % \
+                    of the frequency wide. Marks on the right: 40 and 320 Hz.";
+        let ticks = columns.iter().map(|column| column.tick);
+        let origin = bench.rendered_origin();
+        let origin = origin.of_contactor(contactor).in_ticks(ticks);
+        let sheet = sheet(&columns, "amplitude_um");
+        Ok(Exported::new(title, sheet, vec![row], note, origin))
     }
 }
 
-fn colours(view: &DriveSpectrumView<'_>) -> ColourScale {
+fn colours(scale: AmplitudeScale, map: ColourMap) -> ColourScale {
     let mark = |um: f64| Tick {
-        value: view.scale.share(um),
+        value: scale.share(um),
         ..Tick::number(um)
     };
     ColourScale {
-        map: view.map,
-        marks: view.scale.marks_um().into_iter().map(mark).collect(),
+        map,
+        marks: scale.marks_um().into_iter().map(mark).collect(),
         unit: "µm",
     }
 }

@@ -5,57 +5,55 @@ use std::f64::consts::TAU;
 
 use eframe::egui::{self, Pos2, RawInput, Rect, Ui, Vec2, vec2};
 
-use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::signals::history::History;
-use crate::kit::theme;
+use crate::bench::command::Commands;
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tools};
+use crate::bench::{Bench, Drive};
 use crate::kit::theme::colour_map::ColourMap;
-use crate::tools::spectra::contact::{self, ContactSpectrogram, ContactSpectrumView};
-use crate::tools::spectra::drive::{self, DriveSpectrogram, DriveSpectrumView};
-use crate::tools::spectra::spatial::{self, SpatialSource, SpatialSpectra};
-use crate::tools::spectra::wave::{self, DriveWaveView, WaveScale};
+use crate::tools::spectra::contact::ContactSpectrum;
+use crate::tools::spectra::drive::DriveSpectrum;
+use crate::tools::spectra::spatial::SpatialSpectra;
+use crate::tools::spectra::wave::DriveWave;
 use selvedge_engine::TickSample;
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
-use selvedge_render::scene::{LoadedScene, Pose};
+use selvedge_render::scene::Pose;
 
-/// Everything that the plots need, as the window will keep it.
-struct Bench {
-    ctx: egui::Context,
-    scene: RenderScene,
-    inspector: ContactInspector,
-    history: History,
-    contactor: usize,
-    contact: ContactSpectrogram,
-    drive: DriveSpectrogram,
-    spatial: SpatialSpectra,
-    wave: WaveScale,
+/// The four plots around a bench.
+struct Plots {
+    bench: Bench,
+    tools: Tools,
 }
 
-impl Bench {
-    fn of(scene: RenderScene) -> Self {
+impl Plots {
+    fn shipped() -> Self {
         let ctx = egui::Context::default();
-        theme::install(&ctx);
+        let bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         ctx.set_theme(egui::Theme::Dark);
         Self {
-            ctx,
-            inspector: ContactInspector::new(&scene),
-            scene,
-            history: History::default(),
-            contactor: 9,
-            contact: ContactSpectrogram::default(),
-            drive: DriveSpectrogram::default(),
-            spatial: SpatialSpectra::default(),
-            wave: WaveScale::default(),
+            bench,
+            tools: Tools::new(vec![
+                Box::new(ContactSpectrum::default()),
+                Box::new(DriveSpectrum::default()),
+                Box::new(DriveWave::default()),
+                Box::new(SpatialSpectra::default()),
+            ]),
         }
     }
 
-    fn shipped() -> Self {
-        Self::of(RenderScene::of(&LoadedScene::shipped().unwrap()))
+    /// The same on a scene without textiles and displays.
+    fn empty() -> Self {
+        let mut plots = Self::shipped();
+        let inspection = &mut plots.bench.inspection;
+        inspection.scene = RenderScene::default();
+        inspection.inspector = ContactInspector::new(&inspection.scene);
+        plots
     }
 
     /// Explores along an eight over all four textiles, faster and slower.
     fn explore(&mut self, ticks: std::ops::Range<u64>) {
+        let contactor = self.bench.workspace.contactor.unwrap();
         for tick in ticks {
             let pose = pose_at(tick);
             #[expect(
@@ -63,81 +61,59 @@ impl Bench {
                 reason = "as glimpses hold amplitudes"
             )]
             let rounded = |um: f64| um as f32;
-            let trace = self.inspector.trace(0, self.contactor, &pose).unwrap();
-            self.history.take(TickSample {
+            let inspector = &mut self.bench.inspection.inspector;
+            let trace = inspector.trace(0, contactor, &pose).unwrap();
+            self.take(TickSample {
                 tick,
                 pose,
-                watched: u32::try_from(self.contactor).unwrap(),
+                watched: u32::try_from(contactor).unwrap(),
                 watched_um: trace.amplitudes_um.map(rounded),
                 ..TickSample::default()
             });
         }
     }
 
-    fn pose(&self) -> Pose {
-        let newest = self.history.newest();
-        newest.map_or_else(Pose::default, |entry| entry.glimpse.pose)
+    fn take(&mut self, sample: TickSample) {
+        let transient = &mut self.bench.transient;
+        (transient.live.tick, transient.live.pose) = (sample.tick, sample.pose);
+        transient.history.take(sample);
     }
 
     fn all(&mut self, ui: &mut Ui) {
         let height = ui.available_height() / 4.0;
-        let pane = |ui: &mut Ui, content: &mut dyn FnMut(&mut Ui)| {
+        ui.spacing_mut().item_spacing = Vec2::ZERO;
+        for pane in [
+            Pane::ContactSpectrum,
+            Pane::DriveSpectrum,
+            Pane::DriveWave,
+            Pane::SpatialSpectra,
+        ] {
             let size = vec2(ui.available_width(), height);
             let layout = egui::Layout::top_down(egui::Align::Min);
-            ui.allocate_ui_with_layout(size, layout, content);
+            ui.allocate_ui_with_layout(size, layout, |ui| self.show(ui, pane));
+        }
+    }
+
+    fn show(&mut self, ui: &mut Ui, pane: Pane) {
+        let scene = self.bench.plain_scene_view();
+        let mut context = PaneContext {
+            bench: &mut self.bench,
+            scene: &scene,
+            commands: &mut Commands::new(),
+            ground: &mut None,
         };
-        ui.spacing_mut().item_spacing = Vec2::ZERO;
-        pane(ui, &mut |ui| self.show_contact(ui, ColourMap::Viridis));
-        pane(ui, &mut |ui| self.show_drive(ui));
-        pane(ui, &mut |ui| self.show_wave(ui));
-        pane(ui, &mut |ui| self.show_spatial(ui));
+        let tool = self.tools.showing(pane).unwrap();
+        tool.ui(pane, ui, &mut context);
     }
 
     fn show_contact(&mut self, ui: &mut Ui, map: ColourMap) {
-        let view = ContactSpectrumView {
-            history: &self.history,
-            contactor: self.contactor,
-            filters: &self.scene.filters,
-            map,
-            scene_serial: 1,
-        };
-        contact::show(ui, &mut self.contact, &mut self.inspector, &view);
-    }
-
-    fn show_drive(&mut self, ui: &mut Ui) {
-        let view = DriveSpectrumView {
-            history: &self.history,
-            scale: AmplitudeScale::default(),
-            map: ColourMap::Viridis,
-        };
-        drive::show(ui, &mut self.drive, &view);
-    }
-
-    fn show_wave(&mut self, ui: &mut Ui) {
-        let tick = self.history.newest().map_or(1, |entry| entry.glimpse.tick);
-        let watched = u32::try_from(self.contactor).unwrap();
-        let drive = |tick| crate::bench::signals::drive::drive_um(&self.history, watched, tick);
-        let view = DriveWaveView {
-            before_um: drive(tick.saturating_sub(1)),
-            now_um: drive(tick),
-            limit_um: [20.0, 50.0],
-        };
-        wave::show(ui, &mut self.wave, &view);
-    }
-
-    fn show_spatial(&mut self, ui: &mut Ui) {
-        let source = SpatialSource {
-            scene: &self.scene,
-            scene_serial: 1,
-            contactor: self.contactor,
-            pose: self.pose(),
-        };
-        spatial::show(ui, &mut self.spatial, &mut self.inspector, &source);
+        self.bench.settings.preferences.colour_map = map;
+        self.show(ui, Pane::ContactSpectrum);
     }
 
     /// One frame of a window of this size, with the pointer in its middle.
     fn frame(&mut self, size: Vec2, mut content: impl FnMut(&mut Self, &mut Ui)) {
-        let ctx = self.ctx.clone();
+        let ctx = self.bench.ctx.clone();
         let at = Pos2::ZERO + 0.5 * size;
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
@@ -153,14 +129,20 @@ impl Bench {
         output.drop_without_applying_deltas();
     }
 
+    fn contact(&self) -> &ContactSpectrum {
+        self.tools.get().unwrap()
+    }
+
     /// Columns, texture writes and views so far.
     fn work(&self) -> [u64; 5] {
+        let drive: &DriveSpectrum = self.tools.get().unwrap();
+        let spatial: &SpatialSpectra = self.tools.get().unwrap();
         [
-            self.contact.n_columns_computed(),
-            self.contact.n_uploads(),
-            self.drive.n_columns_computed(),
-            self.drive.n_uploads(),
-            self.spatial.n_views_computed(),
+            self.contact().n_columns_computed(),
+            self.contact().n_uploads(),
+            drive.n_columns_computed(),
+            drive.n_uploads(),
+            spatial.n_views_computed(),
         ]
     }
 }
@@ -186,45 +168,45 @@ const SIZE: Vec2 = Vec2::new(400.0, 840.0);
 
 #[test]
 fn what_does_not_change_is_computed_and_sent_once() {
-    let mut bench = Bench::shipped();
-    bench.explore(0..100);
-    bench.frame(SIZE, Bench::all);
-    let work = bench.work();
+    let mut plots = Plots::shipped();
+    plots.explore(0..100);
+    plots.frame(SIZE, Plots::all);
+    let work = plots.work();
     assert_eq!(work, [100, 1, 100, 1, 1]);
     for _ in 0..5 {
-        bench.frame(SIZE, Bench::all);
+        plots.frame(SIZE, Plots::all);
     }
-    assert_eq!(bench.work(), work, "nothing moved");
-    bench.explore(100..102);
-    bench.frame(SIZE, Bench::all);
-    assert_eq!(bench.work(), [102, 2, 102, 2, 2]);
+    assert_eq!(plots.work(), work, "nothing moved");
+    plots.explore(100..102);
+    plots.frame(SIZE, Plots::all);
+    assert_eq!(plots.work(), [102, 2, 102, 2, 2]);
 }
 
 #[test]
 fn what_nobody_sees_is_not_computed() {
-    let mut bench = Bench::shipped();
-    bench.explore(0..400);
-    bench.frame(SIZE, Bench::show_wave);
-    bench.frame(vec2(30.0, 20.0), Bench::all);
-    assert_eq!(bench.work(), [0; 5]);
+    let mut plots = Plots::shipped();
+    plots.explore(0..400);
+    plots.frame(SIZE, |plots, ui| plots.show(ui, Pane::DriveWave));
+    plots.frame(vec2(30.0, 20.0), Plots::all);
+    assert_eq!(plots.work(), [0; 5]);
 }
 
 #[test]
 fn other_colours_and_another_contactor_begin_anew() {
-    let mut bench = Bench::shipped();
-    bench.explore(0..50);
-    bench.frame(SIZE, |bench, ui| bench.show_contact(ui, ColourMap::Viridis));
-    bench.frame(SIZE, |bench, ui| bench.show_contact(ui, ColourMap::Grey));
-    assert_eq!(bench.contact.n_columns_computed(), 100);
-    bench.contactor = 3;
-    bench.explore(50..51);
-    bench.frame(SIZE, |bench, ui| bench.show_contact(ui, ColourMap::Grey));
-    assert_eq!(bench.contact.n_columns_computed(), 151);
-    bench.frame(SIZE, Bench::show_drive);
-    bench.history.clear();
-    bench.frame(SIZE, Bench::all);
+    let mut plots = Plots::shipped();
+    plots.explore(0..50);
+    plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Viridis));
+    plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
+    assert_eq!(plots.contact().n_columns_computed(), 100);
+    plots.bench.workspace.contactor = Some(3);
+    plots.explore(50..51);
+    plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
+    assert_eq!(plots.contact().n_columns_computed(), 151);
+    plots.frame(SIZE, |plots, ui| plots.show(ui, Pane::DriveSpectrum));
+    plots.bench.transient.history.clear();
+    plots.frame(SIZE, Plots::all);
     assert_eq!(
-        bench.contact.n_columns_computed(),
+        plots.contact().n_columns_computed(),
         151,
         "nothing is left to compute"
     );
@@ -237,19 +219,19 @@ fn nothing_odd_harms_the_plots() {
         velocity: Velocity::new(f64::INFINITY, f64::NAN),
         ..Pose::default()
     };
-    for mut bench in [Bench::shipped(), Bench::of(RenderScene::default())] {
+    for mut plots in [Plots::shipped(), Plots::empty()] {
         for contactor in [9, 24, 4_000_000] {
-            bench.contactor = contactor;
+            plots.bench.workspace.contactor = Some(contactor);
             for size in [vec2(0.0, 0.0), vec2(1.0, 900.0), vec2(900.0, 1.0), SIZE] {
-                bench.frame(size, Bench::all);
+                plots.frame(size, Plots::all);
             }
-            bench.history.take(TickSample {
+            plots.take(TickSample {
                 tick: contactor as u64,
                 pose: odd,
                 watched_um: [f32::NAN, f32::INFINITY],
                 ..TickSample::default()
             });
-            bench.frame(SIZE, Bench::all);
+            plots.frame(SIZE, Plots::all);
         }
     }
 }

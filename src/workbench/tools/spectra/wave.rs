@@ -2,13 +2,18 @@
 
 use eframe::egui::{Sense, Ui};
 
-use crate::bench::export::Exported;
-use crate::bench::export::origin::Origin;
-use crate::bench::signals::drive::wave_um;
+use crate::bench::Bench;
+use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT};
+use crate::bench::pane::Pane;
+use crate::bench::signals::drive::{drive_um, wave_um};
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::widgets::axis::round_step;
+use crate::tools::spectra::{contactor, show_contactor};
 use selvedge_chart::{At, Axis, Chart, Columns, Extent, Ink, Rule, Series, Style, Weight};
+use selvedge_device::Coder;
 use selvedge_foundation::quantity;
 
 /// A tick, ms.
@@ -23,10 +28,10 @@ const LEAST_TOP_UM: f64 = 0.1;
 /// How long a smaller axis must have sufficed before it is taken, s.
 const PATIENCE_S: f64 = 2.0;
 
-/// What the pane shows.
+/// What drove a contactor in the last two ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[expect(clippy::struct_field_names, reason = "units are part of names")]
-pub(crate) struct DriveWaveView {
+pub(crate) struct TwoTicks {
     /// [A40, A320] of the tick before, µm.
     pub before_um: [f64; 2],
     /// [A40, A320] of this tick, µm.
@@ -35,9 +40,24 @@ pub(crate) struct DriveWaveView {
     pub limit_um: [f64; 2],
 }
 
-impl DriveWaveView {
+impl TwoTicks {
+    /// Those of the chosen contactor.
+    pub(crate) fn of_chosen(bench: &Bench) -> Self {
+        let (history, tick) = (&bench.transient.history, bench.transient.live.tick);
+        let watched = u32::try_from(contactor(bench)).unwrap_or(u32::MAX);
+        let bridge = bench.transient.live.bridge.as_ref();
+        let mut coder = Coder::of_contactor(bench.engine.profile(), contactor(bench));
+        coder.set_link_limit(bridge.and_then(|bridge| bridge.comp_limit));
+        Self {
+            before_um: drive_um(history, watched, tick.saturating_sub(1)),
+            now_um: drive_um(history, watched, tick),
+            limit_um: coder.limits(0).map(|limit| limit.um),
+        }
+        .finite()
+    }
+
     /// Amplitudes and limits with 0 for what is no number.
-    pub(crate) fn finite(self) -> Self {
+    fn finite(self) -> Self {
         let finite = |pair: [f64; 2]| pair.map(|um| if um.is_finite() { um } else { 0.0 });
         Self {
             before_um: finite(self.before_um),
@@ -120,7 +140,7 @@ impl WaveScale {
 }
 
 /// Both waves and their sum over the last two ticks, on the axis up to `most_um`.
-fn chart(view: &DriveWaveView, most_um: f64, n_steps: u32) -> Chart {
+fn chart(view: &TwoTicks, most_um: f64, n_steps: u32) -> Chart {
     let samples: Vec<[f64; 3]> = (0..=n_steps)
         .map(|step| {
             let t_ms = 2.0 * TICK_MS * f64::from(step) / f64::from(n_steps);
@@ -171,45 +191,71 @@ fn limits(limit_um: [f64; 2], most_um: f64) -> Vec<Rule> {
     limits.filter_map(of).flatten().collect()
 }
 
-/// The waveform with its numbers, on the axis that the pane has.
-pub(crate) fn exported(
-    view: &DriveWaveView,
+/// The waveform that drives a contactor.
+#[derive(Debug, Default)]
+pub(crate) struct DriveWave {
     scale: WaveScale,
-    contactor: usize,
-    tick: u64,
-    origin: Origin,
-) -> Exported {
-    let view = view.finite();
-    let chart = chart(&view, scale.most_um().max(view.reach_um()), N_EXPORTED);
-    let [low, high] = view.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
-    let note = format!(
-        "The last two ticks of the drive, after gains and before output limits ({low} at 40 Hz, \
-         {high} at 320 Hz, dashed where they lie on the axis); amplitudes change at ticks, where \
-         both waves cross zero."
-    );
-    let pair = |[low, high]: [f64; 2]| format!("{low} and {high}");
-    let origin = origin
-        .of_contactor(contactor)
-        .and("amplitudes_before_um", &pair(view.before_um), "")
-        .and("amplitudes_now_um", &pair(view.now_um), "")
-        .and("limits_um", &pair(view.limit_um), "")
-        .in_ticks([tick.saturating_sub(1), tick].into_iter());
-    let title = format!("Waveform that drives contactor {contactor}");
-    Exported::of_chart(&title, chart, 300.0, &note, origin)
 }
 
-/// Shows the waveform in the space that is left.
-pub(crate) fn show(ui: &mut Ui, scale: &mut WaveScale, view: &DriveWaveView) {
-    let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    let view = view.finite();
-    *scale = scale.following(view.reach_um(), ui.input(|input| input.time));
-    let setting = Setting {
-        name: "Drive waveform of the selected contactor, the last 50 ms",
-        note: "The last two ticks of the drive, after gains and before output limits; amplitudes \
-               change at ticks, where both waves cross zero",
-        ..Setting::default()
-    };
-    plot::show(ui, rect, &chart(&view, scale.most_um(), N_SHOWN), &setting);
+impl DriveWave {
+    /// Shows the waveform in the space that is left.
+    fn show(&mut self, ui: &mut Ui, bench: &Bench) {
+        let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+        let shown = TwoTicks::of_chosen(bench);
+        let time_s = ui.input(|input| input.time);
+        self.scale = self.scale.following(shown.reach_um(), time_s);
+        let setting = Setting {
+            name: "Drive waveform of the selected contactor, the last 50 ms",
+            note: "The last two ticks of the drive, after gains and before output limits; \
+                   amplitudes change at ticks, where both waves cross zero",
+            ..Setting::default()
+        };
+        let chart = chart(&shown, self.scale.most_um(), N_SHOWN);
+        plot::show(ui, rect, &chart, &setting);
+    }
+}
+
+impl Tool for DriveWave {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::DriveWave]
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 8, |ui| self.show(ui, context.bench));
+    }
+
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        show_contactor(ui, context.bench);
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
+        let glimpses = bench.transient.history.glimpses();
+        let mut felt_um = glimpses.flat_map(|one| one.watched_um);
+        if !felt_um.any(|um| um > 0.0) {
+            return Err(NOTHING_FELT);
+        }
+        let shown = TwoTicks::of_chosen(bench);
+        let tick = bench.transient.live.tick;
+        let most_um = self.scale.most_um().max(shown.reach_um());
+        let [low, high] = shown.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
+        let note = format!(
+            "The last two ticks of the drive, after gains and before output limits ({low} at 40 \
+             Hz, {high} at 320 Hz, dashed where they lie on the axis); amplitudes change at ticks, \
+             where both waves cross zero."
+        );
+        let pair = |[low, high]: [f64; 2]| format!("{low} and {high}");
+        let origin = bench.rendered_origin();
+        let origin = origin
+            .of_contactor(contactor)
+            .and("amplitudes_before_um", &pair(shown.before_um), "")
+            .and("amplitudes_now_um", &pair(shown.now_um), "")
+            .and("limits_um", &pair(shown.limit_um), "")
+            .in_ticks([tick.saturating_sub(1), tick].into_iter());
+        let title = format!("Waveform that drives contactor {contactor}");
+        let chart = chart(&shown, most_um, N_EXPORTED);
+        Ok(Exported::of_chart(&title, chart, 300.0, &note, origin))
+    }
 }
 
 #[cfg(test)]
@@ -219,10 +265,10 @@ mod tests {
 
     #[test]
     fn each_tick_has_its_own_amplitudes_and_the_waves_meet_at_zero() {
-        let view = DriveWaveView {
+        let view = TwoTicks {
             before_um: [2.0, 0.0],
             now_um: [0.0, 3.0],
-            ..DriveWaveView::default()
+            ..TwoTicks::default()
         };
         assert!(
             (view.waves_um(6.25)[0] - 2.0).abs() < 1e-9,
@@ -244,10 +290,10 @@ mod tests {
         for (band, other) in [(Band::Low, Band::High), (Band::High, Band::Low)] {
             let mut now_um = [0.0; 2];
             now_um[band.index()] = 1.0;
-            let view = DriveWaveView {
+            let view = TwoTicks {
                 before_um: now_um,
                 now_um,
-                ..DriveWaveView::default()
+                ..TwoTicks::default()
             };
             let chart = chart(&view, 2.0, N_SHOWN);
             let heights = |band: Band| chart.series[band.index()].points.iter().map(|at| at[1]);

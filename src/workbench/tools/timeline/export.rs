@@ -1,8 +1,8 @@
 //! The strips of the timeline: speed and mean levels, tick for tick.
 
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
-use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::timeline::plot::LEVELS_DB as TIMELINE_LEVELS_DB;
 use crate::tools::timeline::strip::{StripTick, Timeline};
 use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};

@@ -1,9 +1,9 @@
 //! Why a contactor does what it does: its chain of numbers, and the energy of every bin.
 
 use crate::bench::export::Exported;
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
-use crate::tools::spectra::export_spectrograms::ink;
-use crate::tools::why::Why;
+use crate::tools::why::explanation::Explanation;
 use crate::tools::why::text::sheet;
 use selvedge_chart::{Axis, Chart, Row, Series, Style};
 use selvedge_foundation::quantity;
@@ -18,7 +18,7 @@ const N_STEPS: u8 = 192;
 const APART: f64 = 1.003;
 
 /// The explanation that is shown.
-pub(crate) fn explanation(why: &Why, filters: &Filters, origin: Origin) -> Exported {
+pub(crate) fn explanation(why: &Explanation, filters: &Filters, origin: Origin) -> Exported {
     let energies = why.energies();
     let taken = |(_, taken): &(f64, [f64; 2])| taken[0].max(taken[1]);
     let largest = energies.iter().map(taken).fold(0.0, f64::max);

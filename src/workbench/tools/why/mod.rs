@@ -1,205 +1,94 @@
 //! Why a contactor does what it does: every number from its place to its drive code, in order.
 //!
-//! The numbers come from the functions that render and encode ([`ContactInspector`], [`Coder`]);
-//! nothing is computed a second time here. What is shown can be copied as text and saved as a
-//! table.
-//!
-//! [`ContactInspector`]: selvedge_render::array::ContactInspector
+//! What is shown can be copied as text and saved as a table.
 
+pub(crate) mod explanation;
 pub(crate) mod export;
 #[cfg(test)]
 mod tests;
 pub(crate) mod text;
 pub(crate) mod view;
 
-#[cfg(test)]
-pub(crate) use crate::tools::why::text::sheet;
-#[cfg(test)]
-pub(crate) use crate::tools::why::text::to_text;
+use eframe::egui::Ui;
 
 use crate::bench::Bench;
-use crate::bench::command::Part;
-use crate::bench::perceptual_level::PerceptualLevel;
-use crate::bench::view::Source;
-use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState};
-use selvedge_render::array::{ContactTrace, Touch};
+use crate::bench::command::ShowCommand;
+use crate::bench::export::{Exported, NO_CONTACTOR};
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
+use crate::kit::widgets::text::toggle;
+use crate::tools::why::explanation::Explanation;
+use crate::tools::why::text::to_text;
 
-/// The largest drive code.
-pub(crate) const FULL_CODE: u16 = u16::MAX;
-
-/// One contactor at one tick, explained.
-#[derive(Debug, Clone, PartialEq)]
+/// The explanation of the chosen contactor.
+#[derive(Debug, Default)]
 pub(crate) struct Why {
-    /// Which contactor of the first display.
-    pub contactor: usize,
-    /// Its row and column, if the display is a grid.
-    pub cell: Option<(usize, usize)>,
-    /// The tick, counted by the engine, or by the recording that is replayed.
-    pub tick: u64,
-    /// From place to amplitudes.
-    pub trace: ContactTrace,
-    /// What the textile is called in the scene: label and name.
-    pub textile: Option<String>,
-    /// Whether the contactor is left out for the moment.
-    pub(crate) is_muted: bool,
-    /// What the whole display feels like, by a model.
-    pub(crate) perceptual_level: PerceptualLevel,
-    /// What becomes of the amplitudes at the output.
-    pub output: Output,
-}
-
-/// From amplitudes to drive codes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Output {
-    /// Whether a device is armed; otherwise these are the codes it would get at full gain.
-    pub(crate) is_sent: bool,
-    /// Whether the display is silent, stopped or held, whatever its amplitudes.
-    pub is_silent: bool,
-    /// The soft-start gain.
-    pub gain: f64,
-    /// Limits of both bands that come first, and whose they are.
-    pub limits: [Limit; 2],
-    /// How the contactor answers its drive.
-    pub calibration: Calibration,
-    /// The channel that drives it.
-    pub channel: usize,
-    /// What the limits did.
-    pub limiter: LimiterState,
-    /// Codes of both bands, 0…65535.
-    pub codes: [u16; 2],
-}
-
-impl Output {
-    /// What a contactor of this array is told for these amplitudes, µm. The device takes codes
-    /// up to `comp_limit`; `gain` is the soft-start gain of one that is armed.
-    pub(crate) fn of(
-        (profile, contactor): (&ArrayProfile, usize),
-        amplitudes_um: [f64; 2],
-        (gain, comp_limit): (Option<f64>, Option<[u16; 2]>),
-        is_silent: bool,
-    ) -> Self {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "the renderer hands amplitudes on in single precision"
-        )]
-        let single = amplitudes_um.map(|um| um as f32);
-        let felt = if is_silent { [0.0; 2] } else { single };
-        let mut coder = Coder::of_contactor(profile, contactor);
-        coder.set_link_limit(comp_limit);
-        let codes = coder.encode(&[felt], gain.unwrap_or(1.0));
-        Self {
-            is_sent: gain.is_some(),
-            is_silent,
-            gain: gain.unwrap_or(1.0),
-            limits: coder.limits(0),
-            calibration: profile.calibration_of(contactor),
-            channel: profile.channel_of(contactor),
-            limiter: coder.limited().first().copied().unwrap_or_default(),
-            codes: codes.first().copied().unwrap_or_default(),
-        }
-    }
+    /// What is shown.
+    pub(crate) shown: Option<Explanation>,
+    /// Whether it stays while everything else goes on.
+    is_frozen: bool,
 }
 
 impl Why {
-    /// The contact with a textile, if there is one.
-    pub(crate) fn touch(&self) -> Option<&Touch> {
-        self.trace.touch.as_ref()
-    }
-
-    /// The share of each band's power that comes along warp and weft, µm².
-    pub(crate) fn powers_um2(&self) -> [[f64; 2]; 2] {
-        let along = |axis: usize| {
-            let direction = self
-                .touch()
-                .and_then(|touch| touch.directions[axis].as_ref());
-            direction.map_or([0.0; 2], |direction| direction.band_powers_um2)
-        };
-        [along(0), along(1)]
-    }
-
-    /// Amplitudes before any gain: `√(2 Σ P H²)`, µm.
-    pub(crate) fn bare_um(&self) -> [f64; 2] {
-        let [warp, weft] = self.powers_um2();
-        [0, 1].map(|band| (2.0 * (warp[band] + weft[band])).sqrt())
-    }
-
-    /// The bins that sound below 1 kHz: frequency, Hz, and what each band takes of it, µm².
-    pub(crate) fn energies(&self) -> Vec<(f64, [f64; 2])> {
-        let directions = self.touch().into_iter().flat_map(|touch| &touch.directions);
-        let bins = directions.flatten().flat_map(|direction| &direction.bins);
-        let heard = bins.filter(|bin| bin.filter_gains.iter().any(|gain| *gain > 0.0));
-        heard
-            .map(|bin| {
-                let taken = bin.filter_gains.map(|gain| bin.power_um2 * gain * gain);
-                (bin.frequency_hz, taken)
-            })
-            .collect()
+    /// Explains the chosen contactor as it is now, unless the explanation is frozen.
+    fn explain(&mut self, bench: &mut Bench) {
+        if !self.is_frozen || self.shown.is_none() {
+            self.shown = Explanation::of_chosen(bench);
+        }
     }
 }
 
-impl Bench {
-    /// The limits of the chosen contactor, or of one that nothing is known of.
-    pub(crate) fn limits(&self) -> [Limit; 2] {
-        let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
-        let bridge = self.transient.live.bridge.as_ref();
-        let mut coder = Coder::of_contactor(self.engine.profile(), contactor);
-        coder.set_link_limit(bridge.and_then(|bridge| bridge.comp_limit));
-        coder.limits(0)
+impl Tool for Why {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Why]
     }
 
-    /// Explains the chosen contactor as it is now, unless the explanation is held.
-    pub(crate) fn explain(&mut self) {
-        if self.transient.why.1 && self.transient.why.0.is_some() {
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.explain(context.bench);
+        let filters = &context.scene.filters;
+        framed(ui, 10, |ui| view::show(ui, self.shown.as_ref(), filters));
+    }
+
+    /// Copy, freeze, and the contactors beside.
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        let Some(shown) = &self.shown else {
             return;
+        };
+        if toggle(ui, "copy", false, "Copy the chain as text") {
+            ui.ctx().copy_text(to_text(shown));
         }
-        self.transient.why.0 = self.explained();
+        let tip = "Hold the explanation while everything else goes on";
+        if toggle(ui, "freeze", self.is_frozen, tip) {
+            self.is_frozen = !self.is_frozen;
+            ui.ctx().request_repaint();
+        }
+        let n_contactors = context.bench.transient.live.dots.len();
+        let chosen = context.bench.workspace.contactor;
+        let Some(contactor) = chosen.filter(|contactor| *contactor < n_contactors) else {
+            return;
+        };
+        // Around all of them.
+        let steps = [
+            ("›", 1, "Choose the next contactor, in every view"),
+            (
+                "‹",
+                n_contactors - 1,
+                "Choose the contactor before, in every view",
+            ),
+        ];
+        for (sign, step, tip) in steps {
+            if toggle(ui, sign, false, tip) {
+                let next = (contactor + step) % n_contactors;
+                (context.commands).push(ShowCommand::SelectContactor(next).into());
+            }
+        }
     }
 
-    fn explained(&mut self) -> Option<Why> {
-        let contactor = self.workspace.contactor?;
-        let live = &self.transient.live;
-        let trace = self.inspection.inspector.trace(0, contactor, &live.pose)?;
-        let cloths = &self.document.scene().textiles;
-        let cloth = trace
-            .touch
-            .as_ref()
-            .and_then(|touch| cloths.get(touch.textile));
-        let textile = cloth.map(|cloth| {
-            let name = self
-                .library_view
-                .item(&cloth.id)
-                .map_or(&cloth.id, |item| &item.name);
-            format!("{} {name}", cloth.label)
-        });
-        let display = self.document.scene().displays.first()?;
-        let cell = display.geometry.grid().map(|(_, n_columns)| {
-            let n_columns = n_columns.max(1);
-            (contactor / n_columns, contactor % n_columns)
-        });
-        let is_muted = !self.transient.mute_solo.is_felt(Part::Contactor(contactor));
-        let bridge = live.bridge.as_ref();
-        let gain = bridge.and_then(|bridge| bridge.gain);
-        let comp_limit = bridge.and_then(|bridge| bridge.comp_limit);
-        let is_silent = live.is_silent || is_muted;
-        let amplitudes_um = trace.amplitudes_um;
-        let output = Output::of(
-            (self.engine.profile(), contactor),
-            amplitudes_um,
-            (gain, comp_limit),
-            is_silent,
-        );
-        Some(Why {
-            contactor,
-            cell,
-            tick: match live.play.source {
-                Source::Recording | Source::Stroke => live.play.tick,
-                Source::Pointer | Source::Lines | Source::Device => live.tick,
-            },
-            trace,
-            textile,
-            is_muted,
-            perceptual_level: live.perceptual_level,
-            output,
-        })
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        self.explain(bench);
+        let shown = self.shown.as_ref().ok_or(NO_CONTACTOR)?;
+        let filters = bench.document.scene().filters;
+        Ok(export::explanation(shown, &filters, bench.origin()))
     }
 }

@@ -1,6 +1,9 @@
 //! A case worked by hand, and what is said of the rest.
 
-use super::*;
+use crate::bench::perceptual_level::PerceptualLevel;
+use crate::tools::why::explanation::{Explanation, Output};
+use crate::tools::why::text::{sheet, to_text};
+use selvedge_device::{ArrayProfile, Coder};
 use selvedge_foundation::geometry::{Frame, Point, Velocity};
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::Pose;
@@ -42,7 +45,7 @@ fn scene() -> RenderScene {
     }
 }
 
-fn why(place: [f64; 2], velocity: [f64; 2]) -> Why {
+fn why(place: [f64; 2], velocity: [f64; 2]) -> Explanation {
     let pose = Pose {
         position: Point::new(place[0], place[1]),
         velocity: Velocity {
@@ -58,7 +61,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Why {
         (None, None),
         false,
     );
-    Why {
+    Explanation {
         contactor: 0,
         cell: Some((0, 0)),
         tick: 7,
@@ -144,7 +147,7 @@ fn outside_at_rest_and_silent_are_said() {
     assert!(to_text(&held).contains("silent now"));
 }
 
-fn csv_of(explained: &Why) -> String {
+fn csv_of(explained: &Explanation) -> String {
     let path = std::path::Path::new("why.csv");
     let origin = crate::bench::export::origin::Origin::default();
     String::from_utf8(sheet(explained).to_csv(&origin.pairs(), path).unwrap()).unwrap()

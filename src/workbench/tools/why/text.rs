@@ -2,7 +2,7 @@
 
 use crate::bench::export::Sheet;
 use crate::bench::perceptual_level::felt_words;
-use crate::tools::why::{FULL_CODE, Why};
+use crate::tools::why::explanation::{Explanation, FULL_CODE};
 use selvedge_device::Calibration;
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_render::GainTerms;
@@ -23,7 +23,7 @@ pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
 }
 
 /// The lines that explain: what, and what it is for 40 Hz and 320 Hz or as a whole.
-pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
+pub(crate) fn lines(why: &Explanation) -> Vec<(String, String)> {
     let mut lines = vec![("Position".to_owned(), place(why))];
     let Some(touch) = why.touch() else {
         lines.push(("Textile".to_owned(), "none: silent".to_owned()));
@@ -63,7 +63,7 @@ pub(crate) fn lines(why: &Why) -> Vec<(String, String)> {
 }
 
 /// What it feels like, by the model: this contactor's levels above threshold, and the display.
-fn felt(why: &Why) -> [(String, String); 2] {
+fn felt(why: &Explanation) -> [(String, String); 2] {
     let above = why.perceptual_level.above_db(why.trace.amplitudes_um);
     let [low, high] = above.map(|above_db| {
         if above_db.is_finite() {
@@ -77,7 +77,7 @@ fn felt(why: &Why) -> [(String, String); 2] {
     [("Sensation", above), ("Display feels", display)].map(|(name, value)| (name.to_owned(), value))
 }
 
-fn place(why: &Why) -> String {
+fn place(why: &Explanation) -> String {
     let at = why.trace.position;
     format!("{} / {} mm", fixed(at.x_mm, 1), fixed(at.y_mm, 1))
 }
@@ -91,7 +91,7 @@ fn spectrum(direction: &DirectionTrace) -> (String, String) {
     (first.into_iter().chain(letters).collect(), words)
 }
 
-fn limits(why: &Why) -> String {
+fn limits(why: &Explanation) -> String {
     let limits = why.output.limits;
     let [low, high] = limits.map(|limit| fixed(limit.um, 1));
     let numbers = match limits.map(|limit| limit.is_of_device) {
@@ -113,7 +113,7 @@ fn limits(why: &Why) -> String {
 }
 
 /// What the array profile says of the contactor, where it differs from the nominal.
-fn calibration(why: &Why) -> Option<(String, String)> {
+fn calibration(why: &Explanation) -> Option<(String, String)> {
     let output = &why.output;
     let is_nominal = output.calibration == Calibration::default();
     if is_nominal && output.channel == why.contactor {
@@ -124,7 +124,7 @@ fn calibration(why: &Why) -> Option<(String, String)> {
     Some(("Calibration".to_owned(), words))
 }
 
-fn codes(why: &Why) -> String {
+fn codes(why: &Explanation) -> String {
     let [low, high] = why.output.codes;
     let state = match (why.output.is_silent, why.output.is_sent) {
         _ if why.is_muted => "muted".to_owned(),
@@ -136,7 +136,7 @@ fn codes(why: &Why) -> String {
 }
 
 /// All of it as text.
-pub(crate) fn to_text(why: &Why) -> String {
+pub(crate) fn to_text(why: &Explanation) -> String {
     let cell = why.cell.map_or_else(String::new, |(row, column)| {
         format!(", row {row}, column {column}")
     });
@@ -153,7 +153,7 @@ pub(crate) fn to_text(why: &Why) -> String {
 type TableRow = (String, &'static str, Option<u64>, [f64; 2], &'static str);
 
 /// Every number and every bin as a table: `quantity,axis,bin,value_40,value_320,unit`.
-pub(crate) fn sheet(why: &Why) -> Sheet {
+pub(crate) fn sheet(why: &Explanation) -> Sheet {
     let rows = rows(why);
     let words = |of: &dyn Fn(&TableRow) -> String| -> Vec<String> { rows.iter().map(of).collect() };
     let bin = |row: &TableRow| row.2.map_or_else(String::new, |k| k.to_string());
@@ -167,7 +167,7 @@ pub(crate) fn sheet(why: &Why) -> Sheet {
         .with("unit", words(&|row| row.4.to_owned()))
 }
 
-fn rows(why: &Why) -> Vec<TableRow> {
+fn rows(why: &Explanation) -> Vec<TableRow> {
     let mut rows = Vec::new();
     let mut row = |quantity: &str, axis, bin, values, unit| {
         rows.push((quantity.to_owned(), axis, bin, values, unit));

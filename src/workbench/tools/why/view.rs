@@ -5,14 +5,12 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::perceptual_level::SOURCE;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};
 use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, paint_limit_mark};
-use crate::kit::widgets::text::toggle;
-use crate::tools::why::Why;
+use crate::tools::why::explanation::Explanation;
 use crate::tools::why::text::{LIMITS, lines};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
@@ -31,7 +29,7 @@ const FREQUENCIES_HZ: [f64; 2] = [10.0, 1000.0];
 const CURVE: u8 = 96;
 
 /// Shows the pane; without a contactor, what to do.
-pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
+pub(crate) fn show(ui: &mut Ui, why: Option<&Explanation>, filters: &Filters) {
     let palette = Palette::in_ui(ui);
     let Some(why) = why else {
         let words = "Choose a contactor: click a cell of the heatmaps";
@@ -55,53 +53,7 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Why>, filters: &Filters) {
     );
 }
 
-/// What stands over the chain: freeze, copy, and the contactors beside.
-pub(crate) fn show_corner(
-    ui: &mut Ui,
-    is_frozen: bool,
-    (why, chosen, n_contactors): (Option<&Why>, Option<usize>, usize),
-    commands: &mut Commands,
-) {
-    if why.is_none() {
-        return;
-    }
-    if toggle(ui, "copy", false, "Copy the chain as text") {
-        commands.push(ShowCommand::CopyWhy.into());
-    }
-    let tip = "Hold the explanation while everything else goes on";
-    if toggle(ui, "freeze", is_frozen, tip) {
-        commands.push(ShowCommand::FreezeWhy.into());
-    }
-    show_neighbours(ui, chosen, n_contactors, commands);
-}
-
-/// Steps to the contactor before and the one behind, around all of them.
-fn show_neighbours(
-    ui: &mut Ui,
-    contactor: Option<usize>,
-    n_contactors: usize,
-    commands: &mut Commands,
-) {
-    let Some(contactor) = contactor.filter(|contactor| *contactor < n_contactors) else {
-        return;
-    };
-    let steps = [
-        ("›", 1, "Choose the next contactor, in every view"),
-        (
-            "‹",
-            n_contactors - 1,
-            "Choose the contactor before, in every view",
-        ),
-    ];
-    for (sign, step, tip) in steps {
-        if toggle(ui, sign, false, tip) {
-            let next = (contactor + step) % n_contactors;
-            commands.push(ShowCommand::SelectContactor(next).into());
-        }
-    }
-}
-
-fn show_chain(ui: &mut Ui, why: &Why) {
+fn show_chain(ui: &mut Ui, why: &Explanation) {
     let palette = Palette::in_ui(ui);
     let lines = lines(why);
     let area = ScrollArea::vertical().id_salt("why").auto_shrink(false);
@@ -162,7 +114,7 @@ fn show_line(ui: &mut Ui, name: &str, value: &str, limiters: Option<String>) {
 }
 
 /// The energy that each band takes, bin by bin, with the filters over it.
-fn show_energy(ui: &Ui, rect: Rect, why: &Why, filters: &Filters) {
+fn show_energy(ui: &Ui, rect: Rect, why: &Explanation, filters: &Filters) {
     let id = ui.scope_id().with("energy by bin");
     let response = ui.interact(rect, id, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Energy by bin"));

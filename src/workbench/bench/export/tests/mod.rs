@@ -14,8 +14,10 @@ use eframe::egui::vec2;
 use super::*;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::shell::headless::Headless;
-use crate::tools::compare::Standing;
+use crate::tools::accuracy::Accuracy;
+use crate::tools::compare::comparison::{Compare, Standing};
 use crate::tools::lab::command::{Beginning, LabCommand};
+use crate::tools::response::Response;
 use crate::tools::workspace::overlay::Overlay;
 use selvedge_foundation::files::{self, Table};
 use selvedge_foundation::quantity;
@@ -86,13 +88,16 @@ impl Headless {
     fn settle(&mut self) {
         for _ in 0..2000 {
             let [sampled, _] = self.workbench.ticks_checked();
-            let is_checked = self.workbench.bench.accuracy_view().found.n_ticks == sampled;
-            let standing = self.workbench.bench.comparison_standing();
+            let accuracy = self.workbench.tools.get_mut::<Accuracy>().unwrap();
+            accuracy.take_found();
+            let is_checked = accuracy.found().n_ticks == sampled;
+            let compare = self.workbench.tools.get_mut::<Compare>().unwrap();
+            compare.poll();
+            let standing = compare.standing(&compare.inputs(&self.workbench.bench));
             if is_checked && !matches!(standing, Standing::Running(_)) {
                 return;
             }
             thread::sleep(Duration::from_millis(5));
-            self.workbench.bench.transient.comparison.poll();
         }
         panic!("a thread never came to its end");
     }
@@ -303,7 +308,6 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         desk.workbench.bench.workspace.contactor = is_chosen.then_some(9);
         let words = desk
             .workbench
-            .bench
             .exported(what)
             .expect_err("nothing is shown yet");
         assert!(
@@ -338,12 +342,13 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
     let mut desk = Headless::explored(90);
     let response = desk.exported(Exportable::Pane(Pane::Response));
     let rms_um = column(&response, "a320_rms_um");
-    let curves = &desk.workbench.bench.transient.curves;
+    let shown = desk.workbench.tools.get::<Response>().unwrap();
+    let curves = &shown.curves;
     assert_eq!(
         rms_um.len(),
         curves.around().len() + curves.over_speed().len()
     );
-    let textile = desk.workbench.bench.transient.asked_textile.unwrap();
+    let textile = shown.textile.unwrap();
     let factors = desk
         .workbench
         .bench
@@ -357,9 +362,14 @@ fn curves_errors_and_differences_are_those_of_their_panes() {
 
     let accuracy = desk.exported(Exportable::Pane(Pane::Accuracy));
     let counted: f64 = column(&accuracy, "count").iter().sum();
-    let view = desk.workbench.bench.accuracy_view();
-    let errors: u64 = view.found.counts.iter().flatten().sum();
-    let ticks: u64 = view.cost.costs.buckets().map(|b| u64::from(b.count)).sum();
+    let shown = desk.workbench.tools.get::<Accuracy>().unwrap();
+    let errors: u64 = shown.found().counts.iter().flatten().sum();
+    let ticks: u64 = shown
+        .cost()
+        .costs
+        .buckets()
+        .map(|b| u64::from(b.count))
+        .sum();
     assert_eq!(counted, (errors + ticks) as f64);
     assert!(errors > 100, "{errors} amplitudes");
 

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::bench::signals::rows::N_ROWS;
-use crate::tools::spectra::spatial::density_db;
+use crate::bench::signals::spatial::density_db;
+use crate::tools::spectra::wave::TwoTicks;
 
 #[test]
 fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
@@ -62,7 +63,7 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
 fn the_waveform_is_the_sum_of_both_bands_with_their_amplitudes() {
     let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::DriveWave));
-    let shown = desk.workbench.bench.drive_wave_view();
+    let shown = TwoTicks::of_chosen(&desk.workbench.bench);
     let times = column(&exported, "t_s");
     for (band, name) in ["wave_40_um", "wave_320_um"].into_iter().enumerate() {
         let wave = column(&exported, name);

@@ -2,13 +2,14 @@
 //! cost, and every method on the scene.
 
 use crate::bench::export::Exported;
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
-use crate::tools::accuracy::AccuracyView;
-use crate::tools::accuracy::checker::{ERRORS_DB, ROUNDING_DB, edges_db};
-use crate::tools::spectra::export_spectrograms::ink;
+use crate::bench::rendering::Rendering;
+use crate::tools::accuracy::checker::{ERRORS_DB, ErrorView, ROUNDING_DB, edges_db};
+use crate::tools::accuracy::measuring::Measured;
+use crate::tools::accuracy::sampling::{Accuracy, CostView};
 use selvedge_chart::{At, Axis, Bars, Chart, Columns, Extent, Ink, Row, Rule, Series};
 use selvedge_foundation::quantity;
-use selvedge_render::array::Method;
 use selvedge_textile::tactile::Band;
 
 /// One bin of a histogram, or one method.
@@ -24,12 +25,13 @@ struct Found {
 }
 
 /// Both histograms of the pane, and the methods if they were measured.
-pub(crate) fn exported(view: &AccuracyView<'_>, origin: Origin) -> Exported {
-    let found: Vec<Found> = errors(view)
-        .chain(costs(view))
-        .chain(methods(view))
+pub(crate) fn exported(accuracy: &Accuracy, rendering: Rendering, origin: Origin) -> Exported {
+    let (errors_found, cost) = (accuracy.found(), accuracy.cost());
+    let found: Vec<Found> = errors(errors_found)
+        .chain(costs(&cost))
+        .chain(accuracy.measured.iter().flat_map(methods))
         .collect();
-    let mut panels = vec![error_chart(view), cost_chart(view)];
+    let mut panels = vec![error_chart(accuracy, rendering), cost_chart(&cost)];
     if found.iter().any(|one| one.of == "method") {
         panels.push(method_chart(&found));
     }
@@ -38,10 +40,11 @@ pub(crate) fn exported(view: &AccuracyView<'_>, origin: Origin) -> Exported {
         height_px: 340.0,
         bar: None,
     };
-    let checked = quantity::with_unit(view.found.n_ticks as f64, 0, "ticks");
-    let late = format!("{} late, {} missed", view.cost.late, view.cost.missed);
+    let n_ticks = errors_found.n_ticks;
+    let checked = quantity::with_unit(n_ticks as f64, 0, "ticks");
+    let late = format!("{} late, {} missed", cost.late, cost.missed);
     let origin = origin
-        .and("ticks_checked", &view.found.n_ticks.to_string(), &checked)
+        .and("ticks_checked", &n_ticks.to_string(), &checked)
         .and("deadlines", &late, &late);
     let note = "Level errors against reference (f64, every bin) in the normative measure; wall \
                 time of every tick; methods by CPU time.";
@@ -49,10 +52,10 @@ pub(crate) fn exported(view: &AccuracyView<'_>, origin: Origin) -> Exported {
     Exported::new(title, columns(&found), vec![row], note, origin)
 }
 
-fn errors<'a>(view: &'a AccuracyView<'_>) -> impl Iterator<Item = Found> + 'a {
+fn errors(found: &ErrorView) -> impl Iterator<Item = Found> + '_ {
     let edges = edges_db();
     Band::ALL.into_iter().flat_map(move |band| {
-        let counts = view.found.counts[band.index()].iter();
+        let counts = found.counts[band.index()].iter();
         let bins: Vec<Found> = edges
             .windows(2)
             .zip(counts)
@@ -69,8 +72,8 @@ fn errors<'a>(view: &'a AccuracyView<'_>) -> impl Iterator<Item = Found> + 'a {
     })
 }
 
-fn costs<'a>(view: &'a AccuracyView<'_>) -> impl Iterator<Item = Found> + 'a {
-    view.cost.costs.buckets().map(|bucket| Found {
+fn costs(cost: &CostView) -> impl Iterator<Item = Found> + '_ {
+    cost.costs.buckets().map(|bucket| Found {
         of: "time a tick",
         ends: [bucket.from.as_secs_f64(), bucket.to.as_secs_f64()],
         unit: "s",
@@ -79,12 +82,8 @@ fn costs<'a>(view: &'a AccuracyView<'_>) -> impl Iterator<Item = Found> + 'a {
     })
 }
 
-fn methods<'a>(view: &'a AccuracyView<'_>) -> impl Iterator<Item = Found> + 'a {
-    let rows = view
-        .measured
-        .into_iter()
-        .flat_map(|measured| &measured.rows);
-    rows.filter_map(|row| {
+fn methods(measured: &Measured) -> impl Iterator<Item = Found> + '_ {
+    measured.rows.iter().filter_map(|row| {
         Some(Found {
             of: "method",
             name: format!("{} {}", row.method, row.setting).trim().to_owned(),
@@ -135,8 +134,8 @@ fn counts(what: &str, bars: &[Bars]) -> Axis {
 }
 
 /// How level errors are distributed, with what the method promises and what it was given.
-pub(crate) fn error_chart(view: &AccuracyView<'_>) -> Chart {
-    let found: Vec<Found> = errors(view).collect();
+pub(crate) fn error_chart(accuracy: &Accuracy, rendering: Rendering) -> Chart {
+    let found: Vec<Found> = errors(accuracy.found()).collect();
     let bars = Band::ALL.map(|band| {
         let name = name_of(band);
         let own = found.iter().filter(|one| one.name == name);
@@ -147,12 +146,12 @@ pub(crate) fn error_chart(view: &AccuracyView<'_>) -> Chart {
         x: Axis::log("level error, dB").within(ERRORS_DB),
         y: counts("amplitudes", &bars),
         bars: bars.to_vec(),
-        rules: error_rules(view),
+        rules: error_rules(accuracy.bound_db, rendering),
         ..Chart::default()
     }
 }
 
-fn error_rules(view: &AccuracyView<'_>) -> Vec<Rule> {
+fn error_rules(bound_db: f64, rendering: Rendering) -> Vec<Rule> {
     let rule = |db: f64, label: &str, ink, extent| Rule {
         at: At::X(db),
         label: label.to_owned(),
@@ -160,8 +159,8 @@ fn error_rules(view: &AccuracyView<'_>) -> Vec<Rule> {
         extent,
     };
     let mut rules = vec![rule(ROUNDING_DB, "rounding", Ink::Grey, Extent::Dashed)];
-    let (bound_db, budget_db) = (view.bound_db, view.rendering.budget_db);
-    let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
+    let budget_db = rendering.budget_db;
+    let has_budget = rendering.has_budget();
     // Tables are made to fill the budget: both names would lie over each other.
     let is_full = has_budget && (bound_db / budget_db - 1.0).abs() < 0.5;
     if bound_db > ROUNDING_DB {
@@ -176,8 +175,8 @@ fn error_rules(view: &AccuracyView<'_>) -> Vec<Rule> {
 }
 
 /// How the times of ticks are distributed, with the time that a tick has.
-pub(crate) fn cost_chart(view: &AccuracyView<'_>) -> Chart {
-    let found: Vec<Found> = costs(view).collect();
+pub(crate) fn cost_chart(cost: &CostView) -> Chart {
+    let found: Vec<Found> = costs(cost).collect();
     let bars = [bars("", found.iter(), Ink::Grey)];
     Chart {
         title: "Time a tick".to_owned(),

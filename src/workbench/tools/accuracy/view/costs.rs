@@ -8,14 +8,13 @@ use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
-use crate::tools::accuracy::view::numbers::LINE;
-use crate::tools::accuracy::view::{HISTOGRAM, chart, numbers, quiet_line};
-use crate::tools::accuracy::{AccuracyView, CostView};
+use crate::tools::accuracy::sampling::CostView;
+use crate::tools::accuracy::view::numbers::{HISTOGRAM, LINE, quiet_line};
+use crate::tools::accuracy::view::{chart, numbers};
 use selvedge_foundation::quantity;
 
 /// Shows costs and their distribution in the space that is left.
-pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
-    let cost = &view.cost;
+pub(crate) fn show(ui: &mut Ui, cost: &CostView) {
     let tip = "Time from the beginning of a tick to the end of all that it does: pointer, \
                velocity, rendering, frame to the device, recording. What the system gave to \
                others meanwhile counts too\nLate: began more than 1 ms after it was due. Missed: \
@@ -28,7 +27,7 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
         name: "Distribution of the time a tick takes",
         ..HISTOGRAM
     };
-    let shown = plot::show(ui, rect, &chart::cost_chart(view), &setting);
+    let shown = plot::show(ui, rect, &chart::cost_chart(cost), &setting);
     if cost.costs.n() == 0 {
         let words = "Times show here once the engine runs";
         paint_sentence(ui.painter(), rect - setting.margin, words);

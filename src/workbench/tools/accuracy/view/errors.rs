@@ -3,27 +3,31 @@
 
 use eframe::egui::{Color32, Sense, Ui, vec2};
 
+use crate::bench::rendering::Rendering;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::tools::accuracy::checker::{ErrorView, ROUNDING_DB, edges_db};
-use crate::tools::accuracy::view::numbers::LINE;
-use crate::tools::accuracy::view::{HISTOGRAM, chart, numbers, quiet_line};
-use crate::tools::accuracy::{AccuracyView, Tally};
+use crate::tools::accuracy::sampling::{Accuracy, Tally};
+use crate::tools::accuracy::view::numbers::{HISTOGRAM, LINE, quiet_line};
+use crate::tools::accuracy::view::{chart, numbers};
 use selvedge_foundation::quantity;
 use selvedge_render::array::Method;
 use selvedge_textile::tactile::Band;
 
 /// Shows errors and their distribution in the space that is left.
-pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
-    let title = view.method.map_or("Level error", |method| match method {
-        Method::Reference => "Level error of reference",
-        Method::Banded => "Level error of banded",
-        Method::Table => "Level error of table",
-        Method::Auto => "Level error of auto",
-    });
-    quiet_line(ui, title, &tally_words(view.found, view.tally));
+pub(crate) fn show(ui: &mut Ui, accuracy: &Accuracy, rendering: Rendering) {
+    let found = accuracy.found();
+    let title = accuracy
+        .method()
+        .map_or("Level error", |method| match method {
+            Method::Reference => "Level error of reference",
+            Method::Banded => "Level error of banded",
+            Method::Table => "Level error of table",
+            Method::Auto => "Level error of auto",
+        });
+    quiet_line(ui, title, &tally_words(found, accuracy.tally()));
     let height = (ui.available_height() - 3.0 * LINE).max(40.0);
     let size = vec2(ui.available_width(), height);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -31,17 +35,17 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>) {
         name: "Distribution of level errors",
         ..HISTOGRAM
     };
-    let shown = plot::show(ui, rect, &chart::error_chart(view), &setting);
-    if view.found.n_ticks == 0 {
+    let shown = plot::show(ui, rect, &chart::error_chart(accuracy, rendering), &setting);
+    if found.n_ticks == 0 {
         let words = "Move the display over a textile: its ticks are checked against reference";
         paint_sentence(ui.painter(), rect - setting.margin, words);
     }
     let pointed = shown.and_then(|shown| Some((shown.pointer()?, shown)));
     if let Some((at, shown)) = pointed {
-        let words = words_at(view.found, shown.values_at(at)[0]);
+        let words = words_at(found, shown.values_at(at)[0]);
         shown.response.on_hover_text_at_pointer(words);
     }
-    show_numbers(ui, view.found);
+    show_numbers(ui, found);
 }
 
 fn show_numbers(ui: &mut Ui, found: &ErrorView) {

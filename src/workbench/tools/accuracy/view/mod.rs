@@ -7,19 +7,16 @@ pub(crate) mod errors;
 pub(crate) mod numbers;
 pub(crate) mod pareto;
 
-use eframe::egui::{
-    self, ComboBox, Layout, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2,
-};
+use eframe::egui::{self, ComboBox, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
-use crate::bench::command::Commands;
+use crate::bench::command::Command;
 use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
-use crate::kit::plot::{Drag, Setting};
-use crate::kit::theme;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tip_beside};
 use crate::kit::widgets::text::toggle;
-use crate::tools::accuracy::{AccuracyCommand, AccuracyView};
+use crate::tools::accuracy::sampling::Accuracy;
 use selvedge_render::array::Method;
 
 /// A pane at least this wide shows all three plots side by side, points.
@@ -33,33 +30,15 @@ const GAP: f32 = 3.0 * STEP;
 /// Decades of the budget's slider: down to 0.0001 dB, then 0.
 const DECADES: f64 = 4.0;
 
-/// How both histograms stand in the pane, which may scroll.
-const HISTOGRAM: Setting<'_> = Setting {
-    name: "",
-    margin: Margin {
-        left: 2,
-        right: 2,
-        top: 14,
-        bottom: 16,
-    },
-    wheel: false,
-    drag: Drag::Pans,
-    link: None,
-    hover: false,
-    note: "",
-    has_legend: false,
-};
-
 /// Shows the pane.
-pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, context: &mut PaneContext<'_>) {
     let size = ui.available_size();
     if size.x >= ROOM_FOR_THREE {
-        show_controls(ui, view, commands);
+        show_controls(ui, accuracy, context);
         let rect = ui.available_rect_before_wrap();
         let [errors, costs, methods] = thirds(rect);
-        within(ui, errors, |ui| errors::show(ui, view));
-        within(ui, costs, |ui| costs::show(ui, view));
-        within(ui, methods, |ui| pareto::show(ui, view, commands));
+        show_histograms(ui, [errors, costs], accuracy, context);
+        within(ui, methods, |ui| pareto::show(ui, accuracy, context.bench));
         ui.advance_cursor_after_rect(rect);
         return;
     }
@@ -67,42 +46,56 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands
         .id_salt("accuracy")
         .auto_shrink(false);
     area.show(ui, |ui| {
-        show_controls(ui, view, commands);
+        show_controls(ui, accuracy, context);
         let left_over = (size.y - ROW - 3.0 * STEP).max(LEAST);
         let size = vec2(ui.available_width(), left_over);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
         if size.y >= ROOM_FOR_BOTH {
             let (above, below) = rect.split_top_bottom_at_fraction(0.45);
-            show_histograms(ui, above, view);
+            show_histograms(ui, halves(above), accuracy, context);
             let below = below.with_min_y(below.top() + GAP);
-            within(ui, below, |ui| pareto::show(ui, view, commands));
-        } else if view.shows_methods {
-            within(ui, rect, |ui| pareto::show(ui, view, commands));
+            within(ui, below, |ui| pareto::show(ui, accuracy, context.bench));
+        } else if accuracy.shows_methods {
+            within(ui, rect, |ui| pareto::show(ui, accuracy, context.bench));
         } else {
-            show_histograms(ui, rect, view);
+            show_histograms(ui, halves(rect), accuracy, context);
         }
     });
 }
 
 /// Errors and costs side by side.
-fn show_histograms(ui: &mut Ui, rect: Rect, view: &AccuracyView<'_>) {
+fn show_histograms(
+    ui: &mut Ui,
+    [errors, costs]: [Rect; 2],
+    accuracy: &Accuracy,
+    context: &PaneContext<'_>,
+) {
+    let rendering = context.bench.settings.preferences.rendering;
+    within(ui, errors, |ui| errors::show(ui, accuracy, rendering));
+    within(ui, costs, |ui| costs::show(ui, &accuracy.cost()));
+}
+
+fn halves(rect: Rect) -> [Rect; 2] {
     let (left, right) = rect.split_left_right_at_x(rect.center().x);
-    let left = left.with_max_x(left.right() - 0.5 * GAP);
-    within(ui, left, |ui| errors::show(ui, view));
-    let right = right.with_min_x(right.left() + 0.5 * GAP);
-    within(ui, right, |ui| costs::show(ui, view));
+    [
+        left.with_max_x(left.right() - 0.5 * GAP),
+        right.with_min_x(right.left() + 0.5 * GAP),
+    ]
 }
 
 /// What stands beside the title: begin anew, and which plots there are where there is no room for
 /// all.
-pub(crate) fn show_corner(ui: &mut Ui, shows_methods: bool, commands: &mut Commands) {
+pub(crate) fn show_corner(ui: &mut Ui, accuracy: &mut Accuracy) {
     let tip = "Begin the statistics of errors and costs anew";
-    if toggle(ui, "reset", false, tip) {
-        commands.push(AccuracyCommand::Reset.into());
+    let begins_anew = toggle(ui, "reset", false, tip);
+    if begins_anew {
+        accuracy.reset();
     }
     let tip = "Every method on this scene";
-    if toggle(ui, "methods", shows_methods, tip) {
-        commands.push(AccuracyCommand::ToggleMethods.into());
+    let switches = toggle(ui, "methods", accuracy.shows_methods, tip);
+    accuracy.shows_methods ^= switches;
+    if begins_anew || switches {
+        ui.ctx().request_repaint();
     }
 }
 
@@ -123,10 +116,11 @@ fn within(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
 }
 
 /// The method, and the error that it may make.
-fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
-    let has_budget = matches!(view.rendering.method, Method::Auto | Method::Table);
+fn show_controls(ui: &mut Ui, accuracy: &Accuracy, context: &mut PaneContext<'_>) {
+    let rendering = context.bench.settings.preferences.rendering;
+    let mut wanted = rendering;
     let row = ui.horizontal(|ui| {
-        show_method(ui, view, commands);
+        show_method(ui, &mut wanted.method);
         ui.add_space(STEP);
         let scale = Scale {
             least: 0.0,
@@ -139,33 +133,36 @@ fn show_controls(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) 
             noticed: None,
             curve: Curve::Decades(DECADES),
         };
-        let slider = ui.add_enabled_ui(has_budget, |ui| {
+        let slider = ui.add_enabled_ui(rendering.has_budget(), |ui| {
             let ink = Palette::in_ui(ui).text;
-            let now_db = view.rendering.budget_db;
-            let (new, response) = slider_row(ui, "Error budget", ink, scale, now_db);
-            commands.extend(new.map(|db| AccuracyCommand::Budget(db).into()));
+            let (new, response) = slider_row(ui, "Error budget", ink, scale, rendering.budget_db);
+            wanted.budget_db = new.unwrap_or(wanted.budget_db);
             response
         });
         slider.inner
     });
-    if has_budget {
+    if wanted != rendering {
+        context.commands.push(Command::Render(wanted));
+    }
+    if rendering.has_budget() {
         // Beside the whole pane: what the slider does to the plots stays in sight.
-        tip_beside(ui, &row.inner, budget_words(view));
+        let is_preparing = context.bench.preparing.is_busy();
+        tip_beside(ui, &row.inner, budget_words(accuracy, is_preparing));
     } else {
         let words = "Only auto and table keep to a budget; this method has its own error";
         row.inner.on_disabled_hover_text(words);
     }
 }
 
-fn budget_words(view: &AccuracyView<'_>) -> String {
-    let runs = view.method.map_or_else(String::new, |method| {
-        let bound = numbers::level(view.bound_db);
+fn budget_words(accuracy: &Accuracy, is_preparing: bool) -> String {
+    let runs = accuracy.method().map_or_else(String::new, |method| {
+        let bound = numbers::level(accuracy.bound_db);
         format!(
             "\nNow {} runs, whose error is at most {bound} dB",
             method.name()
         )
     });
-    let preparing = if view.is_preparing {
+    let preparing = if is_preparing {
         "\nTables are being prepared"
     } else {
         ""
@@ -177,14 +174,13 @@ fn budget_words(view: &AccuracyView<'_>) -> String {
     )
 }
 
-fn show_method(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
-    let mut chosen = view.rendering.method;
+fn show_method(ui: &mut Ui, chosen: &mut Method) {
     let combo = ComboBox::from_id_salt("rendering method")
         .selected_text(chosen.name())
         .width(78.0);
     let response = combo.show_ui(ui, |ui| {
         for method in Method::ALL.into_iter().rev() {
-            ui.selectable_value(&mut chosen, method, method.name());
+            ui.selectable_value(chosen, method, method.name());
         }
     });
     ui.ctx()
@@ -195,17 +191,4 @@ fn show_method(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
         "How amplitudes are computed: reference (every bin, f64), banded (the bins that can be \
          heard), table (looked up), or auto: the cheapest within the error budget",
     );
-    if chosen != view.rendering.method {
-        commands.push(AccuracyCommand::Method(chosen).into());
-    }
-}
-
-/// A line of dim words that is cut where there is no room for all.
-fn quiet_line(ui: &mut Ui, words: &str, tip: &str) {
-    let ink = Palette::in_ui(ui).dim;
-    let words = RichText::new(words).font(theme::small()).color(ink);
-    let label = ui.add(egui::Label::new(words).truncate());
-    if !tip.is_empty() {
-        label.on_hover_text(tip);
-    }
 }

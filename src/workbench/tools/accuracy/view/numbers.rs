@@ -1,13 +1,31 @@
-//! Numbers of the pane as people read them, and the lines that hold them.
+//! Numbers of the pane as people read them, the lines that hold them, and how histograms stand.
 
-use eframe::egui::{Align2, Color32, Sense, Ui, pos2, vec2};
+use eframe::egui::{Align2, Color32, Label, Margin, RichText, Sense, Ui, pos2, vec2};
 
+use crate::kit::plot::{Drag, Setting};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use selvedge_foundation::quantity;
 
 /// Height of a line, points.
 pub(crate) const LINE: f32 = 14.0;
+
+/// How both histograms stand in the pane, which may scroll.
+pub(crate) const HISTOGRAM: Setting<'_> = Setting {
+    name: "",
+    margin: Margin {
+        left: 2,
+        right: 2,
+        top: 14,
+        bottom: 16,
+    },
+    wheel: false,
+    drag: Drag::Pans,
+    link: None,
+    hover: false,
+    note: "",
+    has_legend: false,
+};
 
 /// A level error in six places, dB: `0.0123`, and `5.2e−7` where that would be nothing but zeros.
 pub(crate) fn level(db: f64) -> String {
@@ -52,6 +70,16 @@ pub(crate) fn line(ui: &mut Ui, name: &str, values: &[(String, Color32)], unit: 
         let font = theme::small_number();
         painter.text(pos2(right, y), Align2::RIGHT_CENTER, value, font, *ink);
         right -= 44.0;
+    }
+}
+
+/// A line of dim words that is cut where there is no room for all.
+pub(crate) fn quiet_line(ui: &mut Ui, words: &str, tip: &str) {
+    let ink = Palette::in_ui(ui).dim;
+    let words = RichText::new(words).font(theme::small()).color(ink);
+    let label = ui.add(Label::new(words).truncate());
+    if !tip.is_empty() {
+        label.on_hover_text(tip);
     }
 }
 

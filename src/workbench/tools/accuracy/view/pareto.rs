@@ -6,16 +6,16 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
+use crate::bench::Bench;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};
 use crate::kit::widgets::text::button;
 use crate::tools::accuracy::measuring::Measured;
-use crate::tools::accuracy::view::numbers::LINE;
-use crate::tools::accuracy::view::{numbers, quiet_line};
-use crate::tools::accuracy::{AccuracyCommand, AccuracyView};
+use crate::tools::accuracy::sampling::Accuracy;
+use crate::tools::accuracy::view::numbers;
+use crate::tools::accuracy::view::numbers::{LINE, quiet_line};
 use selvedge_foundation::quantity;
 use selvedge_studies::Row;
 
@@ -25,16 +25,17 @@ const ERRORS_DB: [f64; 2] = [1e-8, 100.0];
 const REACH: f32 = 7.0;
 
 /// Shows the methods in the space that is left.
-pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
-    show_head(ui, view, commands);
-    let words = view.measured.map(|measured| words_below(view, measured));
+pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, bench: &mut Bench) {
+    show_head(ui, accuracy, bench);
+    let chosen = accuracy.chosen;
+    let words = (accuracy.measured.as_ref()).map(|measured| words_below(chosen, measured));
     let n_lines = if words.is_some() { 2.0 } else { 0.0 };
     let height = (ui.available_height() - n_lines * LINE).max(60.0);
     let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let name = "Error against time of every method on this scene";
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
-    let Some(measured) = view.measured else {
+    let Some(measured) = &accuracy.measured else {
         let words = "Error against time of every method, measured on this scene along the last \
                      recording, or across its textiles";
         paint_sentence(ui.painter(), rect, words);
@@ -44,7 +45,10 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands
     plot.paint_axes(ui.painter());
     plot.paint_front(ui.painter(), measured);
     for (index, row) in measured.rows.iter().enumerate() {
-        show_point(ui, &plot, (measured, index, row), view.chosen, commands);
+        if show_point(ui, &plot, (measured, index, row), chosen) {
+            accuracy.chosen = (chosen != Some(index)).then_some(index);
+            ui.ctx().request_repaint();
+        }
     }
     plot.paint_names(ui.painter(), measured);
     for line in words.unwrap_or_default() {
@@ -52,14 +56,14 @@ pub(crate) fn show(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands
     }
 }
 
-fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
+fn show_head(ui: &mut Ui, accuracy: &mut Accuracy, bench: &mut Bench) {
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-        if let Some(share) = view.measuring {
+        if let Some(measuring) = &accuracy.measuring {
             if button(ui, "Stop", "Stop measuring", None) {
-                commands.push(AccuracyCommand::StopMeasuring.into());
+                measuring.stop();
             }
-            let bar = ProgressBar::new(share)
+            let bar = ProgressBar::new(measuring.share())
                 .desired_height(STEP)
                 .fill(Palette::in_ui(ui).line);
             let response = ui.add(bar);
@@ -71,13 +75,14 @@ fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
         let tip = "Measure the error and the time of every method on this scene, along the last \
                    recording or across its textiles: a few seconds on a thread of its own";
         if button(ui, "Measure this scene", tip, None) {
-            commands.push(AccuracyCommand::Measure.into());
+            accuracy.measure(bench);
+            ui.ctx().request_repaint();
         }
-        if let Some(measured) = view.measured {
-            let before = if view.is_outdated {
-                "Before the last change: "
-            } else {
+        if let Some(measured) = &accuracy.measured {
+            let before = if measured.n_edits == bench.inspection.n_edits {
                 ""
+            } else {
+                "Before the last change: "
             };
             let words = format!("{before}{}", measured.note);
             quiet_line(ui, &words, &words);
@@ -85,16 +90,15 @@ fn show_head(ui: &mut Ui, view: &AccuracyView<'_>, commands: &mut Commands) {
     });
 }
 
-/// One method as a point that can be clicked.
+/// One method as a point; says whether it was clicked.
 fn show_point(
     ui: &Ui,
     plot: &Plot,
     (measured, index, row): (&Measured, usize, &Row),
     chosen: Option<usize>,
-    commands: &mut Commands,
-) {
+) -> bool {
     let Some(at) = plot.place_of(row) else {
-        return;
+        return false;
     };
     let palette = Palette::in_ui(ui);
     let id = ui.scope_id().with(("method", index));
@@ -119,11 +123,8 @@ fn show_point(
     if is_chosen || response.has_focus() || response.hovered() {
         painter.circle_stroke(at, 9.0, Stroke::new(1.0, palette.selection));
     }
-    if response.clicked() {
-        let next = if is_chosen { None } else { Some(index) };
-        commands.push(AccuracyCommand::Choose(next).into());
-    }
-    response.on_hover_text(format!("{name}\n{}", words_of(row)));
+    let words = format!("{name}\n{}", words_of(row));
+    response.on_hover_text(words).clicked()
 }
 
 struct Plot {
@@ -254,8 +255,8 @@ fn words_of(row: &Row) -> String {
 }
 
 /// What stands below the plot: the chosen method.
-fn words_below(view: &AccuracyView<'_>, measured: &Measured) -> [String; 2] {
-    let chosen = view.chosen.and_then(|index| {
+fn words_below(chosen: Option<usize>, measured: &Measured) -> [String; 2] {
+    let chosen = chosen.and_then(|index| {
         let row = measured.rows.get(index)?;
         Some((index, row))
     });

@@ -2,15 +2,16 @@
 
 use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
 
-use crate::bench::command::{Commands, CompareCommand};
+use crate::bench::Bench;
+use crate::bench::recording::Take;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
 use crate::kit::widgets::text::toggle;
 use crate::tools::compare::choice::{Choice, Route, TuningChoice, What};
-use crate::tools::compare::view::CompareView;
-use crate::tools::compare::{Comparison, Standing};
-use selvedge_foundation::quantity::{fixed, with_unit};
+use crate::tools::compare::comparison::{Compare, Standing};
+use selvedge_foundation::quantity::fixed;
 use selvedge_render::array::Method;
 
 /// Height of a row, points.
@@ -37,67 +38,79 @@ const KINDS: [(What, &str, &str); 3] = [
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
 /// What stands over the pane: hold A, compare or stop.
-pub(crate) fn show_corner(ui: &mut Ui, standing: &Standing, commands: &mut Commands) {
-    if matches!(standing, Standing::Running(_)) {
-        if toggle(ui, "stop", false, "Stop comparing") {
-            commands.push(CompareCommand::Cancel.into());
-        }
-    } else if toggle(
-        ui,
-        "compare",
-        false,
-        "Compare now, whether anything has changed or not",
-    ) {
-        commands.push(CompareCommand::Run.into());
+pub(crate) fn show_corner(ui: &mut Ui, compare: &mut Compare, bench: &Bench) {
+    let standing = compare.standing(&compare.inputs(bench));
+    let is_running = matches!(standing, Standing::Running(_));
+    let (name, tip) = if is_running {
+        ("stop", "Stop comparing")
+    } else {
+        (
+            "compare",
+            "Compare now, whether anything has changed or not",
+        )
+    };
+    let is_pressed = toggle(ui, name, false, tip);
+    if is_pressed && is_running {
+        compare.cancel();
+    } else if is_pressed {
+        compare.run(bench);
     }
     let tip = "Hold the present tuning as A, to compare it with what comes";
-    if toggle(ui, "hold A", false, tip) {
-        commands.push(CompareCommand::Hold.into());
+    let holds = toggle(ui, "hold A", false, tip);
+    if holds {
+        compare.hold(bench);
+    }
+    if is_pressed || holds {
+        ui.ctx().request_repaint();
     }
 }
 
 /// Shows both rows.
 pub(crate) fn show(
     ui: &mut Ui,
-    comparison: &Comparison,
-    view: &CompareView<'_>,
-    commands: &mut Commands,
+    compare: &mut Compare,
+    (standing, route): (&Standing, &Route),
+    context: &PaneContext<'_>,
 ) {
-    let now = &comparison.choice;
-    let mut choice = now.clone();
+    let before = compare.choice.clone();
+    let choice = &mut compare.choice;
     let line = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         for (what, name, tip) in KINDS {
-            if toggle(ui, name, now.what == what, tip) {
+            if toggle(ui, name, before.what == what, tip) {
                 choice.what = what;
             }
         }
         ui.add_space(STEP);
-        show_status(ui, view);
+        let take = context.bench.take.as_ref().map(Take::name);
+        show_status(ui, standing, route, take);
     });
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = LINE;
-        match now.what {
-            What::Tunings => show_tunings(ui, &mut choice, comparison.held.is_some()),
-            What::Textiles => show_textiles(ui, &mut choice, view),
-            What::Methods => show_methods(ui, &mut choice),
+        match before.what {
+            What::Tunings => show_tunings(ui, choice, compare.held_tuning.is_some()),
+            What::Textiles => {
+                let place = before.place_in(context.bench.document.scene(), route);
+                show_textiles(ui, choice, place, context);
+            }
+            What::Methods => show_methods(ui, choice),
         }
     });
-    if choice != *now {
-        commands.push(CompareCommand::Choose(choice).into());
+    if compare.choice != before {
+        ui.ctx().request_repaint();
     }
 }
 
 /// What path is followed, and how what is shown stands to what is chosen.
-fn show_status(ui: &mut Ui, view: &CompareView<'_>) {
+fn show_status(ui: &mut Ui, standing: &Standing, route: &Route, take: Option<&str>) {
     let palette = Palette::in_ui(ui);
-    let (words, is_odd) = status(view);
+    let (words, is_odd) = status(standing, route, take);
     let ink = if is_odd { palette.text } else { palette.dim };
     let words = RichText::new(words).font(theme::small()).color(ink);
     let response = ui.add(Label::new(words).truncate());
-    response.on_hover_text(match view.route {
+    response.on_hover_text(match route {
         Route::Take(_) => {
             "Both follow the recording at hand. Mute and solo are left out of account"
         }
@@ -109,10 +122,10 @@ fn show_status(ui: &mut Ui, view: &CompareView<'_>) {
     });
 }
 
-pub(crate) fn status(view: &CompareView<'_>) -> (String, bool) {
-    match view.standing {
+fn status(standing: &Standing, route: &Route, take: Option<&str>) -> (String, bool) {
+    match standing {
         Standing::Running(share) => {
-            let share = fixed(f64::from(share) * 100.0, 0);
+            let share = fixed(f64::from(*share) * 100.0, 0);
             return (format!("comparing… {share} %"), true);
         }
         Standing::Stale => {
@@ -120,8 +133,8 @@ pub(crate) fn status(view: &CompareView<'_>) -> (String, bool) {
         }
         _ => {}
     }
-    let n_ticks = view.route.n_ticks();
-    let words = match view.take {
+    let n_ticks = route.n_ticks();
+    let words = match take {
         Some(name) => format!("on {name}, {n_ticks} ticks"),
         None => format!("no recording: on a circle, {n_ticks} ticks"),
     };
@@ -165,9 +178,10 @@ fn show_methods(ui: &mut Ui, choice: &mut Choice) {
     }
 }
 
-fn show_textiles(ui: &mut Ui, choice: &mut Choice, view: &CompareView<'_>) {
+fn show_textiles(ui: &mut Ui, choice: &mut Choice, place: usize, context: &PaneContext<'_>) {
     let width = widths(ui, 3, 3);
-    let cloths = &view.scene.cloths;
+    let cloths = &context.scene.cloths;
+    let items = context.bench.library_view.items();
     let place_name = |index: usize| {
         cloths.get(index).map_or_else(
             || "nothing".to_owned(),
@@ -176,19 +190,19 @@ fn show_textiles(ui: &mut Ui, choice: &mut Choice, view: &CompareView<'_>) {
     };
     for (index, side) in ["A", "B"].into_iter().enumerate() {
         let chosen = &mut choice.textiles[index];
-        let named = |id: &str| view.library_view.iter().find(|item| item.id == id);
+        let named = |id: &str| items.iter().find(|item| item.id == id);
         let text = match chosen {
             None => "as placed".to_owned(),
             Some(id) => named(id).map_or_else(|| id.clone(), |item| item.name.clone()),
         };
         combo(ui, side, width, &text, |ui| {
             ui.selectable_value(chosen, None, "as placed");
-            for item in view.library_view.iter().filter(|item| item.flaw.is_none()) {
+            for item in items.iter().filter(|item| item.flaw.is_none()) {
                 ui.selectable_value(chosen, Some(item.id.clone()), &item.name);
             }
         });
     }
-    combo(ui, "at", width, &place_name(view.place), |ui| {
+    combo(ui, "at", width, &place_name(place), |ui| {
         ui.selectable_value(&mut choice.place, None, "where the path is most");
         for index in 0..cloths.len() {
             ui.selectable_value(&mut choice.place, Some(index), place_name(index));
@@ -215,14 +229,4 @@ fn combo(ui: &mut Ui, name: &str, width: f32, text: &str, content: impl FnOnce(&
         side => format!("{side} of the comparison"),
     };
     list(ui, (("compare", name), &label), width, text, content);
-}
-
-/// A difference as people read it: with its sign.
-pub(crate) fn signed_db(difference_db: f64, decimals: usize) -> String {
-    let words = with_unit(difference_db, decimals, "dB");
-    if difference_db > 0.0 {
-        format!("+{words}")
-    } else {
-        words
-    }
 }

@@ -4,14 +4,14 @@ use eframe::egui::{
     self, Align2, Painter, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{Commands, ShowCommand};
+use crate::bench::command::ShowCommand;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::Tick;
 use crate::kit::widgets::bar::colour_bar;
-use crate::tools::compare::view::controls::signed_db;
-use crate::tools::compare::view::{
-    CompareView, alone_words, band_name, decimals_of, scale_db, told, unit_of,
+use crate::tools::compare::words::{
+    alone_words, band_name, decimals_of, describe, scale_db, signed_db, unit_of,
 };
 use crate::tools::contactors::{GAP, NUMBER_WIDTH, Places, TITLE};
 use selvedge_foundation::quantity::fixed;
@@ -19,14 +19,8 @@ use selvedge_render::{LevelDifference, Tally};
 use selvedge_textile::tactile::Band;
 
 /// Shows both maps and their colour bar in `rect`.
-pub(crate) fn show(
-    ui: &Ui,
-    rect: Rect,
-    found: &LevelDifference,
-    view: &CompareView<'_>,
-    commands: &mut Commands,
-) {
-    let Some(grid) = view.scene.grid else {
+pub(crate) fn show(ui: &Ui, rect: Rect, found: &LevelDifference, context: &mut PaneContext<'_>) {
+    let Some(grid) = context.scene.grid else {
         let at = rect.left_top();
         let words = "The contactors of this display form no grid";
         let ink = Palette::in_ui(ui).dim;
@@ -42,7 +36,7 @@ pub(crate) fn show(
     response.widget_info(|| {
         let words = format!(
             "Mean level differences, B less A, up to {most_db} dB. {}",
-            told(found)
+            describe(found)
         );
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
@@ -58,7 +52,12 @@ pub(crate) fn show(
             paint_cell(&painter, place, &cell[band.index()], most_db);
         }
     }
-    paint_selection(&painter, &places, cells.len(), view.contactor);
+    paint_selection(
+        &painter,
+        &places,
+        cells.len(),
+        context.bench.workspace.contactor,
+    );
     let right = places.corners[1].x + grid.1 as f32 * places.cell.x + 10.0;
     let height = grid.0 as f32 * places.cell.y - GAP;
     let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
@@ -70,7 +69,9 @@ pub(crate) fn show(
         return;
     };
     if response.clicked() {
-        commands.push(ShowCommand::SelectContactor(index).into());
+        context
+            .commands
+            .push(ShowCommand::SelectContactor(index).into());
     }
     let tally = &cells[index][band];
     let band = Band::ALL[band];

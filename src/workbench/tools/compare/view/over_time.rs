@@ -4,14 +4,15 @@ use eframe::egui::{
     self, Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{Commands, CompareCommand};
+use crate::bench::command::{Commands, PlayCommand};
+use crate::bench::tool::PaneContext;
+use crate::bench::view::Source;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks, paint_unit};
-use crate::tools::compare::Comparison;
 use crate::tools::compare::choice::Route;
-use crate::tools::compare::view::controls::signed_db;
-use crate::tools::compare::view::{CompareView, band_name, decimals_of, scale_db, unit_of};
+use crate::tools::compare::comparison::Compare;
+use crate::tools::compare::words::{band_name, decimals_of, scale_db, signed_db, unit_of};
 use selvedge_foundation::quantity::{clock, fixed};
 use selvedge_render::scene::TICKS_PER_S;
 use selvedge_render::{LevelDifference, Spread};
@@ -28,23 +29,23 @@ const TICK_MS: u64 = 25;
 pub(crate) fn show(
     ui: &Ui,
     rect: Rect,
-    comparison: &mut Comparison,
-    view: &CompareView<'_>,
-    commands: &mut Commands,
+    compare: &mut Compare,
+    route: &Route,
+    context: &mut PaneContext<'_>,
 ) {
     let area = Rect::from_min_max(rect.min + vec2(LEFT, TOP), rect.max - vec2(6.0, BOTTOM));
     if area.width() < 40.0 || area.height() < 24.0 {
         return;
     }
-    let is_at_hand = comparison.route() == Some(&view.route);
+    let is_at_hand = compare.route() == Some(route);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "points of a screen"
     )]
     let n_columns = area.width() as usize;
-    let columns = comparison.columns(n_columns).to_vec();
-    let Some(found) = comparison.found() else {
+    let columns = compare.columns(n_columns).to_vec();
+    let Some(found) = compare.found() else {
         return;
     };
     let plot = Plot::new(area, found, &columns);
@@ -58,13 +59,14 @@ pub(crate) fn show(
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
     plot.paint(&ui.painter_at(rect), &columns);
-    let is_recorded = is_at_hand && matches!(view.route, Route::Take(_));
-    if let Some(tick) = view.tick.filter(|_| is_recorded) {
-        let x = ui.painter().round_to_pixel_center(plot.x_of(tick));
+    let is_recorded = is_at_hand && matches!(route, Route::Take(_));
+    let play = context.bench.transient.live.play;
+    if is_recorded && play.source == Source::Recording {
+        let x = ui.painter().round_to_pixel_center(plot.x_of(play.tick));
         let stroke = Stroke::new(1.0, Palette::in_ui(ui).selection);
         ui.painter().vline(x, area.y_range(), stroke);
     }
-    answer(&response, &plot, &columns, is_recorded, commands);
+    answer(&response, &plot, &columns, is_recorded, context.commands);
 }
 
 struct Plot {
@@ -233,7 +235,7 @@ fn answer(
     };
     let tick = plot.tick_at(pointer.x);
     if response.clicked() && is_recorded {
-        commands.push(CompareCommand::Seek(tick).into());
+        commands.push(PlayCommand::ReplayAt(tick).into());
     }
     let share = (pointer.x - plot.area.left()) / plot.area.width();
     #[expect(

@@ -4,6 +4,7 @@
 use eframe::egui::{Margin, Rect, Ui};
 
 use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::export::ink;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::widgets::axis::Tick;
@@ -12,8 +13,6 @@ use crate::tools::lab::command::Page;
 use crate::tools::lab::family::Family;
 use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
 use crate::tools::lab::view::{LabView, title};
-use crate::tools::response::ends_db as response_ends_db;
-use crate::tools::spectra::export_spectrograms::ink;
 use selvedge_chart::{Axis, Band as Area, Chart, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
@@ -114,7 +113,7 @@ fn family_chart(view: &LabView<'_>, family: &Family) -> Chart {
 fn axes(scale: AmplitudeScale) -> Chart {
     Chart {
         x: Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S),
-        y: Axis::linear("level, dB re 1 µm").within(response_ends_db(scale)),
+        y: Axis::linear("level, dB re 1 µm").within(scale.level_ends_db()),
         ..Chart::default()
     }
 }

@@ -9,13 +9,13 @@ use eframe::egui::{
     TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
 };
 
+use crate::bench::signals::spatial::{DENSITIES_DB, density_db};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit, round_step};
 use crate::kit::widgets::bar::colour_bar;
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::view::{LabView, title};
-use crate::tools::spectra::spatial::{LEVELS_DB as SPATIAL_LEVELS_DB, density_db};
 use selvedge_foundation::quantity;
 use selvedge_textile::lit;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, LocalSpectra};
@@ -104,7 +104,7 @@ impl LabPictures {
 }
 
 fn share(db: f64) -> f64 {
-    let [least, most] = SPATIAL_LEVELS_DB;
+    let [least, most] = DENSITIES_DB;
     ((db - least) / (most - least)).clamp(0.0, 1.0)
 }
 
@@ -276,7 +276,7 @@ fn paint_bar(painter: &Painter, (area, whole): (Rect, Rect), map: ColourMap) {
     let left = whole.right() - BAR;
     let bar = Rect::from_x_y_ranges(left..=left + 8.0, area.y_range());
     colour_bar(painter, bar, |share| map.colour(share));
-    let axis = Axis::linear(SPATIAL_LEVELS_DB[0], SPATIAL_LEVELS_DB[1]);
+    let axis = Axis::linear(DENSITIES_DB[0], DENSITIES_DB[1]);
     let ticks = axis.ticks(bar.height(), 22.0);
     paint_outer_ticks(painter, bar, (&axis, Side::Right), &ticks);
     let corner = pos2(whole.right(), bar.top() - 3.0);

@@ -1,5 +1,7 @@
 //! What comes of a choice, and how a comparison begins, ends and goes stale.
 
+use std::sync::Arc;
+
 use super::*;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::Method;
@@ -29,7 +31,7 @@ fn asked(choice: &Choice, scene: &Scene, route: Route) -> Inputs {
     Inputs::of(choice, Some(&held), scene, tunings(), route).unwrap()
 }
 
-fn ended(comparison: &mut Comparison) {
+fn ended(comparison: &mut Compare) {
     while comparison.running.is_some() {
         comparison.poll();
         std::thread::yield_now();
@@ -104,7 +106,7 @@ fn a_held_tuning_keeps_gains_and_filters_as_they_were() {
 fn a_comparison_is_fresh_until_something_changes() {
     let ctx = egui::Context::default();
     let loaded = LoadedScene::shipped().unwrap();
-    let mut comparison = Comparison::default();
+    let mut comparison = Compare::default();
     let inputs = asked(&comparison.choice, loaded.scene(), route(40.0, 40.0, 40));
     assert_eq!(comparison.standing(&Ok(inputs.clone())), Standing::None);
     comparison.begin(inputs.clone(), &loaded, &ctx, false);
@@ -119,7 +121,7 @@ fn a_comparison_is_fresh_until_something_changes() {
     let mut other = inputs.clone();
     other.sides[1].method = Method::Banded;
     assert_eq!(comparison.standing(&Ok(other)), Standing::Stale);
-    comparison.leave_scene();
+    comparison.forget();
     assert!(comparison.found().is_none() && comparison.n_begun() == 1);
 }
 
@@ -127,7 +129,7 @@ fn a_comparison_is_fresh_until_something_changes() {
 fn a_long_comparison_is_stopped_and_does_not_begin_again_by_itself() {
     let ctx = egui::Context::default();
     let loaded = LoadedScene::shipped().unwrap();
-    let mut comparison = Comparison::default();
+    let mut comparison = Compare::default();
     comparison.choice.what = What::Methods;
     let inputs = asked(
         &comparison.choice,
@@ -147,7 +149,7 @@ fn a_long_comparison_is_stopped_and_does_not_begin_again_by_itself() {
 fn a_textile_that_is_not_there_is_a_sentence() {
     let ctx = egui::Context::default();
     let loaded = LoadedScene::shipped().unwrap();
-    let mut comparison = Comparison::default();
+    let mut comparison = Compare::default();
     comparison.choice.what = What::Textiles;
     comparison.choice.textiles[0] = Some("felt-hat".to_owned());
     let inputs = asked(&comparison.choice, loaded.scene(), route(40.0, 40.0, 40));

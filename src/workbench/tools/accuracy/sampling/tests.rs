@@ -3,55 +3,57 @@
 use super::*;
 use crate::bench::Drive;
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Part, PlayCommand, ShowCommand};
+use crate::bench::command::{Command, Part, PlayCommand, ShowCommand};
+use crate::bench::rendering::Rendering;
+use crate::tools::accuracy::checker::ROUNDING_DB;
 
 use eframe::egui;
 
 /// A window whose display explores by itself.
-fn exploring() -> (egui::Context, Bench) {
+fn exploring() -> (Accuracy, Bench) {
     let ctx = egui::Context::default();
     let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
     bench.dispatch(PlayCommand::Toggle.into());
     bench.engine.advance_ticks(2).unwrap();
-    (ctx, bench)
+    (Accuracy::default(), bench)
 }
 
 /// Lets ticks go by while the pane is looked at.
-fn watch(bench: &mut Bench, n_ticks: u64) {
+fn watch(accuracy: &mut Accuracy, bench: &mut Bench, n_ticks: u64) {
     for _ in 0..n_ticks {
         bench.engine.advance_ticks(1).unwrap();
-        bench.watch_accuracy();
+        accuracy.watch(bench);
     }
+    accuracy.take_found();
 }
 
-fn largest_db(bench: &mut Bench) -> f64 {
-    let bands = bench.transient.accuracy.found().bands;
+fn largest_db(accuracy: &Accuracy) -> f64 {
+    let bands = accuracy.found().bands;
     bands.iter().map(|band| band.max_db).fold(0.0, f64::max)
 }
 
-fn tally(bench: &Bench) -> Tally {
-    bench.transient.accuracy.tally()
+fn rendering(method: Method, budget_db: f64) -> Command {
+    Command::Render(Rendering { method, budget_db })
 }
 
 #[test]
 fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
-    let (ctx, mut bench) = exploring();
-    watch(&mut bench, 100);
-    let view = bench.accuracy_view();
-    assert_eq!(view.method, Some(Method::Table));
-    assert!(view.bound_db > 1e-3 && view.bound_db <= 0.05, "{view:?}");
-    let bound_db = view.bound_db;
-    let table_db = largest_db(&mut bench);
+    let (mut accuracy, mut bench) = exploring();
+    watch(&mut accuracy, &mut bench, 100);
+    assert_eq!(accuracy.method(), Some(Method::Table));
+    let bound_db = accuracy.bound_db;
+    assert!(bound_db > 1e-3 && bound_db <= 0.05, "{accuracy:?}");
+    let table_db = largest_db(&accuracy);
     assert!(
         (10.0 * ROUNDING_DB..=bound_db).contains(&table_db),
         "{table_db}"
     );
-    assert_eq!(tally(&bench).sampled, 100);
-    bench.dispatch(AccuracyCommand::Method(Method::Reference).into());
-    watch(&mut bench, 100);
-    assert_eq!(bench.accuracy_view().method, Some(Method::Reference));
-    assert!(largest_db(&mut bench) <= ROUNDING_DB);
-    let n_ticks = bench.transient.accuracy.found().n_ticks;
+    assert_eq!(accuracy.tally().sampled, 100);
+    bench.dispatch(rendering(Method::Reference, 0.05));
+    watch(&mut accuracy, &mut bench, 100);
+    assert_eq!(accuracy.method(), Some(Method::Reference));
+    assert!(largest_db(&accuracy) <= ROUNDING_DB);
+    let n_ticks = accuracy.found().n_ticks;
     assert!(
         (90..=100).contains(&n_ticks),
         "a method begins anew: {n_ticks}"
@@ -60,9 +62,9 @@ fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
 
 #[test]
 fn gains_masks_and_edits_on_their_way_are_left_out_and_never_errors() {
-    let (ctx, mut bench) = exploring();
-    bench.dispatch(AccuracyCommand::Method(Method::Reference).into());
-    watch(&mut bench, 10);
+    let (mut accuracy, mut bench) = exploring();
+    bench.dispatch(rendering(Method::Reference, 0.05));
+    watch(&mut accuracy, &mut bench, 10);
     let acts = [
         Edit::MasterGain(-20.0).into(),
         Edit::TextileGain(0, 9.0).into(),
@@ -73,27 +75,27 @@ fn gains_masks_and_edits_on_their_way_are_left_out_and_never_errors() {
         Command::Undo,
     ];
     for act in acts {
-        let before = tally(&bench);
+        let before = accuracy.tally();
         bench.dispatch(act);
         // The engine has not heard of it yet; its last tick shows what was before.
-        bench.transient.accuracy.last = None;
-        bench.watch_accuracy();
-        assert_eq!(tally(&bench).changed, before.changed + 1);
-        assert_eq!(tally(&bench).sampled, before.sampled);
-        watch(&mut bench, 30);
-        assert_eq!(tally(&bench).sampled, before.sampled + 30);
+        accuracy.last = None;
+        accuracy.watch(&mut bench);
+        assert_eq!(accuracy.tally().changed, before.changed + 1);
+        assert_eq!(accuracy.tally().sampled, before.sampled);
+        watch(&mut accuracy, &mut bench, 30);
+        assert_eq!(accuracy.tally().sampled, before.sampled + 30);
     }
     assert!(
-        largest_db(&mut bench) <= ROUNDING_DB,
+        largest_db(&accuracy) <= ROUNDING_DB,
         "{:?}",
-        bench.transient.accuracy.found()
+        accuracy.found()
     );
 }
 
 #[test]
 fn a_window_that_believes_the_wrong_gain_would_see_it() {
-    let (_, mut bench) = exploring();
-    watch(&mut bench, 10);
+    let (mut accuracy, mut bench) = exploring();
+    watch(&mut accuracy, &mut bench, 10);
     // What nobody told the window: a deliberate fault.
     bench
         .inspection
@@ -101,34 +103,35 @@ fn a_window_that_believes_the_wrong_gain_would_see_it() {
         .textiles
         .iter_mut()
         .for_each(|placed| placed.scene_gain_db += 0.5);
-    watch(&mut bench, 60);
-    assert!((largest_db(&mut bench) - 0.5).abs() < 0.05);
+    watch(&mut accuracy, &mut bench, 60);
+    assert!((largest_db(&accuracy) - 0.5).abs() < 0.05);
 }
 
 #[test]
 fn nothing_is_sampled_at_rest_or_twice_and_a_reset_forgets() {
-    let (ctx, mut bench) = exploring();
-    watch(&mut bench, 20);
+    let (mut accuracy, mut bench) = exploring();
+    watch(&mut accuracy, &mut bench, 20);
     bench.send(selvedge_engine::Command::Pause);
-    watch(&mut bench, 20);
+    watch(&mut accuracy, &mut bench, 20);
     assert!(
-        tally(&bench).sampled <= 21,
+        accuracy.tally().sampled <= 21,
         "a held tick once: {:?}",
-        tally(&bench)
+        accuracy.tally()
     );
     bench.dispatch(PlayCommand::Source(crate::bench::command::PlaySource::Pointer).into());
-    watch(&mut bench, 20);
-    assert!(tally(&bench).sampled <= 21, "nothing moves");
-    bench.dispatch(AccuracyCommand::Reset.into());
-    assert_eq!(tally(&bench), Tally::default());
-    assert_eq!(*bench.transient.accuracy.found(), ErrorView::default());
+    watch(&mut accuracy, &mut bench, 20);
+    assert!(accuracy.tally().sampled <= 21, "nothing moves");
+    accuracy.reset();
+    accuracy.take_found();
+    assert_eq!(accuracy.tally(), Tally::default());
+    assert_eq!(*accuracy.found(), ErrorView::default());
 }
 
 #[test]
 fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
-    let (ctx, mut bench) = exploring();
+    let (_, mut bench) = exploring();
     let mut chosen = |budget_db: f64| {
-        bench.dispatch(AccuracyCommand::Budget(budget_db).into());
+        bench.dispatch(rendering(Method::Auto, budget_db));
         bench.engine.advance_ticks(1).unwrap();
         let snapshot = bench.engine.snapshot();
         assert!(
@@ -155,14 +158,14 @@ fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
 
 #[test]
 fn another_budget_leaves_source_recording_and_scene_as_they_are() {
-    let (ctx, mut bench) = exploring();
+    let (_, mut bench) = exploring();
     bench
         .engine
         .send(selvedge_engine::Command::StartRecording)
         .unwrap();
     bench.engine.advance_ticks(10).unwrap();
     let before = bench.engine.snapshot().pose;
-    bench.dispatch(AccuracyCommand::Budget(0.3).into());
+    bench.dispatch(rendering(Method::Auto, 0.3));
     bench.engine.advance_ticks(1).unwrap();
     let snapshot = bench.engine.snapshot();
     assert!(snapshot.recording.is_recording, "it goes on");
@@ -175,9 +178,9 @@ fn another_budget_leaves_source_recording_and_scene_as_they_are() {
 
 #[test]
 fn a_budget_that_is_none_is_brought_within_bounds() {
-    let (ctx, mut bench) = exploring();
+    let (_, mut bench) = exploring();
     for (asked, kept) in [(7.0, 1.0), (-3.0, 0.0), (f64::NAN, 0.05)] {
-        bench.dispatch(AccuracyCommand::Budget(asked).into());
+        bench.dispatch(rendering(Method::Auto, asked));
         assert_eq!(
             bench.settings.preferences.rendering.budget_db, kept,
             "{asked}"
@@ -187,7 +190,7 @@ fn a_budget_that_is_none_is_brought_within_bounds() {
 
 #[test]
 fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told() {
-    let (ctx, mut bench) = exploring();
+    let (mut accuracy, mut bench) = exploring();
     bench
         .engine
         .send(selvedge_engine::Command::StartRecording)
@@ -199,33 +202,33 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         .unwrap();
     bench.engine.advance_ticks(1).unwrap();
     bench.take_recording();
-    bench.dispatch(AccuracyCommand::Measure.into());
-    while bench.transient.accuracy.measuring.is_some() {
-        bench.poll_measuring();
+    accuracy.measure(&mut bench);
+    while accuracy.measuring.is_some() {
+        accuracy.poll_measuring(&mut bench);
         std::thread::yield_now();
     }
-    let view = bench.accuracy_view();
-    let measured = view.measured.unwrap();
+    let measured = accuracy.measured.as_ref().unwrap();
     assert!(measured.note.starts_with("50 ticks"), "{}", measured.note);
-    let running = view.chosen.unwrap();
+    let running = accuracy.chosen.unwrap();
     assert_eq!(measured.rows[running].setting, "within 0.05 dB");
     assert!(
         measured.front.iter().any(|front| *front),
         "{:?}",
         measured.front
     );
-    assert!(!view.is_outdated, "nothing changed since");
+    let n_edits = bench.inspection.n_edits;
+    assert_eq!(measured.n_edits, n_edits, "nothing changed since");
     bench.dispatch(Edit::RemoveCloth(0).into());
-    assert!(bench.accuracy_view().is_outdated, "a textile is gone");
+    assert_ne!(measured.n_edits, bench.inspection.n_edits, "one is gone");
 }
 
 #[test]
 fn a_measurement_that_is_stopped_leaves_the_last_one() {
-    let (ctx, mut bench) = exploring();
-    bench.dispatch(AccuracyCommand::Measure.into());
-    bench.dispatch(AccuracyCommand::StopMeasuring.into());
-    while bench.transient.accuracy.measuring.is_some() {
-        bench.poll_measuring();
+    let (mut accuracy, mut bench) = exploring();
+    accuracy.measure(&mut bench);
+    accuracy.measuring.as_ref().unwrap().stop();
+    while accuracy.measuring.is_some() {
+        accuracy.poll_measuring(&mut bench);
         std::thread::yield_now();
     }
     assert!(bench.transient.notices.shown().is_empty(), "no word of it");

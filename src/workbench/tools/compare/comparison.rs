@@ -1,0 +1,297 @@
+//! What is compared: what is asked for, how far it is, and what came of it.
+//!
+//! Both are replayed side by side on a thread of its own by what renders files and reports; here is
+//! only what is asked for, when, and how far it is. Nothing is rendered while the pane is hidden.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use eframe::egui;
+
+use crate::bench::Bench;
+use crate::bench::error::AppError;
+use crate::bench::job::{Job, Polled};
+use crate::bench::task::Watch;
+use crate::tools::compare::choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
+use selvedge_foundation::progress::Progress;
+use selvedge_render::array::TableCache;
+use selvedge_render::scene::LoadedScene;
+use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, Spread, replay_pair};
+
+/// A path of at most so many ticks (ten minutes) is compared as soon as something has changed; a
+/// longer one when it is asked for.
+const MOST_AT_ONCE: u64 = 24_000;
+/// Ticks between two looks at whether to stop.
+const N_TICKS_A_STEP: u64 = 256;
+/// How often progress is shown.
+const PROGRESS: Duration = Duration::from_millis(100);
+
+/// What a thread brings back.
+struct Brought {
+    cache: TableCache,
+    /// `None` when it was cancelled.
+    found: Result<Option<LevelDifference>, String>,
+}
+
+/// A comparison under way.
+struct Running {
+    inputs: Inputs,
+    job: Job<Brought>,
+    watch: Watch,
+}
+
+/// How a comparison ended.
+enum End {
+    Found(LevelDifference),
+    Failed(String),
+    Cancelled,
+}
+
+/// What is compared, and what came of it.
+#[derive(Default)]
+pub(crate) struct Compare {
+    /// What the user chose.
+    pub choice: Choice,
+    /// The tuning that was held as A.
+    pub held_tuning: Option<HeldTuning>,
+    ended: Option<(Inputs, End)>,
+    running: Option<Running>,
+    cache: TableCache,
+    columns: Option<Vec<[Spread; 2]>>,
+    n_begun: u64,
+}
+
+/// How the newest comparison stands to what is chosen now.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Standing {
+    /// It is of what is chosen.
+    Fresh,
+    /// It is of something that has changed since.
+    Stale,
+    /// There is none yet.
+    None,
+    /// Another one is under way: the share that is done, 0…1.
+    Running(f32),
+    /// It was stopped.
+    Cancelled,
+    /// It cannot be made: why, and what to do.
+    Impossible(String),
+}
+
+impl Compare {
+    /// Comparisons that were begun.
+    pub(crate) fn n_begun(&self) -> u64 {
+        self.n_begun
+    }
+
+    /// What was found last, whatever has changed since.
+    pub(crate) fn found(&self) -> Option<&LevelDifference> {
+        match &self.ended {
+            Some((_, End::Found(found))) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// A and B of what was found last.
+    pub(crate) fn sides(&self) -> Option<&[Side; 2]> {
+        self.ended.as_ref().map(|(inputs, _)| &inputs.sides)
+    }
+
+    /// The path of what was found last.
+    pub(crate) fn route(&self) -> Option<&Route> {
+        self.ended.as_ref().map(|(inputs, _)| &inputs.route)
+    }
+
+    /// What was found over time, in at most so many columns; kept until that changes.
+    pub(crate) fn columns(&mut self, n_columns: usize) -> &[[Spread; 2]] {
+        let n_entries = self.found().map_or(0, |found| found.over_time.len());
+        let wanted = n_columns.min(n_entries);
+        if self
+            .columns
+            .as_ref()
+            .is_none_or(|kept| kept.len() != wanted)
+        {
+            self.columns = self.found().map(|found| found.columns(wanted));
+        }
+        self.columns.as_deref().unwrap_or_default()
+    }
+
+    /// How it stands to what is asked for now.
+    pub(crate) fn standing(&self, asked: &Result<Inputs, &'static str>) -> Standing {
+        let inputs = match asked {
+            Ok(inputs) => inputs,
+            Err(words) => return Standing::Impossible((*words).to_owned()),
+        };
+        if let Some(running) = &self.running {
+            return Standing::Running(running.watch.share());
+        }
+        match &self.ended {
+            Some((of, End::Cancelled)) if of == inputs => Standing::Cancelled,
+            Some((of, End::Failed(words))) if of == inputs => Standing::Impossible(words.clone()),
+            Some((of, End::Found(_))) if of == inputs => Standing::Fresh,
+            Some((_, End::Found(_))) => Standing::Stale,
+            Some(_) | None => Standing::None,
+        }
+    }
+
+    /// Begins to compare; on this thread when `is_at_once`.
+    fn begin(
+        &mut self,
+        inputs: Inputs,
+        loaded: &LoadedScene,
+        ctx: &egui::Context,
+        is_at_once: bool,
+    ) {
+        self.cancel();
+        self.running = None;
+        self.n_begun += 1;
+        let watch = Watch::default();
+        let mut cache = std::mem::take(&mut self.cache);
+        let (own, waker) = (watch.clone(), ctx.clone());
+        let (loaded, asked) = (loaded.clone(), inputs.clone());
+        let work = move || {
+            let found = own.over(&waker, |progress| {
+                compare(&asked, &loaded, &mut cache, progress)
+            });
+            let found = found.map_err(|error| error.to_string());
+            Brought { cache, found }
+        };
+        if is_at_once {
+            return self.take(inputs, work());
+        }
+        match Job::start("selvedge-compare", ctx, work) {
+            Ok(job) => {
+                self.running = Some(Running { inputs, job, watch });
+            }
+            Err(error) => {
+                let words = format!("Nothing was compared: {error}; press “compare” to try again");
+                self.ended = Some((inputs, End::Failed(words)));
+            }
+        }
+    }
+
+    /// Forgets what was chosen and found in another scene.
+    pub(crate) fn forget(&mut self) {
+        self.cancel();
+        *self = Self {
+            n_begun: self.n_begun,
+            ..Self::default()
+        };
+    }
+
+    /// Asks the comparison under way to stop.
+    pub(crate) fn cancel(&self) {
+        if let Some(running) = &self.running {
+            running.watch.stop();
+        }
+    }
+
+    /// Takes what a thread has found, if it is done.
+    pub(crate) fn poll(&mut self) {
+        let Some(running) = self.running.take() else {
+            return;
+        };
+        match running.job.poll() {
+            Polled::Done(brought) => self.take(running.inputs, brought),
+            Polled::Working => self.running = Some(running),
+            Polled::BrokeOff => {
+                let words = "Comparing broke off; press “compare” to try again".to_owned();
+                self.ended = Some((running.inputs, End::Failed(words)));
+            }
+        }
+    }
+
+    fn take(&mut self, inputs: Inputs, brought: Brought) {
+        self.cache = brought.cache;
+        self.columns = None;
+        let end = match brought.found {
+            Ok(Some(found)) => End::Found(found),
+            Ok(None) => End::Cancelled,
+            Err(words) => End::Failed(words),
+        };
+        self.ended = Some((inputs, end));
+    }
+
+    /// What is asked for now.
+    pub(crate) fn inputs(&self, bench: &Bench) -> Result<Inputs, &'static str> {
+        let document = &bench.document;
+        let tunings = [document.tuning(), document.default_tuning()];
+        let (choice, held) = (&self.choice, self.held_tuning.as_ref());
+        let route = Route::at_hand(bench);
+        Inputs::of(choice, held, document.scene(), tunings, route)
+    }
+
+    /// Holds the present tuning as A, to compare it with what comes.
+    pub(crate) fn hold(&mut self, bench: &Bench) {
+        let document = &bench.document;
+        self.held_tuning = Some(HeldTuning::of(document.scene(), document.tuning()));
+        self.choice.what = What::Tunings;
+        self.choice.tunings = [TuningChoice::Held, TuningChoice::Live];
+    }
+
+    /// Lets the comparison follow what was chosen: to be called while its pane is in sight. Nothing
+    /// begins during a gesture, nor by itself along a path that takes long.
+    pub(crate) fn follow(&mut self, bench: &Bench) -> Standing {
+        let asked = self.inputs(bench);
+        let standing = self.standing(&asked);
+        let is_due = matches!(standing, Standing::Stale | Standing::None);
+        if matches!(standing, Standing::Running(_)) {
+            bench.ctx.request_repaint_after(PROGRESS);
+        } else if let Ok(inputs) = &asked
+            && is_due
+            && inputs.route.n_ticks() <= MOST_AT_ONCE
+            && !bench.transient.moment.is_down
+        {
+            self.begin(inputs.clone(), &bench.loaded, &bench.ctx, bench.is_stepped);
+            return self.standing(&asked);
+        }
+        standing
+    }
+
+    /// Compares what is asked for now, whether it was compared before or not.
+    pub(crate) fn run(&mut self, bench: &Bench) {
+        if let Ok(inputs) = self.inputs(bench) {
+            self.begin(inputs, &bench.loaded, &bench.ctx, bench.is_stepped);
+        }
+    }
+}
+
+/// Replays both and measures; `None` when it was asked to stop.
+fn compare(
+    inputs: &Inputs,
+    loaded: &LoadedScene,
+    cache: &mut TableCache,
+    progress: &mut Progress<'_>,
+) -> Result<Option<LevelDifference>, AppError> {
+    let mut scenes = Vec::with_capacity(2);
+    for side in &inputs.sides {
+        scenes.push(RenderScene::of(&loaded.with_scene(side.scene.clone())?));
+    }
+    let n_ticks = inputs.route.n_ticks();
+    let mut meter = DifferenceMeter::new(n_ticks);
+    let pair = [0, 1].map(|index| (&scenes[index], inputs.sides[index].method));
+    let mut n_done = 0_u64;
+    let end = replay_pair(pair, inputs.route.ticks(), cache, &mut |tick, frames| {
+        meter.add(tick, frames);
+        n_done += 1;
+        let is_due = n_done.is_multiple_of(N_TICKS_A_STEP) || n_done == 1;
+        let share = n_done as f64 / n_ticks.max(1) as f64;
+        if is_due && progress.step(share, "comparing").is_err() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    })?;
+    Ok(end.is_continue().then(|| meter.finish()))
+}
+
+impl std::fmt::Debug for Compare {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Compare")
+            .field("choice", &self.choice)
+            .field("n_begun", &self.n_begun)
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests;
