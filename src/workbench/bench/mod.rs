@@ -34,8 +34,10 @@ pub(crate) mod probe;
 pub(crate) mod query;
 pub(crate) mod recording;
 pub(crate) mod rendering;
+pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod signals;
+pub(crate) mod source_file;
 pub(crate) mod sources;
 pub(crate) mod task;
 pub(crate) mod tool;
@@ -265,7 +267,7 @@ impl Bench {
         self.transient.trail = Trail::default();
         self.transient.history.clear();
         self.transient.comparison.leave_scene();
-        self.transient.collection.leave_library();
+        self.transient.selection = selection::Selection::default();
         self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
@@ -330,7 +332,7 @@ impl Bench {
             &self.transient.mute_solo,
             self.transient.reference_db,
         );
-        view.picked = Arc::clone(&self.transient.collection.selected);
+        view.picked = Arc::clone(&self.transient.selection.0);
         view.marks = Marks {
             cloth: self.workspace.cloth,
             hovered: self.transient.hovered,

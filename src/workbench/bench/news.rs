@@ -19,7 +19,6 @@ impl Bench {
         self.poll_kept(ctx);
         self.poll_clips();
         self.poll_sources();
-        self.poll_lab();
         self.transient.ports.poll();
         if let Some(failure) = self.transient.folders.poll() {
             self.transient.notices.give(failure);
@@ -27,7 +26,6 @@ impl Bench {
         self.poll_measuring();
         self.poll_prepared(ctx);
         self.transient.comparison.poll();
-        self.transient.picturing.poll();
         self.transient.analysing.poll();
         self.take_notices();
         self.take_snapshot(ctx);

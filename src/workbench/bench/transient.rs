@@ -12,6 +12,7 @@ use crate::bench::notices::Notices;
 use crate::bench::opening::Opening;
 use crate::bench::query::IntervalMeter;
 use crate::bench::recording::Take;
+use crate::bench::selection::Selection;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::view::{BridgeView, Hovered, Live};
@@ -21,13 +22,8 @@ use crate::tools::analysis::view::section::Looks as AnalysisLooks;
 use crate::tools::bridge::actuators::PlantPeek;
 use crate::tools::bridge::fault_bench::FaultBench;
 use crate::tools::bridge::ports::Ports;
-use crate::tools::collection::Collection;
 use crate::tools::compare::Comparison;
 use crate::tools::experiment::Experiment;
-use crate::tools::lab::Lab;
-use crate::tools::lab::view::pictures::LabPictures;
-use crate::tools::picture::Picturing;
-use crate::tools::picture::view::cards::PictureTextures;
 use crate::tools::response::curves::Curves;
 use crate::tools::spectra::contact::ContactSpectrogram;
 use crate::tools::spectra::drive::DriveSpectrogram;
@@ -50,8 +46,6 @@ pub(crate) struct Transient {
     pub ports: Ports,
     /// What is typed in the field for a port.
     pub port: String,
-    /// What is typed in the field that searches the library.
-    pub search: String,
     /// What the link was last opened to.
     pub target: Option<String>,
     /// Folders that the desktop is asked to show.
@@ -84,8 +78,8 @@ pub(crate) struct Transient {
     pub spatial: SpatialSpectra,
     /// The explanation that is shown, and whether it is held.
     pub why: (Option<Why>, bool),
-    /// The library as a whole.
-    pub collection: Collection,
+    /// The textiles of the library that are selected.
+    pub(crate) selection: Selection,
     /// What is compared, and what came of it.
     pub comparison: Comparison,
     /// Experiments and the session that is held.
@@ -94,10 +88,6 @@ pub(crate) struct Transient {
     pub analysing: Analysing,
     /// Tables and figures of an analysis as they are laid out.
     pub(crate) analysis_looks: AnalysisLooks,
-    /// A picture of a cloth on its way to a textile.
-    pub(crate) picturing: Picturing,
-    /// Its stages as textures.
-    pub(crate) picture_textures: PictureTextures,
     /// How accurate rendering was found to be.
     pub accuracy: AccuracyWatch,
     /// Maps of the textiles at the chosen velocity.
@@ -110,10 +100,6 @@ pub(crate) struct Transient {
     pub curves: Curves,
     /// The textile whose curves were shown last.
     pub(crate) asked_textile: Option<usize>,
-    /// The textile lab.
-    pub lab: Lab,
-    /// What the lab pictures, as it was drawn last.
-    pub(crate) lab_pictures: LabPictures,
     /// What the pointer rests on.
     pub hovered: Hovered,
     /// What the timeline remembers.

@@ -6,6 +6,7 @@
 pub(crate) mod array;
 pub(crate) mod device;
 pub(crate) mod edit;
+pub(crate) mod lab;
 
 pub(crate) use crate::bench::command::array::ArrayCommand;
 pub(crate) use crate::bench::command::device::DeviceCommand;
@@ -24,11 +25,8 @@ use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::accuracy::AccuracyCommand;
 use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::collection::CollectionCommand;
 use crate::tools::compare::choice::Choice;
 use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::lab::command::LabCommand;
-use crate::tools::picture::PictureCommand;
 use crate::tools::workspace::overlay::Overlay;
 use selvedge_engine::ClipKind;
 use selvedge_foundation::geometry::Point;
@@ -60,14 +58,10 @@ pub(crate) enum Command {
     Compare(CompareCommand),
     /// Change how scenes are rendered, or ask how accurate that is.
     Accuracy(AccuracyCommand),
-    /// Change what is shown or selected of the library as a whole.
-    Collection(CollectionCommand),
-    /// Make a textile of a picture.
-    Picture(PictureCommand),
     /// Keep new textiles in the library.
     Keep(Keep),
-    /// Do something in the textile lab.
-    Lab(LabCommand),
+    /// Begin a recipe in the textile lab.
+    Lab(lab::Beginning),
     /// Run an experiment.
     Experiment(ExperimentCommand),
     /// Analyse the logs of experiments.
@@ -106,12 +100,6 @@ impl From<CompareCommand> for Command {
     }
 }
 
-impl From<PictureCommand> for Command {
-    fn from(command: PictureCommand) -> Self {
-        Self::Picture(command)
-    }
-}
-
 impl From<Keep> for Command {
     fn from(command: Keep) -> Self {
         Self::Keep(command)
@@ -127,12 +115,6 @@ impl From<PlayCommand> for Command {
 impl From<SourceCommand> for Command {
     fn from(command: SourceCommand) -> Self {
         Self::Source(command)
-    }
-}
-
-impl From<LabCommand> for Command {
-    fn from(command: LabCommand) -> Self {
-        Self::Lab(command)
     }
 }
 

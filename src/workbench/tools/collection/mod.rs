@@ -9,7 +9,6 @@
 //! Neither saved nor undone. Gains are applied when it is drawn, so that no slider computes
 //! anything.
 
-pub(crate) mod dispatch;
 pub(crate) mod export;
 pub(crate) mod listing;
 pub(crate) mod measure;
@@ -18,20 +17,19 @@ pub(crate) mod measuring;
 mod tests;
 pub(crate) mod view;
 
-pub(crate) use crate::tools::collection::listing::Only;
-pub(crate) use crate::tools::collection::listing::Sort;
-#[cfg(test)]
-pub(crate) use crate::tools::collection::listing::SortBy;
-pub(crate) use crate::tools::collection::measure::Measure;
-pub(crate) use crate::tools::collection::measuring::Asked;
-pub(crate) use crate::tools::collection::measuring::Figures;
-pub(crate) use crate::tools::collection::measuring::Measurements;
+use eframe::egui::Ui;
 
-use std::collections::BTreeSet;
-use std::sync::Arc;
-
-use crate::bench::command::Command;
+use crate::bench::Bench;
+use crate::bench::export::Exported;
+use crate::bench::pane::Pane;
+use crate::bench::selection::Selection;
+use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::{SceneView, ShelfItem};
+use crate::kit::pane::framed;
+use crate::tools::collection::listing::{Only, Sort};
+use crate::tools::collection::measure::Measure;
+use crate::tools::collection::measuring::{Asked, Figures, Measurements};
+use crate::tools::collection::view::Hand;
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_render::GainTerms;
 use selvedge_textile::tactile::{Band, LEVEL_SPEED_MM_PER_S};
@@ -79,47 +77,29 @@ impl Default for Choice {
     }
 }
 
-/// How a textile joins what is selected.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Joining {
-    /// In the place of what was selected.
-    Alone,
-    /// Beside it, or taken away from it if it was.
-    Toggled,
-    /// Beside it.
-    Also,
-}
-
-/// What can be done with the library as a whole. Never undoable.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum CollectionCommand {
-    /// Show this of it.
-    Choose(Choice),
-    /// Select these textiles, by their ids.
-    Select(Vec<String>, Joining),
-    /// Carry a textile into the workspace, which comes in sight.
-    Carry,
-    /// Stop measuring.
-    Stop,
-    /// Go on with it.
-    GoOn,
-}
-
-impl From<CollectionCommand> for Command {
-    fn from(command: CollectionCommand) -> Self {
-        Self::Collection(command)
+impl Choice {
+    /// Makes another choice, with a speed that can be chosen.
+    pub(crate) fn take(&mut self, other: Self) {
+        let [least, most] = SPEEDS_MM_PER_S;
+        let speed_mm_per_s = if other.speed_mm_per_s.is_nan() {
+            self.speed_mm_per_s
+        } else {
+            other.speed_mm_per_s.clamp(least, most)
+        };
+        *self = Self {
+            speed_mm_per_s,
+            ..other
+        };
     }
 }
 
-/// What the window knows of the library as a whole.
+/// The library as a whole.
 #[derive(Debug, Default)]
 pub(crate) struct Collection {
     /// What is shown, and how.
     pub choice: Choice,
     /// What is typed in the field that searches it.
     pub search: String,
-    /// The ids of the textiles that are selected.
-    pub selected: Arc<BTreeSet<String>>,
     /// The textile under the pointer in the pane, for the next frame.
     pub pointed: Option<String>,
     /// What was measured.
@@ -147,7 +127,7 @@ pub(crate) struct Entry<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct CollectionView<'a> {
     /// What is shown, and how.
-    pub choice: &'a Choice,
+    pub choice: Choice,
     /// The textiles that match search and filter, in the chosen order.
     pub entries: Vec<Entry<'a>>,
     /// All textiles of the library, in its own order.
@@ -197,47 +177,8 @@ impl<'a> CollectionView<'a> {
 }
 
 impl Collection {
-    /// What is asked of every textile: the chosen speed and the scene's filters.
-    pub(crate) fn asked(&self, scene: &SceneView) -> Asked {
-        Asked {
-            speed_mm_per_s: self.choice.speed_mm_per_s,
-            filters: scene.filters,
-        }
-    }
-
-    /// Makes the choice, with a speed that can be chosen.
-    pub(crate) fn choose(&mut self, choice: Choice) {
-        let [least, most] = SPEEDS_MM_PER_S;
-        let speed_mm_per_s = if choice.speed_mm_per_s.is_nan() {
-            self.choice.speed_mm_per_s
-        } else {
-            choice.speed_mm_per_s.clamp(least, most)
-        };
-        self.choice = Choice {
-            speed_mm_per_s,
-            ..choice
-        };
-    }
-
-    /// Selects textiles.
-    pub(crate) fn select(&mut self, ids: Vec<String>, joining: Joining) {
-        let selected = Arc::make_mut(&mut self.selected);
-        match joining {
-            Joining::Alone => *selected = ids.into_iter().collect(),
-            Joining::Also => selected.extend(ids),
-            Joining::Toggled => {
-                for id in ids {
-                    if !selected.remove(&id) {
-                        selected.insert(id);
-                    }
-                }
-            }
-        }
-    }
-
     /// Forgets what belongs to a library that is left.
-    pub(crate) fn leave_library(&mut self) {
-        self.selected = Arc::default();
+    fn leave_library(&mut self) {
         self.pointed = None;
         self.measurements = Measurements::default();
         self.choice.only = Only::All;
@@ -248,14 +189,33 @@ impl Collection {
         }
     }
 
-    /// The library as it is drawn in a scene. `search` is what is typed in the field.
+    /// Has the library measured as the pane shows it.
+    fn measure(&mut self, bench: &mut Bench) {
+        let asked = Asked {
+            speed_mm_per_s: self.choice.speed_mm_per_s,
+            filters: bench.document.scene().filters,
+        };
+        let items = bench.library_view.items().iter();
+        let usable = items.filter(|item| item.flaw.is_none());
+        let ids = usable.map(|item| item.id.clone());
+        let library = bench.library_view.library();
+        self.measurements.catch_up(&bench.ctx, library, asked, ids);
+        for flaw in self.measurements.take_flaws() {
+            bench.transient.notices.give(flaw);
+        }
+    }
+
+    /// The library as it is drawn in a scene.
     pub(crate) fn view<'a>(
         &'a self,
         items: &'a [ShelfItem],
         scene: &SceneView,
-        search: &str,
+        selection: &Selection,
     ) -> CollectionView<'a> {
-        let asked = self.asked(scene);
+        let asked = Asked {
+            speed_mm_per_s: self.choice.speed_mm_per_s,
+            filters: scene.filters,
+        };
         let entry = |item: &'a ShelfItem| {
             let figures = self.measurements.figures(&asked, &item.id);
             let is_pointed = self.pointed.as_ref() == Some(&item.id);
@@ -264,21 +224,90 @@ impl Collection {
                 figures,
                 gains_db: gains_db(scene, item, figures),
                 placed: scene.placed(&item.id),
-                is_selected: self.selected.contains(&item.id),
+                is_selected: selection.0.contains(&item.id),
                 is_marked: is_pointed || scene.is_placed_and_marked(&item.id),
             }
         };
-        let is_shown = |item: &&ShelfItem| self.choice.only.takes(item) && item.matches(search);
+        let choice = self.choice.clone();
+        let is_shown = |item: &&ShelfItem| choice.only.takes(item) && item.matches(&self.search);
         let mut entries: Vec<Entry<'a>> = items.iter().filter(is_shown).map(entry).collect();
-        self.choice.sort.order(&mut entries, self.choice.is_tuned);
+        choice.sort.order(&mut entries, choice.is_tuned);
         CollectionView {
-            choice: &self.choice,
             entries,
             items,
             progress: self.measurements.progress(&asked),
             is_halted: self.measurements.is_halted(&asked),
-            n_selected: self.selected.len(),
+            n_selected: selection.0.len(),
+            choice,
         }
+    }
+
+    /// Shows the pane and takes what is chosen in it.
+    fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        let items = context.bench.library_view.shared_items();
+        let mut hand = Hand {
+            choice: self.choice.clone(),
+            search: self.search.clone(),
+            pointed: None,
+            halts: None,
+            bench: &mut *context.bench,
+            commands: &mut *context.commands,
+        };
+        let view = self.view(&items, context.scene, &hand.bench.transient.selection);
+        view::show(ui, &view, &mut hand);
+        let Hand {
+            choice,
+            search,
+            pointed,
+            halts,
+            ..
+        } = hand;
+        if (&self.choice, &self.pointed) != (&choice, &pointed) {
+            ui.ctx().request_repaint();
+        }
+        self.choice.take(choice);
+        (self.search, self.pointed) = (search, pointed);
+        match halts {
+            Some(true) => self.measurements.halt(),
+            Some(false) => self.measurements.go_on(),
+            None => {}
+        }
+    }
+}
+
+impl Tool for Collection {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Collection]
+    }
+
+    fn logic(&mut self, bench: &mut Bench) {
+        if !bench.shows(Pane::Collection) {
+            self.measurements.rest();
+        }
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 10, |ui| {
+            self.measure(context.bench);
+            self.show(ui, context);
+        });
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let (scene, origin) = (bench.plain_scene_view(), bench.origin());
+        let items = bench.library_view.shared_items();
+        let view = self.view(&items, &scene, &bench.transient.selection);
+        if view.entries.iter().all(|one| one.figures.is_none()) {
+            return Err(
+                "There is nothing to export yet: the library is measured while the Collection \
+                 pane is in sight",
+            );
+        }
+        Ok(export::scatter(&view, origin))
+    }
+
+    fn leave_scene(&mut self, _bench: &mut Bench) {
+        self.leave_library();
     }
 }
 

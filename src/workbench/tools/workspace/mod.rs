@@ -27,9 +27,10 @@ pub(crate) mod tips;
 pub(crate) mod tools;
 pub(crate) mod trail;
 
-use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 #[cfg(test)]
-pub(crate) use crate::tools::workspace::drop::LibraryItem;
+#[cfg(test)]
+pub(crate) use crate::bench::library_view::LibraryItem;
+use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 pub(crate) use crate::tools::workspace::overlay::Layers;
 #[cfg(test)]
 pub(crate) use crate::tools::workspace::overlay::lattice::Lattice;

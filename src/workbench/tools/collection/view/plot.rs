@@ -5,16 +5,15 @@ use eframe::egui::{
     pos2, vec2,
 };
 
-use crate::bench::command::Commands;
-use crate::bench::library_view::LibraryView;
+use crate::bench::selection::Joining;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Side, paint_ticks};
 use crate::kit::{swatch, theme};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::view::points::{Placed, Plot};
-use crate::tools::collection::view::{answer, names, paint_focus};
-use crate::tools::collection::{CollectionCommand, CollectionView, Entry, Joining};
+use crate::tools::collection::view::{Hand, answer, names, paint_focus};
+use crate::tools::collection::{CollectionView, Entry};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
 
@@ -32,13 +31,7 @@ const TALLEST: f32 = 1.1;
 const N_ACTIVE: usize = 24;
 
 /// Shows the plot in the space that there is.
-pub(crate) fn show(
-    ui: &mut Ui,
-    library_view: &mut LibraryView,
-    view: &CollectionView<'_>,
-    pointed: &mut Option<String>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     let [left, top, right, bottom] = ROOM;
     let area = Rect::from_min_max(rect.min + vec2(left, top), rect.max - vec2(right, bottom));
@@ -58,7 +51,7 @@ pub(crate) fn show(
     paint_axes(ui.painter(), &plot, view);
     let placed = plot.placed(view);
     let side = SIDES[usize::from(placed.len() > MANY)];
-    let framed = frame_selecting(ui, &response, &placed, commands);
+    let framed = frame_selecting(ui, &response, &placed, hand);
     paint_tuning(ui, &placed);
     let marked = placed.iter().find(|one| one.entry.is_marked);
     if let Some(marked) = marked.filter(|_| x.is_log() && y.is_log()) {
@@ -68,6 +61,7 @@ pub(crate) fn show(
     let inks = [palette.dim, palette.text];
     names::paint(ui.painter(), area, (&placed, side), inks);
     for one in in_order(&placed) {
+        let library_view = &mut hand.bench.library_view;
         library_view.want(&one.entry.item.id);
         let picture = library_view.picture(&one.entry.item.id);
         let square = Rect::from_center_size(one.at, vec2(side, side));
@@ -88,7 +82,7 @@ pub(crate) fn show(
         let is_framed = framed.is_some_and(|frame| frame.contains(one.at));
         paint_state(ui.painter(), square, &one.entry, is_framed);
         paint_focus(ui, &response);
-        answer(ui, &response, &one.entry, pointed, commands);
+        answer(ui, &response, &one.entry, hand);
         response.on_hover_text(words_of(&one.entry, view));
     }
     if let Some(frame) = framed {
@@ -112,10 +106,10 @@ fn frame_selecting(
     ui: &Ui,
     response: &Response,
     placed: &[Placed<'_>],
-    commands: &mut Commands,
+    hand: &mut Hand<'_>,
 ) -> Option<Rect> {
     if response.clicked() {
-        commands.push(CollectionCommand::Select(Vec::new(), Joining::Alone).into());
+        hand.select(Vec::new(), Joining::Alone);
     }
     if !(response.dragged() || response.drag_stopped()) {
         return None;
@@ -149,7 +143,7 @@ fn frame_selecting(
     } else {
         Joining::Alone
     };
-    commands.push(CollectionCommand::Select(ids, joining).into());
+    hand.select(ids, joining);
     None
 }
 

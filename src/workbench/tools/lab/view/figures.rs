@@ -5,7 +5,7 @@ use eframe::egui::{Align, Layout, RichText, ScrollArea, Ui, vec2};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::lab::preview::{Preview, Shown};
-use crate::tools::lab::view::LabView;
+use crate::tools::lab::state::Lab;
 use selvedge_foundation::quantity;
 
 /// Height of a row, points.
@@ -16,9 +16,9 @@ const UNIT: f32 = 26.0;
 const NUMBER: f32 = 62.0;
 
 /// Shows the figures.
-pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, preview: &Preview) {
+pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
     let palette = Palette::in_ui(ui);
-    let compared = view.lab.compared.as_ref();
+    let compared = lab.compared.as_ref();
     let others = compared.map(|compared| compared.felt.figures());
     let head = compared.map_or_else(
         || "figures".to_owned(),
