@@ -14,13 +14,6 @@ use crate::bench::job::{Job, Polled};
 use crate::bench::view::{ClothPicture, ShelfItem};
 use selvedge_textile::{Appearance, Library, kind_of, measured_figures};
 
-/// A textile of the library that is carried by the pointer.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct LibraryItem {
-    /// Its place in the library.
-    pub id: String,
-}
-
 /// Most pictures that are read in one go.
 const AT_ONCE: usize = 8;
 
@@ -234,6 +227,13 @@ fn image(appearance: &Appearance) -> (ColorImage, Vec2) {
         ColorImage::new([image.width, image.height], pixels),
         tile_mm,
     )
+}
+
+/// A textile of the library that is carried by the pointer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct LibraryItem {
+    /// Its place in the library.
+    pub id: String,
 }
 
 #[cfg(test)]

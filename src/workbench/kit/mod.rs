@@ -2,8 +2,8 @@
 //!
 //! Knows nothing of scenes, engines or tools.
 
+pub(crate) mod drop;
 pub(crate) mod pane;
-pub(crate) mod part;
 pub(crate) mod plot;
 pub(crate) mod spectrogram;
 pub(crate) mod swatch;

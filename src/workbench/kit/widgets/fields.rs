@@ -1,4 +1,4 @@
-//! Fields of the pane: a name on the left, what is typed or chosen on the right.
+//! Fields of a form: a name on the left, what is typed or chosen on the right; notes below them.
 
 use eframe::egui::{
     self, Align, ComboBox, Label, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2,

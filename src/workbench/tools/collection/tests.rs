@@ -12,8 +12,11 @@ use crate::bench::command::edit::Edit;
 use crate::bench::selection::Joining;
 use crate::shell::headless::Headless;
 use crate::tools::collection::listing::SortBy;
+use crate::tools::collection::listing::{Only, Sort};
+use crate::tools::collection::measure::Measure;
+use crate::tools::collection::state::{Choice, Entry};
 use selvedge_foundation::quantity::level_db;
-use selvedge_textile::tactile::{Filters, Levels};
+use selvedge_textile::tactile::{Band, Filters, Levels};
 
 fn window() -> Headless {
     Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap()

@@ -27,9 +27,6 @@ pub(crate) mod tips;
 pub(crate) mod tools;
 pub(crate) mod trail;
 
-#[cfg(test)]
-#[cfg(test)]
-pub(crate) use crate::bench::library_view::LibraryItem;
 use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 pub(crate) use crate::tools::workspace::overlay::Layers;
 #[cfg(test)]

@@ -14,7 +14,7 @@ pub(crate) mod words;
 use eframe::egui::{Align, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use crate::bench::command::Commands;
-use crate::kit::part::{inside, scrolled};
+use crate::kit::pane::{inside, scrolled_column as scrolled};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};

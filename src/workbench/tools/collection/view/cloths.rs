@@ -8,8 +8,8 @@ use crate::bench::view::ClothPicture;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::paint_line;
 use crate::kit::{swatch, theme};
-use crate::tools::collection::view::{Hand, answer, paint_focus};
-use crate::tools::collection::{CollectionView, Entry};
+use crate::tools::collection::state::{CollectionView, Entry};
+use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
 
 /// Side of a piece of cloth, points.
 const SIDE: f32 = 112.0;

@@ -10,8 +10,8 @@ use crate::kit::widgets::slider::slider_row;
 use crate::kit::widgets::text::toggle;
 use crate::tools::collection::listing::{Only, Sort, SortBy};
 use crate::tools::collection::measure::Measure;
-use crate::tools::collection::view::Hand;
-use crate::tools::collection::{Choice, CollectionView, Mode, SPEEDS_MM_PER_S};
+use crate::tools::collection::state::{Choice, CollectionView, Mode, SPEEDS_MM_PER_S};
+use crate::tools::collection::view::hand::Hand;
 use selvedge_textile::tactile::{Band, LEVEL_SPEED_MM_PER_S};
 
 /// Widths of the field and of the lists, points.

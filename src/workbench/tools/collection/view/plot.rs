@@ -11,9 +11,10 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Side, paint_ticks};
 use crate::kit::{swatch, theme};
 use crate::tools::collection::measure::Measure;
+use crate::tools::collection::state::{CollectionView, Entry};
+use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
+use crate::tools::collection::view::names;
 use crate::tools::collection::view::points::{Placed, Plot};
-use crate::tools::collection::view::{Hand, answer, names, paint_focus};
-use crate::tools::collection::{CollectionView, Entry};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
 

@@ -7,8 +7,8 @@ use crate::bench::selection::Joining;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::toggle;
-use crate::tools::collection::view::Hand;
-use crate::tools::collection::{CollectionView, Mode};
+use crate::tools::collection::state::{CollectionView, Mode};
+use crate::tools::collection::view::hand::Hand;
 
 /// Width of the bar, points.
 const BAR: f32 = 96.0;
@@ -83,8 +83,9 @@ fn words(view: &CollectionView<'_>) -> String {
     if view.choice.mode == Mode::Plot && !view.is_halted {
         let (is_tuned, axes) = (view.choice.is_tuned, &view.choice.axes);
         for (index, axis) in axes.iter().enumerate() {
-            let has_none =
-                |one: &&crate::tools::collection::Entry<'_>| one.value(axis, is_tuned).is_none();
+            let has_none = |one: &&crate::tools::collection::state::Entry<'_>| {
+                one.value(axis, is_tuned).is_none()
+            };
             let n_without = view.entries.iter().filter(has_none).count();
             if n_without > 0 && (index == 0 || axes[0] != axes[1]) {
                 words = format!("{words} · {n_without} without {}", axis.name());

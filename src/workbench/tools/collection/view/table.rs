@@ -10,8 +10,8 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::text::paint_line;
 use crate::tools::collection::listing::{Sort, SortBy, smd_um};
 use crate::tools::collection::measure::Measure;
-use crate::tools::collection::view::{Hand, answer, paint_focus};
-use crate::tools::collection::{CollectionView, Entry};
+use crate::tools::collection::state::{CollectionView, Entry};
+use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 

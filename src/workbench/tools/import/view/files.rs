@@ -3,7 +3,7 @@
 use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
-use crate::kit::part::nothing_yet;
+use crate::kit::drop::nothing_yet;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, choose, step_title};

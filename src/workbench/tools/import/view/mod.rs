@@ -17,7 +17,8 @@ use eframe::egui::{RichText, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::bench::follower::Standing;
 use crate::bench::tool::PaneContext;
-use crate::kit::part::{dropped, inside, scrolled};
+use crate::kit::drop::dropped;
+use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note, step_title};
@@ -53,7 +54,7 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
         ui.painter()
             .vline(left.right(), whole.y_range(), (1.0, hairline));
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
-            scrolled(ui, "import-left", |ui| {
+            scrolled_column(ui, "import-left", |ui| {
                 show_left(ui, importing, context.commands)
             });
         });
@@ -66,12 +67,12 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
         ui.painter()
             .hline(right.x_range(), edge - 4.0, (1.0, hairline));
         inside(ui, keep, |ui| {
-            scrolled(ui, "import-keep", |ui| {
+            scrolled_column(ui, "import-keep", |ui| {
                 keep::show(ui, importing, context.bench);
             });
         });
     } else {
-        scrolled(ui, "import", |ui| {
+        scrolled_column(ui, "import", |ui| {
             show_left(ui, importing, context.commands);
             let size = vec2(ui.available_width(), 0.8 * whole.height().max(300.0));
             let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());

@@ -7,10 +7,9 @@ use crate::bench::command::lab::Beginning;
 use crate::bench::view::ShelfItem;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
-use crate::kit::widgets::text::button;
 use crate::tools::lab::state::{Lab, Page};
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::{family, keep, recipe};
+use crate::tools::lab::view::{family, keep, parts, recipe};
 use selvedge_textile::RECIPES;
 
 /// Height of a list of textiles in a menu, points.
@@ -132,7 +131,7 @@ pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
     };
     let kind = manifest.source.kind();
     let words = format!("{} · {kind}", manifest.name);
-    let text = super::small(&words, Palette::in_ui(ui).text);
+    let text = parts::small(&words, Palette::in_ui(ui).text);
     let tip = "What the recipe began with";
     ui.label(text).on_hover_text(tip);
     ui.add_space(2.0 * STEP);
@@ -163,7 +162,7 @@ fn show_pages(ui: &mut Ui, shown: &mut Page) {
 /// What the recipe is compared with.
 pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let palette = Palette::in_ui(ui);
-    ui.label(super::small("compare with", palette.dim));
+    ui.label(parts::small("compare with", palette.dim));
     let compared = lab.compared.as_ref();
     let name = compared.map_or("nothing", |compared| compared.name.as_str());
     let combo = ComboBox::from_id_salt("lab compared")
@@ -193,27 +192,4 @@ pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
         .accesskit_node_builder(response.id, |node| node.set_label("Compared with"));
     let tip = "A textile of the library, drawn as a thin grey curve";
     response.on_hover_text(tip);
-}
-
-/// A sentence that says what is wrong, marked by a bar before it.
-pub(crate) fn complaint(ui: &mut Ui, words: &str) {
-    let palette = Palette::in_ui(ui);
-    let text = super::small(words, palette.text);
-    let margin = egui::Margin {
-        left: 8,
-        ..egui::Margin::default()
-    };
-    let response = egui::Frame::new()
-        .inner_margin(margin)
-        .show(ui, |ui| ui.add(egui::Label::new(text).wrap()))
-        .response;
-    let x = response.rect.left() + 2.0;
-    let bar = egui::Stroke::new(2.0, palette.selection);
-    ui.painter().vline(x, response.rect.y_range(), bar);
-}
-
-/// A button as wide as the controls.
-pub(crate) fn wide_button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
-    ui.vertical_centered_justified(|ui| button(ui, text, tip, refusal))
-        .inner
 }

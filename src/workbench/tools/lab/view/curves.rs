@@ -10,7 +10,7 @@ use crate::kit::widgets::axis::Tick;
 use crate::tools::lab::family::Family;
 use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
 use crate::tools::lab::state::{Lab, Page};
-use crate::tools::lab::view::title;
+use crate::tools::lab::view::parts::title;
 use crate::tools::response::ends_db as response_ends_db;
 use crate::tools::spectra::export_spectrograms::ink;
 use selvedge_chart::{Axis, Band as Area, Chart, Series, Style, Weight};

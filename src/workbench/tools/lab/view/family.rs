@@ -10,8 +10,9 @@ use crate::tools::lab::family::FamilyFields;
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::controls::{complaint, wide_button};
 use crate::tools::lab::view::keep::{refusal, show_fields};
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::{complaint, wide_button};
 use crate::tools::lab::view::rows;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -25,7 +26,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     let plan = &mut lab.plan;
     let palette = Palette::in_ui(ui);
     let words = "Several textiles that differ in one parameter, evenly apart";
-    ui.label(super::small(words, palette.dim));
+    ui.label(parts::small(words, palette.dim));
     ui.add_space(STEP);
     let unit = show_parameters(ui, steps, plan);
     rows::short_field(ui, ("First value", unit), &mut plan.ends[0]);
@@ -55,7 +56,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     ui.add_space(STEP);
     let n = family.members.len();
     let last = format!("{}-1 … {}-{n}", keep.id.trim(), keep.id.trim());
-    ui.label(super::small(&last, palette.dim));
+    ui.label(parts::small(&last, palette.dim));
     let numbered = KeepFields {
         id: format!("{}-1", keep.id.trim()),
         ..keep.clone()
@@ -128,7 +129,7 @@ fn show_members(ui: &mut Ui, family: &crate::tools::lab::family::Family) {
         });
         let name = format!("{nth}  {}", member.label);
         row(ui, &name, |ui| {
-            ui.label(super::small("dB", palette.dim));
+            ui.label(parts::small("dB", palette.dim));
             for (band, words) in db.iter().rev() {
                 let text = RichText::new(words).font(theme::number());
                 ui.label(text.color(palette.band(*band)));

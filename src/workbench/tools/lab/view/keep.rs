@@ -6,7 +6,8 @@ use crate::bench::Bench;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::state::Lab;
-use crate::tools::lab::view::controls::{complaint, wide_button};
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::{complaint, wide_button};
 use crate::tools::lab::view::rows;
 
 /// Shows the fields and the buttons.
@@ -25,7 +26,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
         },
     );
     let tip = "The manifest names the textile that this one was made from, and the program";
-    ui.label(super::small(&from, palette.dim))
+    ui.label(parts::small(&from, palette.dim))
         .on_hover_text(tip);
     ui.add_space(2.0 * STEP);
     let wrong = lab.fields.refusal(bench.loaded.library().ids());

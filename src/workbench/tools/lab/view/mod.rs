@@ -8,6 +8,7 @@ pub(crate) mod curves;
 pub(crate) mod family;
 pub(crate) mod figures;
 pub(crate) mod keep;
+pub(crate) mod parts;
 pub(crate) mod pictures;
 pub(crate) mod profile;
 pub(crate) mod recipe;
@@ -16,17 +17,15 @@ pub(crate) mod weave;
 
 use std::sync::Arc;
 
-use eframe::egui::{
-    self, Align, Layout, ProgressBar, Rect, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2,
-};
+use eframe::egui::{self, Align, Layout, ProgressBar, Rect, ScrollArea, Stroke, Ui, vec2};
 
 use crate::bench::Bench;
 use crate::kit::spectrogram::paint_sentence;
-use crate::kit::theme;
-use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::Lab;
+use crate::tools::lab::view::parts::{small, within};
 
 /// Width of the parameters, points.
 const CONTROLS: f32 = 330.0;
@@ -65,18 +64,6 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     });
 }
 
-/// Shows something in a part of the pane.
-fn within<R>(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
-    let builder = UiBuilder::new()
-        .max_rect(rect)
-        .layout(Layout::top_down(Align::Min));
-    ui.scope_builder(builder, |ui| {
-        ui.set_clip_rect(ui.clip_rect().intersect(rect.expand(2.0)));
-        content(ui)
-    })
-    .inner
-}
-
 /// The line over the plots: what is shown, how it stands to the recipe, what it is compared with.
 fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let palette = Palette::in_ui(ui);
@@ -113,10 +100,6 @@ fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
             ui.add(label).on_hover_text(words);
         });
     });
-}
-
-fn small(words: &str, ink: egui::Color32) -> RichText {
-    RichText::new(words).font(theme::small()).color(ink)
 }
 
 /// The plots, in a grid or below each other.
@@ -193,13 +176,4 @@ fn show_parts(
     pictures::show_spectra(ui, spectra, (lab, preview), map);
     curves::show(ui, curves, (lab, preview), bench.workspace.scale);
     within(ui, figures, |ui| figures::show(ui, lab, preview));
-}
-
-/// The quiet title over a plot; says where the plot begins.
-fn title(ui: &Ui, rect: Rect, words: &str) -> Rect {
-    let palette = Palette::in_ui(ui);
-    let at = rect.left_top() + vec2(0.0, 0.5 * ROW - 5.0);
-    let text = small(words, palette.dim);
-    crate::kit::widgets::text::paint_line(ui, at, rect.width(), text);
-    rect.with_min_y(rect.top() + 18.0)
 }

@@ -13,7 +13,7 @@ use crate::kit::widgets::bar::colour_bar;
 use crate::tools::lab::pictures::wavenumbers;
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::Lab;
-use crate::tools::lab::view::title;
+use crate::tools::lab::view::parts::title;
 use crate::tools::spectra::spatial::{LEVELS_DB as SPATIAL_LEVELS_DB, density_db};
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, LocalSpectra};

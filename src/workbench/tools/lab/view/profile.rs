@@ -10,7 +10,8 @@ use crate::kit::widgets::polyline::corners;
 use crate::kit::widgets::text::toggle;
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::{Lab, Look};
-use crate::tools::lab::view::within;
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::within;
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{Direction, Profile};
 
@@ -61,7 +62,7 @@ pub(crate) fn show(ui: &mut Ui, rect: Rect, lab: &mut Lab, preview: &Preview) {
 fn show_head(ui: &mut Ui, look: &mut Look) {
     let palette = Palette::in_ui(ui);
     ui.horizontal(|ui| {
-        ui.label(super::small("profile", palette.dim));
+        ui.label(parts::small("profile", palette.dim));
         for (direction, letters) in
             Direction::ALL
                 .into_iter()

@@ -6,7 +6,8 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::controls::complaint;
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::complaint;
 use crate::tools::lab::view::rows;
 use selvedge_foundation::files::KeyValue;
 use selvedge_textile::{Group, Parameter, ParameterKind, Place, groups};
@@ -71,7 +72,7 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<C
     if !is_of_table {
         if let Some(words) = rows::missing(parameter) {
             let palette = Palette::in_ui(ui);
-            ui.label(super::small(words, palette.dim));
+            ui.label(parts::small(words, palette.dim));
         }
         return None;
     }

@@ -13,7 +13,8 @@ pub(crate) mod plots;
 use eframe::egui::{Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
-use crate::kit::part::{dropped, inside, nothing_yet, scrolled};
+use crate::kit::drop::{dropped, nothing_yet};
+use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::picture::state::Picture;
 
@@ -59,7 +60,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
         let edge = (left.bottom() - KEEP).max(left.top() + 0.4 * left.height());
         let (steps, keep) = left.split_top_bottom_at_y(edge);
         inside(ui, steps.with_max_y(edge - 6.0), |ui| {
-            scrolled(ui, "picture-steps", |ui| {
+            scrolled_column(ui, "picture-steps", |ui| {
                 controls::show(ui, picture, commands);
             });
         });
@@ -68,7 +69,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
         let right = right.with_min_x(right.left() + 12.0);
         inside(ui, right, |ui| cards::show(ui, picture));
     } else {
-        scrolled(ui, "picture", |ui| {
+        scrolled_column(ui, "picture", |ui| {
             keep::show(ui, picture, commands);
             controls::show(ui, picture, commands);
             let size = vec2(ui.available_width(), 4.0 * ui.available_width());

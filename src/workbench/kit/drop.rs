@@ -1,35 +1,12 @@
-//! A part of a pane, what is dropped on a pane, and what an empty one says.
+//! Files that are dropped on a pane, and what it says before there are any.
 
 use std::path::PathBuf;
 
-use eframe::egui::{
-    Align, Frame, Label, Layout, Margin, Rect, RichText, ScrollArea, Stroke, StrokeKind, Ui,
-    UiBuilder, vec2,
-};
+use eframe::egui::{Align, Label, Layout, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
-
-/// Shows something in a part of the pane.
-pub(crate) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
-    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
-    child.set_clip_rect(rect.expand(4.0).intersect(ui.clip_rect()));
-    content(&mut child);
-}
-
-/// A part that may be longer than it is high.
-pub(crate) fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
-    ScrollArea::vertical()
-        .id_salt(id)
-        .auto_shrink(false)
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = STEP;
-            // Room for the edge of a field that is asked for.
-            let margin = Margin::symmetric(4, 0);
-            Frame::new().inner_margin(margin).show(ui, content);
-        });
-}
 
 /// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
 pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
