@@ -32,6 +32,7 @@ impl Lab {
     pub(crate) fn set(&mut self, ctx: &egui::Context, place: Place, value: Option<KeyValue>) {
         let is_held = ctx.input(|input| input.pointer.any_down());
         self.change(|steps| steps.set(place, value, is_held));
+        ctx.request_repaint();
     }
 
     /// Back to what it began with.

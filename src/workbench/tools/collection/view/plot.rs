@@ -13,7 +13,6 @@ use crate::kit::{swatch, theme};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{CollectionView, Entry};
 use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
-use crate::tools::collection::view::names;
 use crate::tools::collection::view::points::{Placed, Plot};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
@@ -28,6 +27,8 @@ const MANY: usize = 32;
 const SHOWN_MM: f32 = 9.0;
 /// The most height of the plot over its width.
 const TALLEST: f32 = 1.1;
+/// From a point to its name, points.
+const AWAY: f32 = 4.0;
 /// Contactors that are taken to sound when it is asked what is just noticed.
 const N_ACTIVE: usize = 24;
 
@@ -60,7 +61,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
     }
     let palette = Palette::in_ui(ui);
     let inks = [palette.dim, palette.text];
-    names::paint(ui.painter(), area, (&placed, side), inks);
+    paint_names(ui.painter(), area, (&placed, side), inks);
     for one in in_order(&placed) {
         let library_view = &mut hand.bench.library_view;
         library_view.want(&one.entry.item.id);
@@ -190,6 +191,43 @@ fn paint_tuning(ui: &Ui, placed: &[Placed<'_>]) {
         ui.painter()
             .line_segment([raw, one.at], Stroke::new(1.0, ink));
         ui.painter().circle_filled(raw, 1.5, ink);
+    }
+}
+
+/// Writes names right or left of their points where they touch no point and no other name; those
+/// that are selected or marked first.
+fn paint_names(
+    painter: &Painter,
+    area: Rect,
+    (placed, side): (&[Placed<'_>], f32),
+    inks: [Color32; 2],
+) {
+    let square = |one: &Placed<'_>| Rect::from_center_size(one.at, vec2(side, side));
+    let mut taken: Vec<Rect> = placed.iter().map(square).collect();
+    let is_first = |one: &&Placed<'_>| one.entry.is_selected || one.entry.is_marked;
+    let (first, rest): (Vec<&Placed<'_>>, Vec<&Placed<'_>>) = placed.iter().partition(is_first);
+    let first = first.into_iter().map(|one| (one, inks[1]));
+    let rest = rest.into_iter().map(|one| (one, inks[0]));
+    for (one, ink) in first.chain(rest) {
+        let name = one.entry.item.name.clone();
+        let galley = painter.layout_no_wrap(name, theme::small(), ink);
+        let size = galley.size();
+        let out = 0.5 * side + AWAY;
+        let places = [
+            one.at + vec2(out, -0.5 * size.y),
+            one.at + vec2(-out - size.x, -0.5 * size.y),
+            one.at + vec2(-0.5 * size.x, out - 2.0),
+            one.at + vec2(-0.5 * size.x, -out - size.y + 2.0),
+        ];
+        let is_free = |rect: &Rect| {
+            let is_inside = area.contains_rect(*rect);
+            is_inside && taken.iter().all(|other| !other.intersects(*rect))
+        };
+        let rects = places.map(|corner| Rect::from_min_size(corner, size));
+        if let Some(rect) = rects.into_iter().find(|rect| is_free(rect)) {
+            painter.galley(rect.min, galley, ink);
+            taken.push(rect);
+        }
     }
 }
 
